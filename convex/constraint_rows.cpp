@@ -1,0 +1,80 @@
+#include "convex/constraint_rows.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace convex {
+
+Index ConstraintRows::count() const { return is_sparse() ? sparse().rows() : dense().rows(); }
+
+Index ConstraintRows::dimension() const { return is_sparse() ? sparse().cols() : dense().cols(); }
+
+Vector ConstraintRows::row(Index a) const {
+  Vector u(dimension());
+  copy_row(a, u);
+  return u;
+}
+
+void ConstraintRows::copy_row(Index a, Eigen::Ref<Vector> into) const {
+  if (!is_sparse()) {
+    into = dense().row(a);
+    return;
+  }
+  into.setZero();
+  for (SparseRows::InnerIterator it(sparse(), a); it; ++it) into[it.col()] = it.value();
+}
+
+Vector ConstraintRows::times(const Vector& x) const {
+  if (is_sparse()) return sparse() * x;
+  return dense() * x;
+}
+
+Vector ConstraintRows::transpose_times(const Vector& lambda) const {
+  if (is_sparse()) return sparse().transpose() * lambda;
+  return dense().transpose() * lambda;
+}
+
+DoubleDouble ConstraintRows::dot(Index a, const DoubleDoubleVector& x) const {
+  if (!is_sparse()) return convex::dot(dimension(), dense().row(a).data(), x.hi.data(), x.lo.data());
+  DoubleDouble sum;
+  for (SparseRows::InnerIterator it(sparse(), a); it; ++it) {
+    DoubleDouble term = two_product(it.value(), x.hi[it.col()]);
+    term.lo += it.value() * x.lo[it.col()];
+    sum = add(sum, term);
+  }
+  return sum;
+}
+
+void ConstraintRows::add_multiple(Index a, DoubleDouble c, DoubleDoubleVector& sum) const {
+  if (!is_sparse()) {
+    convex::add_multiple(dimension(), dense().row(a).data(), c, sum.hi.data(), sum.lo.data());
+    return;
+  }
+  for (SparseRows::InnerIterator it(sparse(), a); it; ++it)
+    convex::add_multiple(1, &it.value(), c, &sum.hi[it.col()], &sum.lo[it.col()]);
+}
+
+double ConstraintRows::absolute_dot(Index a, const Vector& weight) const {
+  if (!is_sparse()) return dense().row(a).cwiseAbs() * weight;
+  double sum = 0;
+  for (SparseRows::InnerIterator it(sparse(), a); it; ++it) sum += std::abs(it.value()) * weight[it.col()];
+  return sum;
+}
+
+ConstraintRows ConstraintRows::select(const std::vector<Index>& rows) const {
+  const Index count = static_cast<Index>(rows.size());
+  if (!is_sparse()) {
+    RowMatrix chosen(count, dimension());
+    for (Index k = 0; k < count; ++k) chosen.row(k) = dense().row(rows[static_cast<std::size_t>(k)]);
+    return ConstraintRows(std::move(chosen));
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index k = 0; k < count; ++k)
+    for (SparseRows::InnerIterator it(sparse(), rows[static_cast<std::size_t>(k)]); it; ++it)
+      entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
+  SparseRows chosen(count, dimension());
+  chosen.setFromTriplets(entries.begin(), entries.end());
+  return ConstraintRows(std::move(chosen));
+}
+
+}  // namespace convex

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <variant>
+
+#include "convex/double_double.hpp"
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// The rows u_a of U (m×n), dense or sparse: each a covector.
+class ConstraintRows {
+ public:
+  ConstraintRows() : rows_(RowMatrix(0, 0)) {}
+  explicit ConstraintRows(RowMatrix U) : rows_(std::move(U)) {}
+  explicit ConstraintRows(SparseRows U) : rows_(std::move(U)) {}
+
+  Index count() const;
+  Index dimension() const;
+  bool is_sparse() const { return std::holds_alternative<SparseRows>(rows_); }
+  const RowMatrix& dense() const { return std::get<RowMatrix>(rows_); }
+  const SparseRows& sparse() const { return std::get<SparseRows>(rows_); }
+
+  /// u_a as a dense vector of size n.
+  Vector row(Index a) const;
+  void copy_row(Index a, Eigen::Ref<Vector> into) const;
+  /// U x: m.
+  Vector times(const Vector& x) const;
+  /// Uᵀ lambda: n.
+  Vector transpose_times(const Vector& lambda) const;
+  /// u_a·x in twice the working precision.
+  DoubleDouble dot(Index a, const DoubleDoubleVector& x) const;
+  /// sum += c u_a in twice the working precision.
+  void add_multiple(Index a, DoubleDouble c, DoubleDoubleVector& sum) const;
+  /// Σ_i |u_ai| weight_i.
+  double absolute_dot(Index a, const Vector& weight) const;
+  /// The rows chosen, in that order.
+  ConstraintRows select(const std::vector<Index>& rows) const;
+
+ private:
+  std::variant<RowMatrix, SparseRows> rows_;
+};
+
+}  // namespace convex

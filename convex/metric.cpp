@@ -1,0 +1,235 @@
+#include "convex/metric.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <string>
+
+#include "convex/invalid_input.hpp"
+#include "convex/invariant.hpp"
+
+namespace convex {
+namespace {
+
+/// Two entries that should be equal may differ by so many units in the last place of the larger one: the
+/// trace of a matrix computed in doubles. More is a wrong matrix.
+constexpr double symmetry_slack = 16 * unit_roundoff;
+
+bool differ(double a, double b) {
+  return std::abs(a - b) > symmetry_slack * std::max(std::abs(a), std::abs(b));
+}
+
+std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + std::to_string(j) + "]"; }
+
+[[noreturn]] void refuse_asymmetry(Index i, Index j) {
+  throw InvalidInput("A: not symmetric: " + entry(i, j) + " and " + entry(j, i) +
+                     " differ; give a symmetric matrix");
+}
+
+[[noreturn]] void refuse_indefinite() {
+  throw InvalidInput(
+      "A: not positive definite to working precision; every motion must have a positive kinetic energy");
+}
+
+void require_finite(double value, Index i, Index j) {
+  if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
+}
+
+}  // namespace
+
+struct Metric::Data {
+  MetricKind kind = MetricKind::identity;
+  Vector diagonal;        // of W
+  Vector root;            // sqrt of the diagonal, kind diagonal
+  Matrix W;               // kind dense
+  Matrix L;               // kind dense, lower triangle
+  SparseMatrix sparse_W;  // kind sparse
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> sparse_factor;
+  double factor_condition = 1;
+};
+
+Metric Metric::identity(Index n) {
+  auto data = std::make_shared<Data>();
+  data->diagonal = Vector::Ones(n);
+  return Metric(std::move(data));
+}
+
+Metric Metric::diagonal(const Vector& d) {
+  auto data = std::make_shared<Data>();
+  data->kind = MetricKind::diagonal;
+  data->diagonal = d;
+  for (Index i = 0; i < d.size(); ++i) {
+    require_finite(d[i], i, i);
+    if (!(d[i] > 0)) refuse_indefinite();
+  }
+  data->root = d.cwiseSqrt();
+  return Metric(std::move(data));
+}
+
+Metric Metric::dense(const Matrix& W) {
+  if (W.rows() != W.cols())
+    throw InvalidInput("A: " + std::to_string(W.rows()) + " rows of " + std::to_string(W.cols()) +
+                       " entries; give a square matrix");
+  auto data = std::make_shared<Data>();
+  const Index n = W.rows();
+  data->kind = MetricKind::dense;
+  data->W = W;
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i <= j; ++i) {
+      const double a = W(i, j), b = W(j, i);
+      require_finite(a, i, j);
+      require_finite(b, j, i);
+      if (differ(a, b)) refuse_asymmetry(i, j);
+      data->W(i, j) = data->W(j, i) = a + (b - a) / 2;
+    }
+  data->diagonal = data->W.diagonal();
+  data->L = data->W;
+  Eigen::LLT<Eigen::Ref<Matrix>> factor(data->L);
+  const bool factored = factor.info() == Eigen::Success;
+  double smallest = 1;  // of L_ii² / w_ii
+  for (Index i = 0; i < n; ++i) {
+    // A pivot at the rounding of its diagonal entry carries no digit of A: definite or not, doubles cannot
+    // tell.
+    const double relative = factored ? data->L(i, i) * data->L(i, i) / data->diagonal[i] : 0;
+    if (!(relative > 2 * unit_roundoff)) refuse_indefinite();
+    smallest = std::min(smallest, relative);
+  }
+  data->factor_condition = 1 / std::sqrt(smallest);
+  return Metric(std::move(data));
+}
+
+Metric Metric::sparse(const SparseMatrix& W) {
+  if (W.rows() != W.cols())
+    throw InvalidInput("A: " + std::to_string(W.rows()) + " rows of " + std::to_string(W.cols()) +
+                       " entries; give a square matrix");
+  auto data = std::make_shared<Data>();
+  const Index n = W.rows();
+  data->kind = MetricKind::sparse;
+  const SparseMatrix transposed = W.transpose();
+  bool is_diagonal = true;
+  for (Index j = 0; j < n; ++j) {
+    SparseMatrix::InnerIterator a(W, j), b(transposed, j);
+    for (; a || b; ++a, ++b) {
+      if (!a || !b || a.row() != b.row()) {
+        const Index i = !a ? b.row() : !b ? a.row() : std::min(a.row(), b.row());
+        refuse_asymmetry(i, j);
+      }
+      require_finite(a.value(), a.row(), j);
+      if (differ(a.value(), b.value())) refuse_asymmetry(a.row(), j);
+      is_diagonal = is_diagonal && a.row() == j;
+    }
+  }
+  data->sparse_W = 0.5 * (W + transposed);
+  data->diagonal = data->sparse_W.diagonal();
+  if (is_diagonal) return diagonal(data->diagonal);
+  for (Index i = 0; i < n; ++i)
+    if (!(data->diagonal[i] > 0)) refuse_indefinite();
+  data->sparse_factor.compute(data->sparse_W);
+  if (data->sparse_factor.info() != Eigen::Success) refuse_indefinite();
+  const SparseMatrix L = data->sparse_factor.matrixL();
+  const Vector permuted = data->sparse_factor.permutationP() * data->diagonal;
+  const double smallest = (L.diagonal().array().square() / permuted.array()).minCoeff();
+  if (!(smallest > 2 * unit_roundoff)) refuse_indefinite();
+  data->factor_condition = 1 / std::sqrt(smallest);
+  return Metric(std::move(data));
+}
+
+MetricKind Metric::kind() const { return data_->kind; }
+Index Metric::dimension() const { return data_->diagonal.size(); }
+const Vector& Metric::diagonal() const { return data_->diagonal; }
+double Metric::factor_condition() const { return data_->factor_condition; }
+
+const Matrix& Metric::dense_gram() const {
+  invariant(data_->kind == MetricKind::dense, "a dense Gram matrix is asked of a dense metric");
+  return data_->W;
+}
+
+const SparseMatrix& Metric::sparse_gram() const {
+  invariant(data_->kind == MetricKind::sparse, "a sparse Gram matrix is asked of a sparse metric");
+  return data_->sparse_W;
+}
+
+Vector Metric::multiply(const Vector& x) const {
+  switch (data_->kind) {
+    case MetricKind::identity:
+      return x;
+    case MetricKind::diagonal:
+      return data_->diagonal.cwiseProduct(x);
+    case MetricKind::dense:
+      return data_->W * x;
+    case MetricKind::sparse:
+      return data_->sparse_W * x;
+  }
+  return x;
+}
+
+Vector Metric::solve(const Vector& c) const {
+  if (data_->kind == MetricKind::diagonal) return c.cwiseQuotient(data_->diagonal);
+  return unwhiten(whiten(c));
+}
+
+double Metric::norm(const Vector& x) const {
+  switch (data_->kind) {
+    case MetricKind::identity:
+      return x.norm();
+    case MetricKind::diagonal:
+      return data_->root.cwiseProduct(x).norm();
+    case MetricKind::dense:
+      return (data_->L.triangularView<Eigen::Lower>().transpose() * x).norm();
+    case MetricKind::sparse:
+      return (data_->sparse_factor.matrixU() * (data_->sparse_factor.permutationP() * x).eval()).norm();
+  }
+  return 0;
+}
+
+Vector Metric::whiten(const Vector& c) const {
+  Matrix w = c;
+  whiten_in_place(w);
+  return w;
+}
+
+Vector Metric::unwhiten(const Vector& w) const {
+  Vector x = w;
+  unwhiten_in_place(x);
+  return x;
+}
+
+void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
+  switch (data_->kind) {
+    case MetricKind::identity:
+      break;
+    case MetricKind::diagonal:
+      C.array().colwise() /= data_->root.array();
+      break;
+    case MetricKind::dense:
+      data_->L.triangularView<Eigen::Lower>().solveInPlace(C);
+      break;
+    case MetricKind::sparse: {
+      Matrix permuted = data_->sparse_factor.permutationP() * C;
+      data_->sparse_factor.matrixL().solveInPlace(permuted);
+      C = permuted;
+      break;
+    }
+  }
+}
+
+void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
+  switch (data_->kind) {
+    case MetricKind::identity:
+      break;
+    case MetricKind::diagonal:
+      w.array() /= data_->root.array();
+      break;
+    case MetricKind::dense:
+      data_->L.triangularView<Eigen::Lower>().transpose().solveInPlace(w);
+      break;
+    case MetricKind::sparse: {
+      Vector permuted = w;
+      data_->sparse_factor.matrixU().solveInPlace(permuted);
+      w = data_->sparse_factor.permutationPinv() * permuted;
+      break;
+    }
+  }
+}
+
+}  // namespace convex

@@ -1,0 +1,414 @@
+#include "convex/nearest_point/active_set.hpp"
+
+#include <cmath>
+#include <numeric>
+
+#include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/working_set.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// In doubles, w carries so many roundings of the terms that it is the sum of; a violation below that is left
+/// to the check in twice the precision.
+constexpr double rounding_of_w = 8 * unit_roundoff;
+
+/// A gap of a dependent row of so many roundings of the s it is made of is a rounded s, not a contradiction.
+constexpr double gap_roundings = 16;
+
+/// In the start by blocks a row this close to the span of the others is left to the careful steps.
+constexpr double block_dependence = 1e-7;
+
+/// The start by blocks ends after so many blocks that did not reduce the number of wrong rows.
+constexpr int patience = 3;
+
+/// Times that the working set is changed after a refinement before the method gives up.
+constexpr int most_rounds = 100;
+
+template <int MaxSize>
+class DualActiveSet {
+ public:
+  using Set = WorkingSet<MaxSize>;
+  using Split = typename Set::Split;
+
+  DualActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
+      : problem_(problem), accuracy_(accuracy), set_(problem), row_scale_(problem.rows()) {
+    const Vector inverse_diagonal = problem.A.diagonal().cwiseInverse();
+    for (Index a = 0; a < problem.rows(); ++a) row_scale_[a] = length_by_diagonal(a, inverse_diagonal);
+    two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
+    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
+    passed_.assign(static_cast<std::size_t>(problem.rows()), false);
+  }
+
+  Solution run(const std::vector<Index>& guess) {
+    if (!hold_two_sided()) return infeasible();
+    start_by_blocks(guess);
+    const Index limit =
+        accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
+    RefinedPoint refined;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (!descend(limit)) return infeasible();
+      refined = refine(set_);
+      if (!(refined.contraction < 1)) return answer(refined, true);
+      if (drop_negative(refined)) continue;
+      const Outcome outcome = admit_violated(refined);
+      if (outcome == Outcome::infeasible) return infeasible();
+      if (outcome == Outcome::unchanged) return answer(refined, true);
+    }
+    return answer(refined, false);
+  }
+
+ private:
+  enum class Outcome { unchanged, changed, infeasible };
+
+  /// ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n².
+  double length_by_diagonal(Index a, const Vector& inverse_diagonal) const {
+    double sum = 0;
+    if (problem_.U.is_sparse())
+      for (SparseRows::InnerIterator it(problem_.U.sparse(), a); it; ++it)
+        sum += it.value() * it.value() * inverse_diagonal[it.col()];
+    else
+      sum = problem_.U.dense().row(a).cwiseAbs2().dot(inverse_diagonal);
+    return std::sqrt(sum);
+  }
+
+  /// What rounding may have done to w.
+  double noise() const {
+    double terms = set_.w_free().norm() + set_.w().norm();
+    for (Index k = 0; k < set_.size(); ++k) terms += std::abs(set_.lambda()[k]) * set_.factor().length(k);
+    return rounding_of_w * terms;
+  }
+
+  /// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
+  /// else 0.
+  double contradiction(Index p, const Split& split) const {
+    DoubleDouble gap{problem_.s[p], 0};
+    double magnitude = std::abs(problem_.s[p]);
+    for (Index k = 0; k < set_.size(); ++k) {
+      const DoubleDouble term =
+          two_product(-split.coefficients[k], problem_.s[set_.rows()[static_cast<std::size_t>(k)]]);
+      gap = add(gap, term);
+      magnitude += std::abs(term.hi);
+    }
+    const double threshold =
+        gap_roundings * unit_roundoff * magnitude + 2 * split.direction.norm() * set_.scale();
+    return std::abs(gap.value()) > threshold ? gap.value() : 0;
+  }
+
+  void blame(Index p, const Split& split, double sign) {
+    farkas_ = Vector::Zero(problem_.rows());
+    farkas_[p] = sign;
+    for (Index k = 0; k < set_.size(); ++k) {
+      const double r = split.coefficients[k];
+      if (std::abs(r) * set_.factor().length(k) > coefficient_noise * split.magnitude)
+        farkas_[set_.rows()[static_cast<std::size_t>(k)]] = -sign * r;
+    }
+  }
+
+  /// False when the two-sided rows contradict each other.
+  bool hold_two_sided() {
+    set_.append_block(problem_.two_sided, block_dependence);
+    for (Index p : problem_.two_sided) {
+      if (set_.holds(p)) continue;
+      set_.split(p, split_);
+      if (split_.rho > 0) {
+        set_.append(p, split_, 0);
+      } else if (const double gap = contradiction(p, split_); std::abs(gap) > 0) {
+        blame(p, split_, gap > 0 ? 1 : -1);
+        return false;
+      }
+    }
+    set_.fix();
+    set_.solve();
+    return true;
+  }
+
+  /// Drops rows with negative multipliers, the most negative first, until none is left; then w and lambda are
+  /// dual feasible for what remains.
+  void drop_until_dual_feasible() {
+    while (true) {
+      set_.solve();
+      Index worst = -1;
+      double lowest = -noise();
+      for (Index k = 0; k < set_.size(); ++k) {
+        const double push = set_.lambda()[k] * set_.factor().length(k);
+        if (set_.one_sided(k) && push < lowest) {
+          lowest = push;
+          worst = k;
+        }
+      }
+      if (worst < 0) break;
+      set_.remove(worst);
+      ++steps_;
+    }
+    for (Index k = 0; k < set_.size(); ++k)
+      if (set_.one_sided(k)) set_.lambda()[k] = std::max(0.0, set_.lambda()[k]);
+  }
+
+  /// Rows outside W with u_a·q < s_a beyond rounding, the worst first.
+  std::vector<Index> violated_rows() {
+    const Vector q = set_.point();
+    slack_ = problem_.U.times(q) - problem_.s;
+    const double w_noise = noise();
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (!set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
+          !passed_[static_cast<std::size_t>(a)] &&
+          slack_[a] < -(row_scale_[a] * w_noise + rounding_of_w * std::abs(problem_.s[a])))
+        rows.push_back(a);
+    return rows;
+  }
+
+  void sort_by_violation(std::vector<Index>& rows) const {
+    const auto depth = [&](Index a) {
+      return slack_[a] / std::max(row_scale_[a], std::numeric_limits<double>::min());
+    };
+    std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
+  }
+
+  /// Takes in all violated rows and drops all rows with negative multipliers at once, as long as that reduces
+  /// their number (Kunisch and Rendl 2003; Júdice and Pires 1994).
+  void start_by_blocks(std::vector<Index> block) {
+    int impatience = 0;
+    std::size_t fewest = static_cast<std::size_t>(problem_.rows()) + 1;
+    bool guessed = !block.empty();
+    if (!guessed) {
+      block = violated_rows();
+      if (block.size() <= 1) return;
+    }
+    while (true) {
+      const std::size_t room = static_cast<std::size_t>(set_.factor().capacity() - set_.size());
+      if (!guessed && block.size() > room) {
+        sort_by_violation(block);
+        block.resize(room);
+      }
+      std::erase_if(block, [&](Index a) { return set_.holds(a) || two_sided_[static_cast<std::size_t>(a)]; });
+      set_.append_block(block, block_dependence);
+      steps_ += static_cast<Index>(block.size());
+      set_.solve();
+      guessed = false;
+      const double threshold = -noise();
+      std::vector<Index> negative;
+      for (Index k = set_.size() - 1; k >= 0 && set_.one_sided(k); --k)
+        if (set_.lambda()[k] * set_.factor().length(k) < threshold) negative.push_back(k);
+      block = violated_rows();
+      const std::size_t wrong = negative.size() + block.size();
+      if (wrong == 0) return;
+      if (wrong < fewest) {
+        fewest = wrong;
+        impatience = 0;
+      } else if (++impatience >= patience) {
+        break;
+      }
+      for (Index k : negative) set_.remove(k);
+      if (block.empty()) set_.solve();
+    }
+    drop_until_dual_feasible();
+  }
+
+  /// Steps of Goldfarb and Idnani in doubles until no row is violated beyond rounding, or the limit is
+  /// reached. False when a violated row cannot be satisfied.
+  bool descend(Index limit) {
+    while (steps_ < limit) {
+      std::vector<Index> rows = violated_rows();
+      if (rows.empty()) return true;
+      sort_by_violation(rows);
+      bool moved = false;
+      for (Index p : rows) {
+        set_.split(p, split_);
+        if (-slack_[p] <= noise() * split_.length) continue;
+        const Outcome outcome = admit(p, -slack_[p], noise());
+        if (outcome == Outcome::infeasible) return false;
+        if (outcome == Outcome::changed) {
+          moved = true;
+          break;
+        }
+      }
+      if (!moved) return true;
+    }
+    return true;
+  }
+
+  /// Takes in the violated row p, whose split is at hand, dropping the rows that block it on the way.
+  Outcome admit(Index p, double violation, double w_noise) {
+    double multiplier = 0;
+    bool changed = false;
+    while (true) {
+      const bool dependent = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
+      if (dependent) {
+        violation = contradiction(p, split_);
+        if (!(violation > 0)) {
+          // Consistent with W to rounding: it holds as well as W does, and cannot be told from it.
+          passed_[static_cast<std::size_t>(p)] = true;
+          return changed ? finish_change() : Outcome::unchanged;
+        }
+      }
+      const double full = dependent ? infinity : violation / (split_.rho * split_.rho);
+      double partial = infinity;
+      Index blocking = -1;
+      for (Index k = 0; k < set_.size(); ++k) {
+        const double r = split_.coefficients[k];
+        if (!set_.one_sided(k) || r * set_.factor().length(k) <= coefficient_noise * split_.magnitude)
+          continue;
+        const double ratio = std::max(0.0, set_.lambda()[k]) / r;
+        if (ratio < partial) {
+          partial = ratio;
+          blocking = k;
+        }
+      }
+      if (full == infinity && partial == infinity) {
+        blame(p, split_, 1);
+        return Outcome::infeasible;
+      }
+      const double step = std::min(full, partial);
+      set_.lambda().head(set_.size()) -= step * split_.coefficients.head(set_.size());
+      multiplier += step;
+      if (!dependent) {
+        set_.w() += step * split_.direction;
+        violation -= step * split_.rho * split_.rho;
+      }
+      ++steps_;
+      changed = true;
+      if (full <= partial) {
+        set_.append(p, split_, multiplier);
+        return finish_change();
+      }
+      set_.remove(blocking);
+      set_.split(p, split_);
+      if (violation <= w_noise * split_.length) return finish_change();
+    }
+  }
+
+  Outcome finish_change() {
+    drop_until_dual_feasible();
+    std::fill(passed_.begin(), passed_.end(), false);
+    return Outcome::changed;
+  }
+
+  /// Drops the row whose refined multiplier is most negative; false when there is none.
+  bool drop_negative(const RefinedPoint& refined) {
+    const double reach = 4 * refined.remaining() * set_.factor().inverse_norm();
+    Index worst = -1;
+    double lowest = 0;
+    for (Index k = 0; k < set_.size(); ++k) {
+      const double push = refined.lambda.hi[k] * set_.factor().length(k);
+      if (set_.one_sided(k) && refined.lambda.hi[k] < -reach && push < lowest) {
+        lowest = push;
+        worst = k;
+      }
+    }
+    if (worst < 0) return false;
+    set_.remove(worst);
+    ++steps_;
+    finish_change();
+    return true;
+  }
+
+  /// Takes in a row that the refined point violates.
+  Outcome admit_violated(const RefinedPoint& refined) {
+    const double scale = set_.scale(), left = refined.remaining();
+    const double q_length = set_.w().norm();
+    slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      if (set_.holds(a)) {
+        slack_[a] = 0;
+        continue;
+      }
+      const double row_length = row_scale_[a] * problem_.A.factor_condition();
+      const double rounding = static_cast<double>(problem_.dimension()) * unit_roundoff *
+                              (std::abs(problem_.s[a]) + row_length * q_length);
+      if (std::abs(slack_[a]) > 2 * rounding) continue;
+      slack_[a] = slack(problem_, a, refined.q).value();
+      constexpr double silence = 0x1p-95;  // of dot products in twice the precision
+      const double threshold =
+          silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale) + 2 * row_scale_[a] * left;
+      if (std::abs(slack_[a]) <= threshold) slack_[a] = 0;
+      if (slack_[a] < 0 && !two_sided_[static_cast<std::size_t>(a)]) rows.push_back(a);
+    }
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (slack_[a] < 0 && !set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
+          std::find(rows.begin(), rows.end(), a) == rows.end())
+        rows.push_back(a);
+    sort_by_violation(rows);
+    for (Index p : rows) {
+      if (passed_[static_cast<std::size_t>(p)]) continue;
+      set_.split(p, split_);
+      if (split_.rho > 0 && -slack_[p] <= 2 * left * split_.length) continue;
+      for (Index k = 0; k < set_.size(); ++k) set_.lambda()[k] = refined.lambda.hi[k];
+      const Outcome outcome = admit(p, -slack_[p], 0);
+      if (outcome != Outcome::unchanged) return outcome;
+    }
+    return Outcome::unchanged;
+  }
+
+  Solution infeasible() const {
+    Solution solution;
+    solution.method = "active-set";
+    solution.steps = steps_;
+    const double reach = 10 * set_.scale();
+    solution.status = proves_infeasibility(problem_, farkas_, reach) ? Status::infeasible : Status::gave_up;
+    solution.farkas = farkas_ / (farkas_.array() != 0).select(farkas_.cwiseAbs(), infinity).minCoeff();
+    return solution;
+  }
+
+  Solution answer(const RefinedPoint& refined, bool finished) {
+    Solution solution;
+    solution.method = "active-set";
+    solution.steps = steps_;
+    solution.q = refined.q.hi;
+    solution.lambda = Vector::Zero(problem_.rows());
+    Vector length = Vector::Zero(problem_.rows());
+    for (Index k = 0; k < set_.size(); ++k) {
+      const Index a = set_.rows()[static_cast<std::size_t>(k)];
+      solution.lambda[a] = set_.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
+      length[a] = set_.factor().length(k);
+    }
+    solution.basis = set_.rows();
+    solution.slack =
+        slack_.size() == problem_.rows() ? slack_ : Vector(problem_.U.times(solution.q) - problem_.s);
+    solution.residuals = residuals(problem_, solution.q, solution.lambda, length);
+    solution.acceleration_norm = problem_.A.norm(solution.q);
+    solution.force_norm = set_.w_free().norm();
+    // Rounding q to doubles: ||lo||_A² <= n Σ a_ii lo_i².
+    const double rounding = std::sqrt(static_cast<double>(problem_.dimension()) *
+                                      problem_.A.diagonal().dot(refined.q.lo.cwiseAbs2()));
+    double worst = 0;  // what rows that contradict W by rounding leave undecided
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (!set_.holds(a))
+        worst = std::max(worst, two_sided_[static_cast<std::size_t>(a)] ? std::abs(solution.slack[a])
+                                                                        : -solution.slack[a]);
+    solution.error_bound = 2 * refined.remaining() + rounding + worst * set_.factor().inverse_norm();
+    const bool close =
+        solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
+    solution.status = !finished ? Status::gave_up : close ? Status::solved : Status::inaccurate;
+    return solution;
+  }
+
+  /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
+  static constexpr double coefficient_noise = 64 * unit_roundoff;
+
+  const NearestPointProblem& problem_;
+  const Accuracy& accuracy_;
+  Set set_;
+  Vector row_scale_;  // ||u_a||_(D⁻¹)
+  std::vector<bool> two_sided_, passed_;
+  Vector slack_, farkas_;
+  Split split_;
+  Index steps_ = 0;
+};
+
+}  // namespace
+
+Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
+                    const std::vector<Index>& guess) {
+  if (problem.dimension() <= 8) return DualActiveSet<8>(problem, accuracy).run(guess);
+  return DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
+}
+
+}  // namespace convex

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/solution.hpp"
+
+namespace convex {
+
+/// The dual active-set method (Goldfarb and Idnani 1983) on whitened rows with an updated orthogonal factor,
+/// after a start by blocks, finished by refinement against the original KKT system (docs/methods.md).
+///
+/// Finite: every full step raises the dual objective strictly, and between two full steps rows are only
+/// dropped, so no set of rows returns; dependent rows are never taken in. Redundant, repeated, weakly active
+/// rows and implicit equalities need no assumption. The start by blocks is limited in number and proves
+/// nothing.
+///
+/// `guess`: rows thought to be active; empty when nothing is known.
+Solution active_set(const NearestPointProblem&, const Accuracy& = {}, const std::vector<Index>& guess = {});
+
+}  // namespace convex

@@ -1,0 +1,37 @@
+#include "convex/nearest_point/farkas.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace convex {
+namespace {
+
+/// What the contract allows w·U to be off, relative to its largest term.
+constexpr double combination_slack = 1e-12;
+
+/// A gap of so many roundings of the s it is made of is a rounded s, not a contradiction.
+constexpr double gap_roundings = 16;
+
+}  // namespace
+
+bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, double reach) {
+  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  DoubleDoubleVector combination(problem.dimension());
+  DoubleDouble gap;
+  double largest = 0, magnitude = 0;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (w[a] == 0) continue;
+    if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
+    problem.U.add_multiple(a, {w[a], 0}, combination);
+    gap = add(gap, two_product(w[a], problem.s[a]));
+    largest = std::max(largest, std::abs(w[a]) * problem.U.row(a).cwiseAbs().maxCoeff());
+    magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
+  }
+  const Vector rest = combination.value();
+  const bool combines = rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_slack * largest;
+  return combines &&
+         gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach;
+}
+
+}  // namespace convex

@@ -1,0 +1,30 @@
+#include "convex/nearest_point/methods.hpp"
+
+#include <array>
+
+#include "convex/nearest_point/active_set.hpp"
+
+namespace convex {
+namespace {
+
+Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return active_set(problem, accuracy);
+}
+
+constexpr std::array table{
+    Method{"auto", "chooses by size and structure; today always active-set", solve_by_active_set},
+    Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
+           solve_by_active_set},
+};
+
+}  // namespace
+
+std::span<const Method> methods() { return table; }
+
+const Method* find_method(std::string_view name) {
+  for (const Method& method : table)
+    if (method.name == name) return &method;
+  return nullptr;
+}
+
+}  // namespace convex

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/solution.hpp"
+
+namespace convex {
+
+/// The interval of a multiplier over all dual optima; the ends may be infinite.
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// All multipliers of a solved problem. They form the polyhedron {lambda : Uᵀlambda = R, lambda_a >= 0 on
+/// one-sided rows, lambda_a = 0 off the tight rows}, R = Aq - z being unique even where they are not.
+struct Multipliers {
+  bool unique = true;
+  Vector least_norm;                            ///< of least Euclidean norm: m
+  std::optional<std::vector<Interval>> ranges;  ///< m intervals; none when not asked for
+  std::vector<Index> tight;                     ///< rows with u_a·q = s_a within the tolerance, in order
+};
+
+/// Rows with |u_a·q - s_a| <= tolerance (|s_a| + ||u_a||_(A⁻¹) max(||q||_A, ||z||_(A⁻¹))), and the two-sided
+/// ones.
+std::vector<Index> tight_rows(const NearestPointProblem&, const Solution&, double tolerance);
+
+/// The dual optima of a solved (or inaccurately solved) problem. `want_ranges`: one linear program per
+/// multiplier and direction, so leave it out for thousands of rows; uniqueness is then found all the same.
+Multipliers multipliers(const NearestPointProblem&, const Solution&, double tolerance, bool want_ranges);
+
+}  // namespace convex

@@ -1,0 +1,48 @@
+#include "convex/nearest_point/problem.hpp"
+
+#include <string>
+
+#include "convex/invalid_input.hpp"
+
+namespace convex {
+namespace {
+
+void require_size(const char* name, Index size, Index expected, const char* unit) {
+  if (size != expected)
+    throw InvalidInput(std::string(name) + ": " + std::to_string(size) + " entries; give " +
+                       std::to_string(expected) + ", one per " + unit);
+}
+
+void require_finite(const char* name, const Vector& x) {
+  for (Index i = 0; i < x.size(); ++i)
+    if (!std::isfinite(x[i]))
+      throw InvalidInput(std::string(name) + ": " + name + "[" + std::to_string(i) +
+                         "] is not finite; give finite numbers");
+}
+
+}  // namespace
+
+void validate(const NearestPointProblem& problem) {
+  require_size("z", problem.z.size(), problem.dimension(), "coordinate");
+  require_size("s", problem.s.size(), problem.rows(), "row of U");
+  if (problem.rows() > 0 && problem.U.dimension() != problem.dimension())
+    throw InvalidInput("U: rows of " + std::to_string(problem.U.dimension()) + " entries; give " +
+                       std::to_string(problem.dimension()) + ", one per coordinate");
+  require_finite("z", problem.z);
+  require_finite("s", problem.s);
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!problem.U.row(a).allFinite())
+      throw InvalidInput("U: row " + std::to_string(a) +
+                         " has an entry that is not finite; give finite numbers");
+  for (std::size_t k = 0; k < problem.two_sided.size(); ++k) {
+    const Index a = problem.two_sided[k];
+    if (a < 0 || a >= problem.rows())
+      throw InvalidInput("two_sided: no row " + std::to_string(a) + "; rows run from 0 to " +
+                         std::to_string(problem.rows() - 1));
+    if (k > 0 && problem.two_sided[k - 1] >= a)
+      throw InvalidInput("two_sided: row " + std::to_string(a) +
+                         " out of order or twice; list each row once");
+  }
+}
+
+}  // namespace convex

@@ -1,0 +1,66 @@
+#include "convex/nearest_point/refinement.hpp"
+
+#include "convex/nearest_point/kkt_residual.hpp"
+
+namespace convex {
+namespace {
+
+/// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
+/// rounded answer and the signs of its slacks can need.
+constexpr double enough = 0x1p-68;
+
+/// Beyond this the corrections do not converge fast enough to be trusted.
+constexpr double slowest_contraction = 0.25;
+
+constexpr int most_corrections = 40;
+
+/// An entry no larger than its last correction is rounding noise about zero.
+void silence_noise(DoubleDoubleVector& x, const Vector& correction) {
+  for (Index i = 0; i < x.size(); ++i)
+    if (std::abs(x.hi[i]) <= 2 * std::abs(correction[i])) x.hi[i] = x.lo[i] = 0;
+}
+
+}  // namespace
+
+template <int MaxSize>
+RefinedPoint refine(const WorkingSet<MaxSize>& set) {
+  using Column = typename WorkingSet<MaxSize>::Column;
+  const NearestPointProblem& problem = set.problem();
+  RefinedPoint point{DoubleDoubleVector(set.point()),
+                     DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
+  const double scale = set.scale();
+  double previous = scale;  // the first solve is the correction of nothing
+  Column dw, dlambda, r2(set.size());
+  Vector dq, step;
+  for (int k = 0; k < most_corrections; ++k) {
+    const Vector r1 = stationarity_residual(problem, point.q, set.rows(), point.lambda);
+    for (Index j = 0; j < set.size(); ++j)
+      r2[j] = -slack(problem, set.rows()[static_cast<std::size_t>(j)], point.q).value();
+    set.correct(problem.A.whiten(r1), r2, dw, dlambda);
+    point.last = dw.norm();
+    // Once at the rounding of the residuals themselves, corrections no longer shrink: that is the end, not a
+    // failure.
+    const double floor = 0x1p-98 * scale;
+    if (k == 0)
+      point.contraction = point.last > 0 ? std::max(point.last / previous, unit_roundoff) : unit_roundoff;
+    else if (point.last > floor)
+      point.contraction = std::max(point.contraction, point.last / previous);
+    dq = problem.A.unwhiten(dw);
+    step = dlambda;
+    if (!(point.contraction < slowest_contraction)) break;
+    point.q.add(dq);
+    point.lambda.add(step);
+    if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
+    previous = point.last;
+  }
+  if (point.contraction < slowest_contraction) {
+    silence_noise(point.q, dq);
+    silence_noise(point.lambda, step);
+  }
+  return point;
+}
+
+template RefinedPoint refine(const WorkingSet<Eigen::Dynamic>&);
+template RefinedPoint refine(const WorkingSet<8>&);
+
+}  // namespace convex

@@ -1,0 +1,77 @@
+#include "convex/nearest_point/residuals.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/kkt_residual.hpp"
+
+namespace convex {
+
+Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  Vector length = Vector::Zero(problem.rows());
+  constexpr std::size_t width = 64;  // rows whitened at once
+  for (std::size_t first = 0; first < rows.size(); first += width) {
+    const std::size_t count = std::min(width, rows.size() - first);
+    Matrix block(problem.dimension(), static_cast<Index>(count));
+    for (std::size_t k = 0; k < count; ++k)
+      problem.U.copy_row(rows[first + k], block.col(static_cast<Index>(k)));
+    problem.A.whiten_in_place(block);
+    for (std::size_t k = 0; k < count; ++k) length[rows[first + k]] = block.col(static_cast<Index>(k)).norm();
+  }
+  return length;
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                    Vector length) {
+  const Index m = problem.rows();
+  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+
+  const DoubleDoubleVector point(q);
+  Vector rest = problem.U.times(q) - problem.s;
+  // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
+  constexpr double near = 1e-8;
+  const Vector magnitude = q.cwiseAbs();
+  std::vector<Index> matter, unknown, loaded;
+  for (Index a = 0; a < m; ++a) {
+    const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
+    if (lambda[a] != 0) loaded.push_back(a);
+    if (rest[a] > 0 && !is_two_sided && lambda[a] == 0 &&
+        rest[a] > near * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
+      continue;
+    rest[a] = slack(problem, a, point).value();
+    if (lambda[a] == 0 && rest[a] >= 0 && !is_two_sided) continue;
+    matter.push_back(a);
+    if (length[a] <= 0) unknown.push_back(a);
+  }
+  length += dual_lengths(problem, unknown);
+
+  DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
+  for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
+  const double stationarity = problem.A.dual_norm(stationarity_residual(problem, point, loaded, weights));
+  const double q_norm = problem.A.norm(q), scale = std::max(q_norm, problem.A.dual_norm(problem.z));
+  const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
+
+  Residuals found;
+  double gap = 0.5 * stationarity * stationarity;
+  for (Index a : matter) {
+    const double row_scale = std::abs(problem.s[a]) + length[a] * q_norm;
+    const double violation =
+        two_sided[static_cast<std::size_t>(a)] ? std::abs(rest[a]) : std::max(0.0, -rest[a]);
+    gap += lambda[a] * rest[a];
+    // A violation on a row of scale 0 (at rest, s = 0) is relative to what the forces could do to it instead.
+    const double over = row_scale > 0 ? row_scale : length[a] * scale;
+    if (over > 0) {
+      found.feasibility = std::max(found.feasibility, violation / over);
+      if (largest > 0)
+        found.complementarity =
+            std::max(found.complementarity, std::abs(lambda[a] / largest * rest[a]) / over);
+    }
+  }
+  if (scale > 0) {
+    found.stationarity = stationarity / scale;
+    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
+  }
+  return found;
+}
+
+}  // namespace convex

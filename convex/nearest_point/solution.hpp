@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// How a solve ended. `solved`: the error bound is at most tolerance * max(1, ||q||_A).
+enum class Status { solved, inaccurate, infeasible, gave_up };
+
+/// What to ask of a method.
+struct Accuracy {
+  double tolerance =
+      1e-9;  ///< loosen it to accept a coarser bound on ||q - q*||_A; direct methods ignore it otherwise
+  Index step_limit = 0;  ///< steps before a method gives up; 0 means its own, generous limit
+};
+
+/// The relative residuals of docs/problem-files.md, at the printed numbers.
+/// feasibility: max_a (s_a - u_a·q)⁺ / (|s_a| + ||u_a||_(A⁻¹) ||q||_A) (|s_a - u_a·q| for a two-sided row);
+/// complementarity: max_a |lambda_a (u_a·q - s_a)| over the same with lambda's largest;
+/// stationarity: ||Aq - z - Uᵀlambda||_(A⁻¹), and duality_gap: the root of
+/// lambda·(Uq - s) + ½||Aq - z - Uᵀlambda||²_(A⁻¹), both over max(||q||_A, ||z||_(A⁻¹)).
+struct Residuals {
+  double feasibility = 0, complementarity = 0, stationarity = 0, duality_gap = 0;
+};
+
+/// What a method found. q: n; lambda, slack = Uq - s: m. When infeasible, `farkas` (m) holds weights w with
+/// wᵀU = 0, w·s > 0 and w_a >= 0 on one-sided rows, and the rest is empty.
+struct Solution {
+  Status status = Status::gave_up;
+  std::string_view method;
+  Vector q, lambda, slack;
+  Residuals residuals;
+  double error_bound = 0;        ///< an estimate of ||q - q*||_A that takes the conditioning in
+  double acceleration_norm = 0;  ///< ||q||_A
+  double force_norm = 0;         ///< ||z||_(A⁻¹)
+  std::vector<Index> basis;      ///< the independent active rows that the answer rests on
+  Vector farkas;
+  Index steps = 0;  ///< rows taken in or dropped, one at a time or in blocks
+};
+
+}  // namespace convex
