@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "mechanics/system.hpp"
+
+namespace mechanics {
+
+/// |f| and |df/dt| count as zero within this times their scale (see ConstraintRates), unless told.
+inline constexpr double default_contact_tolerance = 1e-9;
+
+/// The contacts present at a state, K (Moreau 1966, section 2): one-sided constraints with f_a = 0 and
+/// df_a/dt = 0 (6), and all two-sided ones. `present` holds their indices, in order.
+struct Contacts {
+  std::vector<Index> present;
+  ConstraintRates rates;  ///< of every constraint, present or not
+};
+
+/// tolerance: one number per constraint. Throws InvalidInput, naming the constraint, its value and what to
+/// do, when one is penetrated (f < 0), when an impact is due (f = 0, df/dt < 0), or when a two-sided one does
+/// not hold.
+Contacts contacts(const System&, const State&, const Vector& tolerance);
+
+}  // namespace mechanics

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/expression/lexer.hpp"
+#include "mechanics/expression/parser.hpp"
+
+namespace mechanics::expression {
+
+/// The state of one recursive descent: two tokens, the indices in scope, the code so far.
+class Parsing {
+ public:
+  Parsing(const Source& source, const Scope& scope);
+
+  Code expression();
+  Relation relation();
+  Key key(bool declares_ranges);
+  KeyName key_name();
+
+ private:
+  class Nested;
+  using Kind = Token::Kind;
+  using Step = Instruction::Step;
+
+  void advance();
+  Token expect(Kind kind, const char* wanted);
+  bool accept(Kind kind);
+  [[noreturn]] void unexpected(const char* wanted) const;
+  Instruction& emit(Step step, std::size_t offset, std::uint32_t operand = 0);
+  void apply(Operation operation, std::size_t offset);
+
+  void sum();
+  void product();
+  void unary();
+  void power();
+  void postfix();
+  void primary();
+  void named(const Token& name);
+  void call(Operation function, const Token& name);
+  void indexed_sum(const Token& name);
+  bool at_index_declaration() const;
+  void member(const Name& meaning, const Token& name);
+  void number_in(Vocabulary vocabulary, void (Parsing::*part)());
+  void refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) const;
+  [[noreturn]] void unknown(const Token& name) const;
+  std::optional<std::uint32_t> slot(std::string_view index) const;
+  std::uint32_t declare_index(const Token& name);
+
+  KeyIndex key_index(bool declares_ranges);
+  Code number_of_key();
+  Code take();
+
+  const Source* source_;
+  const Names* names_;
+  Vocabulary vocabulary_;
+  std::vector<std::pair<std::string, std::uint32_t>> scope_;  // indices in scope, with their slots
+  std::uint32_t key_slots_ = 0, slots_ = 0;
+  Lexer lexer_;
+  Token token_, ahead_;
+  int depth_ = 0;
+  std::vector<Instruction> steps_;
+};
+
+}  // namespace mechanics::expression

@@ -1,0 +1,100 @@
+#include "mechanics/expression/program.hpp"
+
+#include <algorithm>
+
+namespace mechanics::expression {
+namespace {
+
+constexpr Slot unplaced = no_node;
+
+/// The nodes below some roots that are neither variables nor seen before, operands first; descends into no
+/// constant.
+class Reach {
+ public:
+  explicit Reach(const Tape& tape) : tape_(&tape), seen_(tape.size()) {}
+  std::vector<NodeId> below(const std::vector<NodeId>& roots) {
+    std::vector<NodeId> found, open = roots;
+    while (!open.empty()) {
+      const NodeId node = open.back();
+      open.pop_back();
+      if (seen_[node]) continue;
+      seen_[node] = true;
+      found.push_back(node);
+      if (tape_->is_constant(node)) continue;
+      const int operands = arity(tape_->operation(node));
+      if (operands >= 1) open.push_back(tape_->a(node));
+      if (operands == 2) open.push_back(tape_->b(node));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  const Tape* tape_;
+  std::vector<bool> seen_;
+};
+
+}  // namespace
+
+Program::Program(const Tape& tape, std::size_t coordinates, const std::vector<std::vector<NodeId>>& groups)
+    : n_(coordinates), node_(2 * coordinates + 1, no_node) {
+  std::vector<Slot> slot(tape.size(), unplaced);
+  std::vector<std::vector<NodeId>> computed;
+  Reach reach(tape);
+  for (const auto& roots : groups) {
+    computed.emplace_back();
+    for (const NodeId node : reach.below(roots)) {
+      switch (tape.operation(node)) {
+        case Operation::coordinate:
+          slot[node] = coordinate(tape.a(node));
+          break;
+        case Operation::velocity:
+          slot[node] = velocity(tape.a(node));
+          break;
+        case Operation::time:
+          slot[node] = time();
+          break;
+        default:
+          if (!tape.is_constant(node)) {
+            computed.back().push_back(node);
+            break;
+          }
+          slot[node] = static_cast<Slot>(node_.size());
+          node_.push_back(node);
+          constants_.push_back(tape.constant(node));
+      }
+    }
+    constant_ends_.push_back(constants_.size());
+  }
+  first_ = static_cast<Slot>(node_.size());
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    for (const NodeId node : computed[group]) {
+      const NodeId a = tape.a(node), b = tape.b(node);
+      slot[node] = static_cast<Slot>(node_.size());
+      node_.push_back(node);
+      code_.push_back({tape.operation(node), {!tape.is_constant(a), !tape.is_constant(b)}, slot[a], slot[b]});
+    }
+    ends_.push_back(static_cast<Slot>(node_.size()));
+    roots_.emplace_back();
+    for (const NodeId root : groups[group]) roots_.back().push_back(slot[root]);
+  }
+}
+
+Values Program::values(const State& state, std::size_t group, bool& is_finite) const {
+  Values x(size());
+  std::copy(state.q.begin(), state.q.end(), x.begin());
+  std::copy(state.v.begin(), state.v.end(), x.begin() + static_cast<std::ptrdiff_t>(n_));
+  x[time()] = state.t;
+  std::copy(constants_.begin(), constants_.end(), x.begin() + time() + 1);
+  double spoiled = 0;  // 0 times a number, unless it is not finite
+  for (std::size_t k = 0; k < constant_ends_[group]; ++k) spoiled += 0 * constants_[k];
+  for (Slot slot = first_; slot < ends_[group]; ++slot) {
+    const Instruction& i = code_[slot - first_];
+    x[slot] = value(i.operation, x[i.a], x[i.b]);
+    spoiled += 0 * x[slot];
+  }
+  is_finite = spoiled == 0;
+  return x;
+}
+
+}  // namespace mechanics::expression

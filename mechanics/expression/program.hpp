@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mechanics/expression/tape.hpp"
+#include "mechanics/state.hpp"
+
+namespace mechanics::expression {
+
+using Slot = std::uint32_t;
+using Values = std::vector<double>;  // by slot
+
+/// The part of a tape that some roots need, ready to be run. Slots: q (n of them), v (n), t, the constants,
+/// and then one for each operation, after its operands.
+class Program {
+ public:
+  struct Instruction {
+    Operation operation;
+    Active active;  ///< which operands are no constants
+    Slot a, b;
+  };
+
+  Program() = default;
+  /// The operations of the first group of roots come first, then what the next group needs in addition, …
+  Program(const Tape& tape, std::size_t coordinates, const std::vector<std::vector<NodeId>>& groups);
+
+  Slot coordinate(std::size_t i) const { return static_cast<Slot>(i); }
+  Slot velocity(std::size_t i) const { return static_cast<Slot>(n_ + i); }
+  Slot time() const { return static_cast<Slot>(2 * n_); }
+  std::size_t coordinates() const { return n_; }
+  std::size_t size() const { return node_.size(); }
+  /// The first slot of an operation, and the one after the last operation of a group.
+  Slot begin() const { return first_; }
+  Slot end(std::size_t group) const { return ends_[group]; }
+  const Instruction& operator[](Slot slot) const { return code_[slot - first_]; }
+  /// The slots of a group's roots, in the order they were given.
+  const std::vector<Slot>& roots(std::size_t group) const { return roots_[group]; }
+  NodeId node(Slot slot) const { return node_[slot]; }
+
+  /// The values up to the end of a group, at a state; `is_finite` tells whether all of them are.
+  Values values(const State& state, std::size_t group, bool& is_finite) const;
+  Partials partials(Slot slot, const Values& x) const {
+    const Instruction& i = (*this)[slot];
+    return expression::partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
+  }
+  SecondPartials second_partials(Slot slot, const Values& x) const {
+    const Instruction& i = (*this)[slot];
+    return expression::second_partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
+  }
+  bool is_computed(Slot slot) const { return slot >= first_; }
+  bool is_constant(Slot slot) const { return slot > time() && slot < first_; }
+
+ private:
+  std::size_t n_ = 0;
+  Slot first_ = 0;
+  std::vector<Instruction> code_;
+  std::vector<Slot> ends_;                  // by group, of the operations
+  std::vector<std::size_t> constant_ends_;  // by group, in constants_
+  std::vector<std::vector<Slot>> roots_;
+  std::vector<NodeId> node_;  // by slot; no_node for a variable
+  Values constants_;
+};
+
+}  // namespace mechanics::expression

@@ -1,0 +1,56 @@
+#include <cmath>
+
+#include "mechanics/expression/assignment.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
+
+namespace mechanics::expression {
+namespace {
+
+/// The values that a table of the state gives; `missing` lists the coordinates that it does not give.
+Vector read_values(const LagrangianModel& model, const std::vector<NamedText>& texts,
+                   const std::string& table, double t, Sources& sources, Expansion& expansion,
+                   std::vector<Index>& missing) {
+  const auto& families = model.meanings.coordinate_families;
+  const Assignment given = assign_to_coordinates(texts, table, table + " of ", model.names, families,
+                                                 Vocabulary::state, sources, expansion);
+  Vector values = Vector::Zero(static_cast<Index>(model.coordinates.size()));
+  for (const Family& family : families)
+    for (std::uint32_t m = 0; m < family.members.size(); ++m) {
+      const auto i = static_cast<Index>(family.first + m);
+      const std::uint32_t entry = given.entry_of[family.first + m];
+      if (entry == no_entry)
+        missing.push_back(i);
+      else
+        values[i] = expansion.number(given.entries[entry].value, family.members[m], t);
+    }
+  return values;
+}
+
+}  // namespace
+
+State read_state(const LagrangianModel& model, const StateText& text) {
+  Sources sources;
+  Tape tape;
+  Expansion expansion(model.meanings, tape);
+  State state;
+  if (text.t) {
+    const Source& source = sources.add(*text.t, "t of the state");
+    state.t = expansion.number(parse_expression(source, {&model.names, Vocabulary::instant, {}}), {});
+  }
+  std::vector<Index> missing, at_rest;
+  state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
+  if (!missing.empty()) {
+    constexpr std::size_t most_named = 5;
+    std::string list;
+    for (std::size_t k = 0; k < std::min(missing.size(), most_named); ++k)
+      list += (k == 0 ? "" : ", ") + model.coordinates[static_cast<std::size_t>(missing[k])];
+    if (missing.size() > most_named) list += " and " + std::to_string(missing.size() - most_named) + " more";
+    throw convex::InvalidInput(
+        "position: " + list + " missing; give every coordinate",
+        text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
+  }
+  state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
+  return state;
+}
+
+}  // namespace mechanics::expression

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "mechanics/expression/operation.hpp"
+#include "mechanics/expression/source.hpp"
+
+namespace mechanics::expression {
+
+using NodeId = std::uint32_t;
+inline constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
+
+/// Which variables a node depends on, as bits; a constant has none.
+enum Dependence : std::uint8_t { on_nothing = 0, on_coordinates = 1, on_velocities = 2, on_time = 4 };
+
+/// Expressions as one acyclic graph: a node comes after its operands, and equal nodes are one node.
+/// Nothing is simplified. The values of constants are computed as they are made, their nodes are kept.
+/// A constant with an undefined operand is NaN.
+class Tape {
+ public:
+  NodeId literal(std::string_view text, double number, Origin origin);
+  NodeId pi(Origin origin);
+  /// A parameter stands for the node that gives its value.
+  NodeId parameter(std::string_view name, NodeId meaning, Origin origin);
+  NodeId coordinate(std::uint32_t i, Origin origin);
+  NodeId velocity(std::uint32_t i, Origin origin);
+  NodeId time(Origin origin);
+  /// A unary operation has b = a.
+  NodeId apply(Operation operation, NodeId a, NodeId b, Origin origin);
+
+  std::size_t size() const { return operation_.size(); }
+  Operation operation(NodeId node) const { return operation_[node]; }
+  /// The operands; of a variable, a is its number.
+  NodeId a(NodeId node) const { return a_[node]; }
+  NodeId b(NodeId node) const { return b_[node]; }
+  std::uint8_t depends(NodeId node) const { return depends_[node]; }
+  bool is_constant(NodeId node) const { return depends_[node] == on_nothing; }
+  double constant(NodeId node) const { return value_[node]; }
+  Origin origin(NodeId node) const { return origin_[node]; }
+  /// The text of a literal or the name of a parameter.
+  const std::string& text(NodeId node) const;
+
+ private:
+  NodeId find_or_add(Operation operation, NodeId a, NodeId b, Origin origin, double value,
+                     std::uint8_t depends);
+  std::uint32_t text_number(std::string_view text);
+  void grow_table();
+  std::vector<Operation> operation_;
+  std::vector<NodeId> a_, b_;
+  std::vector<double> value_;
+  std::vector<std::uint8_t> depends_;
+  std::vector<Origin> origin_;
+  std::vector<NodeId> table_ = std::vector<NodeId>(1024, no_node);  // open addressing, a power of two
+  std::unordered_map<std::string, std::uint32_t> text_numbers_;
+  std::vector<std::string> texts_;
+};
+
+/// The expression of a node as text, cut to about 60 characters.
+std::string written(const Tape& tape, NodeId node, const std::vector<std::string>& coordinates);
+
+}  // namespace mechanics::expression

@@ -1,0 +1,64 @@
+#include "mechanics/gauss_problem.hpp"
+
+#include <algorithm>
+
+namespace mechanics {
+namespace {
+
+/// Below this many coordinates, or when more than a quarter of A is there, dense is faster.
+constexpr Index small_system = 64;
+constexpr double sparse_part = 0.25;
+
+/// The first coordinate whose velocity adds no kinetic energy to the ones before it.
+Index pivot_at_fault(convex::Matrix A) {
+  for (Index k = 0; k < A.rows(); ++k) {
+    const double pivot = A(k, k);
+    if (!(pivot > 0)) return k;
+    for (Index j = k + 1; j < A.cols(); ++j)
+      A.col(j).tail(A.rows() - k - 1) -= A.col(k).tail(A.rows() - k - 1) * (A(k, j) / pivot);
+  }
+  return A.rows() - 1;
+}
+
+}  // namespace
+
+convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<std::string>& coordinates) {
+  const Index n = A.rows();
+  try {
+    const double entries = static_cast<double>(A.nonZeros());
+    const double all = static_cast<double>(n) * static_cast<double>(n);
+    if (A.nonZeros() > n && (n <= small_system || entries > sparse_part * all))
+      return convex::Metric::dense(convex::Matrix(A));
+    return convex::Metric::sparse(A);
+  } catch (const convex::InvalidInput&) {
+    Index fault = -1;
+    for (Index i = 0; i < n && fault < 0; ++i)
+      if (!(A.coeff(i, i) > 0)) fault = i;
+    constexpr Index largest_dense = 2000;
+    if (fault < 0 && n <= largest_dense) fault = pivot_at_fault(convex::Matrix(A));
+    const std::string which =
+        fault < 0 ? "" : " (fails at " + coordinates[static_cast<std::size_t>(fault)] + "')";
+    throw convex::InvalidInput("kinetic: T is not positive definite in the velocities at this state" + which +
+                               "; give every motion a positive kinetic energy, or choose other coordinates");
+  }
+}
+
+GaussProblem gauss_problem(const System& system, const State& state, const Vector& contact_tolerance) {
+  Inertia inertia = system.inertia(state);
+  convex::Metric A = kinetic_metric(inertia.A, system.coordinates());
+  Contacts present = contacts(system, state, contact_tolerance);
+  ContactRows rows = system.contact_rows(state, present.present);
+  std::vector<Index> two_sided;
+  for (std::size_t k = 0; k < present.present.size(); ++k)
+    if (system.constraints()[static_cast<std::size_t>(present.present[k])].two_sided)
+      two_sided.push_back(static_cast<Index>(k));
+  const double entries = static_cast<double>(rows.U.nonZeros());
+  const double all = static_cast<double>(rows.U.rows()) * static_cast<double>(rows.U.cols());
+  const bool dense = rows.U.cols() <= small_system || entries > sparse_part * all;
+  convex::ConstraintRows U =
+      dense ? convex::ConstraintRows(convex::RowMatrix(rows.U)) : convex::ConstraintRows(std::move(rows.U));
+  return {{std::move(A), std::move(inertia.z), std::move(U), std::move(rows.s), std::move(two_sided)},
+          std::move(present)};
+}
+
+}  // namespace mechanics

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "convex/nearest_point/problem.hpp"
+#include "mechanics/contacts.hpp"
+
+namespace mechanics {
+
+/// Gauss' problem at a state (Moreau 1966, (10)): minimise G = ½ q''·A q'' - z·q'' over u_a·q'' >= s_a, a in
+/// K. Row k of the problem is constraint contacts.present[k].
+struct GaussProblem {
+  convex::NearestPointProblem problem;
+  Contacts contacts;
+};
+
+/// Throws InvalidInput as `contacts` does, and when T is not positive definite in q' (naming a coordinate).
+GaussProblem gauss_problem(const System&, const State&, const Vector& contact_tolerance);
+
+/// The metric of a sparse matrix A of inertia, stored in the way that suits it. Names the coordinate at
+/// fault.
+convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<std::string>& coordinates);
+
+}  // namespace mechanics

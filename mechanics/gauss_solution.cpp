@@ -1,0 +1,57 @@
+#include "mechanics/gauss_solution.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/residuals.hpp"
+
+namespace mechanics {
+namespace {
+
+/// Numbers within this of their scale count as zero where persistence and signs are judged, unless the caller
+/// asks for a tighter answer.
+double zero_tolerance(const convex::Accuracy& accuracy) { return std::min(accuracy.tolerance, 1e-6); }
+
+/// R by entry from A q'' - z or from Σ lambda_a u_a, whichever rounding hurts less: the one where forces
+/// between bodies cancel, the other where nothing pushes.
+Vector reaction(const convex::NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
+  const Vector inertial = problem.A.multiply(q) - problem.z, applied = problem.U.transpose_times(lambda);
+  Vector applied_terms = Vector::Zero(q.size());
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (lambda[a] == 0) continue;
+    if (problem.U.is_sparse())
+      for (convex::SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it)
+        applied_terms[it.col()] += std::abs(it.value() * lambda[a]);
+    else
+      applied_terms += problem.U.dense().row(a).transpose().cwiseAbs() * std::abs(lambda[a]);
+  }
+  const Vector weight = problem.A.diagonal().cwiseSqrt();
+  const double motion = q.cwiseAbs().dot(weight);  // |a_ik| <= sqrt(a_ii a_kk)
+  Vector R(q.size());
+  for (Index i = 0; i < q.size(); ++i)
+    R[i] = applied_terms[i] <= weight[i] * motion + std::abs(problem.z[i]) ? applied[i] : inertial[i];
+  return R;
+}
+
+}  // namespace
+
+GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+  GaussSolution found;
+  found.primal = options.method->solve(problem, options.accuracy);
+  if (found.primal.status == convex::Status::infeasible || found.primal.q.size() != problem.dimension())
+    return found;
+  const double tolerance = zero_tolerance(options.accuracy);
+  const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
+  found.multipliers = convex::multipliers(problem, found.primal, tolerance, ranges);
+  const Vector& lambda = found.multipliers.least_norm;
+  found.residuals = found.multipliers.unique
+                        ? found.primal.residuals
+                        : convex::residuals(problem, found.primal.q, lambda, Vector::Zero(problem.rows()));
+  found.reaction = reaction(problem, found.primal.q, lambda);
+  found.gauss = found.primal.q.dot(0.5 * problem.A.multiply(found.primal.q) - problem.z);
+  found.hypothesis = hypothesis(problem, found.primal, tolerance);
+  if (problem.rows() <= most_contacts_from_dual)
+    found.from_dual = reaction_from_dual(problem, found.hypothesis.two_sided, found.primal);
+  return found;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/nearest_point/methods.hpp"
+#include "convex/nearest_point/multipliers.hpp"
+#include "mechanics/hypothesis.hpp"
+#include "mechanics/reaction_from_dual.hpp"
+
+namespace mechanics {
+
+/// How to solve Gauss' problem and how much to say about the answer.
+struct GaussOptions {
+  const convex::Method* method = &convex::methods().front();
+  convex::Accuracy accuracy;
+  bool always_ranges = false;  ///< give the ranges of the multipliers also beyond `most_ranges` contacts
+};
+
+/// The answer to Moreau's problem at a state: which contacts persist, with which acceleration and which
+/// reactions, and what the classical rules would have said.
+struct GaussSolution {
+  convex::Solution primal;          ///< q'' and its multipliers, or a Farkas witness
+  convex::Multipliers multipliers;  ///< all multipliers; `tight` are the contacts that persist
+  convex::Residuals residuals;      ///< of q'' with the least-norm multipliers
+  Vector reaction;                  ///< R = Σ lambda_a u_a = A q'' - z, on the system by its constraints: n
+  double gauss = 0;                 ///< G = ½ q''·A q'' - z·q''
+  Hypothesis hypothesis;
+  std::optional<ReactionFromDual> from_dual;
+};
+
+/// The ranges of multipliers that are not unique cost two linear programs each; beyond so many contacts they
+/// are left out unless asked for.
+inline constexpr Index most_ranges = 1000;
+
+/// The independent check of the reaction from the dual is made up to so many contacts.
+inline constexpr Index most_contacts_from_dual = 200;
+
+GaussSolution solve(const convex::NearestPointProblem&, const GaussOptions& = {});
+
+}  // namespace mechanics

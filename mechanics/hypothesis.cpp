@@ -1,0 +1,68 @@
+#include "mechanics/hypothesis.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/residuals.hpp"
+
+namespace mechanics {
+namespace {
+
+using convex::NearestPointProblem;
+using convex::Solution;
+using convex::Status;
+
+bool has_answer(const Solution& solution) {
+  return solution.status == Status::solved || solution.status == Status::inaccurate;
+}
+
+/// The problem with only the rows `kept`, all two-sided.
+NearestPointProblem held(const NearestPointProblem& problem, const std::vector<Index>& kept) {
+  NearestPointProblem rows{
+      problem.A, problem.z, problem.U.select(kept), Vector(static_cast<Index>(kept.size())), {}};
+  for (std::size_t k = 0; k < kept.size(); ++k) rows.s[static_cast<Index>(k)] = problem.s[kept[k]];
+  rows.two_sided.resize(kept.size());
+  std::iota(rows.two_sided.begin(), rows.two_sided.end(), Index{0});
+  return rows;
+}
+
+}  // namespace
+
+Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth, double tolerance) {
+  Hypothesis found;
+  const double scale = std::max(truth.acceleration_norm, truth.force_norm);
+  const auto same = [&](const Vector& acceleration) {
+    return problem.A.norm(acceleration - truth.q) <= tolerance * scale;
+  };
+  std::vector<Index> all(static_cast<std::size_t>(problem.rows()));
+  std::iota(all.begin(), all.end(), Index{0});
+  const NearestPointProblem classical = held(problem, all);
+  const Solution solution = convex::active_set(classical);
+  if (!has_answer(solution)) return found;
+
+  const convex::Multipliers set = convex::multipliers(classical, solution, tolerance, false);
+  found.two_sided = {true, solution.q, set.least_norm, set.unique};
+  // Some two-sided multipliers are >= 0 if and only if the two-sided motion is the true one: (2), (7)-(9)
+  // then hold.
+  found.accepted = same(solution.q);
+
+  const Vector length = convex::dual_lengths(problem, all);
+  std::vector<bool> two_sided(all.size(), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const double push = std::max(
+      scale, set.least_norm.size() > 0 ? set.least_norm.cwiseAbs().cwiseProduct(length).maxCoeff() : 0.0);
+  std::vector<Index> kept;
+  for (Index a : all) {
+    const bool negative =
+        !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -tolerance * push;
+    (negative ? found.negative : kept).push_back(a);
+  }
+  if (found.accepted || !set.unique) return found;
+  const Solution dropped = convex::active_set(held(problem, kept));
+  if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;
+  found.drop_negative_is_right = has_answer(dropped) && same(dropped.q);
+  return found;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convex/invalid_input.hpp"
+
+namespace mechanics {
+
+/// A piece of text and where it begins, so that an error can point into it.
+struct Text {
+  std::string text;
+  convex::Place begin;
+
+  /// The place of the character at `offset` (lines are counted; an escape in the source shifts the column).
+  convex::Place at(std::size_t offset) const;
+};
+
+/// `name` = `value`; the name may be that of a member, "x[3]", or of a family, "x[i]", "x[i in 2..3]".
+struct NamedText {
+  Text name;
+  Text value;
+};
+
+/// The Lagrangian data of a system as text (docs/problem-files.md): T, V, Q, the constraints and what they
+/// use.
+struct LagrangianText {
+  std::vector<Text> coordinates;
+  Text kinetic;
+  std::optional<Text> potential;
+  std::vector<NamedText> parameters, definitions, forces, constraints;
+};
+
+/// A state as text: expressions in parameters and t. What is missing in `velocity` is 0.
+struct StateText {
+  std::optional<Text> t;
+  std::optional<Text> position_table;  ///< where the positions are given, for the error when one is missing
+  std::vector<NamedText> position, velocity;
+};
+
+}  // namespace mechanics
