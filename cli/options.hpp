@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// Exit codes of the program (docs/commands.md).
+enum class Exit { solved = 0, no_solution = 1, wrong_input = 2, inaccurate = 3 };
+
+/// What the command line says, for every command.
+struct Options {
+  std::vector<std::string> files;
+  std::optional<std::string> method;
+  std::optional<double> tolerance;
+  bool json = false;
+  bool quiet = false;
+  bool ranges = false;
+};
+
+}  // namespace cli

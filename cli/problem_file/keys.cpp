@@ -1,0 +1,62 @@
+#include "cli/problem_file/keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/problem_file/exact_number.hpp"
+#include "mechanics/expression/nearest_name.hpp"
+
+namespace cli {
+
+using convex::InvalidInput;
+
+std::string shown(const std::string& text) {
+  constexpr std::size_t longest = 60;
+  std::string shortened = text.size() > longest ? text.substr(0, longest) + "..." : text;
+  for (char& c : shortened)
+    if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
+  return shortened;
+}
+
+void require_known_keys(const TomlValue& table, const std::string& where,
+                        std::initializer_list<const char*> known) {
+  for (const TomlEntry& entry : table.table) {
+    const std::vector<std::string> names(known.begin(), known.end());
+    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    throw InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
+                           (where.empty() ? "" : " in [" + where + "]") + "; did you mean \"" +
+                           mechanics::expression::nearest_name(entry.key, names) + "\"?",
+                       entry.place);
+  }
+}
+
+const TomlValue& require_table(const TomlValue& value, const std::string& where) {
+  if (value.kind != TomlValue::Kind::table)
+    throw InvalidInput(where + ": not a table; write [" + where + "] and its keys below it", value.place);
+  return value;
+}
+
+const std::string& require_string(const TomlValue& value, const std::string& where) {
+  if (!value.is_string())
+    throw InvalidInput(where + ": not a string; put it into quotation marks", value.place);
+  return value.text;
+}
+
+double require_number(const TomlValue& value, const std::string& where) {
+  if (value.is_number() && std::isfinite(value.number)) return value.number;
+  if (value.is_number())
+    throw InvalidInput(where + ": " + shown(value.text) + " is not finite; give finite numbers", value.place);
+  if (value.is_string())
+    if (const auto number = nearest_double(value.text)) return *number;
+  throw InvalidInput(
+      where + ": not a number; give 2, 0.5, 1e-3 or an exact value in quotation marks, \"1/3\"", value.place);
+}
+
+double require_positive(const TomlValue& value, const std::string& where) {
+  const double number = require_number(value, where);
+  if (!(number > 0))
+    throw InvalidInput(where + ": " + shown(value.text) + " is not positive; give a number > 0", value.place);
+  return number;
+}
+
+}  // namespace cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include "cli/problem_file/toml_document.hpp"
+
+namespace cli {
+
+/// A text from a file as it can stand in a message: short, and without control characters.
+std::string shown(const std::string& text);
+
+/// Refuses the first key of the table that is not known, naming the nearest known one. `where` is the table's
+/// name for the message, "" at the top.
+void require_known_keys(const TomlValue& table, const std::string& where,
+                        std::initializer_list<const char*> known);
+
+/// The value as a table; otherwise InvalidInput.
+const TomlValue& require_table(const TomlValue& value, const std::string& where);
+
+/// The text of a string value; otherwise InvalidInput.
+const std::string& require_string(const TomlValue& value, const std::string& where);
+
+/// The finite number that a value stands for: an integer, a float, or a string with an exact value such as
+/// "1/3".
+double require_number(const TomlValue& value, const std::string& where);
+
+/// A finite number greater than 0.
+double require_positive(const TomlValue& value, const std::string& where);
+
+}  // namespace cli

@@ -1,0 +1,113 @@
+#include "cli/problem_file/matrix_market.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "cli/problem_file/problem.hpp"
+#include "convex/invalid_input.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path), text_(read_file(path)) {}
+
+  convex::SparseMatrix read() {
+    std::istringstream header(next_line());
+    std::string banner, object, format, field, symmetry;
+    header >> banner >> object >> format >> field >> symmetry;
+    const bool coordinate = format == "coordinate";
+    if (banner != "%%MatrixMarket" || object != "matrix" || (!coordinate && format != "array") ||
+        (field != "real" && field != "integer") || (symmetry != "general" && symmetry != "symmetric"))
+      fail("the first line is not \"%%MatrixMarket matrix coordinate|array real|integer general|symmetric\"");
+    const bool symmetric = symmetry == "symmetric";
+    std::string line = next_line();
+    while (!line.empty() && line[0] == '%') line = next_line();
+    start(line);
+    const Index rows = integer(), columns = integer();
+    const Index count = coordinate ? integer() : rows * columns;
+    constexpr Index largest = 1000000000;
+    if (rows < 0 || columns < 0 || count < 0 || rows > largest || columns > largest)
+      fail("the size line is not one of a matrix");
+    if (symmetric && rows != columns) fail("a symmetric matrix is square");
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto put = [&](Index i, Index j, double value) {
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+      if (symmetric && i != j) entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
+    };
+    if (coordinate) {
+      for (Index k = 0; k < count; ++k) {
+        start(next_line());
+        const Index i = integer() - 1, j = integer() - 1;
+        if (i < 0 || i >= rows || j < 0 || j >= columns) fail("an index outside the matrix");
+        put(i, j, number());
+      }
+    } else {
+      for (Index j = 0; j < columns; ++j)
+        for (Index i = symmetric ? j : 0; i < rows; ++i) {
+          start(next_line());
+          put(i, j, number());
+        }
+    }
+    convex::SparseMatrix matrix(rows, columns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw convex::InvalidInput(path_ + ", line " + std::to_string(line_) + ": " + what +
+                               "; correct the matrix file");
+  }
+
+  std::string next_line() {
+    while (true) {
+      if (at_ >= text_.size()) fail("the file ends too early");
+      const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+      std::string line = text_.substr(at_, end - at_);
+      at_ = end + 1;
+      ++line_;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.find_first_not_of(" \t") != std::string::npos) return line;
+    }
+  }
+
+  void start(std::string line) {
+    current_ = std::move(line);
+    place_ = 0;
+  }
+
+  template <class Number>
+  Number token(const char* what) {
+    while (place_ < current_.size() &&
+           (current_[place_] == ' ' || current_[place_] == '\t' || current_[place_] == '+'))
+      ++place_;
+    Number value{};
+    const auto [end, error] =
+        std::from_chars(current_.data() + place_, current_.data() + current_.size(), value);
+    if (error != std::errc()) fail(std::string("expected ") + what);
+    place_ = static_cast<std::size_t>(end - current_.data());
+    return value;
+  }
+  Index integer() { return token<Index>("an integer"); }
+  double number() {
+    const double value = token<double>("a number");
+    if (!std::isfinite(value)) fail("a number that is not finite");
+    return value;
+  }
+
+  std::string path_, text_, current_;
+  std::size_t at_ = 0, place_ = 0;
+  int line_ = 0;
+};
+
+}  // namespace
+
+convex::SparseMatrix read_matrix_market(const std::string& path) { return Reader(path).read(); }
+
+}  // namespace cli

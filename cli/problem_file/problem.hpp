@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "convex/nearest_point/problem.hpp"
+#include "mechanics/lagrangian_text.hpp"
+
+namespace cli {
+
+/// `[system]` and `[state]`: a mechanical system by its Lagrangian data.
+struct SystemProblem {
+  mechanics::LagrangianText system;
+  mechanics::StateText state;
+};
+
+/// `[projection]`: the same problem from numbers.
+struct ProjectionProblem {
+  convex::NearestPointProblem problem;
+};
+
+/// `contact_tolerance` by constraint.
+struct NamedTolerance {
+  std::string constraint;
+  convex::Place place;
+  double value = 0;
+};
+
+/// `[solve]`: what a file says about how to solve it.
+struct SolveSettings {
+  std::optional<std::string> method;
+  convex::Place method_place;
+  std::optional<double> tolerance;
+  std::optional<double> contact_tolerance;
+  std::vector<NamedTolerance> contact_tolerances;
+};
+
+/// A problem file as plain data.
+struct Problem {
+  std::string title;
+  std::variant<SystemProblem, ProjectionProblem> content;
+  SolveSettings solve;
+};
+
+/// Reads the text of a problem file; `directory` is where its matrix files are looked for. Throws
+/// InvalidInput with the place.
+Problem read_problem(const std::string& text, const std::string& directory);
+
+/// The bytes of a file, or of standard input for "-". Throws InvalidInput when it cannot be read.
+std::string read_file(const std::string& path);
+
+}  // namespace cli

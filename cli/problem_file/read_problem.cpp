@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <array>
+
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/problem.hpp"
+#include "cli/problem_file/tables.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+
+constexpr std::array kinds{"system", "projection", "decomposition", "cone"};
+
+/// The one table that says what the file is about.
+const TomlEntry& content_table(const TomlValue& document) {
+  const TomlEntry* found = nullptr;
+  for (const TomlEntry& entry : document.table) {
+    if (std::find(kinds.begin(), kinds.end(), entry.key) == kinds.end()) continue;
+    if (found != nullptr)
+      throw InvalidInput("both [" + found->key + "] and [" + entry.key + "]; a file holds one problem",
+                         entry.place);
+    found = &entry;
+  }
+  if (found == nullptr)
+    throw InvalidInput("no problem here; give a table [system] (a mechanism) or [projection] (numbers)",
+                       convex::Place{1, 1});
+  return *found;
+}
+
+}  // namespace
+
+Problem read_problem(const std::string& text, const std::string& directory) {
+  const TomlValue document = parse_toml(text);
+  require_known_keys(
+      document, "", {"title", "system", "state", "projection", "decomposition", "cone", "solve", "simulate"});
+  Problem problem;
+  if (const TomlValue* title = document.find("title")) problem.title = require_string(*title, "title");
+  if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
+  if (const TomlValue* simulate = document.find("simulate"))
+    require_known_keys(require_table(*simulate, "simulate"), "simulate",
+                       {"until", "method", "tolerance", "step", "restitution", "samples"});
+  const TomlEntry& content = content_table(document);
+  require_table(content.value, content.key);
+  const TomlValue* state = document.find("state");
+  if (content.key != "system" && state != nullptr)
+    throw InvalidInput("[state] goes with [system] only; take it out", state->place);
+  if (content.key == "system") {
+    problem.content = read_system(document);
+  } else if (content.key == "projection") {
+    problem.content = read_projection(content.value, directory);
+  } else {
+    throw InvalidInput(
+        "[" + content.key + "] is not available yet; this version solves [system] and [projection]",
+        content.place);
+  }
+  return problem;
+}
+
+}  // namespace cli

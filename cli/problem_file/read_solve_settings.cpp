@@ -1,0 +1,28 @@
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/tables.hpp"
+
+namespace cli {
+
+SolveSettings read_solve_settings(const TomlValue& table) {
+  require_known_keys(require_table(table, "solve"), "solve", {"method", "tolerance", "contact_tolerance"});
+  SolveSettings settings;
+  if (const TomlValue* method = table.find("method")) {
+    settings.method = require_string(*method, "solve.method");
+    settings.method_place = method->place;
+  }
+  if (const TomlValue* tolerance = table.find("tolerance"))
+    settings.tolerance = require_positive(*tolerance, "solve.tolerance");
+  if (const TomlValue* tolerance = table.find("contact_tolerance")) {
+    if (tolerance->kind == TomlValue::Kind::table) {
+      for (const TomlEntry& entry : tolerance->table)
+        settings.contact_tolerances.push_back(
+            {entry.key, entry.place,
+             require_positive(entry.value, "solve.contact_tolerance." + shown(entry.key))});
+    } else {
+      settings.contact_tolerance = require_positive(*tolerance, "solve.contact_tolerance");
+    }
+  }
+  return settings;
+}
+
+}  // namespace cli

@@ -1,0 +1,79 @@
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/tables.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using mechanics::NamedText;
+using mechanics::Text;
+
+Text string_text(const TomlValue& value, const std::string& where) {
+  return {require_string(value, where), value.content};
+}
+
+/// An expression, or a number as it is written.
+Text expression(const TomlValue& value, const std::string& where) {
+  if (value.is_string() || value.is_number()) return {value.text, value.content};
+  throw InvalidInput(
+      where + ": neither an expression nor a number; give an expression in quotation marks, or a number",
+      value.place);
+}
+
+std::vector<NamedText> named(const TomlValue* table, const std::string& where) {
+  std::vector<NamedText> entries;
+  if (table == nullptr) return entries;
+  for (const TomlEntry& entry : require_table(*table, where).table)
+    entries.push_back({{entry.key, entry.place}, expression(entry.value, where + "." + shown(entry.key))});
+  return entries;
+}
+
+mechanics::LagrangianText read_lagrangian(const TomlValue& table) {
+  require_known_keys(
+      table, "system",
+      {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces", "constraints"});
+  mechanics::LagrangianText system;
+  const TomlValue* coordinates = table.find("coordinates");
+  if (coordinates == nullptr || coordinates->kind != TomlValue::Kind::array)
+    throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
+                       coordinates == nullptr ? table.place : coordinates->place);
+  for (const TomlValue& name : coordinates->array)
+    system.coordinates.push_back(string_text(name, "system.coordinates"));
+  const TomlValue* kinetic = table.find("kinetic");
+  if (kinetic == nullptr)
+    throw InvalidInput("system.kinetic: no kinetic energy; write kinetic = \"m/2*x'^2\"", table.place);
+  system.kinetic = expression(*kinetic, "system.kinetic");
+  if (const TomlValue* potential = table.find("potential"))
+    system.potential = expression(*potential, "system.potential");
+  system.parameters = named(table.find("parameters"), "system.parameters");
+  system.definitions = named(table.find("definitions"), "system.definitions");
+  system.forces = named(table.find("forces"), "system.forces");
+  system.constraints = named(table.find("constraints"), "system.constraints");
+  return system;
+}
+
+mechanics::StateText read_state(const TomlValue& table) {
+  require_known_keys(table, "state", {"t", "position", "velocity"});
+  mechanics::StateText state;
+  if (const TomlValue* t = table.find("t")) state.t = expression(*t, "state.t");
+  const TomlValue* position = table.find("position");
+  state.position_table = Text{"", position == nullptr ? table.place : position->place};
+  state.position = named(position, "state.position");
+  state.velocity = named(table.find("velocity"), "state.velocity");
+  return state;
+}
+
+}  // namespace
+
+SystemProblem read_system(const TomlValue& document) {
+  const TomlValue& system = *document.find("system");
+  const TomlValue* state = document.find("state");
+  SystemProblem problem{read_lagrangian(system), {}};
+  if (state == nullptr)
+    throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
+                       system.place);
+  problem.state = read_state(require_table(*state, "state"));
+  return problem;
+}
+
+}  // namespace cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "cli/problem_file/problem.hpp"
+#include "cli/problem_file/toml_document.hpp"
+
+namespace cli {
+
+/// `[system]` with its sub-tables, and `[state]` of the same document.
+SystemProblem read_system(const TomlValue& document);
+
+/// `[projection]`; matrix files are looked for in `directory`.
+ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);
+
+/// `[solve]`.
+SolveSettings read_solve_settings(const TomlValue& table);
+
+}  // namespace cli

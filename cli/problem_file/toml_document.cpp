@@ -1,0 +1,115 @@
+#include "cli/problem_file/toml_document.hpp"
+
+#define TOML_HEADER_ONLY 0
+#include <toml++/toml.h>
+#include <algorithm>
+
+namespace cli {
+namespace {
+
+class Converter {
+ public:
+  explicit Converter(const std::string& text) : text_(text) {
+    line_starts_.push_back(0);
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text[i] == '\n') line_starts_.push_back(i + 1);
+  }
+
+  TomlValue value(const toml::node& node) const {
+    TomlValue made;
+    made.place = place(node.source().begin);
+    made.content = made.place;
+    if (const auto* table = node.as_table()) {
+      made.kind = TomlValue::Kind::table;
+      for (const auto& [key, child] : *table)
+        made.table.push_back({std::string(key.str()), place(key.source().begin), value(child)});
+      std::stable_sort(made.table.begin(), made.table.end(), [](const TomlEntry& a, const TomlEntry& b) {
+        return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+      });
+    } else if (const auto* array = node.as_array()) {
+      made.kind = TomlValue::Kind::array;
+      made.array.reserve(array->size());
+      for (const toml::node& child : *array) made.array.push_back(value(child));
+    } else if (const auto* string = node.as_string()) {
+      made.kind = TomlValue::Kind::string;
+      made.text = string->get();
+      made.content = content(made.place);
+    } else if (const auto* integer = node.as_integer()) {
+      made.kind = TomlValue::Kind::integer;
+      made.number = static_cast<double>(integer->get());
+      made.text = std::to_string(integer->get());
+    } else if (const auto* floating = node.as_floating_point()) {
+      made.kind = TomlValue::Kind::floating;
+      made.number = floating->get();
+      made.text = written(node.source());
+    } else if (const auto* boolean = node.as_boolean()) {
+      made.kind = TomlValue::Kind::boolean;
+      made.boolean = boolean->get();
+    } else {
+      made.kind = TomlValue::Kind::other;
+    }
+    return made;
+  }
+
+  static convex::Place place(const toml::source_position& position) {
+    return {std::max(1, static_cast<int>(position.line)), std::max(1, static_cast<int>(position.column))};
+  }
+
+ private:
+  /// The offset of a place in the text; columns count characters, not bytes.
+  std::size_t offset(convex::Place at) const {
+    const std::size_t line = static_cast<std::size_t>(at.line - 1);
+    std::size_t i = line < line_starts_.size() ? line_starts_[line] : text_.size();
+    for (int column = 1; column < at.column && i < text_.size(); ++column) {
+      ++i;
+      while (i < text_.size() && (static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U) ++i;
+    }
+    return i;
+  }
+
+  convex::Place content(convex::Place at) const {
+    const std::size_t i = offset(at);
+    const std::string quotes = text_.substr(i, 3);
+    if (quotes != "\"\"\"" && quotes != "'''") return {at.line, at.column + 1};
+    const std::size_t first = i + 3;
+    const bool line_break = text_.compare(first, 1, "\n") == 0 || text_.compare(first, 2, "\r\n") == 0;
+    return line_break ? convex::Place{at.line + 1, 1} : convex::Place{at.line, at.column + 3};
+  }
+
+  std::string written(const toml::source_region& region) const {
+    const std::size_t first = offset(place(region.begin)), last = offset(place(region.end));
+    std::string digits = text_.substr(first, last > first ? last - first : 0);
+    std::erase(digits, '_');
+    return digits;
+  }
+
+  const std::string& text_;
+  std::vector<std::size_t> line_starts_;
+};
+
+}  // namespace
+
+const TomlValue* TomlValue::find(const std::string& key) const {
+  for (const TomlEntry& entry : table)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+TomlValue parse_toml(const std::string& text) {
+  try {
+    const toml::table document = toml::parse(text);
+    return Converter(text).value(document);
+  } catch (const toml::parse_error& error) {
+    std::string what(error.description());
+    const std::string prefix = "Error while parsing ";
+    if (what.rfind(prefix, 0) == 0) what = "cannot read " + what.substr(prefix.size());
+    constexpr std::size_t longest = 200;
+    if (what.size() > longest) what = what.substr(0, longest) + "…";
+    for (char& c : what)
+      if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
+    throw convex::InvalidInput("not a TOML file: " + what + "; see docs/problem-files.md for the form",
+                               Converter::place(error.source().begin));
+  }
+}
+
+}  // namespace cli

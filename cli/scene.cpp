@@ -1,0 +1,146 @@
+#include "cli/scene.hpp"
+
+#include <numeric>
+
+#include "mechanics/lagrangian_system.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::InvalidInput;
+using convex::Vector;
+
+/// Methods that a later version brings; naming one is no slip of the finger.
+constexpr const char* exact_method = "exact";
+
+mechanics::GaussOptions solve_options(const Options& options, const SolveSettings& settings) {
+  mechanics::GaussOptions made;
+  made.always_ranges = options.ranges;
+  made.accuracy.tolerance = options.tolerance.value_or(settings.tolerance.value_or(made.accuracy.tolerance));
+  const bool from_file = !options.method && settings.method;
+  const std::string name = options.method.value_or(settings.method.value_or(std::string(made.method->name)));
+  made.method = convex::find_method(name);
+  if (made.method != nullptr) return made;
+  std::string known;
+  for (const convex::Method& method : convex::methods())
+    known += (known.empty() ? "" : ", ") + std::string(method.name);
+  const std::string what =
+      name == exact_method ? "method \"exact\" is not available yet" : "unknown method \"" + name + "\"";
+  throw InvalidInput(what + "; the methods are " + known,
+                     from_file ? std::optional(settings.method_place) : std::nullopt);
+}
+
+/// "gap[3]" belongs to "gap[3]", "gap[i]" and "gap".
+bool names(const std::string& key, const std::string& constraint) {
+  if (key == constraint) return true;
+  const std::string family = constraint.substr(0, constraint.find('['));
+  return family != constraint &&
+         (key == family || (key.rfind(family + "[", 0) == 0 &&
+                            std::isalpha(static_cast<unsigned char>(key[family.size() + 1])) != 0));
+}
+
+Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::string>& constraints) {
+  Vector tolerance =
+      Vector::Constant(static_cast<Index>(constraints.size()),
+                       settings.contact_tolerance.value_or(mechanics::default_contact_tolerance));
+  for (const NamedTolerance& named : settings.contact_tolerances) {
+    bool found = false;
+    for (std::size_t a = 0; a < constraints.size(); ++a)
+      if (names(named.constraint, constraints[a])) {
+        tolerance[static_cast<Index>(a)] = named.value;
+        found = true;
+      }
+    if (!found)
+      throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
+                             "\"; name one of [system.constraints]",
+                         named.place);
+  }
+  return tolerance;
+}
+
+Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
+  std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
+  mechanics::State state = system->state(text.state);
+  std::vector<std::string> constraints;
+  std::vector<bool> two_sided;
+  for (const mechanics::Constraint& constraint : system->constraints()) {
+    constraints.push_back(constraint.name);
+    two_sided.push_back(constraint.two_sided);
+  }
+  try {
+    mechanics::GaussProblem gauss =
+        mechanics::gauss_problem(*system, state, contact_tolerances(settings, constraints));
+    std::vector<std::string> coordinates = system->coordinates();
+    return {"",
+            "",
+            "system",
+            std::move(coordinates),
+            std::move(constraints),
+            std::move(two_sided),
+            std::move(gauss.problem),
+            std::move(gauss.contacts.present),
+            std::move(gauss.contacts.rates),
+            std::move(system),
+            std::move(state),
+            {}};
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(error.what(), error.place().value_or(text.system.kinetic.begin));
+  }
+}
+
+Scene projection_scene(ProjectionProblem numbers) {
+  const Index n = numbers.problem.dimension(), m = numbers.problem.rows();
+  std::vector<std::string> coordinates, constraints;
+  for (Index i = 0; i < n; ++i) coordinates.push_back("q[" + std::to_string(i) + "]");
+  for (Index a = 0; a < m; ++a) constraints.push_back("c[" + std::to_string(a) + "]");
+  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
+  for (Index a : numbers.problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  std::vector<Index> contacts(static_cast<std::size_t>(m));
+  std::iota(contacts.begin(), contacts.end(), Index{0});
+  return {"",
+          "",
+          "projection",
+          std::move(coordinates),
+          std::move(constraints),
+          std::move(two_sided),
+          std::move(numbers.problem),
+          std::move(contacts),
+          std::nullopt,
+          nullptr,
+          {},
+          {}};
+}
+
+std::string directory_of(const std::string& file) {
+  const std::size_t slash = file.rfind('/');
+  return slash == std::string::npos ? "" : file.substr(0, slash);
+}
+
+}  // namespace
+
+std::vector<std::string> Scene::contact_names() const {
+  std::vector<std::string> chosen;
+  for (Index a : contacts) chosen.push_back(constraints[static_cast<std::size_t>(a)]);
+  return chosen;
+}
+
+Vector Scene::over_constraints(const Vector& over_contacts) const {
+  Vector all = Vector::Zero(static_cast<Index>(constraints.size()));
+  for (std::size_t k = 0; k < contacts.size(); ++k) all[contacts[k]] = over_contacts[static_cast<Index>(k)];
+  return all;
+}
+
+Scene read_scene(const std::string& file, const Options& options) {
+  Problem problem = read_problem(read_file(file), directory_of(file));
+  const mechanics::GaussOptions solve = solve_options(options, problem.solve);
+  auto* system = std::get_if<SystemProblem>(&problem.content);
+  Scene scene = system != nullptr ? system_scene(*system, problem.solve)
+                                  : projection_scene(std::get<ProjectionProblem>(std::move(problem.content)));
+  scene.file = file;
+  scene.title = problem.title;
+  scene.solve = solve;
+  return scene;
+}
+
+}  // namespace cli

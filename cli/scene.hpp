@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/options.hpp"
+#include "cli/problem_file/problem.hpp"
+#include "mechanics/gauss_problem.hpp"
+#include "mechanics/gauss_solution.hpp"
+#include "mechanics/system.hpp"
+
+namespace cli {
+
+/// A problem file made ready to solve: names, the nearest-point problem over the contacts K, and, for a
+/// mechanical system, the system and its state.
+struct Scene {
+  std::string file, title, kind;
+  std::vector<std::string> coordinates;
+  std::vector<std::string> constraints;  ///< every constraint of the file
+  std::vector<bool> two_sided;           ///< one per constraint
+  convex::NearestPointProblem problem;   ///< its row k is constraint contacts[k]
+  std::vector<convex::Index> contacts;   ///< K, indices of constraints
+  std::optional<mechanics::ConstraintRates> rates;
+  std::shared_ptr<const mechanics::System> system;
+  mechanics::State state;
+  mechanics::GaussOptions solve;
+
+  std::string contact_name(convex::Index row) const {
+    return constraints[static_cast<std::size_t>(contacts[static_cast<std::size_t>(row)])];
+  }
+  std::vector<std::string> contact_names() const;
+  /// Numbers over K spread over all constraints, 0 elsewhere.
+  convex::Vector over_constraints(const convex::Vector& over_contacts) const;
+};
+
+/// Reads a file and makes the scene; options of the command line win over the file's [solve].
+Scene read_scene(const std::string& file, const Options& options);
+
+}  // namespace cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "cli/scene.hpp"
+
+namespace cli {
+
+/// Whether a constraint persists, opens, or is not in K.
+enum class ConstraintState { persists, opens, inactive };
+
+/// A solved scene, as its reports need it.
+struct SolvedScene {
+  const Scene& scene;
+  const mechanics::GaussSolution& solution;
+  std::vector<ConstraintState> states;  ///< one per constraint
+  convex::Vector second_rates;          ///< d²f_a/dt², one per constraint
+  double seconds = 0;
+
+  bool infeasible() const { return solution.primal.status == convex::Status::infeasible; }
+  bool has_answer() const {
+    return solution.multipliers.least_norm.size() == scene.problem.rows() && !infeasible();
+  }
+};
+
+SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
+
+const char* name(ConstraintState);
+const char* name(convex::Status);
+
+/// The JSON object of docs/problem-files.md, one line without its end.
+std::string solve_json(const SolvedScene&);
+
+/// The readable result.
+std::string solve_text(const SolvedScene&);
+
+}  // namespace cli

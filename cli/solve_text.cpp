@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/solve_report.hpp"
+#include "cli/text_table.hpp"
+#include "cli/verdict_text.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+
+/// Longer tables are cut on the screen; --json has everything.
+constexpr std::size_t most_rows = 40;
+
+std::string cut(std::size_t total, const char* what) {
+  return total > most_rows ? fmt::format("  … and {} more {}; --json gives all\n", total - most_rows, what)
+                           : "";
+}
+
+std::string constraint_table(const SolvedScene& solved) {
+  if (solved.states.empty()) return "";
+  const convex::Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
+  const bool is_system = solved.scene.rates.has_value();
+  TextTable table(is_system
+                      ? std::vector<std::string>{"constraint", "state", "f", "df/dt", "d²f/dt²", "lambda"}
+                      : std::vector<std::string>{"constraint", "state", "u·q''- s", "lambda"});
+  for (std::size_t a = 0; a < std::min(solved.states.size(), most_rows); ++a) {
+    const Index i = static_cast<Index>(a);
+    std::vector<std::string> row{solved.scene.constraints[a] + (solved.scene.two_sided[a] ? " (=)" : ""),
+                                 name(solved.states[a])};
+    if (is_system) {
+      row.push_back(number_text(solved.scene.rates->f[i]));
+      row.push_back(number_text(solved.scene.rates->df[i]));
+    }
+    row.push_back(number_text(solved.second_rates[i]));
+    row.push_back(number_text(lambda[i]));
+    table.add(std::move(row));
+  }
+  return table.text() + cut(solved.states.size(), "constraints") + "\n";
+}
+
+std::string coordinate_table(const SolvedScene& solved) {
+  TextTable table({"coordinate", "acceleration", "reaction"});
+  const std::size_t n = solved.scene.coordinates.size();
+  for (std::size_t i = 0; i < std::min(n, most_rows); ++i)
+    table.add({solved.scene.coordinates[i], number_text(solved.solution.primal.q[static_cast<Index>(i)]),
+               number_text(solved.solution.reaction[static_cast<Index>(i)])});
+  return table.text() + cut(n, "coordinates") + "\n";
+}
+
+std::string uniqueness_text(const SolvedScene& solved) {
+  const convex::Multipliers& multipliers = solved.solution.multipliers;
+  if (multipliers.unique) return "";
+  std::string text =
+      "The multipliers are not unique (the acceleration and the reaction are); shown are those of least "
+      "norm.\n";
+  if (!multipliers.ranges) return text;
+  std::vector<std::string> parts;
+  for (Index row : multipliers.tight) {
+    const convex::Interval range = (*multipliers.ranges)[static_cast<std::size_t>(row)];
+    parts.push_back(fmt::format("{} in [{}, {}]", solved.scene.contact_name(row), number_text(range.low),
+                                number_text(range.high)));
+  }
+  return text + "Each may be anywhere in its range: " + listed(parts) + ".\n";
+}
+
+std::string model_text(const SolvedScene& solved) {
+  std::vector<std::string> left_out;
+  for (std::size_t a = 0; a < solved.states.size(); ++a) {
+    if (solved.states[a] != ConstraintState::inactive) continue;
+    const double f = solved.scene.rates->f[static_cast<Index>(a)],
+                 df = solved.scene.rates->df[static_cast<Index>(a)];
+    const bool apart =
+        f > mechanics::default_contact_tolerance * solved.scene.rates->f_scale[static_cast<Index>(a)];
+    left_out.push_back(
+        apart ? fmt::format("{} (apart, f = {})", solved.scene.constraints[a], number_text(f))
+              : fmt::format("{} (separating, df/dt = {})", solved.scene.constraints[a], number_text(df)));
+  }
+  const std::size_t n = solved.scene.coordinates.size(), m = solved.scene.contacts.size();
+  std::string text =
+      fmt::format("Modelled: {} coordinate{}, {} contact{}.", n, n == 1 ? "" : "s", m, m == 1 ? "" : "s");
+  if (!left_out.empty()) text += " Left out: " + listed(left_out) + ".";
+  return text + "\n";
+}
+
+std::string accuracy_text(const SolvedScene& solved) {
+  const convex::Solution& primal = solved.solution.primal;
+  std::string text;
+  if (solved.solution.from_dual)
+    text += fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) agrees to {:.1e}.\n",
+                        solved.solution.from_dual->difference);
+  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
+  const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
+  text +=
+      fmt::format("{} by {}: relative error of the acceleration at most about {:.1e}.\n",
+                  primal.status == convex::Status::solved ? "Solved" : "NOT solved to the accuracy asked for",
+                  primal.method, relative);
+  return text;
+}
+
+std::string infeasible_text(const SolvedScene& solved) {
+  const convex::Vector& w = solved.solution.primal.farkas;
+  std::vector<std::string> parts;
+  double sum = 0;
+  for (Index row = 0; row < w.size(); ++row) {
+    if (w[row] == 0) continue;
+    parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
+    sum += w[row] * solved.scene.problem.s[row];
+  }
+  return fmt::format(
+      "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
+      "left reads 0 >= {} (Farkas).\n",
+      listed(parts), number_text(sum));
+}
+
+}  // namespace
+
+std::string solve_text(const SolvedScene& solved) {
+  std::string text = fmt::format("{}\n\n", solved.scene.title.empty()
+                                               ? solved.scene.file
+                                               : solved.scene.title + "  (" + solved.scene.file + ")");
+  if (solved.infeasible()) return text + infeasible_text(solved);
+  if (!solved.has_answer())
+    return text + fmt::format("The method {} gave up; try another one.\n", solved.solution.primal.method);
+  return text + constraint_table(solved) + coordinate_table(solved) + uniqueness_text(solved) +
+         hypothesis_text(solved) + model_text(solved) + accuracy_text(solved);
+}
+
+}  // namespace cli
