@@ -69,8 +69,8 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
     two_sided.push_back(constraint.two_sided);
   }
   try {
-    mechanics::GaussProblem gauss =
-        mechanics::gauss_problem(*system, state, contact_tolerances(settings, constraints));
+    Vector tolerance = contact_tolerances(settings, constraints);
+    mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
     return {"",
             "",
@@ -81,6 +81,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
             std::move(gauss.problem),
             std::move(gauss.contacts.present),
             std::move(gauss.contacts.rates),
+            std::move(tolerance),
             std::move(system),
             std::move(state),
             {}};
@@ -107,6 +108,7 @@ Scene projection_scene(ProjectionProblem numbers) {
           std::move(numbers.problem),
           std::move(contacts),
           std::nullopt,
+          Vector(),
           nullptr,
           {},
           {}};

@@ -23,6 +23,7 @@ struct Scene {
   convex::NearestPointProblem problem;   ///< its row k is constraint contacts[k]
   std::vector<convex::Index> contacts;   ///< K, indices of constraints
   std::optional<mechanics::ConstraintRates> rates;
+  convex::Vector contact_tolerance;  ///< one per constraint, of a system
   std::shared_ptr<const mechanics::System> system;
   mechanics::State state;
   mechanics::GaussOptions solve;

@@ -11,12 +11,13 @@
 namespace convex {
 namespace {
 
-/// Two entries that should be equal may differ by so many units in the last place of the larger one: the
-/// trace of a matrix computed in doubles. More is a wrong matrix.
-constexpr double symmetry_slack = 16 * unit_roundoff;
+/// Two entries a_ij and a_ji that should be equal may differ by so many roundings per coordinate, relative to
+/// sqrt(a_ii a_jj), which bounds both: the trace of a matrix computed in doubles. More is a wrong matrix.
+constexpr double symmetry_roundings = 16;
 
-bool differ(double a, double b) {
-  return std::abs(a - b) > symmetry_slack * std::max(std::abs(a), std::abs(b));
+bool differ(double a, double b, double diagonal_i, double diagonal_j, Index n) {
+  const double slack = symmetry_roundings * unit_roundoff * static_cast<double>(n);
+  return std::abs(a - b) > slack * std::sqrt(std::abs(diagonal_i)) * std::sqrt(std::abs(diagonal_j));
 }
 
 std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + std::to_string(j) + "]"; }
@@ -74,14 +75,17 @@ Metric Metric::dense(const Matrix& W) {
   const Index n = W.rows();
   data->kind = MetricKind::dense;
   data->W = W;
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i <= j; ++i) {
-      const double a = W(i, j), b = W(j, i);
-      require_finite(a, i, j);
-      require_finite(b, j, i);
-      if (differ(a, b)) refuse_asymmetry(i, j);
-      data->W(i, j) = data->W(j, i) = a + (b - a) / 2;
-    }
+  constexpr Index tile = 16;  // so that both triangles are read along their columns
+  for (Index first = 0; first < n; first += tile)
+    for (Index j = 0; j < n; ++j)
+      for (Index i = first; i < std::min(first + tile, j + 1); ++i) {
+        const double a = W(i, j), b = W(j, i);
+        if (a == b && std::isfinite(a)) continue;
+        require_finite(a, i, j);
+        require_finite(b, j, i);
+        if (differ(a, b, W(i, i), W(j, j), n)) refuse_asymmetry(i, j);
+        data->W(i, j) = data->W(j, i) = a + (b - a) / 2;
+      }
   data->diagonal = data->W.diagonal();
   data->L = data->W;
   Eigen::LLT<Eigen::Ref<Matrix>> factor(data->L);
@@ -106,6 +110,7 @@ Metric Metric::sparse(const SparseMatrix& W) {
   const Index n = W.rows();
   data->kind = MetricKind::sparse;
   const SparseMatrix transposed = W.transpose();
+  const Vector diagonal_of_W = W.diagonal();
   bool is_diagonal = true;
   for (Index j = 0; j < n; ++j) {
     SparseMatrix::InnerIterator a(W, j), b(transposed, j);
@@ -115,7 +120,8 @@ Metric Metric::sparse(const SparseMatrix& W) {
         refuse_asymmetry(i, j);
       }
       require_finite(a.value(), a.row(), j);
-      if (differ(a.value(), b.value())) refuse_asymmetry(a.row(), j);
+      if (differ(a.value(), b.value(), diagonal_of_W[a.row()], diagonal_of_W[j], n))
+        refuse_asymmetry(a.row(), j);
       is_diagonal = is_diagonal && a.row() == j;
     }
   }

@@ -15,7 +15,13 @@ using convex::Index;
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path), text_(read_file(path)) {}
+  explicit Reader(const std::string& path) : path_(path) {
+    try {
+      text_ = read_file(path);
+    } catch (const convex::InvalidInput& error) {
+      throw convex::InvalidInput(path + ": " + error.what());
+    }
+  }
 
   convex::SparseMatrix read() {
     std::istringstream header(next_line());

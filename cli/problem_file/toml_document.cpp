@@ -1,6 +1,5 @@
 #include "cli/problem_file/toml_document.hpp"
 
-#define TOML_HEADER_ONLY 0
 #include <toml++/toml.h>
 #include <algorithm>
 

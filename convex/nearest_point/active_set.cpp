@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "convex/nearest_point/block_guess.hpp"
 #include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/refinement.hpp"
@@ -23,9 +24,6 @@ constexpr double gap_roundings = 16;
 
 /// In the start by blocks a row this close to the span of the others is left to the careful steps.
 constexpr double block_dependence = 1e-7;
-
-/// The start by blocks ends after so many blocks that did not reduce the number of wrong rows.
-constexpr int patience = 3;
 
 /// Times that the working set is changed after a refinement before the method gives up.
 constexpr int most_rounds = 100;
@@ -77,42 +75,62 @@ class DualActiveSet {
     return std::sqrt(sum);
   }
 
-  /// What rounding may have done to w.
-  double noise() const {
-    double terms = set_.w_free().norm() + set_.w().norm();
-    for (Index k = 0; k < set_.size(); ++k) terms += std::abs(set_.lambda()[k]) * set_.factor().length(k);
-    return rounding_of_w * terms;
+  /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
+  /// condition of W amplifies.
+  void judge_noise() {
+    double terms = set_.w_free().norm() + set_.w().norm(), longest = 0;
+    for (Index k = 0; k < set_.size(); ++k) {
+      const double length = set_.factor().length(k);
+      terms += std::abs(set_.lambda()[k]) * length;
+      longest = std::max(longest, length);
+    }
+    inverse_norm_ = set_.factor().inverse_norm();
+    w_noise_ = rounding_of_w * terms * std::max(1.0, inverse_norm_ * longest);
+  }
+
+  /// What that does to lambda_k |v_k|.
+  double multiplier_noise(Index k) const {
+    return w_noise_ * std::max(1.0, inverse_norm_ * set_.factor().length(k));
   }
 
   /// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
   /// else 0.
   double contradiction(Index p, const Split& split) const {
     DoubleDouble gap{problem_.s[p], 0};
-    double magnitude = std::abs(problem_.s[p]);
+    double magnitude = std::abs(problem_.s[p]), silenced = 0;
     for (Index k = 0; k < set_.size(); ++k) {
-      const DoubleDouble term =
-          two_product(-split.coefficients[k], problem_.s[set_.rows()[static_cast<std::size_t>(k)]]);
+      const double s = problem_.s[set_.rows()[static_cast<std::size_t>(k)]];
+      const DoubleDouble term = two_product(-split.coefficients[k], s);
+      if (is_noise(k, split)) {
+        silenced += std::abs(term.hi);
+        continue;
+      }
       gap = add(gap, term);
       magnitude += std::abs(term.hi);
     }
     const double threshold =
-        gap_roundings * unit_roundoff * magnitude + 2 * split.direction.norm() * set_.scale();
+        gap_roundings * unit_roundoff * magnitude + silenced + 2 * split.direction.norm() * set_.scale();
     return std::abs(gap.value()) > threshold ? gap.value() : 0;
+  }
+
+  /// Whether r_k, measured by its part r_k v_k of v_p, is rounding about zero.
+  bool is_noise(Index k, const Split& split) const {
+    return std::abs(split.coefficients[k]) * set_.factor().length(k) <= coefficient_noise * split.magnitude;
   }
 
   void blame(Index p, const Split& split, double sign) {
     farkas_ = Vector::Zero(problem_.rows());
     farkas_[p] = sign;
     for (Index k = 0; k < set_.size(); ++k) {
-      const double r = split.coefficients[k];
-      if (std::abs(r) * set_.factor().length(k) > coefficient_noise * split.magnitude)
-        farkas_[set_.rows()[static_cast<std::size_t>(k)]] = -sign * r;
+      if (!is_noise(k, split))
+        farkas_[set_.rows()[static_cast<std::size_t>(k)]] = -sign * split.coefficients[k];
     }
   }
 
   /// False when the two-sided rows contradict each other.
   bool hold_two_sided() {
-    set_.append_block(problem_.two_sided, block_dependence);
+    Matrix whitened = whitened_rows(problem_, problem_.two_sided);
+    set_.append_block(problem_.two_sided, whitened, block_dependence);
     for (Index p : problem_.two_sided) {
       if (set_.holds(p)) continue;
       set_.split(p, split_);
@@ -125,6 +143,7 @@ class DualActiveSet {
     }
     set_.fix();
     set_.solve();
+    judge_noise();
     return true;
   }
 
@@ -133,11 +152,12 @@ class DualActiveSet {
   void drop_until_dual_feasible() {
     while (true) {
       set_.solve();
+      judge_noise();
       Index worst = -1;
-      double lowest = -noise();
+      double lowest = 0;
       for (Index k = 0; k < set_.size(); ++k) {
         const double push = set_.lambda()[k] * set_.factor().length(k);
-        if (set_.one_sided(k) && push < lowest) {
+        if (set_.one_sided(k) && push < lowest && push < -multiplier_noise(k)) {
           lowest = push;
           worst = k;
         }
@@ -154,12 +174,11 @@ class DualActiveSet {
   std::vector<Index> violated_rows() {
     const Vector q = set_.point();
     slack_ = problem_.U.times(q) - problem_.s;
-    const double w_noise = noise();
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a)
       if (!set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
           !passed_[static_cast<std::size_t>(a)] &&
-          slack_[a] < -(row_scale_[a] * w_noise + rounding_of_w * std::abs(problem_.s[a])))
+          slack_[a] < -(row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a])))
         rows.push_back(a);
     return rows;
   }
@@ -171,43 +190,12 @@ class DualActiveSet {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
   }
 
-  /// Takes in all violated rows and drops all rows with negative multipliers at once, as long as that reduces
-  /// their number (Kunisch and Rendl 2003; Júdice and Pires 1994).
-  void start_by_blocks(std::vector<Index> block) {
-    int impatience = 0;
-    std::size_t fewest = static_cast<std::size_t>(problem_.rows()) + 1;
-    bool guessed = !block.empty();
-    if (!guessed) {
-      block = violated_rows();
-      if (block.size() <= 1) return;
-    }
-    while (true) {
-      const std::size_t room = static_cast<std::size_t>(set_.factor().capacity() - set_.size());
-      if (!guessed && block.size() > room) {
-        sort_by_violation(block);
-        block.resize(room);
-      }
-      std::erase_if(block, [&](Index a) { return set_.holds(a) || two_sided_[static_cast<std::size_t>(a)]; });
-      set_.append_block(block, block_dependence);
-      steps_ += static_cast<Index>(block.size());
-      set_.solve();
-      guessed = false;
-      const double threshold = -noise();
-      std::vector<Index> negative;
-      for (Index k = set_.size() - 1; k >= 0 && set_.one_sided(k); --k)
-        if (set_.lambda()[k] * set_.factor().length(k) < threshold) negative.push_back(k);
-      block = violated_rows();
-      const std::size_t wrong = negative.size() + block.size();
-      if (wrong == 0) return;
-      if (wrong < fewest) {
-        fewest = wrong;
-        impatience = 0;
-      } else if (++impatience >= patience) {
-        break;
-      }
-      for (Index k : negative) set_.remove(k);
-      if (block.empty()) set_.solve();
-    }
+  /// Takes in the rows of a guess by blocks, as far as they are independent with multipliers >= 0.
+  void start_by_blocks(const std::vector<Index>& guess) {
+    if (guess.empty() && violated_rows().size() <= 1) return;
+    GuessedRows found = guess_by_blocks(problem_, set_.w_free(), row_scale_, guess);
+    set_.append_block(found.rows, found.whitened, block_dependence);
+    steps_ += static_cast<Index>(found.rows.size());
     drop_until_dual_feasible();
   }
 
@@ -221,8 +209,8 @@ class DualActiveSet {
       bool moved = false;
       for (Index p : rows) {
         set_.split(p, split_);
-        if (-slack_[p] <= noise() * split_.length) continue;
-        const Outcome outcome = admit(p, -slack_[p], noise());
+        if (-slack_[p] <= w_noise_ * split_.length) continue;
+        const Outcome outcome = admit(p, -slack_[p], w_noise_);
         if (outcome == Outcome::infeasible) return false;
         if (outcome == Outcome::changed) {
           moved = true;
@@ -253,8 +241,7 @@ class DualActiveSet {
       Index blocking = -1;
       for (Index k = 0; k < set_.size(); ++k) {
         const double r = split_.coefficients[k];
-        if (!set_.one_sided(k) || r * set_.factor().length(k) <= coefficient_noise * split_.magnitude)
-          continue;
+        if (!set_.one_sided(k) || r <= 0 || is_noise(k, split_)) continue;
         const double ratio = std::max(0.0, set_.lambda()[k]) / r;
         if (ratio < partial) {
           partial = ratio;
@@ -351,7 +338,10 @@ class DualActiveSet {
     Solution solution;
     solution.method = "active-set";
     solution.steps = steps_;
-    const double reach = 10 * set_.scale();
+    // A combination that is not exactly 0 excludes motions up to some size only: up to this many times the
+    // free one.
+    constexpr double farthest = 1e3;
+    const double reach = farthest * set_.scale();
     solution.status = proves_infeasibility(problem_, farkas_, reach) ? Status::infeasible : Status::gave_up;
     solution.farkas = farkas_ / (farkas_.array() != 0).select(farkas_.cwiseAbs(), infinity).minCoeff();
     return solution;
@@ -401,6 +391,7 @@ class DualActiveSet {
   Vector slack_, farkas_;
   Split split_;
   Index steps_ = 0;
+  double w_noise_ = 0, inverse_norm_ = 0;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr double right_angle = 64 * unit_roundoff;
 
 /// A generator this close to the span of those in use adds nothing.
-constexpr double dependence = 1e-12;
+constexpr double dependence = 1e-14;
 
 class PassiveSet {
  public:
@@ -84,7 +84,9 @@ ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vect
       }
     }
     if (entering < 0) {
-      found.finished = true;
+      // A generator too close to the span of the others to take in, but not at right angles to what is left,
+      // is one that this factor cannot tell from them: then the answer is not known.
+      found.finished = std::find(barred.begin(), barred.end(), true) == barred.end();
       break;
     }
     if (!passive.add(entering)) {

@@ -27,7 +27,8 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
                       const std::vector<Index>& tight) {
   using Set = WorkingSet<Eigen::Dynamic>;
   Set set(problem);
-  set.append_block(basis, 0);
+  Matrix whitened = whitened_rows(problem, basis);
+  set.append_block(basis, whitened, 0);
   Dependence found;
   Set::Split split;
   for (Index a : tight) {

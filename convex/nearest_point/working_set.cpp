@@ -12,6 +12,13 @@ constexpr double dependence_roundings = 8;
 
 }  // namespace
 
+Matrix whitened_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  Matrix block(problem.dimension(), static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) problem.U.copy_row(rows[k], block.col(static_cast<Index>(k)));
+  problem.A.whiten_in_place(block);
+  return block;
+}
+
 template <int MaxSize>
 WorkingSet<MaxSize>::WorkingSet(const NearestPointProblem& problem)
     : problem_(problem),
@@ -88,18 +95,9 @@ void WorkingSet<MaxSize>::remove(Index k) {
 }
 
 template <int MaxSize>
-void WorkingSet<MaxSize>::append_block(const std::vector<Index>& rows, double threshold) {
-  if (rows.empty()) return;
-  Matrix block(problem_.dimension(), static_cast<Index>(rows.size()));
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    problem_.U.copy_row(rows[k], block.col(static_cast<Index>(k)));
-  problem_.A.whiten_in_place(block);
-  factor_.append_block(block, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
-}
-
-template <int MaxSize>
-void WorkingSet<MaxSize>::clear_one_sided() {
-  while (size() > fixed_) remove(size() - 1);
+void WorkingSet<MaxSize>::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened,
+                                       double threshold) {
+  factor_.append_block(whitened, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
 }
 
 template <int MaxSize>

@@ -8,6 +8,9 @@
 
 namespace convex {
 
+/// F⁻¹u_a of the rows given, as columns.
+Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows);
+
 /// The rows held with equality, W, and the point that they define, in whitened terms: v_a = F⁻¹u_a, w = Fᵀq,
 /// w_free = F⁻¹z; w = w_free + Σ_W lambda_a v_a with v_a·w = s_a on W. Two-sided rows stand first and stay.
 template <int MaxSize>
@@ -50,10 +53,9 @@ class WorkingSet {
 
   void append(Index p, const Split&, double multiplier);
   void remove(Index k);
-  /// Takes in those of the rows that are independent of the others to the relative threshold, multipliers
-  /// unknown.
-  void append_block(const std::vector<Index>& rows, double threshold);
-  void clear_one_sided();
+  /// Takes in those of the rows, given with their F⁻¹u_a as columns (overwritten), that are independent of
+  /// the others to the relative threshold; w and the multipliers are not touched.
+  void append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold);
   /// Sets w and lambda to the point where every row of W holds with equality.
   void solve();
   /// Solves A dq - U_Wᵀ dlambda = r1, U_W dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.

@@ -1,0 +1,65 @@
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "cli/problem_file/problem.hpp"
+#include "mechanics/contacts.hpp"
+#include "mechanics/gauss_problem.hpp"
+#include "mechanics/gauss_solution.hpp"
+#include "mechanics/lagrangian_system.hpp"
+
+// The claim: whatever the bytes of a problem file, reading and solving it ends in an answer or in
+// InvalidInput.
+namespace {
+
+/// Larger problems are right to be slow; they only cost the fuzzer its speed.
+constexpr convex::Index most_coordinates = 60, most_contacts = 60;
+constexpr std::size_t most_digits_of_a_bound = 3;
+
+/// A family, or a sum, of a thousand members or more.
+bool is_large(const std::string& text) {
+  if (text.find("..") == std::string::npos) return false;
+  std::size_t digits = 0;
+  for (const char c : text) {
+    digits = c >= '0' && c <= '9' ? digits + 1 : 0;
+    if (digits > most_digits_of_a_bound) return true;
+  }
+  return false;
+}
+
+/// Devices have no end.
+bool reads_a_device(const std::string& text) {
+  return text.find("matrix_market") != std::string::npos && text.find("/dev") != std::string::npos;
+}
+
+void solve(const convex::NearestPointProblem& problem) {
+  if (problem.dimension() <= most_coordinates && problem.rows() <= most_contacts)
+    mechanics::solve(problem, mechanics::GaussOptions());
+}
+
+void solve(const cli::SystemProblem& text) {
+  const auto system = mechanics::lagrangian_system(text.system);
+  const mechanics::State state = system->state(text.state);
+  const auto constraints = static_cast<convex::Index>(system->constraints().size());
+  const mechanics::GaussProblem gauss = mechanics::gauss_problem(
+      *system, state, convex::Vector::Constant(constraints, mechanics::default_contact_tolerance));
+  solve(gauss.problem);
+}
+
+void run(const std::string& text) {
+  const cli::Problem problem = cli::read_problem(text, "/nowhere");
+  if (const auto* system = std::get_if<cli::SystemProblem>(&problem.content)) solve(*system);
+  if (const auto* numbers = std::get_if<cli::ProjectionProblem>(&problem.content)) solve(numbers->problem);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  if (is_large(text) || reads_a_device(text)) return 0;
+  try {
+    run(text);
+  } catch (const convex::InvalidInput&) {  // nothing else may be thrown
+  }
+  return 0;
+}
