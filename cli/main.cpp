@@ -1,12 +1,15 @@
 #include <CLI/CLI.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <string>
 
 #include "cli/commands.hpp"
+#include "mechanics/expression/nearest_name.hpp"
 
 namespace {
 
@@ -29,15 +32,25 @@ void add_common(CLI::App& command, Options& options) {
   command.add_flag("--quiet", options.quiet, "no text; the exit code tells");
 }
 
+std::string positive_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0) return "";
+  return text + " is not a positive number; give one, such as 1e-9";
+}
+
 void add_files(CLI::App& command, Options& options) {
   command.add_option("FILE", options.files, "problem files; - is standard input")->required();
+}
+
+void add_accuracy(CLI::App& command, Options& options) {
   command.add_option("--method", options.method, "method of solution (see `moreau methods`)")
       ->type_name("NAME");
   command
       .add_option("--tolerance", options.tolerance,
                   "accept an error bound of X * max(1, ||q''||_A); default 1e-9")
       ->type_name("X")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number);
   command.add_flag_callback(
       "--certify",
       [] {
@@ -45,6 +58,19 @@ void add_files(CLI::App& command, Options& options) {
             "--certify is not available yet; leave it out for an estimated error bound");
       },
       "a proved error bound (not available yet)");
+}
+
+/// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
+/// option.
+std::string unknown_command(const CLI::App& app, const std::string& first) {
+  if (first.rfind('-', 0) == 0) return "";
+  std::vector<std::string> known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == first) return "";
+    if (!command->get_group().empty()) known.push_back(command->get_name());
+  }
+  return "unknown command \"" + first + "\"; did you mean \"" +
+         mechanics::expression::nearest_name(first, known) + "\"?";
 }
 
 }  // namespace
@@ -60,6 +86,7 @@ int main(int argc, char** argv) {
   CLI::App* solve =
       app.add_subcommand("solve", "which contacts persist, with which acceleration and reactions");
   add_files(*solve, options);
+  add_accuracy(*solve, options);
   add_common(*solve, options);
   solve->add_flag("--ranges", options.ranges,
                   "ranges of multipliers that are not unique, also beyond 1000 contacts");
@@ -82,6 +109,8 @@ int main(int argc, char** argv) {
     });
   }
 
+  if (argc > 1)
+    if (const std::string unknown = unknown_command(app, argv[1]); !unknown.empty()) return wrong(unknown);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -92,7 +121,7 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     if (argc < 2) std::fputs(app.help().c_str(), stderr);
-    return wrong(std::string(error.what()) + (argc < 2 ? "; name a command" : ""));
+    return wrong(std::string(error.what()) + "; see `moreau --help`");
   }
   try {
     return static_cast<int>(chosen(options));

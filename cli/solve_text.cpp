@@ -72,8 +72,8 @@ std::string model_text(const SolvedScene& solved) {
     if (solved.states[a] != ConstraintState::inactive) continue;
     const double f = solved.scene.rates->f[static_cast<Index>(a)],
                  df = solved.scene.rates->df[static_cast<Index>(a)];
-    const bool apart =
-        f > mechanics::default_contact_tolerance * solved.scene.rates->f_scale[static_cast<Index>(a)];
+    const bool apart = f > solved.scene.contact_tolerance[static_cast<Index>(a)] *
+                               solved.scene.rates->f_scale[static_cast<Index>(a)];
     left_out.push_back(
         apart ? fmt::format("{} (apart, f = {})", solved.scene.constraints[a], number_text(f))
               : fmt::format("{} (separating, df/dt = {})", solved.scene.constraints[a], number_text(df)));
@@ -88,15 +88,21 @@ std::string model_text(const SolvedScene& solved) {
 std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
   std::string text;
-  if (solved.solution.from_dual)
-    text += fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) agrees to {:.1e}.\n",
-                        solved.solution.from_dual->difference);
+  constexpr double agreement = 1e-9;
+  if (solved.solution.from_dual) {
+    const double difference = solved.solution.from_dual->difference;
+    text += fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) {} {:.1e}{}.\n",
+                        difference <= agreement ? "agrees to" : "DIFFERS by", difference,
+                        difference <= agreement ? "" : ": one of the two routes is inaccurate here");
+  }
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
-  text +=
-      fmt::format("{} by {}: relative error of the acceleration at most about {:.1e}.\n",
-                  primal.status == convex::Status::solved ? "Solved" : "NOT solved to the accuracy asked for",
-                  primal.method, relative);
+  const std::string accuracy =
+      fmt::format("relative error of the acceleration at most about {:.1e}", relative);
+  text += primal.status == convex::Status::solved
+              ? fmt::format("Solved by {}: {}.\n", primal.method, accuracy)
+              : fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
+                            accuracy);
   return text;
 }
 
@@ -123,7 +129,8 @@ std::string solve_text(const SolvedScene& solved) {
                                                : solved.scene.title + "  (" + solved.scene.file + ")");
   if (solved.infeasible()) return text + infeasible_text(solved);
   if (!solved.has_answer())
-    return text + fmt::format("The method {} gave up; try another one.\n", solved.solution.primal.method);
+    return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",
+                              solved.solution.primal.method);
   return text + constraint_table(solved) + coordinate_table(solved) + uniqueness_text(solved) +
          hypothesis_text(solved) + model_text(solved) + accuracy_text(solved);
 }
