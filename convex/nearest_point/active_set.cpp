@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "convex/nearest_point/active_set_answer.hpp"
 #include "convex/nearest_point/block_guess.hpp"
-#include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/dependent_row.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/refinement.hpp"
-#include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -18,9 +18,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// In doubles, w carries so many roundings of the terms that it is the sum of; a violation below that is left
 /// to the check in twice the precision.
 constexpr double rounding_of_w = 8 * unit_roundoff;
-
-/// A gap of a dependent row of so many roundings of the s it is made of is a rounded s, not a contradiction.
-constexpr double gap_roundings = 16;
 
 /// In the start by blocks a row this close to the span of the others is left to the careful steps.
 constexpr double block_dependence = 1e-7;
@@ -52,7 +49,7 @@ class DualActiveSet {
     for (int round = 0; round < most_rounds; ++round) {
       if (!descend(limit)) return infeasible();
       refined = refine(set_);
-      if (!(refined.contraction < 1)) return answer(refined, true);
+      if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
       if (outcome == Outcome::infeasible) return infeasible();
@@ -93,40 +90,6 @@ class DualActiveSet {
     return w_noise_ * std::max(1.0, inverse_norm_ * set_.factor().length(k));
   }
 
-  /// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
-  /// else 0.
-  double contradiction(Index p, const Split& split) const {
-    DoubleDouble gap{problem_.s[p], 0};
-    double magnitude = std::abs(problem_.s[p]), silenced = 0;
-    for (Index k = 0; k < set_.size(); ++k) {
-      const double s = problem_.s[set_.rows()[static_cast<std::size_t>(k)]];
-      const DoubleDouble term = two_product(-split.coefficients[k], s);
-      if (is_noise(k, split)) {
-        silenced += std::abs(term.hi);
-        continue;
-      }
-      gap = add(gap, term);
-      magnitude += std::abs(term.hi);
-    }
-    const double threshold =
-        gap_roundings * unit_roundoff * magnitude + silenced + 2 * split.direction.norm() * set_.scale();
-    return std::abs(gap.value()) > threshold ? gap.value() : 0;
-  }
-
-  /// Whether r_k, measured by its part r_k v_k of v_p, is rounding about zero.
-  bool is_noise(Index k, const Split& split) const {
-    return std::abs(split.coefficients[k]) * set_.factor().length(k) <= coefficient_noise * split.magnitude;
-  }
-
-  void blame(Index p, const Split& split, double sign) {
-    farkas_ = Vector::Zero(problem_.rows());
-    farkas_[p] = sign;
-    for (Index k = 0; k < set_.size(); ++k) {
-      if (!is_noise(k, split))
-        farkas_[set_.rows()[static_cast<std::size_t>(k)]] = -sign * split.coefficients[k];
-    }
-  }
-
   /// False when the two-sided rows contradict each other.
   bool hold_two_sided() {
     Matrix whitened = whitened_rows(problem_, problem_.two_sided);
@@ -136,8 +99,8 @@ class DualActiveSet {
       set_.split(p, split_);
       if (split_.rho > 0) {
         set_.append(p, split_, 0);
-      } else if (const double gap = contradiction(p, split_); std::abs(gap) > 0) {
-        blame(p, split_, gap > 0 ? 1 : -1);
+      } else if (const double gap = contradiction(set_, p, split_); std::abs(gap) > 0) {
+        farkas_ = contradiction_weights(set_, p, split_, gap > 0 ? 1 : -1);
         return false;
       }
     }
@@ -229,7 +192,7 @@ class DualActiveSet {
     while (true) {
       const bool dependent = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
       if (dependent) {
-        violation = contradiction(p, split_);
+        violation = contradiction(set_, p, split_);
         if (!(violation > 0)) {
           // Consistent with W to rounding: it holds as well as W does, and cannot be told from it.
           passed_[static_cast<std::size_t>(p)] = true;
@@ -241,7 +204,7 @@ class DualActiveSet {
       Index blocking = -1;
       for (Index k = 0; k < set_.size(); ++k) {
         const double r = split_.coefficients[k];
-        if (!set_.one_sided(k) || r <= 0 || is_noise(k, split_)) continue;
+        if (!set_.one_sided(k) || r <= 0 || is_noise(set_, k, split_)) continue;
         const double ratio = std::max(0.0, set_.lambda()[k]) / r;
         if (ratio < partial) {
           partial = ratio;
@@ -249,7 +212,7 @@ class DualActiveSet {
         }
       }
       if (full == infinity && partial == infinity) {
-        blame(p, split_, 1);
+        farkas_ = contradiction_weights(set_, p, split_, 1);
         return Outcome::infeasible;
       }
       const double step = std::min(full, partial);
@@ -334,54 +297,12 @@ class DualActiveSet {
     return Outcome::unchanged;
   }
 
-  Solution infeasible() const {
-    Solution solution;
-    solution.method = "active-set";
-    solution.steps = steps_;
-    // A combination that is not exactly 0 excludes motions up to some size only: up to this many times the
-    // free one.
-    constexpr double farthest = 1e3;
-    const double reach = farthest * set_.scale();
-    solution.status = proves_infeasibility(problem_, farkas_, reach) ? Status::infeasible : Status::gave_up;
-    solution.farkas = farkas_ / (farkas_.array() != 0).select(farkas_.cwiseAbs(), infinity).minCoeff();
-    return solution;
-  }
+  Solution infeasible() const { return infeasible_answer(set_, farkas_, steps_); }
 
   Solution answer(const RefinedPoint& refined, bool finished) {
-    Solution solution;
-    solution.method = "active-set";
-    solution.steps = steps_;
-    solution.q = refined.q.hi;
-    solution.lambda = Vector::Zero(problem_.rows());
-    Vector length = Vector::Zero(problem_.rows());
-    for (Index k = 0; k < set_.size(); ++k) {
-      const Index a = set_.rows()[static_cast<std::size_t>(k)];
-      solution.lambda[a] = set_.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
-      length[a] = set_.factor().length(k);
-    }
-    solution.basis = set_.rows();
-    solution.slack =
-        slack_.size() == problem_.rows() ? slack_ : Vector(problem_.U.times(solution.q) - problem_.s);
-    solution.residuals = residuals(problem_, solution.q, solution.lambda, length);
-    solution.acceleration_norm = problem_.A.norm(solution.q);
-    solution.force_norm = set_.w_free().norm();
-    // Rounding q to doubles: ||lo||_A² <= n Σ a_ii lo_i².
-    const double rounding = std::sqrt(static_cast<double>(problem_.dimension()) *
-                                      problem_.A.diagonal().dot(refined.q.lo.cwiseAbs2()));
-    double worst = 0;  // what rows that contradict W by rounding leave undecided
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (!set_.holds(a))
-        worst = std::max(worst, two_sided_[static_cast<std::size_t>(a)] ? std::abs(solution.slack[a])
-                                                                        : -solution.slack[a]);
-    solution.error_bound = 2 * refined.remaining() + rounding + worst * set_.factor().inverse_norm();
-    const bool close =
-        solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
-    solution.status = !finished ? Status::gave_up : close ? Status::solved : Status::inaccurate;
-    return solution;
+    if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+    return judged_answer(set_, refined, slack_, finished, accuracy_, steps_);
   }
-
-  /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
-  static constexpr double coefficient_noise = 64 * unit_roundoff;
 
   const NearestPointProblem& problem_;
   const Accuracy& accuracy_;

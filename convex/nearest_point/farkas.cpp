@@ -6,8 +6,9 @@
 namespace convex {
 namespace {
 
-/// What the contract allows w·U to be off, relative to its largest term.
-constexpr double combination_slack = 1e-12;
+/// wᵀU may be off by so many roundings of its terms: w itself is rounded, and rows that depend on each other
+/// may be rounded too.
+constexpr double combination_roundings = 16;
 
 /// A gap of so many roundings of the s it is made of is a rounded s, not a contradiction.
 constexpr double gap_roundings = 16;
@@ -19,17 +20,18 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   DoubleDoubleVector combination(problem.dimension());
   DoubleDouble gap;
-  double largest = 0, magnitude = 0;
+  double terms = 0, magnitude = 0;
   for (Index a = 0; a < problem.rows(); ++a) {
     if (w[a] == 0) continue;
     if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
     problem.U.add_multiple(a, {w[a], 0}, combination);
     gap = add(gap, two_product(w[a], problem.s[a]));
-    largest = std::max(largest, std::abs(w[a]) * problem.U.row(a).cwiseAbs().maxCoeff());
+    terms += std::abs(w[a]) * problem.U.row(a).cwiseAbs().maxCoeff();
     magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
   }
   const Vector rest = combination.value();
-  const bool combines = rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_slack * largest;
+  const bool combines =
+      rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_roundings * unit_roundoff * terms;
   return combines &&
          gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach;
 }

@@ -1,0 +1,79 @@
+#include "convex/nearest_point/active_set_answer.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/residuals.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::string_view method = "active-set";
+
+/// A combination of rows that is not exactly 0 excludes motions up to some size only: up to this many times
+/// the free one.
+constexpr double farthest = 1e3;
+
+/// Rounding q to doubles leaves `lo` behind: ||lo||_A² <= n Σ a_ii lo_i².
+double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
+  return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
+}
+
+}  // namespace
+
+template <int MaxSize>
+Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
+                       bool finished, const Accuracy& accuracy, Index steps) {
+  const NearestPointProblem& problem = set.problem();
+  Solution solution;
+  solution.method = method;
+  solution.steps = steps;
+  solution.q = refined.q.hi;
+  solution.lambda = Vector::Zero(problem.rows());
+  Vector length = Vector::Zero(problem.rows());
+  for (Index k = 0; k < set.size(); ++k) {
+    const Index a = set.rows()[static_cast<std::size_t>(k)];
+    solution.lambda[a] = set.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
+    length[a] = set.factor().length(k);
+  }
+  solution.basis = set.rows();
+  solution.slack = slack;
+  solution.residuals = residuals(problem, solution.q, solution.lambda, length);
+  solution.acceleration_norm = problem.A.norm(solution.q);
+  solution.force_norm = set.w_free().norm();
+
+  double worst = 0;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!set.holds(a)) worst = std::max(worst, -slack[a]);
+  for (Index a : problem.two_sided)
+    if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
+  solution.error_bound = finished ? 2 * refined.remaining() + rounding_norm(problem, refined.q.lo) +
+                                        worst * set.factor().inverse_norm()
+                                  : infinity;
+  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
+  solution.status = close ? Status::solved : Status::inaccurate;
+  return solution;
+}
+
+template <int MaxSize>
+Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights, Index steps) {
+  Solution solution;
+  solution.method = method;
+  solution.steps = steps;
+  const bool proved = proves_infeasibility(set.problem(), weights, farthest * set.scale());
+  solution.status = proved ? Status::infeasible : Status::gave_up;
+  // The smallest weight is 1: combinations of whole contacts read as whole numbers.
+  solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
+  return solution;
+}
+
+template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&, bool,
+                                const Accuracy&, Index);
+template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, bool,
+                                const Accuracy&, Index);
+template Solution infeasible_answer(const WorkingSet<Eigen::Dynamic>&, const Vector&, Index);
+template Solution infeasible_answer(const WorkingSet<8>&, const Vector&, Index);
+
+}  // namespace convex

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/solution.hpp"
+
+namespace convex {
+
+/// The answer of the active-set method from its refined point, with residuals, status and an error bound:
+/// what refinement left, the rounding of q to doubles, and what rows that contradict W by rounding leave
+/// undecided. slack: Uq - s over all rows; finished: whether the method ended by its own test.
+template <int MaxSize>
+Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
+                       bool finished, const Accuracy& accuracy, Index steps);
+
+/// The answer when rows contradict each other; `infeasible` only if the weights prove it.
+template <int MaxSize>
+Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights, Index steps);
+
+}  // namespace convex

@@ -1,0 +1,60 @@
+#include "convex/nearest_point/dependent_row.hpp"
+
+#include <cmath>
+
+namespace convex {
+namespace {
+
+/// A gap of a dependent row of so many roundings of the s it is made of is a rounded s, not a contradiction.
+constexpr double gap_roundings = 16;
+
+/// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
+constexpr double coefficient_noise = 64 * unit_roundoff;
+
+}  // namespace
+
+template <int MaxSize>
+bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet<MaxSize>::Split& split) {
+  return std::abs(split.coefficients[k]) * set.factor().length(k) <= coefficient_noise * split.magnitude;
+}
+
+template <int MaxSize>
+double contradiction(const WorkingSet<MaxSize>& set, Index p,
+                     const typename WorkingSet<MaxSize>::Split& split) {
+  const Vector& s = set.problem().s;
+  DoubleDouble gap{s[p], 0};
+  double magnitude = std::abs(s[p]), silenced = 0;
+  for (Index k = 0; k < set.size(); ++k) {
+    const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[static_cast<std::size_t>(k)]]);
+    if (is_noise(set, k, split)) {
+      silenced += std::abs(term.hi);
+      continue;
+    }
+    gap = add(gap, term);
+    magnitude += std::abs(term.hi);
+  }
+  const double threshold =
+      gap_roundings * unit_roundoff * magnitude + silenced + 2 * split.direction.norm() * set.scale();
+  return std::abs(gap.value()) > threshold ? gap.value() : 0;
+}
+
+template <int MaxSize>
+Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
+                             const typename WorkingSet<MaxSize>::Split& split, double sign) {
+  Vector weights = Vector::Zero(set.problem().rows());
+  weights[p] = sign;
+  for (Index k = 0; k < set.size(); ++k)
+    if (!is_noise(set, k, split))
+      weights[set.rows()[static_cast<std::size_t>(k)]] = -sign * split.coefficients[k];
+  return weights;
+}
+
+#define MOREAU_DEPENDENT_ROW(size)                                                                      \
+  template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
+  template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
+  template Vector contradiction_weights(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&, \
+                                        double);
+MOREAU_DEPENDENT_ROW(Eigen::Dynamic)
+MOREAU_DEPENDENT_ROW(8)
+
+}  // namespace convex

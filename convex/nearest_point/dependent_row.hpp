@@ -1,0 +1,22 @@
+#pragma once
+
+#include "convex/nearest_point/working_set.hpp"
+
+namespace convex {
+
+/// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
+template <int MaxSize>
+bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet<MaxSize>::Split& split);
+
+/// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
+/// else 0.
+template <int MaxSize>
+double contradiction(const WorkingSet<MaxSize>& set, Index p,
+                     const typename WorkingSet<MaxSize>::Split& split);
+
+/// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
+template <int MaxSize>
+Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
+                             const typename WorkingSet<MaxSize>::Split& split, double sign);
+
+}  // namespace convex

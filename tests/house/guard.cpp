@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = MOREAU_SOURCE;
+
+struct SourceFile {
+  std::string path;  // from the root
+  std::string room;
+  std::vector<std::string> lines;
+  bool is_header() const { return path.ends_with(".hpp"); }
+};
+
+std::vector<SourceFile> sources() {
+  std::vector<SourceFile> found;
+  for (const char* room : {"convex", "mechanics", "cli", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      SourceFile file{fs::relative(entry.path(), root).string(), room, {}};
+      std::ifstream stream(entry.path());
+      for (std::string line; std::getline(stream, line);) file.lines.push_back(line);
+      found.push_back(std::move(file));
+    }
+  return found;
+}
+
+/// What a line includes, without brackets or quotes; "" when it includes nothing.
+std::string included(const std::string& line) {
+  static const std::regex pattern("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  std::smatch match;
+  return std::regex_search(line, match, pattern) ? match[1].str() : "";
+}
+
+bool begins_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+  for (const std::string& prefix : prefixes)
+    if (text.rfind(prefix, 0) == 0) return true;
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("data flow from cli to mechanics to convex and never back") {
+  for (const SourceFile& file : sources()) {
+    std::vector<std::string> forbidden;
+    if (file.room == "convex") forbidden = {"mechanics/", "cli/", "tests/"};
+    if (file.room == "mechanics") forbidden = {"cli/", "tests/"};
+    if (file.room == "cli") forbidden = {"tests/"};
+    for (const std::string& line : file.lines) {
+      CAPTURE(file.path);
+      CAPTURE(line);
+      CHECK_FALSE(begins_with_any(included(line), forbidden));
+    }
+  }
+}
+
+TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but the one for ceres::Jet") {
+  const std::vector<std::string> heavy{"CGAL/",   "ceres/", "gmp",       "flint",     "arb",
+                                       "toml++/", "CLI/",   "nlohmann/", "fmt/format"};
+  for (const SourceFile& file : sources()) {
+    if (file.room == "tests" || !file.is_header() || file.path == "mechanics/jet_system.hpp") continue;
+    for (const std::string& line : file.lines) {
+      CAPTURE(file.path);
+      CAPTURE(line);
+      CHECK_FALSE(begins_with_any(included(line), heavy));
+    }
+  }
+}
+
+TEST_CASE("nothing but tests includes the header for ceres::Jet") {
+  for (const SourceFile& file : sources())
+    for (const std::string& line : file.lines)
+      if (file.room != "tests") CHECK(included(line) != "mechanics/jet_system.hpp");
+}
+
+TEST_CASE("no file is longer than 350 lines, and none has a name that says nothing") {
+  const std::regex empty_name("(utils?|helpers?|manager|common|base|misc)\\.");
+  for (const SourceFile& file : sources()) {
+    CAPTURE(file.path);
+    CHECK(file.lines.size() <= 350);
+    CHECK_FALSE(std::regex_search(file.path, empty_name));
+  }
+}
+
+TEST_CASE("the top level holds the rooms and nothing else") {
+  const std::set<std::string> allowed{"CMakeLists.txt", "convex", "mechanics", "cli",
+                                      "tests",          "docs",   "README.md", "LICENSE"};
+  for (const auto& entry : fs::directory_iterator(root)) {
+    const std::string name = entry.path().filename().string();
+    if (name[0] == '.' || name.rfind("build", 0) == 0) continue;
+    CAPTURE(name);
+    CHECK(allowed.count(name) == 1);
+  }
+}
+
+TEST_CASE("every header of the library compiles alone") {
+  for (const SourceFile& file : sources()) {
+    if (!file.is_header() || file.room == "tests" || file.path == "mechanics/jet_system.hpp") continue;
+    CAPTURE(file.path);
+    const std::string command = "echo '#include \"" + file.path + "\"' | " + MOREAU_COMPILER +
+                                " -std=c++20 -fsyntax-only -x c++ -I" + root.string() + " -isystem " +
+                                MOREAU_EIGEN + " -";
+    CHECK(std::system(command.c_str()) == 0);
+  }
+}

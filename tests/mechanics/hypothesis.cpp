@@ -1,0 +1,111 @@
+#include "mechanics/hypothesis.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <random>
+
+#include "convex/nearest_point/active_set.hpp"
+#include "mechanics/gauss_solution.hpp"
+
+using convex::Index;
+using convex::Matrix;
+using convex::NearestPointProblem;
+using convex::RowMatrix;
+using convex::Vector;
+
+namespace {
+
+/// A problem whose contacts have U A⁻¹ Uᵀ = M and free accelerations w: A = M⁻¹, U = I, z = A w.
+NearestPointProblem with_delassus_matrix(const Matrix& M, const Vector& w) {
+  Matrix A = M.inverse();
+  A = (0.5 * (A + A.transpose())).eval();
+  return {convex::Metric::dense(A),
+          A * w,
+          convex::ConstraintRows(RowMatrix::Identity(M.rows(), M.rows())),
+          Vector::Zero(M.rows()),
+          {}};
+}
+
+mechanics::GaussSolution two_contacts(double coupling, double w1, double w2) {
+  Matrix M(2, 2);
+  M << 1, coupling, coupling, 1;
+  return mechanics::solve(with_delassus_matrix(M, Eigen::Vector2d(w1, w2)));
+}
+
+}  // namespace
+
+TEST_CASE("Delassus: both multipliers negative, yet one contact stays") {
+  const mechanics::GaussSolution found = two_contacts(-0.8, 0.92, -0.7);
+  CHECK_FALSE(found.hypothesis.accepted);
+  CHECK(found.hypothesis.drop_negative_is_right == std::optional<bool>(false));
+  CHECK(found.hypothesis.two_sided.multipliers[0] == doctest::Approx(-1));
+  CHECK(found.hypothesis.two_sided.multipliers[1] == doctest::Approx(-0.1));
+  CHECK(found.multipliers.least_norm[0] == 0);
+  CHECK(found.multipliers.least_norm[1] == doctest::Approx(0.7));
+  CHECK(found.primal.slack[0] == doctest::Approx(0.36));
+}
+
+TEST_CASE("Delassus: one multiplier negative, yet both contacts open") {
+  const mechanics::GaussSolution found = two_contacts(0.8, 1, 0.5);
+  CHECK(found.hypothesis.drop_negative_is_right == std::optional<bool>(false));
+  CHECK(found.hypothesis.negative == std::vector<Index>{0});
+  CHECK(found.multipliers.least_norm.norm() == 0);
+}
+
+TEST_CASE(
+    "of the contacts with negative multipliers at least one opens, and the rule is right when gradients are "
+    "orthogonal") {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  int rejected = 0, wrong = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    CAPTURE(trial);
+    const Index m = 2 + trial % 5;
+    const bool orthogonal = trial % 3 == 0;
+    Matrix B(m, m);
+    Vector w(m);
+    for (Index i = 0; i < B.size(); ++i) B.data()[i] = normal(generator);
+    for (Index i = 0; i < m; ++i) w[i] = normal(generator);
+    Matrix M = B * B.transpose() + 0.3 * Matrix::Identity(m, m);
+    if (orthogonal) M = Vector(M.diagonal()).asDiagonal();
+    const mechanics::GaussSolution found = mechanics::solve(with_delassus_matrix(M, w));
+    REQUIRE(found.primal.status == convex::Status::solved);
+    // Accepted if and only if all two-sided multipliers are >= 0, which here are unique.
+    CHECK(found.hypothesis.accepted == (found.hypothesis.two_sided.multipliers.minCoeff() >= 0));
+    if (found.hypothesis.accepted) continue;
+    ++rejected;
+    bool one_opens = false;
+    for (Index a : found.hypothesis.negative) one_opens = one_opens || found.primal.slack[a] > 0;
+    CHECK(one_opens);
+    if (orthogonal) CHECK(*found.hypothesis.drop_negative_is_right);
+    wrong += *found.hypothesis.drop_negative_is_right ? 0 : 1;
+  }
+  CHECK(rejected > 100);
+  CHECK(wrong > 10);  // the sample would show nothing otherwise
+}
+
+TEST_CASE("the reaction from the dual alone is the one from the acceleration") {
+  std::mt19937 generator(8);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 100; ++trial) {
+    CAPTURE(trial);
+    const Index n = 6, m = 4;
+    Matrix B(n, n);
+    RowMatrix U(m, n);
+    Vector z(n), s(m);
+    for (Index i = 0; i < B.size(); ++i) B.data()[i] = normal(generator);
+    for (Index i = 0; i < U.size(); ++i) U.data()[i] = normal(generator);
+    for (Index i = 0; i < n; ++i) z[i] = normal(generator);
+    for (Index i = 0; i < m; ++i) s[i] = normal(generator);
+    const mechanics::GaussSolution found =
+        mechanics::solve({convex::Metric::dense(B * B.transpose() + Matrix::Identity(n, n)),
+                          z,
+                          convex::ConstraintRows(U),
+                          s,
+                          {}});
+    REQUIRE(found.from_dual.has_value());
+    CHECK(found.from_dual->difference <= 1e-13);
+  }
+}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gmpxx.h>
+
+#include <vector>
+
+#include "convex/nearest_point/problem.hpp"
+
+namespace oracles {
+
+/// Numbers without rounding: a double is the fraction that it stands for.
+using Rational = mpq_class;
+using RationalVector = std::vector<Rational>;
+
+/// The solution of A q - U_Wᵀ lambda = z, U_W q = s_W in fractions, by Gaussian elimination; rows of W that
+/// depend on the others get multiplier 0. It shares nothing with the solver but the data.
+struct RationalPoint {
+  RationalVector q;       // n
+  RationalVector lambda;  // m
+};
+RationalPoint solve_kkt(const convex::NearestPointProblem&, const std::vector<convex::Index>& rows);
+
+/// Whether the point satisfies every condition (2), (7)-(9) of Moreau 1966 exactly: it is then the solution.
+bool is_exact_solution(const convex::NearestPointProblem&, const RationalPoint&);
+
+/// ||q - exact||_A over max(||exact||_A, ||z||_(A⁻¹)), evaluated in fractions and rounded at the end. The
+/// scale is that of doubles, given by the caller.
+double relative_error(const convex::NearestPointProblem&, const convex::Vector& q, const RationalPoint& exact,
+                      double scale);
+
+/// wᵀU = 0, w·s > 0 and w_a >= 0 on one-sided rows, in fractions, wᵀU to `slack` of its largest term.
+bool is_farkas_witness(const convex::NearestPointProblem&, const convex::Vector& w, double slack);
+
+}  // namespace oracles
