@@ -61,6 +61,11 @@ double ConstraintRows::absolute_dot(Index a, const Vector& weight) const {
   return sum;
 }
 
+Vector ConstraintRows::lengths(const Vector& weight) const {
+  if (is_sparse()) return (sparse().cwiseAbs2() * weight).cwiseSqrt();
+  return (dense().cwiseAbs2() * weight).cwiseSqrt();
+}
+
 ConstraintRows ConstraintRows::select(const std::vector<Index>& rows) const {
   const Index count = static_cast<Index>(rows.size());
   if (!is_sparse()) {

@@ -33,6 +33,8 @@ class ConstraintRows {
   void add_multiple(Index a, DoubleDouble c, DoubleDoubleVector& sum) const;
   /// Σ_i |u_ai| weight_i.
   double absolute_dot(Index a, const Vector& weight) const;
+  /// sqrt(Σ_i u_ai² weight_i) of every row: m.
+  Vector lengths(const Vector& weight) const;
   /// The rows chosen, in that order.
   ConstraintRows select(const std::vector<Index>& rows) const;
 

@@ -37,6 +37,12 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   };
   std::vector<Index> all(static_cast<std::size_t>(problem.rows()));
   std::iota(all.begin(), all.end(), Index{0});
+  if (truth.basis.size() == all.size()) {
+    // Every contact persists and all are independent: the two-sided motion is the true one.
+    found.two_sided = {true, truth.q, truth.lambda, true};
+    found.accepted = true;
+    return found;
+  }
   const NearestPointProblem classical = held(problem, all);
   const Solution solution = convex::active_set(classical);
   if (!has_answer(solution)) return found;

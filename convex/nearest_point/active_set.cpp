@@ -32,9 +32,10 @@ class DualActiveSet {
   using Split = typename Set::Split;
 
   DualActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
-      : problem_(problem), accuracy_(accuracy), set_(problem), row_scale_(problem.rows()) {
-    const Vector inverse_diagonal = problem.A.diagonal().cwiseInverse();
-    for (Index a = 0; a < problem.rows(); ++a) row_scale_[a] = length_by_diagonal(a, inverse_diagonal);
+      : problem_(problem),
+        accuracy_(accuracy),
+        set_(problem),
+        row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())) {
     two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
     for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
     passed_.assign(static_cast<std::size_t>(problem.rows()), false);
@@ -60,17 +61,6 @@ class DualActiveSet {
 
  private:
   enum class Outcome { unchanged, changed, infeasible };
-
-  /// ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n².
-  double length_by_diagonal(Index a, const Vector& inverse_diagonal) const {
-    double sum = 0;
-    if (problem_.U.is_sparse())
-      for (SparseRows::InnerIterator it(problem_.U.sparse(), a); it; ++it)
-        sum += it.value() * it.value() * inverse_diagonal[it.col()];
-    else
-      sum = problem_.U.dense().row(a).cwiseAbs2().dot(inverse_diagonal);
-    return std::sqrt(sum);
-  }
 
   /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
   /// condition of W amplifies.
@@ -153,9 +143,49 @@ class DualActiveSet {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
   }
 
-  /// Takes in the rows of a guess by blocks, as far as they are independent with multipliers >= 0.
+  /// Rows that the free motion violates or just keeps: at rest, all contacts.
+  std::vector<Index> touched_rows() const {
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (!set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
+          slack_[a] <= row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]))
+        rows.push_back(a);
+    return rows;
+  }
+
+  /// Tries the hypothesis that all touched contacts persist; true when their multipliers allow it.
+  bool start_by_touched(const std::vector<Index>& rows) {
+    Matrix whitened = whitened_rows(problem_, rows);
+    set_.append_block(rows, whitened, block_dependence);
+    set_.solve();
+    judge_noise();
+    steps_ += static_cast<Index>(rows.size());
+    bool allowed = true;
+    for (Index k = 0; k < set_.size() && allowed; ++k)
+      allowed = !set_.one_sided(k) || set_.lambda()[k] * set_.factor().length(k) >= -multiplier_noise(k);
+    if (!allowed)
+      while (set_.size() > 0 && set_.one_sided(set_.size() - 1)) set_.remove(set_.size() - 1);
+    else
+      drop_until_dual_feasible();
+    return allowed;
+  }
+
+  /// Takes in rows to start from, as far as they are independent with multipliers >= 0: the touched contacts
+  /// where some are just kept, as at rest; else a guess by blocks.
   void start_by_blocks(const std::vector<Index>& guess) {
-    if (guess.empty() && violated_rows().size() <= 1) return;
+    if (guess.empty()) {
+      const std::size_t violated = violated_rows().size();
+      if (violated == 0) return;
+      const std::vector<Index> touched = touched_rows();
+      const bool some_kept = touched.size() > violated;
+      if (some_kept && static_cast<Index>(touched.size()) <= set_.factor().capacity() &&
+          start_by_touched(touched))
+        return;
+      if (violated == 1) {
+        set_.solve();
+        return;
+      }
+    }
     GuessedRows found = guess_by_blocks(problem_, set_.w_free(), row_scale_, guess);
     set_.append_block(found.rows, found.whitened, block_dependence);
     steps_ += static_cast<Index>(found.rows.size());
@@ -307,7 +337,7 @@ class DualActiveSet {
   const NearestPointProblem& problem_;
   const Accuracy& accuracy_;
   Set set_;
-  Vector row_scale_;  // ||u_a||_(D⁻¹)
+  Vector row_scale_;  // ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n²
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;

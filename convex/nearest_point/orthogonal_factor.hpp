@@ -19,13 +19,14 @@ class OrthogonalFactor {
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaxSize, MaxSize>;
   using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, MaxSize, 1>;
 
-  OrthogonalFactor(Index n, Index capacity) : Q_(n, capacity), R_(capacity, capacity), scratch_(capacity) {}
+  OrthogonalFactor(Index n, Index capacity)
+      : Q_(n, capacity), R_(capacity, capacity), scratch_(capacity), lengths_(capacity) {}
 
   Index size() const { return size_; }
   Index capacity() const { return Q_.cols(); }
   auto Q() const { return Q_.leftCols(size_); }
   /// |v_j|₂ of the j-th row.
-  double length(Index j) const { return R_.col(j).head(j + 1).norm(); }
+  double length(Index j) const { return lengths_[j]; }
 
   /// Splits v = Q c + d with d orthogonal to the columns of Q; on entry d = v. Returns |d|.
   double split(Eigen::Ref<Column> d, Eigen::Ref<Column> c) {
@@ -49,6 +50,7 @@ class OrthogonalFactor {
     R_.col(size_).head(size_) = c.head(size_);
     R_(size_, size_) = rho;
     Q_.col(size_) = d / rho;
+    lengths_[size_] = R_.col(size_).head(size_ + 1).norm();
     ++size_;
   }
 
@@ -89,7 +91,10 @@ class OrthogonalFactor {
 
   /// Drops row j; the rows behind it move up.
   void remove(Index j) {
-    for (Index k = j; k + 1 < size_; ++k) R_.col(k).head(k + 2) = R_.col(k + 1).head(k + 2);
+    for (Index k = j; k + 1 < size_; ++k) {
+      R_.col(k).head(k + 2) = R_.col(k + 1).head(k + 2);
+      lengths_[k] = lengths_[k + 1];
+    }
     --size_;
     for (Index k = j; k < size_; ++k) {
       Eigen::JacobiRotation<double> rotation;
@@ -99,8 +104,6 @@ class OrthogonalFactor {
       Q_.applyOnTheRight(k, k + 1, rotation);
     }
   }
-
-  void clear() { size_ = 0; }
 
   /// x := R⁻¹x.
   void solve_upper(Eigen::Ref<Column> x) const {
@@ -126,7 +129,7 @@ class OrthogonalFactor {
   static constexpr double cancellation = 0.5;
 
   Columns Q_, R_;
-  Column scratch_;
+  Column scratch_, lengths_;
   Index size_ = 0;
 };
 
