@@ -123,17 +123,21 @@ class DualActiveSet {
       if (set_.one_sided(k)) set_.lambda()[k] = std::max(0.0, set_.lambda()[k]);
   }
 
-  /// Rows outside W with u_a·q < s_a beyond rounding, the worst first.
-  std::vector<Index> violated_rows() {
-    const Vector q = set_.point();
-    slack_ = problem_.U.times(q) - problem_.s;
+  /// One-sided rows outside W with u_a·q - s_a below `side` times what rounding may make of a zero.
+  std::vector<Index> rows_below(double side) const {
     std::vector<Index> rows;
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (!set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
-          !passed_[static_cast<std::size_t>(a)] &&
-          slack_[a] < -(row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a])))
-        rows.push_back(a);
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const double zero = row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]);
+      const auto i = static_cast<std::size_t>(a);
+      if (slack_[a] < side * zero && !set_.holds(a) && !two_sided_[i] && !passed_[i]) rows.push_back(a);
+    }
     return rows;
+  }
+
+  /// Rows with u_a·q < s_a beyond rounding.
+  std::vector<Index> violated_rows() {
+    slack_ = problem_.U.times(set_.point()) - problem_.s;
+    return rows_below(-1);
   }
 
   void sort_by_violation(std::vector<Index>& rows) const {
@@ -141,16 +145,6 @@ class DualActiveSet {
       return slack_[a] / std::max(row_scale_[a], std::numeric_limits<double>::min());
     };
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
-  }
-
-  /// Rows that the free motion violates or just keeps: at rest, all contacts.
-  std::vector<Index> touched_rows() const {
-    std::vector<Index> rows;
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (!set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
-          slack_[a] <= row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]))
-        rows.push_back(a);
-    return rows;
   }
 
   /// Tries the hypothesis that all touched contacts persist; true when their multipliers allow it.
@@ -176,7 +170,8 @@ class DualActiveSet {
     if (guess.empty()) {
       const std::size_t violated = violated_rows().size();
       if (violated == 0) return;
-      const std::vector<Index> touched = touched_rows();
+      // What the free motion violates or just keeps: at rest, all contacts.
+      const std::vector<Index> touched = rows_below(1);
       const bool some_kept = touched.size() > violated;
       if (some_kept && static_cast<Index>(touched.size()) <= set_.factor().capacity() &&
           start_by_touched(touched))
