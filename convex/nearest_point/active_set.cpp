@@ -286,30 +286,22 @@ class DualActiveSet {
 
   /// Takes in a row that the refined point violates.
   Outcome admit_violated(const RefinedPoint& refined) {
-    const double scale = set_.scale(), left = refined.remaining();
-    const double q_length = set_.w().norm();
+    constexpr double silence = 0x1p-95;  // of dot products in twice the precision
+    const double scale = set_.scale(), left = refined.remaining(), q_length = set_.w().norm();
+    const double plain_rounding = 2 * static_cast<double>(problem_.dimension()) * unit_roundoff;
     slack_ = problem_.U.times(refined.q.hi) - problem_.s;
     std::vector<Index> rows;
     for (Index a = 0; a < problem_.rows(); ++a) {
+      const double s = std::abs(problem_.s[a]), length = row_scale_[a];
       if (set_.holds(a)) {
         slack_[a] = 0;
-        continue;
+      } else if (std::abs(slack_[a]) <=
+                 plain_rounding * (s + length * problem_.A.factor_condition() * q_length)) {
+        slack_[a] = slack(problem_, a, refined.q).value();
+        if (std::abs(slack_[a]) <= silence * (s + length * scale) + 2 * length * left) slack_[a] = 0;
       }
-      const double row_length = row_scale_[a] * problem_.A.factor_condition();
-      const double rounding = static_cast<double>(problem_.dimension()) * unit_roundoff *
-                              (std::abs(problem_.s[a]) + row_length * q_length);
-      if (std::abs(slack_[a]) > 2 * rounding) continue;
-      slack_[a] = slack(problem_, a, refined.q).value();
-      constexpr double silence = 0x1p-95;  // of dot products in twice the precision
-      const double threshold =
-          silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale) + 2 * row_scale_[a] * left;
-      if (std::abs(slack_[a]) <= threshold) slack_[a] = 0;
       if (slack_[a] < 0 && !two_sided_[static_cast<std::size_t>(a)]) rows.push_back(a);
     }
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (slack_[a] < 0 && !set_.holds(a) && !two_sided_[static_cast<std::size_t>(a)] &&
-          std::find(rows.begin(), rows.end(), a) == rows.end())
-        rows.push_back(a);
     sort_by_violation(rows);
     for (Index p : rows) {
       if (passed_[static_cast<std::size_t>(p)]) continue;
