@@ -207,9 +207,16 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
     case MetricKind::diagonal:
       C.array().colwise() /= data_->root.array();
       break;
-    case MetricKind::dense:
-      data_->L.triangularView<Eigen::Lower>().solveInPlace(C);
+    case MetricKind::dense: {
+      const auto L = data_->L.triangularView<Eigen::Lower>();
+      if (C.cols() == 1) {
+        auto c = C.col(0);  // for one covector the solve with a matrix would pack and block in vain
+        L.solveInPlace(c);
+      } else {
+        L.solveInPlace(C);
+      }
       break;
+    }
     case MetricKind::sparse: {
       Matrix permuted = data_->sparse_factor.permutationP() * C;
       data_->sparse_factor.matrixL().solveInPlace(permuted);

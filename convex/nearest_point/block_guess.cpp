@@ -16,6 +16,10 @@ constexpr int patience = 2;
 /// A row counts as violated beyond this part of the scale of the problem.
 constexpr double violation = 1e-12;
 
+/// From this dimension on a block costs more than what it does too much, and the deeper half comes in, not
+/// the third.
+constexpr Index large = 100;
+
 /// Rows that were active once, whitened, with their Gram matrix.
 class WhitenedRows {
  public:
@@ -139,7 +143,8 @@ GuessedRows guess_by_blocks(const NearestPointProblem& problem, const Vector& w_
     if (wrong == 0) return guess(active);
     first = false;
     // All at once overshoots where rows interact strongly; the deepest part of them settles in fewer blocks.
-    const std::size_t part = std::max<std::size_t>(2, (entering.size() + 2) / 3);
+    const std::size_t divisor = problem.dimension() < large ? 3 : 2;
+    const std::size_t part = std::max<std::size_t>(2, (entering.size() + divisor - 1) / divisor);
     const std::size_t room = std::min(most - next.size(), part);
     if (entering.size() > room) {
       const auto deeper = [&](Index a, Index b) { return slack[a] * row_scale[b] < slack[b] * row_scale[a]; };
