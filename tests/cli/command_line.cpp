@@ -1,0 +1,124 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Exit 2, one line `moreau: …; …` on standard error, nothing on standard output.
+void expect_wrong(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
+  const Outcome outcome = run(arguments);
+  CAPTURE(arguments.front());
+  CAPTURE(arguments.back());
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.starts_with("moreau: "));
+  CHECK(outcome.err.find('\n') == outcome.err.size() - 1);
+  CHECK(outcome.err.find("; ") != std::string::npos);
+  constexpr std::size_t longest = 300;  // an error that is read
+  CHECK(outcome.err.size() < longest);
+  for (const std::string& word : words) {
+    CAPTURE(word);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("help and version go to standard output and exit zero") {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"--version"},
+                                                    {"solve", "--help"},
+                                                    {"derive", "--help"},
+                                                    {"methods", "--help"}}) {
+    const Outcome outcome = run(arguments);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    CHECK_FALSE(outcome.out.empty());
+  }
+  CHECK(run({"--version"}).out.starts_with("moreau "));
+  for (const char* command : {"solve", "derive", "methods"})
+    CHECK(run({"--help"}).out.find(command) != std::string::npos);
+}
+
+TEST_CASE("the program alone exits two and shows what it can do on standard error") {
+  const Outcome outcome = run({});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.out.empty());
+  CHECK(outcome.err.find("solve") != std::string::npos);
+}
+
+TEST_CASE("what the contract plans and the program has not exits two and says so") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"check", file},
+                                                    {"check", "--catalogue"},
+                                                    {"simulate", file},
+                                                    {"simulate", file, "--output", "F.csv"},
+                                                    {"chart"},
+                                                    {"stress"},
+                                                    {"prox", "norm1()", "--at", "[1]"},
+                                                    {"conjugate", "norm1()"},
+                                                    {"gallery"},
+                                                    {"functions"},
+                                                    {"solve", "--certify", file},
+                                                    {"solve", "--method", "exact", file}})
+    expect_wrong(arguments, {"not available yet"});
+}
+
+TEST_CASE("what the program never heard of exits two and is named") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  expect_wrong({"slove", file}, {"slove"});
+  expect_wrong({"solve", "--tolerence", "1", file}, {"--tolerence"});
+  expect_wrong({"solve", "--method", "activeset", file}, {"activeset", "active-set"});
+  expect_wrong({"solve"}, {"FILE"});
+  expect_wrong({"derive"}, {"FILE"});
+  expect_wrong({"methods", "extra"}, {"extra"});
+}
+
+TEST_CASE("a tolerance that is no positive finite number is refused") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  for (const char* value : {"0", "-1", "nan", "inf", "abc", "1e999", ""})
+    expect_wrong({"solve", "--tolerance", value, file}, {"--tolerance"});
+}
+
+TEST_CASE("quiet leaves the exit code alone to tell, and errors where they belong") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  for (const char* command : {"solve", "derive"}) {
+    const Outcome outcome = run({command, "--quiet", file});
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+  }
+  const Outcome wrong = run({"solve", "--quiet", folder.path("missing.toml")});
+  CHECK(wrong.code == 2);
+  CHECK(wrong.out.empty());
+  CHECK(wrong.err.starts_with("moreau: "));
+}
+
+TEST_CASE("the methods are listed with the name first, and the same names as JSON") {
+  const Json methods = Json::parse(run({"methods", "--json"}).out).at("methods");
+  const std::string text = run({"methods"}).out;
+  std::size_t at = 0;
+  for (const Json& method : methods) {
+    const std::string name = method.at("name");
+    CHECK(text.compare(at, name.size() + 1, name + " ") == 0);
+    at = text.find('\n', at) + 1;
+  }
+  CHECK(at == text.size());
+  CHECK(methods.dump().find("\"active-set\"") != std::string::npos);
+}
+
+TEST_CASE("no colour and no progress reaches a file") {
+  const Outcome outcome = run_on("solve", point_on_floor());
+  CHECK(outcome.out.find('\x1b') == std::string::npos);
+  CHECK(outcome.err.empty());
+}

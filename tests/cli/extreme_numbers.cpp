@@ -1,0 +1,44 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// A number of the answer, which may be the word "inf".
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+TEST_CASE("whatever the powers of ten of A, z and U, an answer called solved is one") {
+  for (const std::string a : {"1e-150", "1", "1e150"})
+    for (const std::string w : {"1e-200", "1", "1e100", "1e200", "1e300"})
+      for (const std::string u : {"1e-300", "1e-200", "1e-100", "1", "1e100", "1e200", "1e300"}) {
+        const Outcome outcome =
+            run_json_on("solve", "[projection]\nA = { diagonal = [" + a + ", " + a + "] }\nz = [" + w +
+                                     ", -" + w + "]\nU = [[0, " + u + "]]\ns = [0]\n");
+        CAPTURE(a);
+        CAPTURE(w);
+        CAPTURE(u);
+        CHECK((outcome.code == 0 || outcome.code == 2 || outcome.code == 3));
+        if (outcome.code != 0) continue;  // refused, or not solved to its accuracy: it said so
+        const Json q = Json::parse(outcome.out).at("acceleration");
+        const double weight = std::sqrt(std::stod(a)), x = std::stod(w) / std::stod(a);  // q'' = (x, 0)
+        const double error = std::hypot(weight * (number(q.at("q[0]")) - x), weight * number(q.at("q[1]")));
+        CHECK(error <= 1e-9 * std::max(1.0, weight * x));
+      }
+}
+
+TEST_CASE("an infinite number in an answer is the word inf") {
+  const Outcome outcome = run_json_on("solve", two_rows({{3, "z = [0, 1e200]"}}));
+  CHECK(Json::accept(outcome.out));
+  if (outcome.code == 0) CHECK(Json::parse(outcome.out).at("gauss") == "-inf");
+}

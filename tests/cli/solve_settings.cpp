@@ -1,0 +1,104 @@
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/error_form.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::string with_settings(const std::string& lines, Changes changes = {}) {
+  changes[14] = lines;
+  return point_on_floor(changes);
+}
+
+}  // namespace
+
+TEST_CASE("a tolerance that double precision cannot keep gives status inaccurate and exit three") {
+  const std::string text = two_rows(
+      {{2, "A = [[2, 1], [1, 3]]"}, {3, R"(z = ["1/3", "1/7"])"}, {7, "[solve]\ntolerance = 1e-300"}});
+  const Outcome outcome = run_json_on("solve", text);
+  CHECK(outcome.code == 3);
+  const Json object = Json::parse(outcome.out);
+  CHECK(object.at("status") == "inaccurate");
+  for (const char* name : {"acceleration", "multipliers", "residuals", "certificate"})
+    CHECK(object.contains(name));
+}
+
+TEST_CASE("the command line's tolerance and method win over the file's") {
+  const Folder folder;
+  const std::string file =
+      folder.write("problem.toml", two_rows({{2, "A = [[2, 1], [1, 3]]"},
+                                             {3, R"(z = ["1/3", "1/7"])"},
+                                             {7, "[solve]\ntolerance = 1e-300\nmethod = \"exact\""}}));
+  CHECK(run({"solve", file}).code == 2);
+  CHECK(run({"solve", "--method", "active-set", file}).code == 3);
+  CHECK(run({"solve", "--method", "active-set", "--tolerance", "1e-9", file}).code == 0);
+}
+
+TEST_CASE("the method solved with is named, and auto chooses one") {
+  for (const char* name : {"auto", "active-set"}) {
+    const Outcome outcome = run_json_on("solve", with_settings("method = \"" + std::string(name) + "\""));
+    CHECK(outcome.code == 0);
+    CHECK(Json::parse(outcome.out).at("method") == "active-set");
+  }
+  expect_refusal({with_settings("method = \"activeset\""), "14:10", {"activeset", "active-set"}});
+  expect_refusal({with_settings("method = \"exact\""), "14:10", {"exact", "not available yet"}});
+}
+
+TEST_CASE("contact_tolerance decides which contacts are present, as a number or by constraint") {
+  const Changes above{{11, "position = { x = 0, y = 1e-4 }"}};
+  const auto state = [](const std::string& text) -> std::string {
+    return Json::parse(run_json_on("solve", text).out).at("constraints").at("floor").at("state");
+  };
+  CHECK(state(with_settings("", above)) == "inactive");
+  CHECK(state(with_settings("contact_tolerance = 1e-3", above)) == "persists");
+  CHECK(state(with_settings("contact_tolerance = { floor = 1e-3 }", above)) == "persists");
+  CHECK(state(with_settings("[solve.contact_tolerance]\nfloor = 1e-3", {{11, above.at(11)}, {13, ""}})) ==
+        "persists");
+  const Changes below{{11, "position = { x = 0, y = -1e-4 }"}};
+  CHECK(run_on("solve", with_settings("", below)).code == 2);
+  CHECK(run_on("solve", with_settings("contact_tolerance = 1e-3", below)).code == 0);
+}
+
+TEST_CASE("contact_tolerance may name a family or one of its members") {
+  const auto present = [](const std::string& tolerance) {
+    const Json object = Json::parse(
+        run_json_on("derive",
+                    "[system]\ncoordinates = [\"x[1..3]\"]\nkinetic = \"sum(i in 1..3, x[i]'^2)\"\n"
+                    "[system.constraints]\n\"gap[i in 1..2]\" = \"x[i+1] >= x[i]\"\n[state]\n"
+                    "position = { \"x[i]\" = \"i/1000\" }\n[solve]\n"
+                    "contact_tolerance = " +
+                        tolerance + "\n")
+            .out);
+    return object.at("U").size();
+  };
+  CHECK(present("1e-9") == 0);
+  CHECK(present("{ \"gap[i]\" = 0.1 }") == 2);
+  CHECK(present("{ \"gap\" = 0.1 }") == 2);
+  CHECK(present("{ \"gap[2]\" = 0.1 }") == 1);
+  CHECK(present("{ \"gap[i]\" = 0.1, \"gap[2]\" = 1e-9 }") == 1);
+  CHECK(present("{ \"gap[2]\" = 1e-9, \"gap[i]\" = 0.1 }") ==
+        1);  // a member overrides its family, first or last
+}
+
+TEST_CASE("settings of the wrong kind are refused where they stand") {
+  expect_refusal({with_settings("tolerance = -1"), "14:13", {"tolerance"}});
+  expect_refusal({with_settings("tolerance = nan"), "14:13", {"tolerance"}});
+  expect_refusal({with_settings("tolerance = [1]"), "14:13", {"tolerance"}});
+  expect_refusal({with_settings("method = 3"), "14:10", {"method"}});
+  expect_refusal({with_settings("contact_tolerance = 0"), "14:21", {"contact_tolerance"}});
+  expect_refusal({with_settings("contact_tolerance = { flor = 1 }"), "14:23", {"flor", "floor"}});
+  expect_refusal({with_settings("contact_tolerance = { floor = \"x\" }"), "14:31", {"floor"}});
+  expect_refusal({point_on_floor({{1, "solve = 3\n[system]"}, {13, ""}}), "1:9", {"[solve]"}});
+}
+
+TEST_CASE("what simulate is told does not disturb solve") {
+  const std::string text = with_settings(
+      "[simulate]\nuntil = 3.0\nmethod = \"time-stepping\"\ntolerance = 1e-10\nstep = 1e-3\n"
+      "restitution = { floor = 0.8 }\nsamples = 301");
+  const auto answer = [](const std::string& file_text) {
+    return Json::parse(run_json_on("solve", file_text).out).at("multipliers");
+  };
+  CHECK(answer(text) == answer(point_on_floor()));
+}
