@@ -12,8 +12,15 @@
 namespace cli {
 namespace {
 
-void report(const Options& options, const std::string& file, const std::string& message,
-            convex::Place place) {
+/// One line without control characters, whatever the file made the message quote.
+std::string one_line(std::string message) {
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < 0x20U || c == 0x7F) c = ' ';
+  return message;
+}
+
+void report(const Options& options, const std::string& file, const std::string& text, convex::Place place) {
+  const std::string message = one_line(text);
   if (options.json) {
     JsonWriter json;
     json.begin_object().key("file").value(file).key("status").value("error").key("message").value(message);

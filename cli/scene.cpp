@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "mechanics/expression/nearest_name.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -44,18 +45,21 @@ Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::
   Vector tolerance =
       Vector::Constant(static_cast<Index>(constraints.size()),
                        settings.contact_tolerance.value_or(mechanics::default_contact_tolerance));
-  for (const NamedTolerance& named : settings.contact_tolerances) {
-    bool found = false;
-    for (std::size_t a = 0; a < constraints.size(); ++a)
-      if (names(named.constraint, constraints[a])) {
-        tolerance[static_cast<Index>(a)] = named.value;
+  // A member given explicitly overrides its family, as everywhere.
+  for (const bool members : {false, true})
+    for (const NamedTolerance& named : settings.contact_tolerances) {
+      bool found = false;
+      for (std::size_t a = 0; a < constraints.size(); ++a) {
+        if (!names(named.constraint, constraints[a])) continue;
         found = true;
+        if (members == (named.constraint == constraints[a])) tolerance[static_cast<Index>(a)] = named.value;
       }
-    if (!found)
-      throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
-                             "\"; name one of [system.constraints]",
-                         named.place);
-  }
+      if (!found)
+        throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
+                               "\"; did you mean \"" +
+                               mechanics::expression::nearest_name(named.constraint, constraints) + "\"?",
+                           named.place);
+    }
   return tolerance;
 }
 

@@ -11,6 +11,10 @@
 namespace convex {
 namespace {
 
+/// A pivot of so many roundings per coordinate of its diagonal entry carries no digit of A: definite or not,
+/// doubles cannot tell.
+constexpr double pivot_roundings = 4;
+
 /// Two entries a_ij and a_ji that should be equal may differ by so many roundings per coordinate, relative to
 /// sqrt(a_ii a_jj), which bounds both: the trace of a matrix computed in doubles. More is a wrong matrix.
 constexpr double symmetry_roundings = 16;
@@ -92,10 +96,8 @@ Metric Metric::dense(const Matrix& W) {
   const bool factored = factor.info() == Eigen::Success;
   double smallest = 1;  // of L_ii² / w_ii
   for (Index i = 0; i < n; ++i) {
-    // A pivot at the rounding of its diagonal entry carries no digit of A: definite or not, doubles cannot
-    // tell.
     const double relative = factored ? data->L(i, i) * data->L(i, i) / data->diagonal[i] : 0;
-    if (!(relative > 2 * unit_roundoff)) refuse_indefinite();
+    if (!(relative > pivot_roundings * unit_roundoff * static_cast<double>(n))) refuse_indefinite();
     smallest = std::min(smallest, relative);
   }
   data->factor_condition = 1 / std::sqrt(smallest);
@@ -135,9 +137,20 @@ Metric Metric::sparse(const SparseMatrix& W) {
   const SparseMatrix L = data->sparse_factor.matrixL();
   const Vector permuted = data->sparse_factor.permutationP() * data->diagonal;
   const double smallest = (L.diagonal().array().square() / permuted.array()).minCoeff();
-  if (!(smallest > 2 * unit_roundoff)) refuse_indefinite();
+  if (!(smallest > pivot_roundings * unit_roundoff * static_cast<double>(n))) refuse_indefinite();
   data->factor_condition = 1 / std::sqrt(smallest);
   return Metric(std::move(data));
+}
+
+Metric Metric::scaled(double factor) const {
+  switch (data_->kind) {
+    case MetricKind::dense:
+      return dense(data_->W * factor);
+    case MetricKind::sparse:
+      return sparse(data_->sparse_W * factor);
+    default:
+      return diagonal(data_->diagonal * factor);
+  }
 }
 
 MetricKind Metric::kind() const { return data_->kind; }

@@ -25,6 +25,9 @@ class Metric {
   static Metric dense(const Matrix& W);
   static Metric sparse(const SparseMatrix& W);
 
+  /// factor W, factor > 0. A step of a prox is a metric: W / gamma.
+  Metric scaled(double factor) const;
+
   MetricKind kind() const;
   Index dimension() const;
   /// The diagonal of W: n.

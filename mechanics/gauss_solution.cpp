@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/residuals.hpp"
+#include "mechanics/units.hpp"
 
 namespace mechanics {
 namespace {
@@ -32,9 +33,7 @@ Vector reaction(const convex::NearestPointProblem& problem, const Vector& q, con
   return R;
 }
 
-}  // namespace
-
-GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, const GaussOptions& options) {
   GaussSolution found;
   found.primal = options.method->solve(problem, options.accuracy);
   if (found.primal.status == convex::Status::infeasible || found.primal.q.size() != problem.dimension())
@@ -51,6 +50,16 @@ GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptio
   found.hypothesis = hypothesis(problem, found.primal, tolerance);
   if (problem.rows() <= most_contacts_from_dual)
     found.from_dual = reaction_from_dual(problem, found.hypothesis.two_sided, found.primal);
+  return found;
+}
+
+}  // namespace
+
+GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+  const Units units = fit_units(problem);
+  if (units.ordinary()) return solve_as_it_stands(problem, options);
+  GaussSolution found = solve_as_it_stands(in_units(problem, units), options);
+  restore_units(found, units, options.accuracy.tolerance);
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmp.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -9,7 +10,8 @@
 namespace cli {
 namespace {
 
-/// A decimal exponent beyond this is no number of a problem file, and its exact value would fill the memory.
+/// A decimal exponent beyond this (and the digits written) is read as this: the value is beyond all doubles,
+/// or 0, either way, and its digits would fill the memory.
 constexpr long largest_exponent = 5000;
 
 struct Rational {
@@ -22,13 +24,16 @@ struct Rational {
 
 /// Reads [+-]digits[.digits][e[+-]digits] exactly.
 bool read_decimal(std::string text, Rational& into) {
+  const long farthest = largest_exponent + static_cast<long>(text.size());
   long exponent = 0;
   if (const std::size_t e = text.find_first_of("eE"); e != std::string::npos) {
     const char* first = text.data() + e + 1;
     const char* last = text.data() + text.size();
     if (first != last && *first == '+') ++first;
     const auto [end, error] = std::from_chars(first, last, exponent);
-    if (error != std::errc() || end != last) return false;
+    if (end != last || error == std::errc::invalid_argument) return false;
+    if (error == std::errc::result_out_of_range) exponent = *first == '-' ? -farthest : farthest;
+    exponent = std::clamp(exponent, -farthest, farthest);
     text.resize(e);
   }
   const bool negative = !text.empty() && text[0] == '-';
@@ -38,7 +43,6 @@ bool read_decimal(std::string text, Rational& into) {
     text.erase(point, 1);
   }
   if (text.empty() || text.find_first_not_of("0123456789") != std::string::npos) return false;
-  if (std::abs(exponent) > largest_exponent) return false;
   mpz_set_str(mpq_numref(into.value), text.c_str(), 10);
   if (negative) mpz_neg(mpq_numref(into.value), mpq_numref(into.value));
   mpz_t power;
@@ -57,6 +61,9 @@ bool read_decimal(std::string text, Rational& into) {
 double rounded(const Rational& exact) {
   const double below = mpq_get_d(exact.value);
   const double above = std::nextafter(below, mpq_sgn(exact.value) < 0 ? -INFINITY : INFINITY);
+  if (!std::isfinite(below) ||
+      mpz_sizeinbase(mpq_numref(exact.value), 2) > 1024 + mpz_sizeinbase(mpq_denref(exact.value), 2))
+    return mpq_sgn(exact.value) * INFINITY;
   if (!std::isfinite(above)) return below;
   Rational low, high;
   mpq_set_d(low.value, below);
@@ -75,19 +82,19 @@ double rounded(const Rational& exact) {
 }  // namespace
 
 std::optional<double> nearest_double(const std::string& text) {
-  std::string digits;
-  for (char c : text)
-    if (c != ' ') digits.push_back(c);
+  const auto trimmed = [](const std::string& part) {
+    const std::size_t first = part.find_first_not_of(' ');
+    return first == std::string::npos ? "" : part.substr(first, part.find_last_not_of(' ') - first + 1);
+  };
   Rational numerator, denominator;
-  const std::size_t slash = digits.find('/');
-  if (!read_decimal(digits.substr(0, slash), numerator)) return std::nullopt;
+  const std::size_t slash = text.find('/');
+  if (!read_decimal(trimmed(text.substr(0, slash)), numerator)) return std::nullopt;
   if (slash != std::string::npos) {
-    if (!read_decimal(digits.substr(slash + 1), denominator) || mpq_sgn(denominator.value) == 0)
+    if (!read_decimal(trimmed(text.substr(slash + 1)), denominator) || mpq_sgn(denominator.value) == 0)
       return std::nullopt;
     mpq_div(numerator.value, numerator.value, denominator.value);
   }
   const double value = rounded(numerator);
-  if (!std::isfinite(value)) return std::nullopt;
   return value;
 }
 

@@ -11,7 +11,7 @@ namespace cli {
 using convex::InvalidInput;
 
 std::string shown(const std::string& text) {
-  constexpr std::size_t longest = 60;
+  constexpr std::size_t longest = 100;
   std::string shortened = text.size() > longest ? text.substr(0, longest) + "..." : text;
   for (char& c : shortened)
     if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
@@ -47,7 +47,11 @@ double require_number(const TomlValue& value, const std::string& where) {
   if (value.is_number())
     throw InvalidInput(where + ": " + shown(value.text) + " is not finite; give finite numbers", value.place);
   if (value.is_string())
-    if (const auto number = nearest_double(value.text)) return *number;
+    if (const auto number = nearest_double(value.text)) {
+      if (std::isfinite(*number)) return *number;
+      throw InvalidInput(where + ": " + shown(value.text) + " is too large for a double; choose other units",
+                         value.place);
+    }
   throw InvalidInput(
       where + ": not a number; give 2, 0.5, 1e-3 or an exact value in quotation marks, \"1/3\"", value.place);
 }

@@ -1,5 +1,7 @@
 #include "cli/problem_file/matrix_market.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -15,7 +17,8 @@ using convex::Index;
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path) {
+  Reader(const std::string& path, Index rows, Index columns)
+      : path_(path), expected_rows_(rows), expected_columns_(columns) {
     try {
       text_ = read_file(path);
     } catch (const convex::InvalidInput& error) {
@@ -24,11 +27,14 @@ class Reader {
   }
 
   convex::SparseMatrix read() {
-    std::istringstream header(next_line());
+    std::string first = next_line();
+    std::transform(first.begin(), first.end(), first.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::istringstream header(first);
     std::string banner, object, format, field, symmetry;
     header >> banner >> object >> format >> field >> symmetry;
     const bool coordinate = format == "coordinate";
-    if (banner != "%%MatrixMarket" || object != "matrix" || (!coordinate && format != "array") ||
+    if (banner != "%%matrixmarket" || object != "matrix" || (!coordinate && format != "array") ||
         (field != "real" && field != "integer") || (symmetry != "general" && symmetry != "symmetric"))
       fail("the first line is not \"%%MatrixMarket matrix coordinate|array real|integer general|symmetric\"");
     const bool symmetric = symmetry == "symmetric";
@@ -41,6 +47,11 @@ class Reader {
     if (rows < 0 || columns < 0 || count < 0 || rows > largest || columns > largest)
       fail("the size line is not one of a matrix");
     if (symmetric && rows != columns) fail("a symmetric matrix is square");
+    if ((expected_rows_ >= 0 && rows != expected_rows_) || columns != expected_columns_)
+      fail(std::to_string(rows) + " x " + std::to_string(columns) + " where " +
+           (expected_rows_ >= 0 ? std::to_string(expected_rows_) : std::string("any number")) + " x " +
+           std::to_string(expected_columns_) + " is needed, one column per entry of z");
+    end_line();
     std::vector<Eigen::Triplet<double>> entries;
     const auto put = [&](Index i, Index j, double value) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
@@ -52,13 +63,19 @@ class Reader {
         const Index i = integer() - 1, j = integer() - 1;
         if (i < 0 || i >= rows || j < 0 || j >= columns) fail("an index outside the matrix");
         put(i, j, number());
+        end_line();
       }
     } else {
       for (Index j = 0; j < columns; ++j)
         for (Index i = symmetric ? j : 0; i < rows; ++i) {
           start(next_line());
           put(i, j, number());
+          end_line();
         }
+    }
+    if (text_.find_first_not_of(" \t\r\n", at_) != std::string::npos) {
+      next_line();
+      fail("more entries than the size line says");
     }
     convex::SparseMatrix matrix(rows, columns);
     matrix.setFromTriplets(entries.begin(), entries.end());
@@ -73,7 +90,10 @@ class Reader {
 
   std::string next_line() {
     while (true) {
-      if (at_ >= text_.size()) fail("the file ends too early");
+      if (at_ >= text_.size()) {
+        ++line_;
+        fail("the file ends too early");
+      }
       const std::size_t end = std::min(text_.find('\n', at_), text_.size());
       std::string line = text_.substr(at_, end - at_);
       at_ = end + 1;
@@ -86,6 +106,11 @@ class Reader {
   void start(std::string line) {
     current_ = std::move(line);
     place_ = 0;
+  }
+
+  void end_line() const {
+    if (current_.find_first_not_of(" \t", place_) != std::string::npos)
+      fail("more on the line than belongs there");
   }
 
   template <class Number>
@@ -110,10 +135,13 @@ class Reader {
   std::string path_, text_, current_;
   std::size_t at_ = 0, place_ = 0;
   int line_ = 0;
+  Index expected_rows_, expected_columns_;
 };
 
 }  // namespace
 
-convex::SparseMatrix read_matrix_market(const std::string& path) { return Reader(path).read(); }
+convex::SparseMatrix read_matrix_market(const std::string& path, Index rows, Index columns) {
+  return Reader(path, rows, columns).read();
+}
 
 }  // namespace cli

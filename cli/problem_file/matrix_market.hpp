@@ -7,7 +7,9 @@
 namespace cli {
 
 /// A matrix from a Matrix Market file (Boisvert, Pozo, Remington 1996): coordinate or array, real or integer,
-/// general or symmetric. Throws InvalidInput naming the file, its line and what is wrong.
-convex::SparseMatrix read_matrix_market(const std::string& path);
+/// general or symmetric. rows (-1: any number) and columns are those that it
+/// must have, checked before memory is taken. Throws InvalidInput naming the file, its line and what is
+/// wrong.
+convex::SparseMatrix read_matrix_market(const std::string& path, convex::Index rows, convex::Index columns);
 
 }  // namespace cli

@@ -35,7 +35,7 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   require_known_keys(
       document, "", {"title", "system", "state", "projection", "decomposition", "cone", "solve", "simulate"});
   Problem problem;
-  if (const TomlValue* title = document.find("title")) problem.title = require_string(*title, "title");
+  if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
   if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
   if (const TomlValue* simulate = document.find("simulate"))
     require_known_keys(require_table(*simulate, "simulate"), "simulate",

@@ -41,8 +41,19 @@ convex::RowMatrix matrix(const TomlValue& value, const std::string& where, Index
 }
 
 std::string matrix_file(const TomlValue& value, const std::string& where, const std::string& directory) {
-  const std::string name = require_string(value, where + ".matrix_market");
+  const std::string& name = require_string(value, where + ".matrix_market");
+  if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }))
+    throw InvalidInput(where + ": a file name with control characters; name the matrix file", value.place);
   return name.empty() || name[0] == '/' || directory.empty() ? name : directory + "/" + name;
+}
+
+convex::SparseMatrix matrix_from_file(const TomlValue& file, const std::string& where,
+                                      const std::string& directory, Index rows, Index columns) {
+  try {
+    return read_matrix_market(matrix_file(file, where, directory), rows, columns);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(where + ": " + error.what(), file.place);
+  }
 }
 
 convex::Metric read_metric(const TomlValue& value, const std::string& directory, Index n) {
@@ -68,11 +79,7 @@ convex::Metric read_metric(const TomlValue& value, const std::string& directory,
   const TomlValue* file = value.find("matrix_market");
   if (file == nullptr)
     throw InvalidInput("A: an empty table; give diagonal = […] or matrix_market = \"A.mtx\"", value.place);
-  const convex::SparseMatrix A = read_matrix_market(matrix_file(*file, "A", directory));
-  if (A.rows() != n || A.cols() != n)
-    throw InvalidInput("A: " + std::to_string(A.rows()) + " x " + std::to_string(A.cols()) + "; give " +
-                           std::to_string(n) + " x " + std::to_string(n) + ", one row per entry of z",
-                       file->place);
+  const convex::SparseMatrix A = matrix_from_file(*file, "A", directory, n, n);
   constexpr Index small = 200;  // a small matrix is dense whatever its file
   return n <= small && A.nonZeros() > n ? convex::Metric::dense(convex::Matrix(A))
                                         : convex::Metric::sparse(A);
@@ -84,11 +91,7 @@ convex::ConstraintRows read_rows(const TomlValue* value, const std::string& dire
   require_known_keys(*value, "projection.U", {"matrix_market"});
   const TomlValue* file = value->find("matrix_market");
   if (file == nullptr) throw InvalidInput("U: an empty table; give matrix_market = \"U.mtx\"", value->place);
-  const convex::SparseMatrix U = read_matrix_market(matrix_file(*file, "U", directory));
-  if (U.cols() != n)
-    throw InvalidInput(
-        "U: " + std::to_string(U.cols()) + " columns; give " + std::to_string(n) + ", one per entry of z",
-        file->place);
+  const convex::SparseMatrix U = matrix_from_file(*file, "U", directory, -1, n);
   return convex::ConstraintRows(convex::SparseRows(U));
 }
 

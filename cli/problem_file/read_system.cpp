@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
 
@@ -14,6 +16,8 @@ Text string_text(const TomlValue& value, const std::string& where) {
 
 /// An expression, or a number as it is written.
 Text expression(const TomlValue& value, const std::string& where) {
+  if (value.is_number() && !std::isfinite(value.number))
+    throw InvalidInput(where + ": " + value.text + " is not finite; give a finite number", value.place);
   if (value.is_string() || value.is_number()) return {value.text, value.content};
   throw InvalidInput(
       where + ": neither an expression nor a number; give an expression in quotation marks, or a number",

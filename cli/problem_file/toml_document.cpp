@@ -86,6 +86,49 @@ class Converter {
   std::vector<std::size_t> line_starts_;
 };
 
+/// A key of more parts than this is refused before it is followed into the depth.
+constexpr int most_key_parts = 64;
+
+/// Counts the dots of keys (and numbers, which have one) outside strings and comments.
+void require_shallow_keys(const std::string& text) {
+  int dots = 0, line = 1;
+  std::size_t line_start = 0;
+  char quote = 0;
+  bool triple = false, comment = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
+      line_start = i + 1;
+      comment = false;
+      dots = 0;
+      if (!triple) quote = 0;
+    } else if (comment) {
+      continue;
+    } else if (quote != 0) {
+      if (c == '\\' && quote == '"')
+        ++i;
+      else if (c == quote && (!triple || text.compare(i, 3, std::string(3, quote)) == 0)) {
+        i += triple ? 2 : 0;
+        quote = 0;
+        triple = false;
+      }
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+      triple = text.compare(i, 3, std::string(3, c)) == 0;
+      i += triple ? 2 : 0;
+    } else if (c == '#') {
+      comment = true;
+    } else if (c == '=' || c == ',' || c == '{' || c == '}') {
+      dots = 0;
+    } else if (c == '.' && ++dots > most_key_parts) {
+      throw convex::InvalidInput("a key of more than " + std::to_string(most_key_parts) +
+                                     " parts; the keys of a problem file have at most three",
+                                 convex::Place{line, static_cast<int>(i - line_start) + 1});
+    }
+  }
+}
+
 }  // namespace
 
 const TomlValue* TomlValue::find(const std::string& key) const {
@@ -95,6 +138,7 @@ const TomlValue* TomlValue::find(const std::string& key) const {
 }
 
 TomlValue parse_toml(const std::string& text) {
+  require_shallow_keys(text);
   try {
     const toml::table document = toml::parse(text);
     return Converter(text).value(document);

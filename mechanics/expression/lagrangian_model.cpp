@@ -27,6 +27,13 @@ bool is_finite(const SecondPartials& p) {
 
 [[noreturn]] void refuse(const LagrangianModel& model, const std::string& name, NodeId node,
                          const char* wrong) {
+  if (model.tape.operation(node) == Operation::sign)
+    throw convex::InvalidInput(
+        name + ": " + quoted("abs(" + written(model.tape, model.tape.a(node), model.coordinates) + ")") +
+            " has no derivative where its argument is 0, as at this state; start where it has one, or "
+            "rewrite the "
+            "expression",
+        model.sources.place(model.tape.origin(node)));
   throw convex::InvalidInput(name + ": " + quoted(written(model.tape, node, model.coordinates)) + wrong,
                              model.sources.place(model.tape.origin(node)));
 }

@@ -1,0 +1,86 @@
+#include "mechanics/units.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace mechanics {
+namespace {
+
+using convex::Status;
+
+/// Numbers between this and its inverse can be squared and divided by each other a few times over.
+constexpr double largest_ordinary = 0x1p80;
+
+bool is_ordinary(double x) { return !(x > 0) || (x <= largest_ordinary && x >= 1 / largest_ordinary); }
+
+/// A power of four near x, so that its root is exact as well; 1 when x is 0.
+double power_near(double x) {
+  if (!(x > 0) || !std::isfinite(x)) return 1;
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return std::ldexp(1, exponent - (exponent & 1));
+}
+
+double largest(const Vector& x) { return x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0; }
+
+double largest(const convex::ConstraintRows& U) {
+  if (!U.is_sparse()) return U.dense().size() > 0 ? U.dense().cwiseAbs().maxCoeff() : 0;
+  double found = 0;
+  for (Index k = 0; k < U.sparse().nonZeros(); ++k)
+    found = std::max(found, std::abs(U.sparse().valuePtr()[k]));
+  return found;
+}
+
+convex::ConstraintRows divided(const convex::ConstraintRows& U, double unit) {
+  if (U.is_sparse()) return convex::ConstraintRows(convex::SparseRows(U.sparse() / unit));
+  return convex::ConstraintRows(convex::RowMatrix(U.dense() / unit));
+}
+
+}  // namespace
+
+Units fit_units(const convex::NearestPointProblem& problem) {
+  const double mass = largest(problem.A.diagonal()), gradient = largest(problem.U);
+  const double force = largest(problem.z), bound = largest(problem.s);
+  if (is_ordinary(mass) && is_ordinary(gradient) && is_ordinary(force) && is_ordinary(bound)) return {};
+  Units units{power_near(mass), 1, power_near(gradient)};
+  units.acceleration = power_near(std::max(force / units.mass, bound / units.gradient));
+  return units;
+}
+
+convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem, const Units& units) {
+  return {problem.A.scaled(1 / units.mass), problem.z / units.mass / units.acceleration,
+          divided(problem.U, units.gradient), problem.s / units.gradient / units.acceleration,
+          problem.two_sided};
+}
+
+void restore_units(GaussSolution& solution, const Units& units, double tolerance) {
+  const double force = units.mass * units.acceleration, multiplier = force / units.gradient;
+  const double norm = std::sqrt(units.mass) * units.acceleration;
+  convex::Solution& primal = solution.primal;
+  primal.q *= units.acceleration;
+  primal.lambda *= multiplier;
+  primal.slack *= units.gradient * units.acceleration;
+  primal.error_bound *= norm;
+  primal.acceleration_norm *= norm;
+  primal.force_norm *= norm;
+  solution.multipliers.least_norm *= multiplier;
+  if (solution.multipliers.ranges)
+    for (convex::Interval& range : *solution.multipliers.ranges) {
+      range.low *= multiplier;
+      range.high *= multiplier;
+    }
+  solution.reaction *= force;
+  solution.gauss *= force * units.acceleration;
+  solution.hypothesis.two_sided.acceleration *= units.acceleration;
+  solution.hypothesis.two_sided.multipliers *= multiplier;
+  if (solution.hypothesis.drop_negative_acceleration)
+    *solution.hypothesis.drop_negative_acceleration *= units.acceleration;
+  if (solution.from_dual) solution.from_dual->reaction *= force;
+  if (primal.status != Status::solved && primal.status != Status::inaccurate) return;
+  if (!primal.q.allFinite() || !primal.lambda.allFinite() || !std::isfinite(primal.acceleration_norm))
+    primal.error_bound = std::numeric_limits<double>::infinity();
+  const bool close = primal.error_bound <= tolerance * std::max(1.0, primal.acceleration_norm);
+  primal.status = close && std::isfinite(primal.error_bound) ? Status::solved : Status::inaccurate;
+}
+
+}  // namespace mechanics
