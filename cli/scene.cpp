@@ -141,6 +141,9 @@ Scene read_scene(const std::string& file, const Options& options) {
   Problem problem = read_problem(read_file(file), directory_of(file));
   const mechanics::GaussOptions solve = solve_options(options, problem.solve);
   auto* system = std::get_if<SystemProblem>(&problem.content);
+  if (system == nullptr && !problem.solve.contact_tolerances.empty())
+    throw InvalidInput("solve.contact_tolerance: by constraint goes with [system] only; take it out",
+                       problem.solve.contact_tolerances.front().place);
   Scene scene = system != nullptr ? system_scene(*system, problem.solve)
                                   : projection_scene(std::get<ProjectionProblem>(std::move(problem.content)));
   scene.file = file;
