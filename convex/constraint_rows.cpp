@@ -9,6 +9,11 @@ Index ConstraintRows::count() const { return is_sparse() ? sparse().rows() : den
 
 Index ConstraintRows::dimension() const { return is_sparse() ? sparse().cols() : dense().cols(); }
 
+bool ConstraintRows::is_finite() const {
+  if (is_sparse()) return Eigen::Map<const Vector>(sparse().valuePtr(), sparse().nonZeros()).allFinite();
+  return dense().allFinite();
+}
+
 Vector ConstraintRows::row(Index a) const {
   Vector u(dimension());
   copy_row(a, u);

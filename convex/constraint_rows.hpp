@@ -20,6 +20,8 @@ class ConstraintRows {
   const RowMatrix& dense() const { return std::get<RowMatrix>(rows_); }
   const SparseRows& sparse() const { return std::get<SparseRows>(rows_); }
 
+  bool is_finite() const;
+
   /// u_a as a dense vector of size n.
   Vector row(Index a) const;
   void copy_row(Index a, Eigen::Ref<Vector> into) const;

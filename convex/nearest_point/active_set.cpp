@@ -336,6 +336,7 @@ class DualActiveSet {
 
 Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                     const std::vector<Index>& guess) {
+  validate(problem);
   if (problem.dimension() <= 8) return DualActiveSet<8>(problem, accuracy).run(guess);
   return DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
 }

@@ -13,6 +13,7 @@ namespace convex {
 /// rows and implicit equalities need no assumption. The start by blocks is limited in number and proves
 /// nothing.
 ///
+/// Throws InvalidInput as `validate` does.
 /// `guess`: rows thought to be active; empty when nothing is known.
 Solution active_set(const NearestPointProblem&, const Accuracy& = {}, const std::vector<Index>& guess = {});
 

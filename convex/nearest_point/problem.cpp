@@ -30,10 +30,11 @@ void validate(const NearestPointProblem& problem) {
                        std::to_string(problem.dimension()) + ", one per coordinate");
   require_finite("z", problem.z);
   require_finite("s", problem.s);
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (!problem.U.row(a).allFinite())
-      throw InvalidInput("U: row " + std::to_string(a) +
-                         " has an entry that is not finite; give finite numbers");
+  if (!problem.U.is_finite())
+    for (Index a = 0; a < problem.rows(); ++a)
+      if (!problem.U.row(a).allFinite())
+        throw InvalidInput("U: row " + std::to_string(a) +
+                           " has an entry that is not finite; give finite numbers");
   for (std::size_t k = 0; k < problem.two_sided.size(); ++k) {
     const Index a = problem.two_sided[k];
     if (a < 0 || a >= problem.rows())
