@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "convex/invalid_input.hpp"
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// A set, function or operation as it is written: name(key=value, …), the language of docs/functions.md. A
+/// function knows the call that makes it again, so that conjugates print as expressions of the same language.
+struct Call;
+
+/// What stands for a parameter: a number (inf allowed), a vector, a matrix, or another call.
+using Argument = std::variant<double, Vector, Matrix, std::shared_ptr<const Call>>;
+
+/// An argument, its name ("" when given by position) and its place, when it was read from text.
+struct NamedArgument {
+  std::string key;
+  Argument value;
+  std::optional<Place> place;
+};
+
+struct Call {
+  std::string name;
+  std::vector<NamedArgument> arguments;
+  std::optional<Place> place;
+};
+
+/// The call as text that reads back to the same call: numbers with the shortest digits that read back.
+std::string to_text(const Call& call);
+
+}  // namespace convex

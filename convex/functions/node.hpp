@@ -1,0 +1,45 @@
+#pragma once
+
+#include "convex/functions/function.hpp"
+
+namespace convex {
+
+struct GraphForm;
+struct LinearQuadratic;
+
+/// What a function is made of: the contract behind `Function`. Sizes have been checked at that door.
+class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
+ public:
+  virtual ~FunctionNode() = default;
+  virtual Index dimension() const = 0;
+  virtual Facts facts() const = 0;
+  virtual Call call() const = 0;
+  virtual double value(const Vector& x) const = 0;
+  virtual Prox prox(const Vector& z, const Metric& W) const = 0;
+  virtual Function conjugate() const = 0;
+  virtual std::optional<Vector> subgradient(const Vector& x) const = 0;
+
+  /// f on Rⁿ as a quadratic program over x and auxiliary variables; exactly when facts().piecewise_quadratic.
+  /// It is what makes the prox exact in any metric.
+  virtual std::optional<LinearQuadratic> linear_quadratic(Index n) const;
+  /// f on Rⁿ as a sum of atoms of affine maps, minimised over auxiliary variables: what the iterative prox
+  /// and every operation without a formula work on. None for a function known by value and prox alone.
+  virtual std::optional<GraphForm> graph(Index n) const;
+};
+
+/// A function whose prox in the identity metric, and in a diagonal one when it is separable, has a formula;
+/// in any other metric its prox is found through `linear_quadratic` when there is one, else by the semismooth
+/// Newton method on its graph form.
+class Atom : public FunctionNode {
+ public:
+  /// argmin f(u) + ½ sum_i d_i (u_i - z_i)². d: n, positive; all entries equal unless facts().separable.
+  virtual Vector prox_diagonal(const Vector& z, const Vector& d) const = 0;
+  /// An element of the generalised Jacobian (Clarke 1983) of z -> prox_diagonal(z, d) at z: n×n,
+  /// with D·J symmetric positive semidefinite.
+  virtual Matrix prox_jacobian(const Vector& z, const Vector& d) const = 0;
+
+  Prox prox(const Vector& z, const Metric& W) const override;
+  std::optional<GraphForm> graph(Index n) const override;
+};
+
+}  // namespace convex
