@@ -2,6 +2,7 @@
 
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/matrix_market.hpp"
+#include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/tables.hpp"
 
 namespace cli {
@@ -10,35 +11,6 @@ namespace {
 using convex::Index;
 using convex::InvalidInput;
 using convex::Vector;
-
-const TomlValue& require_array(const TomlValue& value, const std::string& where) {
-  if (value.kind != TomlValue::Kind::array)
-    throw InvalidInput(where + ": not a list; write " + where + " = [ … ]", value.place);
-  return value;
-}
-
-Vector numbers(const TomlValue& value, const std::string& where) {
-  const auto& list = require_array(value, where).array;
-  Vector x(static_cast<Index>(list.size()));
-  for (std::size_t i = 0; i < list.size(); ++i)
-    x[static_cast<Index>(i)] = require_number(list[i], where + "[" + std::to_string(i) + "]");
-  return x;
-}
-
-convex::RowMatrix matrix(const TomlValue& value, const std::string& where, Index columns) {
-  const auto& rows = require_array(value, where).array;
-  convex::RowMatrix M(static_cast<Index>(rows.size()), columns);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string row = where + "[" + std::to_string(i) + "]";
-    const Vector x = numbers(rows[i], row);
-    if (x.size() != columns)
-      throw InvalidInput(row + ": " + std::to_string(x.size()) + " entries; give " + std::to_string(columns) +
-                             ", one per coordinate (z has " + std::to_string(columns) + ")",
-                         rows[i].place);
-    M.row(static_cast<Index>(i)) = x;
-  }
-  return M;
-}
 
 std::string matrix_file(const TomlValue& value, const std::string& where, const std::string& directory) {
   const std::string& name = require_string(value, where + ".matrix_market");
@@ -56,20 +28,13 @@ convex::SparseMatrix matrix_from_file(const TomlValue& file, const std::string& 
   }
 }
 
-convex::Metric read_metric(const TomlValue& value, const std::string& directory, Index n) {
-  if (value.kind != TomlValue::Kind::table) {
-    const convex::RowMatrix A = matrix(value, "A", n);
-    if (A.rows() != n)
-      throw InvalidInput(
-          "A: " + std::to_string(A.rows()) + " rows; give " + std::to_string(n) + ", one per entry of z",
-          value.place);
-    return convex::Metric::dense(A);
-  }
+convex::Metric read_inertia(const TomlValue& value, const std::string& directory, Index n) {
+  if (value.kind != TomlValue::Kind::table) return read_metric(value, "A", n, "one per entry of z");
   require_known_keys(value, "projection.A", {"diagonal", "matrix_market"});
   if (const TomlValue* diagonal = value.find("diagonal")) {
     if (value.table.size() > 1)
       throw InvalidInput("A: both diagonal and matrix_market; give one", value.place);
-    const Vector d = numbers(*diagonal, "A.diagonal");
+    const Vector d = read_vector(*diagonal, "A.diagonal");
     if (d.size() != n)
       throw InvalidInput("A.diagonal: " + std::to_string(d.size()) + " entries; give " + std::to_string(n) +
                              ", one per entry of z",
@@ -87,7 +52,9 @@ convex::Metric read_metric(const TomlValue& value, const std::string& directory,
 
 convex::ConstraintRows read_rows(const TomlValue* value, const std::string& directory, Index n) {
   if (value == nullptr) return convex::ConstraintRows(convex::RowMatrix(0, n));
-  if (value->kind != TomlValue::Kind::table) return convex::ConstraintRows(matrix(*value, "U", n));
+  if (value->kind != TomlValue::Kind::table)
+    return convex::ConstraintRows(
+        read_matrix(*value, "U", n, "one per coordinate (z has " + std::to_string(n) + ")"));
   require_known_keys(*value, "projection.U", {"matrix_market"});
   const TomlValue* file = value->find("matrix_market");
   if (file == nullptr) throw InvalidInput("U: an empty table; give matrix_market = \"U.mtx\"", value->place);
@@ -121,16 +88,16 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
   const TomlValue *A = table.find("A"), *z = table.find("z"), *U = table.find("U"), *s = table.find("s");
   if (A == nullptr || z == nullptr)
     throw InvalidInput("projection: A and z are needed; give both", table.place);
-  const Vector force = numbers(*z, "z");
+  const Vector force = read_vector(*z, "z");
   const Index n = force.size();
   convex::ConstraintRows rows = read_rows(U, directory, n);
-  const Vector bound = s == nullptr ? Vector(0) : numbers(*s, "s");
+  const Vector bound = s == nullptr ? Vector(0) : read_vector(*s, "s");
   if (bound.size() != rows.count())
     throw InvalidInput("s: " + std::to_string(bound.size()) + " entries; give " +
                            std::to_string(rows.count()) + ", one per row of U",
                        s == nullptr ? table.place : s->place);
   try {
-    return {{read_metric(*A, directory, n), force, rows, bound,
+    return {{read_inertia(*A, directory, n), force, rows, bound,
              row_indices(table.find("two_sided"), rows.count())}};
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(A->place));

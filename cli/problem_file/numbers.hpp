@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "cli/problem_file/toml_document.hpp"
+#include "convex/metric.hpp"
+
+namespace cli {
+
+/// The value as a list; otherwise InvalidInput.
+const TomlValue& require_array(const TomlValue& value, const std::string& where);
+
+/// A list of numbers, each rounded to the nearest double. Throws InvalidInput naming the entry.
+convex::Vector read_vector(const TomlValue& value, const std::string& where);
+
+/// A list of rows of `columns` numbers each. `why` says in a message where that number comes from, such as
+/// "one per coordinate (z has 3)".
+convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
+                              const std::string& why);
+
+/// n rows of n numbers as a metric; `why` says where n comes from, as in "one per entry of z". Throws
+/// InvalidInput with the place, also when the matrix is not symmetric positive definite.
+convex::Metric read_metric(const TomlValue& value, const std::string& where, convex::Index n,
+                           const std::string& why);
+
+}  // namespace cli
