@@ -1,0 +1,139 @@
+#include "cli/function_language/parse_call.hpp"
+
+#include "cli/function_language/cursor.hpp"
+#include "cli/function_language/read_list.hpp"
+#include "cli/function_language/read_number.hpp"
+#include "cli/problem_file/keys.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Argument;
+using convex::Call;
+using convex::NamedArgument;
+using convex::Place;
+
+constexpr const char* form = "name(arguments), such as norm1(weight=2); `moreau functions` lists the names";
+
+class Parser {
+ public:
+  explicit Parser(Cursor& cursor) : cursor_(cursor) {}
+
+  Call only_call() {
+    cursor_.skip_spaces();
+    const Place place = cursor_.place();
+    const std::string_view name = cursor_.take_name();
+    if (name.empty()) {
+      if (cursor_.at_end()) cursor_.fail(std::string("empty; write ") + form, place);
+      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form, place);
+    }
+    Call call = call_of(name, place, 1);
+    require_end();
+    return call;
+  }
+
+  /// What stands alone must end the text.
+  void require_end() const {
+    if (cursor_.at_end()) return;
+    std::string advice = "a call ends with its )";
+    if (cursor_.peek() == '+') advice = "a sum of functions is sum(f, g)";
+    if (cursor_.peek() == '*') advice = "a multiple of a function is scale(f, alpha)";
+    cursor_.fail(cursor_.shown_next() + " behind the end; " + advice);
+  }
+
+ private:
+  /// The call whose name has been taken.
+  Call call_of(std::string_view name, Place place, int depth) {
+    if (depth > deepest_call)
+      cursor_.fail("calls are nested more than " + std::to_string(deepest_call) + " deep; write less deep",
+                   place);
+    cursor_.skip_spaces();
+    if (!cursor_.take('(')) fail_bare(name, place);
+    Call call{std::string(name), {}, place};
+    if (cursor_.take(')')) return call;
+    while (true) {
+      if (cursor_.at_end()) fail_open(name, place);
+      call.arguments.push_back(argument(depth));
+      if (cursor_.take(')')) return call;
+      if (cursor_.at_end()) fail_open(name, place);
+      if (!cursor_.take(','))
+        cursor_.fail(cursor_.shown_next() + " in the arguments of " + shown(call.name) +
+                     "; separate arguments by commas and end with )");
+    }
+  }
+
+  NamedArgument argument(int depth) {
+    const Place place = cursor_.place();
+    if (number_begins(cursor_)) return {"", take_number(cursor_), place};
+    const std::string_view name = cursor_.take_name();
+    if (name.empty()) return {"", value(depth), place};
+    cursor_.skip_spaces();
+    if (!cursor_.take('=')) return {"", nested(name, place, depth), place};
+    return {std::string(name), value(depth), place};
+  }
+
+  Argument value(int depth) {
+    const Place place = cursor_.place();
+    if (cursor_.peek() == '[') return take_list(cursor_);
+    if (number_begins(cursor_)) return take_number(cursor_);
+    const std::string_view name = cursor_.take_name();
+    if (name.empty())
+      cursor_.fail(cursor_.shown_next() +
+                   " where an argument should be; write a number, a vector [1, 2], a matrix [[1, 2], [3, 4]] "
+                   "or name(arguments)");
+    return nested(name, place, depth);
+  }
+
+  Argument nested(std::string_view name, Place place, int depth) {
+    return std::make_shared<const Call>(call_of(name, place, depth + 1));
+  }
+
+  [[noreturn]] void fail_bare(std::string_view name, Place place) const {
+    const std::string quoted = shown(std::string(name));
+    if (name == "nan" || name == "NaN")
+      cursor_.fail(quoted + " is no number; write one, or inf or -inf", place);
+    if (name == "Inf" || name == "INF" || name == "infinity" || name == "Infinity")
+      cursor_.fail(quoted + " is no name; an infinite number is inf or -inf", place);
+    cursor_.fail(
+        "\"" + quoted + "\" has no parentheses; write " + quoted + "(), with its arguments between them",
+        place);
+  }
+
+  [[noreturn]] void fail_open(std::string_view name, Place place) const {
+    cursor_.fail("no ) closes " + shown(std::string(name)) + "(; add it", place);
+  }
+
+  Cursor& cursor_;
+};
+
+Argument only_list(std::string_view text, std::string_view what, Place begin, const char* example) {
+  Cursor cursor(text, what, begin);
+  cursor.skip_spaces();
+  if (cursor.peek() != '[') cursor.fail(cursor.shown_next() + " where a [ should be; write " + example);
+  Argument list = take_list(cursor);
+  if (!cursor.at_end()) cursor.fail(cursor.shown_next() + " behind the end; write " + std::string(example));
+  return list;
+}
+
+}  // namespace
+
+Call parse_call(std::string_view text, std::string_view what, Place begin) {
+  Cursor cursor(text, what, begin);
+  return Parser(cursor).only_call();
+}
+
+convex::Vector parse_vector(std::string_view text, std::string_view what, Place begin) {
+  constexpr const char* example = "a vector, such as [1, -2, 1/3]";
+  const Argument list = only_list(text, what, begin, example);
+  if (const auto* x = std::get_if<convex::Vector>(&list)) return *x;
+  throw convex::InvalidInput(std::string(what) + ": a matrix; write " + example, begin);
+}
+
+convex::Matrix parse_matrix(std::string_view text, std::string_view what, Place begin) {
+  constexpr const char* example = "a matrix, such as [[2, 1], [1, 2]]";
+  const Argument list = only_list(text, what, begin, example);
+  if (const auto* M = std::get_if<convex::Matrix>(&list)) return *M;
+  throw convex::InvalidInput(std::string(what) + ": a vector; write " + example, begin);
+}
+
+}  // namespace cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+#include "convex/functions/call.hpp"
+
+namespace cli {
+
+/// Calls are nested at most this deep.
+inline constexpr int deepest_call = 256;
+
+/// Reads a set, function or operation, `name(arguments)`: arguments by position or key=value, each a number
+/// (2, 1/3, inf), a vector [1, 2], a matrix [[1, 2], [3, 4]] or another call. Every call and argument of the
+/// result knows its place. `what` names the text in messages; `begin` is where it begins in its file. Throws
+/// InvalidInput "what: what is wrong; what to do" with the place.
+convex::Call parse_call(std::string_view text, std::string_view what, convex::Place begin = {});
+
+/// Reads a vector, or a matrix, that stands alone. An empty list is a vector.
+convex::Vector parse_vector(std::string_view text, std::string_view what, convex::Place begin = {});
+convex::Matrix parse_matrix(std::string_view text, std::string_view what, convex::Place begin = {});
+
+}  // namespace cli

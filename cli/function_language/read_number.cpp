@@ -1,0 +1,83 @@
+#include "cli/function_language/read_number.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "cli/problem_file/exact_number.hpp"
+#include "cli/problem_file/keys.hpp"
+
+namespace cli {
+namespace {
+
+bool infinity_begins(const Cursor& cursor, std::size_t ahead) {
+  constexpr std::string_view word = "inf";
+  for (std::size_t i = 0; i < word.size(); ++i)
+    if (cursor.peek(ahead + i) != word[i]) return false;
+  const char after = cursor.peek(ahead + word.size());
+  return !begins_name(after) && !is_digit(after);
+}
+
+/// The length of digits[.digits][e[+-]digits] from `ahead` on; 0 when there is no digit.
+std::size_t decimal_length(const Cursor& cursor, std::size_t ahead) {
+  std::size_t at = ahead, digits = 0;
+  const auto take_digits = [&] {
+    for (; is_digit(cursor.peek(at)); ++at) ++digits;
+  };
+  take_digits();
+  if (cursor.peek(at) == '.') {
+    ++at;
+    take_digits();
+  }
+  if (digits == 0) return 0;
+  if (cursor.peek(at) == 'e' || cursor.peek(at) == 'E') {
+    const std::size_t sign = cursor.peek(at + 1) == '+' || cursor.peek(at + 1) == '-' ? 1 : 0;
+    if (is_digit(cursor.peek(at + 1 + sign))) {
+      at += 1 + sign;
+      take_digits();
+    }
+  }
+  return at - ahead;
+}
+
+}  // namespace
+
+bool number_begins(const Cursor& cursor) {
+  const char c = cursor.peek();
+  return is_digit(c) || c == '.' || c == '-' || c == '+' || infinity_begins(cursor, 0);
+}
+
+double take_number(Cursor& cursor) {
+  const convex::Place place = cursor.place();
+  const bool negative = cursor.peek() == '-';
+  const std::size_t sign = negative || cursor.peek() == '+' ? 1 : 0;
+  if (infinity_begins(cursor, sign)) {
+    cursor.advance(sign + 3);
+    cursor.skip_spaces();
+    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+  }
+  std::size_t length = decimal_length(cursor, sign);
+  if (length == 0) {
+    cursor.advance(sign);
+    cursor.fail("no number at " + cursor.shown_next() + "; write 2, -0.5, 1e-3, 1/3, inf or -inf");
+  }
+  if (cursor.peek(sign + length) == '/') {
+    const std::size_t denominator = decimal_length(cursor, sign + length + 1);
+    if (denominator > 0) length += 1 + denominator;
+  }
+  std::string digits;
+  for (std::size_t i = 0; i < sign + length; ++i) digits += cursor.peek(i);
+  cursor.advance(sign + length);
+  if (begins_name(cursor.peek()))
+    cursor.fail(cursor.shown_next() + " right behind a number; write 2, -0.5, 1e-3, 1/3, inf or -inf");
+  cursor.skip_spaces();
+  const std::optional<double> value = nearest_double(digits);
+  if (!value)
+    cursor.fail("the denominator of " + shown(digits) + " is 0; write another number, or inf", place);
+  if (!std::isfinite(*value))
+    cursor.fail(
+        "the number " + shown(digits) + " is too large for a double; write inf, or choose other units",
+        place);
+  return *value;
+}
+
+}  // namespace cli
