@@ -9,7 +9,7 @@
 #include <string>
 
 #include "cli/commands.hpp"
-#include "mechanics/expression/nearest_name.hpp"
+#include "convex/nearest_name.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ std::string unknown_command(const CLI::App& app, const std::string& first) {
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
   return "unknown command \"" + first + "\"; did you mean \"" +
-         mechanics::expression::nearest_name(first, known) + "\"?";
+         convex::nearest_name(first, known) + "\"?";
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "mechanics/expression/nearest_name.hpp"
+#include "convex/nearest_name.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -57,7 +57,7 @@ Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::
       if (!found)
         throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
                                "\"; did you mean \"" +
-                               mechanics::expression::nearest_name(named.constraint, constraints) + "\"?",
+                               convex::nearest_name(named.constraint, constraints) + "\"?",
                            named.place);
     }
   return tolerance;

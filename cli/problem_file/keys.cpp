@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cli/problem_file/exact_number.hpp"
-#include "mechanics/expression/nearest_name.hpp"
+#include "convex/nearest_name.hpp"
 
 namespace cli {
 
@@ -25,7 +25,7 @@ void require_known_keys(const TomlValue& table, const std::string& where,
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
     throw InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
                            (where.empty() ? "" : " in [" + where + "]") + "; did you mean \"" +
-                           mechanics::expression::nearest_name(entry.key, names) + "\"?",
+                           convex::nearest_name(entry.key, names) + "\"?",
                        entry.place);
   }
 }

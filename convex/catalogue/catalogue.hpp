@@ -12,7 +12,8 @@ namespace convex {
 /// What a name of the language stands for.
 enum class EntryKind { set, function, operation };
 
-/// What an argument may be.
+/// What an argument may be. Where a vector is wanted a number stands for the vector with equal entries; where
+/// a function is wanted, a set stands for its indicator.
 enum class ParameterKind { number, vector, matrix, set, function, functions };
 
 /// A parameter of an entry; `fallback` is how its default is written, "" when it has to be given.
@@ -43,6 +44,14 @@ struct CatalogueEntry {
 /// Every set, function and operation, in the order of the documentation.
 std::span<const CatalogueEntry> catalogue();
 
+/// The parts of the catalogue, each at home with what it makes.
+std::vector<CatalogueEntry> set_entries();
+std::vector<CatalogueEntry> function_entries();
+std::vector<CatalogueEntry> operation_entries();
+
+/// The entry of that name, or null.
+const CatalogueEntry* find_entry(std::string_view name);
+
 /// What surrounds a call: the product of the space, on which conjugate, envelope, support and
 /// proximal_average depend, and with it the number of entries.
 struct Space {
@@ -71,8 +80,13 @@ class Arguments {
   [[noreturn]] void refuse(std::string_view parameter, const std::string& what) const;
 
  private:
-  const Argument* find(std::string_view parameter) const;
+  const NamedArgument* find(std::string_view parameter) const;
+  const Parameter& declared(std::string_view parameter) const;
+  /// The call that stands for a parameter.
+  const Call& call_of(const NamedArgument& argument, std::string_view parameter) const;
   const CatalogueEntry* entry_;
+  std::vector<const NamedArgument*> matched_;   ///< one per parameter, null when not given
+  std::vector<const NamedArgument*> variadic_;  ///< what the last parameter takes when it is `functions`
   const Call* call_;
   const Space* space_;
 };

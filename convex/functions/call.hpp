@@ -28,9 +28,13 @@ struct NamedArgument {
 
 struct Call {
   std::string name;
-  std::vector<NamedArgument> arguments;
-  std::optional<Place> place;
+  std::vector<NamedArgument> arguments = {};
+  std::optional<Place> place = {};
 };
+
+/// An argument by position that is a call itself, and one by name: Call{"ball2", {argument("radius", 2.0)}}.
+NamedArgument argument(Call call);
+NamedArgument argument(std::string key, Argument value);
 
 /// The call as text that reads back to the same call: numbers with the shortest digits that read back.
 std::string to_text(const Call& call);

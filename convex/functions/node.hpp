@@ -34,6 +34,11 @@ class Atom : public FunctionNode {
  public:
   /// argmin f(u) + ½ sum_i d_i (u_i - z_i)². d: n, positive; all entries equal unless facts().separable.
   virtual Vector prox_diagonal(const Vector& z, const Vector& d) const = 0;
+  /// A subgradient of f at x = prox_diagonal(z, d) by a formula of its own: the one nearest to D(z - x),
+  /// which is D(z - x) itself up to rounding. None where there is no such formula.
+  virtual std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const;
+  /// The prox in a metric that is not diagonal by a method of the atom's own; none when it has none.
+  virtual std::optional<Prox> prox_general(const Vector& z, const Metric& W) const;
   /// An element of the generalised Jacobian (Clarke 1983) of z -> prox_diagonal(z, d) at z: n×n,
   /// with D·J symmetric positive semidefinite.
   virtual Matrix prox_jacobian(const Vector& z, const Vector& d) const = 0;

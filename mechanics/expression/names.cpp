@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mechanics/expression/nearest_name.hpp"
+#include "convex/nearest_name.hpp"
 #include "mechanics/expression/operation.hpp"
 
 namespace mechanics::expression {
@@ -52,7 +52,7 @@ std::string Names::suggestion(std::string_view unknown, const std::vector<Name::
                              "exp", "log", "sqrt", "abs", "sum", "pi", "t"})
       candidates.emplace_back(name);
   const std::string nearest =
-      nearest_name(unknown, candidates, unknown.size() / 2);  // half of the letters agree
+      convex::nearest_name(unknown, candidates, unknown.size() / 2);  // half of the letters agree
   if (!nearest.empty()) return "; did you mean " + quoted(nearest) + "?";
   constexpr std::size_t most_listed = 8;
   std::string list;

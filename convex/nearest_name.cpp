@@ -1,9 +1,9 @@
-#include "mechanics/expression/nearest_name.hpp"
+#include "convex/nearest_name.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-namespace mechanics::expression {
+namespace convex {
 namespace {
 
 constexpr std::size_t longest_compared = 64;  // bytes; longer names are no slips of the finger
@@ -42,4 +42,4 @@ std::string nearest_name(std::string_view unknown, const std::vector<std::string
   return nearest;
 }
 
-}  // namespace mechanics::expression
+}  // namespace convex

@@ -1,0 +1,84 @@
+#include <cmath>
+
+#include "convex/composite/composite_prox.hpp"
+#include "convex/functions/node.hpp"
+#if __has_include("convex/linear_quadratic/prox.hpp")
+#include "convex/linear_quadratic/prox.hpp"
+#endif
+
+namespace convex {
+namespace {
+
+/// D when W is the diagonal matrix D; a dense or sparse matrix may be diagonal too. Empty otherwise.
+Vector diagonal_of(const Metric& W) {
+  switch (W.kind()) {
+    case MetricKind::identity:
+    case MetricKind::diagonal:
+      return W.diagonal();
+    case MetricKind::dense: {
+      const Matrix& gram = W.dense_gram();
+      for (Index j = 0; j < gram.cols(); ++j)
+        for (Index i = 0; i < j; ++i)
+          if (gram(i, j) != 0 || gram(j, i) != 0) return {};
+      return W.diagonal();
+    }
+    case MetricKind::sparse: {
+      const SparseMatrix& gram = W.sparse_gram();
+      for (Index j = 0; j < gram.outerSize(); ++j)
+        for (SparseMatrix::InnerIterator entry(gram, j); entry; ++entry)
+          if (entry.row() != j && entry.value() != 0) return {};
+      return W.diagonal();
+    }
+  }
+  return {};
+}
+
+/// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_D.
+constexpr double roundings_of_a_formula = 4;
+
+Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
+  Prox result;
+  result.x = f.prox_diagonal(z, d);
+  const Vector force = d.cwiseProduct(z - result.x);
+  const std::optional<Vector> v = f.prox_covector(result.x, z, d);
+  result.v = v ? *v : force;
+  const Vector root = d.cwiseSqrt();
+  result.error_bound = (result.v - force).cwiseQuotient(root).norm() +
+                       roundings_of_a_formula * unit_roundoff *
+                           (root.cwiseProduct(z).norm() + root.cwiseProduct(result.x).norm());
+  result.method = "closed form";
+  return result;
+}
+
+}  // namespace
+
+std::optional<Vector> Atom::prox_covector(const Vector&, const Vector&, const Vector&) const {
+  return std::nullopt;
+}
+
+std::optional<Prox> Atom::prox_general(const Vector&, const Metric&) const { return std::nullopt; }
+
+Prox Atom::prox(const Vector& z, const Metric& W) const {
+  const Vector d = diagonal_of(W);
+  if (d.size() > 0 && (facts().separable || d.maxCoeff() == d.minCoeff()))
+    return in_diagonal_metric(*this, z, d);
+  if (std::optional<Prox> own = prox_general(z, W)) return *own;
+#if __has_include("convex/linear_quadratic/prox.hpp")
+  if (const std::optional<LinearQuadratic> form = linear_quadratic(z.size()))
+    return convex::prox(*form, z, W);
+#endif
+#if __has_include("convex/composite/composite_prox.cpp")
+  return convex::prox(*graph(z.size()), z, W);
+#else
+  throw InvalidInput(call().name + ": no prox in this metric yet; give a diagonal one");
+#endif
+}
+
+std::optional<GraphForm> Atom::graph(Index n) const {
+  SparseMatrix identity(n, n);
+  identity.setIdentity();
+  return GraphForm{
+      n, 0, {{std::static_pointer_cast<const Atom>(shared_from_this()), 1, identity, Vector::Zero(n)}}, 0};
+}
+
+}  // namespace convex

@@ -1,0 +1,128 @@
+#include "convex/functions/convex_set.hpp"
+
+#include <limits>
+
+#if __has_include("convex/linear_quadratic/operations.hpp")
+#include "convex/linear_quadratic/operations.hpp"
+#else
+namespace convex {
+struct LinearQuadratic {};
+}  // namespace convex
+#endif
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class SetIndicator : public Atom {
+ public:
+  explicit SetIndicator(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
+  Index dimension() const override { return S_->dimension(); }
+  Facts facts() const override {
+    Facts facts = S_->facts();
+    facts.indicator = true;
+    facts.support = facts.cone;
+    return facts;
+  }
+  Call call() const override { return {"indicator", {argument(S_->call())}}; }
+  double value(const Vector& x) const override { return S_->contains(x) ? 0 : infinity; }
+  Function conjugate() const override { return support_of(S_); }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (!S_->contains(x)) return std::nullopt;
+    return Vector::Zero(x.size());
+  }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->project(z, d); }
+  std::optional<Prox> prox_general(const Vector& z, const Metric& W) const override {
+    return S_->project_general(z, W);
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override { return S_->project_jacobian(z, d); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return S_->indicator_form(n); }
+
+ private:
+  std::shared_ptr<const ConvexSet> S_;
+};
+
+class SetSupport : public Atom {
+ public:
+  explicit SetSupport(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
+  Index dimension() const override { return S_->dimension(); }
+  Facts facts() const override {
+    const Facts of_set = S_->facts();
+    return {.indicator = of_set.cone,
+            .cone = of_set.cone,
+            .support = true,
+            .separable = of_set.separable,
+            .piecewise_quadratic = of_set.piecewise_quadratic,
+            .finite = S_->bounded()};
+  }
+  Call call() const override { return S_->support_call(); }
+  double value(const Vector& x) const override { return S_->support(x); }
+  Function conjugate() const override { return indicator_of(S_); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return S_->maximiser(x); }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->support_prox(z, d); }
+  /// v is in S, and x in the normal cone at v.
+  std::optional<Vector> prox_covector(const Vector&, const Vector& z, const Vector& d) const override {
+    return S_->project(d.cwiseProduct(z), d.cwiseInverse());
+  }
+  std::optional<Prox> prox_general(const Vector& z, const Metric& W) const override {
+    return S_->support_prox_general(z, W);
+  }
+  /// The derivative of z - D⁻¹ project(Dz, D⁻¹).
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    const Matrix J = S_->project_jacobian(d.cwiseProduct(z), d.cwiseInverse());
+    return Matrix::Identity(z.size(), z.size()) - d.cwiseInverse().asDiagonal() * J * d.asDiagonal();
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return S_->support_form(n); }
+
+ private:
+  std::shared_ptr<const ConvexSet> S_;
+};
+
+}  // namespace
+
+Call ConvexSet::support_call() const { return {"support", {argument(call())}}; }
+
+bool ConvexSet::contains(const Vector& x) const {
+  const double miss = (x - project(x, Vector::Ones(x.size()))).norm();
+  return miss <= membership_tolerance * (x.norm() + scale());
+}
+
+Vector ConvexSet::support_prox(const Vector& z, const Vector& d) const {
+  return z - project(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
+}
+
+std::optional<LinearQuadratic> ConvexSet::indicator_form(Index) const { return std::nullopt; }
+
+std::optional<LinearQuadratic> ConvexSet::support_form([[maybe_unused]] Index n) const {
+#if __has_include("convex/linear_quadratic/operations.hpp")
+  if (const std::optional<LinearQuadratic> form = indicator_form(n))
+    return linear_quadratic::conjugate(*form);
+#endif
+  return std::nullopt;
+}
+
+Function indicator_of(std::shared_ptr<const ConvexSet> S) {
+  return Function(std::make_shared<SetIndicator>(std::move(S)));
+}
+
+Function support_of(std::shared_ptr<const ConvexSet> S) {
+  return Function(std::make_shared<SetSupport>(std::move(S)));
+}
+
+Set set_of(std::shared_ptr<const ConvexSet> S) {
+  Call call = S->call();
+  return {indicator_of(std::move(S)), std::move(call)};
+}
+
+double ConvexCone::support(const Vector& v) const {
+  const double outside = project(v, Vector::Ones(v.size())).norm();
+  return outside <= membership_tolerance * v.norm() ? 0 : infinity;
+}
+
+std::optional<Vector> ConvexCone::maximiser(const Vector& v) const {
+  if (support(v) > 0) return std::nullopt;
+  return Vector::Zero(v.size());
+}
+
+}  // namespace convex

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+
+#include "convex/functions/node.hpp"
+
+namespace convex {
+
+/// A closed convex set S, not empty, by what algorithms know of it: its projection and its support function.
+/// `indicator_of` and `support_of` make the two conjugate functions of it; every norm, max and sum_largest is
+/// the support function of such a set, so that each pair has one algorithm. d is n positive numbers, all
+/// equal unless `facts().separable`.
+class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
+ public:
+  virtual ~ConvexSet() = default;
+  virtual Index dimension() const = 0;
+  /// The set in the language, such as box(lower=0, upper=1).
+  virtual Call call() const = 0;
+  /// Its support function in the language; support(call()) unless it has a name of its own.
+  virtual Call support_call() const;
+  /// Facts of the indicator; `indicator` itself is understood.
+  virtual Facts facts() const = 0;
+  /// Facts of the support function beside those that follow from `facts()`; finite when S is bounded.
+  virtual bool bounded() const = 0;
+  /// The size of the data, against which `membership_tolerance` is measured beside |x|; 0 for a cone.
+  virtual double scale() const { return 0; }
+
+  /// argmin sum_i d_i (u_i - z_i)² over S.
+  virtual Vector project(const Vector& z, const Vector& d) const = 0;
+  /// An element of the generalised Jacobian of z -> project(z, d).
+  virtual Matrix project_jacobian(const Vector& z, const Vector& d) const = 0;
+  /// Is x in S, up to membership_tolerance · (|x| + scale())? The distance to the projection decides.
+  virtual bool contains(const Vector& x) const;
+
+  /// sup over s in S of s·v; +inf when v, up to `membership_tolerance`, has none.
+  virtual double support(const Vector& v) const = 0;
+  /// One s in S with s·v = support(v); none when there is none.
+  virtual std::optional<Vector> maximiser(const Vector& v) const = 0;
+  /// prox of the support function; z - D⁻¹ project(Dz, D⁻¹) unless the set knows a formula with less
+  /// cancellation.
+  virtual Vector support_prox(const Vector& z, const Vector& d) const;
+
+  /// The projection and the prox of the support function in a general metric, by a method of the set's own.
+  virtual std::optional<Prox> project_general(const Vector&, const Metric&) const { return std::nullopt; }
+  virtual std::optional<Prox> support_prox_general(const Vector&, const Metric&) const {
+    return std::nullopt;
+  }
+  /// The indicator and the support function as programs, exactly when facts().piecewise_quadratic.
+  virtual std::optional<LinearQuadratic> indicator_form(Index n) const;
+  virtual std::optional<LinearQuadratic> support_form(Index n) const;
+};
+
+/// The indicator of S: 0 on S, +inf elsewhere.
+Function indicator_of(std::shared_ptr<const ConvexSet> S);
+/// The plain support function of S, sup over s in S of s·v.
+Function support_of(std::shared_ptr<const ConvexSet> S);
+/// S under its own name.
+Set set_of(std::shared_ptr<const ConvexSet> S);
+
+/// A closed convex cone K: its support function is the indicator of its polar, {v : project(v) = 0}.
+class ConvexCone : public ConvexSet {
+ public:
+  bool bounded() const override { return false; }
+  double support(const Vector& v) const override;
+  std::optional<Vector> maximiser(const Vector& v) const override;
+};
+
+}  // namespace convex

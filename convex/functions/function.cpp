@@ -1,0 +1,67 @@
+#include "convex/functions/function.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "convex/functions/node.hpp"
+
+namespace convex {
+namespace {
+
+/// Throws InvalidInput unless x can be an argument of f.
+void check(const Function& f, const Vector& x, const char* what) {
+  const Index n = f.dimension();
+  if (x.size() == 0) throw InvalidInput(f.call().name + ": " + what + " has no entries; give at least one");
+  if (n != 0 && x.size() != n)
+    throw InvalidInput(f.call().name + ": " + what + " has " + std::to_string(x.size()) +
+                       " entries, the function takes " + std::to_string(n) + "; give as many");
+  for (Index i = 0; i < x.size(); ++i)
+    if (!std::isfinite(x[i]))
+      throw InvalidInput(f.call().name + ": entry " + std::to_string(i) + " of " + what +
+                         " is not finite; give numbers");
+}
+
+}  // namespace
+
+Index Function::dimension() const { return node_->dimension(); }
+
+Facts Function::facts() const { return node_->facts(); }
+
+Call Function::call() const { return node_->call(); }
+
+double Function::operator()(const Vector& x) const {
+  check(*this, x, "x");
+  return node_->value(x);
+}
+
+Prox Function::prox(const Vector& z, const Metric& W) const {
+  check(*this, z, "z");
+  if (W.dimension() != z.size())
+    throw InvalidInput(call().name + ": z has " + std::to_string(z.size()) + " entries, the metric " +
+                       std::to_string(W.dimension()) + " rows; give one of the other's size");
+  return node_->prox(z, W);
+}
+
+Function Function::conjugate() const { return node_->conjugate(); }
+
+Function Function::conjugate(const Metric& W) const {
+  if (W.kind() == MetricKind::identity) return conjugate();
+  throw InvalidInput(call().name + ": no conjugate in this product yet; give the identity");
+}
+
+std::optional<Vector> Function::subgradient(const Vector& x) const {
+  check(*this, x, "x");
+  return node_->subgradient(x);
+}
+
+bool Function::is_subgradient(const Vector& v, const Vector& x) const {
+  check(*this, x, "x");
+  check(*this, v, "v");
+  if (v.size() != x.size())
+    throw InvalidInput(call().name + ": v and x differ in size; give one of the other's size");
+  const Prox back = node_->prox(x + v, Metric::identity(x.size()));
+  if (back.x.size() != x.size()) return false;
+  return (back.x - x).norm() <= membership_tolerance * (x.norm() + v.norm());
+}
+
+}  // namespace convex

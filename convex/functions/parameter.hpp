@@ -1,0 +1,17 @@
+#pragma once
+
+#include "convex/vector.hpp"
+
+/// What the makers of functions and sets ask of their numbers. Each throws InvalidInput
+/// "maker(parameter): what is wrong; what to do".
+namespace convex {
+
+void require_finite(const char* maker, const char* parameter, double number);
+void require_finite(const char* maker, const char* parameter, const Vector& numbers);
+void require_finite(const char* maker, const char* parameter, const Matrix& numbers);
+/// Finite and >= 0.
+void require_nonnegative(const char* maker, const char* parameter, double number);
+/// Finite and > 0.
+void require_positive(const char* maker, const char* parameter, double number);
+
+}  // namespace convex

@@ -1,0 +1,195 @@
+#include "convex/functions/quadratic.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "convex/functions/node.hpp"
+#include "convex/functions/parameter.hpp"
+
+namespace convex {
+namespace {
+
+/// Q symmetric positive semidefinite of rank r: Q = L Lᵀ, L = basis · diag(root), n×r, and the rest of an
+/// orthonormal basis spans the null space.
+struct Spectrum {
+  Matrix basis, null;
+  Vector values;  ///< the positive eigenvalues: r
+  Matrix factor() const { return basis * values.cwiseSqrt().asDiagonal(); }
+};
+
+/// Eigenvalues below this part of the largest, times n, are rounding.
+constexpr double rank_tolerance = 8 * unit_roundoff;
+
+Spectrum spectrum(const Matrix& Q) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Q);
+  const Vector& values = eigen.eigenvalues();
+  const Index n = Q.rows();
+  const double negligible = rank_tolerance * static_cast<double>(n) * values.cwiseAbs().maxCoeff();
+  if (values.minCoeff() < -negligible)
+    throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " +
+                       std::to_string(values.minCoeff()) + "; the function would not be convex");
+  const Index rank = (values.array() > negligible).count();
+  return {eigen.eigenvectors().rightCols(rank), eigen.eigenvectors().leftCols(n - rank), values.tail(rank)};
+}
+
+Matrix gram_of(const Metric& W) {
+  switch (W.kind()) {
+    case MetricKind::dense:
+      return W.dense_gram();
+    case MetricKind::sparse:
+      return W.sparse_gram();
+    default:
+      return W.diagonal().asDiagonal();
+  }
+}
+
+Prox with_bound(const Vector& z, const Metric& W, Vector x, Vector v) {
+  Prox result;
+  result.error_bound = W.dual_norm(W.multiply(x - z) + v) + 4 * unit_roundoff * (W.norm(z) + W.norm(x));
+  result.x = std::move(x);
+  result.v = std::move(v);
+  result.method = "closed form";
+  return result;
+}
+
+Function dual_quadratic(const Matrix& Q, const Vector& c, double constant);
+
+class Quadratic : public Atom {
+ public:
+  Quadratic(Matrix Q, Vector c, double constant) : Q_(std::move(Q)), c_(std::move(c)), constant_(constant) {}
+  Index dimension() const override { return c_.size(); }
+  Facts facts() const override {
+    return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = true, .finite = true};
+  }
+  Call call() const override {
+    Call call{"quadratic", {argument("Q", Q_), argument("c", c_)}};
+    if (constant_ != 0) call.arguments.push_back(argument("constant", constant_));
+    return call;
+  }
+  double value(const Vector& x) const override { return x.dot(0.5 * (Q_ * x) + c_) + constant_; }
+  Function conjugate() const override { return dual_quadratic(Q_, c_, constant_); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return Q_ * x + c_; }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return prox(z, Metric::diagonal(d)).x;
+  }
+  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+    const Matrix D = d.asDiagonal();
+    return (Q_ + D).llt().solve(D);
+  }
+  /// 0 = W(x - z) + Qx + c, refined once.
+  Prox prox(const Vector& z, const Metric& W) const override {
+    const Eigen::LLT<Matrix> sum(gram_of(W) + Q_);
+    Vector x = sum.solve(W.multiply(z) - c_);
+    x += sum.solve(W.multiply(z - x) - Q_ * x - c_);
+    const Vector v = Q_ * x + c_;
+    return with_bound(z, W, std::move(x), v);
+  }
+
+ private:
+  Matrix Q_;
+  Vector c_;
+  double constant_;
+};
+
+/// The conjugate, ½|t|² - constant at v = c + Lt, +inf off that range.
+class DualQuadratic : public Atom {
+ public:
+  DualQuadratic(Matrix Q, Vector c, double constant)
+      : Q_(std::move(Q)), c_(std::move(c)), constant_(constant), of_Q_(spectrum(Q_)), L_(of_Q_.factor()) {}
+  Index dimension() const override { return c_.size(); }
+  Facts facts() const override {
+    const bool finite = of_Q_.null.cols() == 0;
+    return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = finite, .finite = finite};
+  }
+  /// ½ (v - c)·Q⁺(v - c) - constant, with Nᵀv = Nᵀc.
+  Call call() const override {
+    const Matrix inverse = of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
+    const Vector slope = -(inverse * c_);
+    const Call on_range{"quadratic",
+                        {argument("Q", Matrix(0.5 * (inverse + inverse.transpose()))), argument("c", slope),
+                         argument("constant", -0.5 * c_.dot(slope) - constant_)}};
+    if (of_Q_.null.cols() == 0) return on_range;
+    const Call range{
+        "affine",
+        {argument("A", Matrix(of_Q_.null.transpose())), argument("b", Vector(of_Q_.null.transpose() * c_))}};
+    return {"sum", {argument(on_range), argument(Call{"indicator", {argument(range)}})}};
+  }
+  double value(const Vector& v) const override {
+    const Vector from = v - c_;
+    const double off = (of_Q_.null.transpose() * from).norm();
+    if (off > membership_tolerance * (v.norm() + c_.norm())) return std::numeric_limits<double>::infinity();
+    return 0.5 * (L_.transpose() * solve(from)).dot(L_.transpose() * solve(from)) - constant_;
+  }
+  Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
+  std::optional<Vector> subgradient(const Vector& v) const override {
+    if (std::isinf(value(v))) return std::nullopt;
+    return solve(v - c_);
+  }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return prox(z, Metric::diagonal(d)).x;
+  }
+  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+    const Index r = L_.cols();
+    const Matrix weighted = L_.transpose() * d.asDiagonal();
+    return L_ * (weighted * L_ + Matrix::Identity(r, r)).llt().solve(weighted);
+  }
+  /// (LᵀWL + I) t = LᵀW(z - c); x = c + Lt, refined once.
+  Prox prox(const Vector& z, const Metric& W) const override {
+    const Index r = L_.cols();
+    const Matrix W_L = gram_of(W) * L_;
+    const Eigen::LLT<Matrix> sum(L_.transpose() * W_L + Matrix::Identity(r, r));
+    Vector t = sum.solve(W_L.transpose() * (z - c_));
+    t += sum.solve(W_L.transpose() * (z - c_ - L_ * t) - t);
+    const Vector x = c_ + L_ * t;
+    // u with Qu = x - c; along the null space any part will do, and the force there is the normal's.
+    const Vector force = W.multiply(z - x);
+    const Vector v = of_Q_.basis * (of_Q_.values.cwiseSqrt().cwiseInverse().asDiagonal() * t) +
+                     of_Q_.null * (of_Q_.null.transpose() * force);
+    return with_bound(z, W, x, v);
+  }
+
+ private:
+  /// Q⁺ b.
+  Vector solve(const Vector& b) const {
+    return of_Q_.basis * (of_Q_.values.cwiseInverse().asDiagonal() * (of_Q_.basis.transpose() * b));
+  }
+  Matrix Q_;
+  Vector c_;
+  double constant_;
+  Spectrum of_Q_;
+  Matrix L_;
+};
+
+Function dual_quadratic(const Matrix& Q, const Vector& c, double constant) {
+  return Function(std::make_shared<DualQuadratic>(Q, c, constant));
+}
+
+}  // namespace
+
+Function quadratic(const Matrix& Q, const Vector& c, double constant) {
+  require_finite("quadratic", "Q", Q);
+  require_finite("quadratic", "c", c);
+  require_finite("quadratic", "constant", constant);
+  if (Q.rows() != Q.cols() || Q.rows() == 0)
+    throw InvalidInput("quadratic(Q): " + std::to_string(Q.rows()) + " rows and " + std::to_string(Q.cols()) +
+                       " columns; give a square matrix");
+  if (c.size() != Q.rows())
+    throw InvalidInput("quadratic(c): " + std::to_string(c.size()) + " entries where Q has " +
+                       std::to_string(Q.rows()) + " rows; give as many");
+  for (Index j = 0; j < Q.cols(); ++j) {
+    if (Q(j, j) < 0)
+      throw InvalidInput("quadratic(Q): a diagonal entry is negative; the function would not be convex");
+    for (Index i = 0; i < j; ++i)
+      if (std::abs(Q(i, j) - Q(j, i)) > 8 * unit_roundoff * std::max(std::abs(Q(i, j)), std::abs(Q(j, i))))
+        throw InvalidInput("quadratic(Q): not symmetric, entries (" + std::to_string(i) + ", " +
+                           std::to_string(j) + ") and back differ; give (Q + Q')/2");
+  }
+  const Matrix symmetric = 0.5 * (Q + Q.transpose());
+  spectrum(symmetric);  // refuses an indefinite Q
+  return Function(std::make_shared<Quadratic>(symmetric, c, constant));
+}
+
+}  // namespace convex

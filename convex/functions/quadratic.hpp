@@ -1,0 +1,11 @@
+#pragma once
+
+#include "convex/functions/function.hpp"
+
+namespace convex {
+
+/// ½ x·Qx + c·x + constant. Q: n×n, symmetric (to rounding) positive semidefinite, else InvalidInput; c: n.
+/// The prox is (W + Q)⁻¹(Wz - c) in any metric.
+Function quadratic(const Matrix& Q, const Vector& c, double constant = 0);
+
+}  // namespace convex
