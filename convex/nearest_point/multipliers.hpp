@@ -3,23 +3,20 @@
 #include <optional>
 #include <vector>
 
+#include "convex/interval.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex {
 
-/// The interval of a multiplier over all dual optima; the ends may be infinite.
-struct Interval {
-  double low = 0, high = 0;
-};
-
 /// All multipliers of a solved problem. They form the polyhedron {lambda : Uᵀlambda = R, lambda_a >= 0 on
 /// one-sided rows, lambda_a = 0 off the tight rows}, R = Aq - z being unique even where they are not.
 struct Multipliers {
   bool unique = true;
-  Vector least_norm;                            ///< of least Euclidean norm: m
-  std::optional<std::vector<Interval>> ranges;  ///< m intervals; none when not asked for
-  std::vector<Index> tight;                     ///< rows with u_a·q = s_a within the tolerance, in order
+  Vector least_norm;  ///< of least Euclidean norm: m
+  /// The m intervals of the multipliers over all dual optima; none when not asked for.
+  std::optional<std::vector<Interval>> ranges;
+  std::vector<Index> tight;  ///< rows with u_a·q = s_a within the tolerance, in order
 };
 
 /// Rows with |u_a·q - s_a| <= tolerance (|s_a| + ||u_a||_(A⁻¹) max(||q||_A, ||z||_(A⁻¹))), and the two-sided
