@@ -13,4 +13,13 @@ Exit derive_command(const Options&);
 /// `moreau methods`: the methods of solution that a file can name.
 Exit methods_command(const Options&);
 
+/// `moreau prox "f" --at "[…]"`: splits a point into prox_f and the prox of the conjugate.
+Exit prox_command(const Options&);
+
+/// `moreau conjugate "f"`: the conjugate as an expression, its domain, its value.
+Exit conjugate_command(const Options&);
+
+/// `moreau functions [NAME]`: the sets, functions and operations that a file can name.
+Exit functions_command(const Options&);
+
 }  // namespace cli

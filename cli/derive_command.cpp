@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "cli/answer.hpp"
 #include "cli/commands.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
@@ -78,8 +79,7 @@ std::string derive_json(const Scene& scene) {
 std::string derive_text(const Scene& scene) {
   const auto& [A, z, U, s, two_sided] = scene.problem;
   constexpr Index widest = 12;
-  std::string text =
-      fmt::format("{}\n\n", scene.title.empty() ? scene.file : scene.title + "  (" + scene.file + ")");
+  const std::string text = heading(scene.title, scene.file);
   if (A.dimension() > widest)
     return text +
            fmt::format("{} coordinates, {} contacts: too wide for the screen; --json gives A, z, U and s.\n",

@@ -19,33 +19,43 @@ std::string one_line(std::string message) {
   return message;
 }
 
-void report(const Options& options, const std::string& file, const std::string& text, convex::Place place) {
+/// The text with a caret under a column, for a text short enough to be seen at once.
+std::string with_caret(const std::string& text, convex::Place place) {
+  constexpr std::size_t longest = 100;
+  if (text.empty() || text.size() > longest || one_line(text) != text || place.line != 1) return "";
+  return "  " + text + "\n  " + std::string(static_cast<std::size_t>(place.column - 1), ' ') + "^\n";
+}
+
+void report(const Options& options, const Source& source, const std::string& text, convex::Place place) {
   const std::string message = one_line(text);
   if (options.json) {
     JsonWriter json;
-    json.begin_object().key("file").value(file).key("status").value("error").key("message").value(message);
-    json.key("line").value(place.line).key("column").value(place.column).end_object();
-    fmt::print("{}\n", json.text());
+    json.begin_object().key("file").value(source.name).key("status").value("error");
+    json.key("message").value(message).key("line").value(place.line).key("column").value(place.column);
+    fmt::print("{}\n", json.end_object().text());
   }
   std::fflush(stdout);
-  fmt::print(stderr, "moreau: {}:{}:{}: {}\n", file, place.line, place.column, message);
+  fmt::print(stderr, "moreau: {}:{}:{}: {}\n{}", source.name, place.line, place.column, message,
+             with_caret(source.text, place));
 }
 
 }  // namespace
 
+Exit answered(const Options& options, const Source& source, const std::function<Exit()>& work) {
+  try {
+    return work();
+  } catch (const convex::InvalidInput& error) {
+    report(options, source, error.what(), error.place().value_or(convex::Place{}));
+  } catch (const std::bad_alloc&) {
+    report(options, source, "needs more memory than there is; make the problem smaller", {});
+  }
+  return Exit::wrong_input;
+}
+
 Exit for_each_file(const Options& options, const std::function<Exit(const std::string&)>& work) {
   Exit worst = Exit::solved;
-  for (const std::string& file : options.files) {
-    Exit result = Exit::wrong_input;
-    try {
-      result = work(file);
-    } catch (const convex::InvalidInput& error) {
-      report(options, file, error.what(), error.place().value_or(convex::Place{}));
-    } catch (const std::bad_alloc&) {
-      report(options, file, "needs more memory than there is; make the problem smaller", {});
-    }
-    worst = std::max(worst, result);
-  }
+  for (const std::string& file : options.files)
+    worst = std::max(worst, answered(options, {file, ""}, [&] { return work(file); }));
   return worst;
 }
 

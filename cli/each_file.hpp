@@ -1,14 +1,24 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "cli/options.hpp"
 
 namespace cli {
 
-/// Does `work` for every file and returns the largest exit code. This is the one place where InvalidInput
-/// becomes a message: `moreau: FILE:LINE:COLUMN: what is wrong; what to do` on standard error, and a JSON
-/// object under --json.
+/// Where an input came from, for messages: a file, or an argument of the command line with its text.
+struct Source {
+  std::string name;
+  std::string text;  ///< of an argument; "" of a file
+};
+
+/// Does the work and returns its exit code. This is the one place where InvalidInput becomes a message:
+/// `moreau: NAME:LINE:COLUMN: what is wrong; what to do` on standard error, with a caret under the place in
+/// an argument, and a JSON object under --json. `source` may be changed by the work as it goes on reading.
+Exit answered(const Options& options, const Source& source, const std::function<Exit()>& work);
+
+/// Does `work` for every file, each answered, and returns the largest exit code.
 Exit for_each_file(const Options& options, const std::function<Exit(const std::string& file)>& work);
 
 }  // namespace cli

@@ -73,6 +73,12 @@ JsonWriter& JsonWriter::numbers(const std::vector<std::string>& names, const con
   return end_object();
 }
 
+JsonWriter& JsonWriter::numbers(const convex::Vector& x) {
+  begin_array();
+  for (convex::Index i = 0; i < x.size(); ++i) value(x[i]);
+  return end_array();
+}
+
 void JsonWriter::quote(std::string_view text) {
   text_ += '"';
   for (char c : text) {

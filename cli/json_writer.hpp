@@ -27,6 +27,8 @@ class JsonWriter {
 
   /// An object with one number per name.
   JsonWriter& numbers(const std::vector<std::string>& names, const convex::Vector& x);
+  /// An array of numbers.
+  JsonWriter& numbers(const convex::Vector& x);
   const std::string& text() const { return text_; }
 
  private:

@@ -19,8 +19,7 @@ using cli::Options;
 constexpr const char* version = "moreau " MOREAU_VERSION;
 
 /// Commands of the contract that a later version brings.
-constexpr std::array planned{"check", "simulate",  "chart",   "stress",
-                             "prox",  "conjugate", "gallery", "functions"};
+constexpr std::array planned{"check", "simulate", "chart", "stress", "gallery"};
 
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
@@ -60,6 +59,21 @@ void add_accuracy(CLI::App& command, Options& options) {
       "a proved error bound (not available yet)");
 }
 
+void add_function(CLI::App& command, Options& options, bool needs_point) {
+  command
+      .add_option("f", options.expression,
+                  "a function of the call language, such as \"norm1(weight=2)\" (see `moreau functions`)")
+      ->required();
+  command.add_option("--at", options.at, "a point, such as \"[3, -1, 1/2]\"")
+      ->type_name("VECTOR")
+      ->required(needs_point);
+  command
+      .add_option(
+          "--metric", options.metric,
+          "the Gram matrix W of (x|y) = x.Wy: \"[[2, 1], [1, 2]]\", or \"diagonal [1, 2]\"; default identity")
+      ->type_name("MATRIX");
+}
+
 /// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
 /// option.
 std::string unknown_command(const CLI::App& app, const std::string& first) {
@@ -69,14 +83,13 @@ std::string unknown_command(const CLI::App& app, const std::string& first) {
     if (command->get_name() == first) return "";
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
-  return "unknown command \"" + first + "\"; did you mean \"" +
-         convex::nearest_name(first, known) + "\"?";
+  return "unknown command \"" + first + "\"; did you mean \"" + convex::nearest_name(first, known) + "\"?";
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"moreau: the motion of mechanical systems with one-sided constraints (J. J. Moreau 1966)"};
+  CLI::App app{"moreau: convex analysis and the mechanics of one-sided constraints (J. J. Moreau 1966)"};
   app.set_version_flag("--version", version);
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
@@ -96,6 +109,28 @@ int main(int argc, char** argv) {
   add_files(*derive, options);
   add_common(*derive, options);
   derive->callback([&] { chosen = cli::derive_command; });
+
+  CLI::App* prox = app.add_subcommand(
+      "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f");
+  add_function(*prox, options, true);
+  add_accuracy(*prox, options);
+  add_common(*prox, options);
+  prox->callback([&] { chosen = cli::prox_command; });
+
+  CLI::App* conjugate = app.add_subcommand(
+      "conjugate",
+      "the conjugate g of a function, as an expression; where it is finite; its value at a point");
+  add_function(*conjugate, options, false);
+  add_common(*conjugate, options);
+  conjugate->callback([&] { chosen = cli::conjugate_command; });
+
+  CLI::App* functions = app.add_subcommand(
+      "functions",
+      "the sets, functions and operations: name, arguments, formula, facts, how the prox is found");
+  functions->add_option("NAME", options.function, "everything about one of them");
+  functions->add_flag("--json", options.json, "one JSON object on standard output");
+  functions->add_flag("--markdown", options.markdown, "the page docs/functions.md");
+  functions->callback([&] { chosen = cli::functions_command; });
 
   CLI::App* methods = app.add_subcommand("methods", "the methods of solution that a file can name");
   add_common(*methods, options);

@@ -17,6 +17,11 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool ranges = false;
+  std::string expression;               ///< of prox and conjugate: a call of the language of functions
+  std::optional<std::string> at;        ///< a vector
+  std::optional<std::string> metric;    ///< a matrix, or "diagonal [1, 2]"
+  std::optional<std::string> function;  ///< of functions: the one to tell about
+  bool markdown = false;                ///< of functions: docs/functions.md
 };
 
 }  // namespace cli

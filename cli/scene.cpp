@@ -56,8 +56,8 @@ Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::
       }
       if (!found)
         throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
-                               "\"; did you mean \"" +
-                               convex::nearest_name(named.constraint, constraints) + "\"?",
+                               "\"; did you mean \"" + convex::nearest_name(named.constraint, constraints) +
+                               "\"?",
                            named.place);
     }
   return tolerance;
@@ -137,8 +137,14 @@ Vector Scene::over_constraints(const Vector& over_contacts) const {
   return all;
 }
 
-Scene read_scene(const std::string& file, const Options& options) {
-  Problem problem = read_problem(read_file(file), directory_of(file));
+Problem read_problem_file(const std::string& file) {
+  return read_problem(read_file(file), directory_of(file));
+}
+
+Scene make_scene(Problem problem, const std::string& file, const Options& options) {
+  if (!std::holds_alternative<SystemProblem>(problem.content) &&
+      !std::holds_alternative<ProjectionProblem>(problem.content))
+    throw InvalidInput("no A, z, U and s here; give a file with [system] or [projection]");
   const mechanics::GaussOptions solve = solve_options(options, problem.solve);
   auto* system = std::get_if<SystemProblem>(&problem.content);
   if (system == nullptr && !problem.solve.contact_tolerances.empty())
@@ -150,6 +156,10 @@ Scene read_scene(const std::string& file, const Options& options) {
   scene.title = problem.title;
   scene.solve = solve;
   return scene;
+}
+
+Scene read_scene(const std::string& file, const Options& options) {
+  return make_scene(read_problem_file(file), file, options);
 }
 
 }  // namespace cli

@@ -36,7 +36,13 @@ struct Scene {
   convex::Vector over_constraints(const convex::Vector& over_contacts) const;
 };
 
-/// Reads a file and makes the scene; options of the command line win over the file's [solve].
+/// Reads a problem file; its matrix files are looked for beside it.
+Problem read_problem_file(const std::string& file);
+
+/// The scene of a [system] or a [projection]; options of the command line win over the file's [solve].
+Scene make_scene(Problem, const std::string& file, const Options& options);
+
+/// Both in one. Throws InvalidInput when the file holds another kind of problem.
 Scene read_scene(const std::string& file, const Options& options);
 
 }  // namespace cli

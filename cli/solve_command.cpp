@@ -4,23 +4,30 @@
 #include <cstdio>
 
 #include "cli/commands.hpp"
+#include "cli/decomposition_report.hpp"
 #include "cli/each_file.hpp"
 #include "cli/solve_report.hpp"
 
 namespace cli {
 namespace {
 
-Exit exit_code(convex::Status status) {
-  switch (status) {
-    case convex::Status::solved:
-      return Exit::solved;
-    case convex::Status::infeasible:
-      return Exit::no_solution;
-    case convex::Status::inaccurate:
-    case convex::Status::gave_up:
-      return Exit::inaccurate;
+Answer solve_scene(const Scene& scene, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const SolvedScene solved = solved_scene(scene, solution, seconds);
+  return {exit_code(solution.primal.status), options.json ? solve_json(solved) + "\n" : solve_text(solved)};
+}
+
+Answer solve_file(const std::string& file, const Options& options) {
+  Problem problem = read_problem_file(file);
+  if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
+    require_applicable(problem.solve, options);
+    const SplitPoint split = split_point(*decomposition, problem.solve, options);
+    return {exit_code(split.split.status),
+            options.json ? split_json(split, file) + "\n" : heading(problem.title, file) + split_text(split)};
   }
-  return Exit::inaccurate;
+  return solve_scene(make_scene(std::move(problem), file, options), options);
 }
 
 }  // namespace
@@ -28,17 +35,10 @@ Exit exit_code(convex::Status status) {
 Exit solve_command(const Options& options) {
   bool first = true;
   return for_each_file(options, [&](const std::string& file) {
-    const Scene scene = read_scene(file, options);
-    const auto start = std::chrono::steady_clock::now();
-    const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const SolvedScene solved = solved_scene(scene, solution, seconds);
-    if (options.json)
-      fmt::print("{}\n", solve_json(solved));
-    else if (!options.quiet)
-      fmt::print("{}{}", first ? "" : "\n", solve_text(solved));
+    const Answer answer = solve_file(file, options);
+    if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
     first = false;
-    return exit_code(solution.primal.status);
+    return answer.exit;
   });
 }
 

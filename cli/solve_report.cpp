@@ -32,18 +32,4 @@ const char* name(ConstraintState state) {
   return "";
 }
 
-const char* name(convex::Status status) {
-  switch (status) {
-    case convex::Status::solved:
-      return "solved";
-    case convex::Status::inaccurate:
-      return "inaccurate";
-    case convex::Status::infeasible:
-      return "infeasible";
-    case convex::Status::gave_up:
-      return "gave-up";
-  }
-  return "";
-}
-
 }  // namespace cli

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "cli/answer.hpp"
 #include "cli/scene.hpp"
 
 namespace cli {
@@ -26,7 +27,6 @@ struct SolvedScene {
 SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
 
 const char* name(ConstraintState);
-const char* name(convex::Status);
 
 /// The JSON object of docs/problem-files.md, one line without its end.
 std::string solve_json(const SolvedScene&);

@@ -124,9 +124,7 @@ std::string infeasible_text(const SolvedScene& solved) {
 }  // namespace
 
 std::string solve_text(const SolvedScene& solved) {
-  std::string text = fmt::format("{}\n\n", solved.scene.title.empty()
-                                               ? solved.scene.file
-                                               : solved.scene.title + "  (" + solved.scene.file + ")");
+  const std::string text = heading(solved.scene.title, solved.scene.file);
   if (solved.infeasible()) return text + infeasible_text(solved);
   if (!solved.has_answer())
     return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",

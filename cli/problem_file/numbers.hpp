@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/problem_file/toml_document.hpp"
-#include "convex/metric.hpp"
+#include "convex/vector.hpp"
 
 namespace cli {
 
@@ -17,10 +17,5 @@ convex::Vector read_vector(const TomlValue& value, const std::string& where);
 /// "one per coordinate (z has 3)".
 convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                               const std::string& why);
-
-/// n rows of n numbers as a metric; `why` says where n comes from, as in "one per entry of z". Throws
-/// InvalidInput with the place, also when the matrix is not symmetric positive definite.
-convex::Metric read_metric(const TomlValue& value, const std::string& where, convex::Index n,
-                           const std::string& why);
 
 }  // namespace cli

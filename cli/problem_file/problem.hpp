@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "convex/functions/call.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "mechanics/lagrangian_text.hpp"
 
@@ -21,6 +22,13 @@ struct ProjectionProblem {
   convex::NearestPointProblem problem;
 };
 
+/// `[decomposition]`: a point to split into prox_f z and prox_g z, g the conjugate of f in the metric W.
+struct DecompositionProblem {
+  convex::Vector z;
+  convex::Metric W;
+  convex::Call f;
+};
+
 /// `contact_tolerance` by constraint.
 struct NamedTolerance {
   std::string constraint;
@@ -34,13 +42,14 @@ struct SolveSettings {
   convex::Place method_place;
   std::optional<double> tolerance;
   std::optional<double> contact_tolerance;
+  convex::Place contact_tolerance_place;
   std::vector<NamedTolerance> contact_tolerances;
 };
 
 /// A problem file as plain data.
 struct Problem {
   std::string title;
-  std::variant<SystemProblem, ProjectionProblem> content;
+  std::variant<SystemProblem, ProjectionProblem, DecompositionProblem> content;
   SolveSettings solve;
 };
 

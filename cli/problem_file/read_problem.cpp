@@ -23,8 +23,10 @@ const TomlEntry& content_table(const TomlValue& document) {
     found = &entry;
   }
   if (found == nullptr)
-    throw InvalidInput("no problem here; give a table [system] (a mechanism) or [projection] (numbers)",
-                       convex::Place{1, 1});
+    throw InvalidInput(
+        "no problem here; give a table [system] (a mechanism), [projection] (numbers) or [decomposition] (a "
+        "convex function)",
+        convex::Place{1, 1});
   return *found;
 }
 
@@ -49,9 +51,12 @@ Problem read_problem(const std::string& text, const std::string& directory) {
     problem.content = read_system(document);
   } else if (content.key == "projection") {
     problem.content = read_projection(content.value, directory);
+  } else if (content.key == "decomposition") {
+    problem.content = read_decomposition(content.value, directory);
   } else {
     throw InvalidInput(
-        "[" + content.key + "] is not available yet; this version solves [system] and [projection]",
+        "[" + content.key +
+            "] is not available yet; this version solves [system], [projection] and [decomposition]",
         content.place);
   }
   return problem;

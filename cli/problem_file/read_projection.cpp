@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include "cli/problem_file/keys.hpp"
-#include "cli/problem_file/matrix_market.hpp"
 #include "cli/problem_file/numbers.hpp"
+#include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
 
 namespace cli {
@@ -12,44 +12,6 @@ using convex::Index;
 using convex::InvalidInput;
 using convex::Vector;
 
-std::string matrix_file(const TomlValue& value, const std::string& where, const std::string& directory) {
-  const std::string& name = require_string(value, where + ".matrix_market");
-  if (std::any_of(name.begin(), name.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20U; }))
-    throw InvalidInput(where + ": a file name with control characters; name the matrix file", value.place);
-  return name.empty() || name[0] == '/' || directory.empty() ? name : directory + "/" + name;
-}
-
-convex::SparseMatrix matrix_from_file(const TomlValue& file, const std::string& where,
-                                      const std::string& directory, Index rows, Index columns) {
-  try {
-    return read_matrix_market(matrix_file(file, where, directory), rows, columns);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(where + ": " + error.what(), file.place);
-  }
-}
-
-convex::Metric read_inertia(const TomlValue& value, const std::string& directory, Index n) {
-  if (value.kind != TomlValue::Kind::table) return read_metric(value, "A", n, "one per entry of z");
-  require_known_keys(value, "projection.A", {"diagonal", "matrix_market"});
-  if (const TomlValue* diagonal = value.find("diagonal")) {
-    if (value.table.size() > 1)
-      throw InvalidInput("A: both diagonal and matrix_market; give one", value.place);
-    const Vector d = read_vector(*diagonal, "A.diagonal");
-    if (d.size() != n)
-      throw InvalidInput("A.diagonal: " + std::to_string(d.size()) + " entries; give " + std::to_string(n) +
-                             ", one per entry of z",
-                         diagonal->place);
-    return convex::Metric::diagonal(d);
-  }
-  const TomlValue* file = value.find("matrix_market");
-  if (file == nullptr)
-    throw InvalidInput("A: an empty table; give diagonal = […] or matrix_market = \"A.mtx\"", value.place);
-  const convex::SparseMatrix A = matrix_from_file(*file, "A", directory, n, n);
-  constexpr Index small = 200;  // a small matrix is dense whatever its file
-  return n <= small && A.nonZeros() > n ? convex::Metric::dense(convex::Matrix(A))
-                                        : convex::Metric::sparse(A);
-}
-
 convex::ConstraintRows read_rows(const TomlValue* value, const std::string& directory, Index n) {
   if (value == nullptr) return convex::ConstraintRows(convex::RowMatrix(0, n));
   if (value->kind != TomlValue::Kind::table)
@@ -58,7 +20,7 @@ convex::ConstraintRows read_rows(const TomlValue* value, const std::string& dire
   require_known_keys(*value, "projection.U", {"matrix_market"});
   const TomlValue* file = value->find("matrix_market");
   if (file == nullptr) throw InvalidInput("U: an empty table; give matrix_market = \"U.mtx\"", value->place);
-  const convex::SparseMatrix U = matrix_from_file(*file, "U", directory, -1, n);
+  const convex::SparseMatrix U = read_matrix_file(*file, "U", directory, -1, n);
   return convex::ConstraintRows(convex::SparseRows(U));
 }
 
@@ -97,7 +59,7 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
                            std::to_string(rows.count()) + ", one per row of U",
                        s == nullptr ? table.place : s->place);
   try {
-    return {{read_inertia(*A, directory, n), force, rows, bound,
+    return {{read_metric(*A, {"projection", "A", directory, n, "one per entry of z"}), force, rows, bound,
              row_indices(table.find("two_sided"), rows.count())}};
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(A->place));

@@ -13,6 +13,7 @@ SolveSettings read_solve_settings(const TomlValue& table) {
   if (const TomlValue* tolerance = table.find("tolerance"))
     settings.tolerance = require_positive(*tolerance, "solve.tolerance");
   if (const TomlValue* tolerance = table.find("contact_tolerance")) {
+    settings.contact_tolerance_place = tolerance->place;
     if (tolerance->kind == TomlValue::Kind::table) {
       for (const TomlEntry& entry : tolerance->table)
         settings.contact_tolerances.push_back(

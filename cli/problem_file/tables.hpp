@@ -11,6 +11,9 @@ SystemProblem read_system(const TomlValue& document);
 /// `[projection]`; matrix files are looked for in `directory`.
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);
 
+/// `[decomposition]`; a matrix file is looked for in `directory`.
+DecompositionProblem read_decomposition(const TomlValue& table, const std::string& directory);
+
 /// `[solve]`.
 SolveSettings read_solve_settings(const TomlValue& table);
 

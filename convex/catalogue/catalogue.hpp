@@ -39,6 +39,9 @@ struct CatalogueEntry {
   /// A call that the laws run, with three entries where the number is free.
   std::vector<std::string_view> examples;
   Function (*make)(const Arguments&);
+  /// Where a function that is neither an indicator nor finite everywhere is finite: a set of the language, or
+  /// words such as "x > 0"; "" when its arguments decide.
+  std::string_view domain = "";
 };
 
 /// Every set, function and operation, in the order of the documentation.

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/commands.hpp"
+#include "cli/each_file.hpp"
+#include "cli/function_language/domain_text.hpp"
+#include "cli/function_language/number_of_entries.hpp"
+#include "cli/function_language/parse_call.hpp"
+#include "cli/function_language/parse_metric.hpp"
+#include "cli/json_writer.hpp"
+#include "cli/text_table.hpp"
+#include "convex/catalogue/catalogue.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using convex::Metric;
+using convex::Vector;
+
+struct ConjugateQuestion {
+  convex::Function f;
+  Metric W;
+  std::optional<Vector> y;
+};
+
+/// The function, the metric and the point of the command line; `source` tells which is being read.
+ConjugateQuestion read_question(const Options& options, Source& source) {
+  std::optional<Vector> y;
+  std::optional<Metric> W;
+  if (options.at) {
+    source = {"--at", *options.at};
+    y = parse_vector(*options.at, "y");
+    if (y->size() == 0) throw InvalidInput("y: empty; give at least one number");
+    if (!y->allFinite()) throw InvalidInput("y: an entry is not finite; give finite numbers");
+  }
+  if (options.metric) {
+    source = {"--metric", *options.metric};
+    W = parse_metric(*options.metric);
+    if (y && W->dimension() != y->size())
+      throw InvalidInput(
+          fmt::format("metric: {} rows; give {}, one per entry of y", W->dimension(), y->size()));
+  }
+  source = {"f", options.expression};
+  const convex::Call call = parse_call(options.expression, "f");
+  if (!W) W = Metric::identity(y ? y->size() : number_of_entries(call));
+  return {convex::make_function(call, {*W}), *W, y};
+}
+
+std::string conjugate_json(const ConjugateQuestion& question, const convex::Function& g,
+                           const std::string& domain) {
+  JsonWriter json;
+  json.begin_object().key("kind").value("conjugate").key("status").value("solved");
+  json.key("f").value(to_text(question.f.call())).key("g").value(to_text(g.call()));
+  json.key("entries").value(question.W.dimension()).key("domain");
+  if (domain.empty())
+    json.null();
+  else
+    json.value(domain);
+  if (question.y) json.key("at").numbers(*question.y).key("value").value(g(*question.y));
+  json.end_object();
+  return json.text();
+}
+
+std::string conjugate_text(const ConjugateQuestion& question, const convex::Function& g,
+                           const std::string& domain) {
+  const bool plain = question.W.kind() == convex::MetricKind::identity;
+  std::string text = fmt::format("f = {}\ng = {}\n", to_text(question.f.call()), to_text(g.call()));
+  text += fmt::format(
+      "where g(y) = sup over x of {} - f(x){}\n", plain ? "x·y" : "x·Wy",
+      question.f.dimension() == 0 && plain ? "" : fmt::format(", with {} entries", question.W.dimension()));
+  text += text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
+  if (question.y) {
+    std::string entries;
+    for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);
+    text += fmt::format("g([{}]) = {}\n", entries, number_text(g(*question.y)));
+  }
+  return text;
+}
+
+}  // namespace
+
+Exit conjugate_command(const Options& options) {
+  Source source;
+  return answered(options, source, [&] {
+    const ConjugateQuestion question = read_question(options, source);
+    const convex::Function g = question.f.conjugate(question.W);
+    const std::string domain = domain_text(g, question.W.dimension());
+    if (options.json)
+      fmt::print("{}\n", conjugate_json(question, g, domain));
+    else if (!options.quiet)
+      fmt::print("{}", conjugate_text(question, g, domain));
+    return Exit::solved;
+  });
+}
+
+}  // namespace cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "convex/functions/function.hpp"
+
+namespace cli {
+
+/// Where f, on n entries, is finite: "everywhere", a set of the language, or words made of such; "" when no
+/// rule says.
+std::string domain_text(const convex::Function& f, convex::Index n);
+
+}  // namespace cli

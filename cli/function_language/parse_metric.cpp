@@ -1,0 +1,36 @@
+#include "cli/function_language/parse_metric.hpp"
+
+#include "cli/function_language/cursor.hpp"
+#include "cli/function_language/read_list.hpp"
+#include "cli/problem_file/read_metric.hpp"
+
+namespace cli {
+namespace {
+
+constexpr const char* form = "a matrix, [[2, 1], [1, 2]], or a diagonal, \"diagonal [1, 2]\"";
+
+}  // namespace
+
+convex::Metric parse_metric(std::string_view text) {
+  constexpr const char* what = "metric";
+  Cursor cursor(text, what, {});
+  cursor.skip_spaces();
+  const convex::Place place = cursor.place();
+  const std::string_view word = cursor.take_name();
+  cursor.skip_spaces();
+  if ((!word.empty() && word != "diagonal") || cursor.peek() != '[')
+    cursor.fail(std::string("neither a matrix nor a diagonal; write ") + form, place);
+  const convex::Argument list = take_list(cursor);
+  if (!cursor.at_end()) cursor.fail(cursor.shown_next() + " behind the end; write " + form);
+  try {
+    const auto* diagonal = std::get_if<convex::Vector>(&list);
+    if (word.empty() && diagonal == nullptr) return convex::Metric::dense(std::get<convex::Matrix>(list));
+    if (!word.empty() && diagonal != nullptr) return convex::Metric::diagonal(*diagonal);
+  } catch (const convex::InvalidInput& error) {
+    throw convex::InvalidInput(metric_message(error.what(), what), place);
+  }
+  cursor.fail(std::string(word.empty() ? "a vector" : "a matrix behind \"diagonal\"") + "; write " + form,
+              place);
+}
+
+}  // namespace cli

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+#include "convex/metric.hpp"
+
+namespace cli {
+
+/// A metric as it is written on a command line: a matrix [[2, 1], [1, 2]], or diagonal [1, 2]. Throws
+/// InvalidInput, also when it is not symmetric positive definite.
+convex::Metric parse_metric(std::string_view text);
+
+}  // namespace cli

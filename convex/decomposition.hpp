@@ -1,0 +1,26 @@
+#pragma once
+
+#include "convex/functions/function.hpp"
+
+namespace convex {
+
+/// The decomposition of a point (Moreau 1965): z = x + y and f(x) + g(y) = (x|y), where x = prox_f z,
+/// y = prox_g z and g(y) = sup_x (x|y) - f(x) is the conjugate in the metric. y is computed as the prox of
+/// the function g, never as z - x.
+struct Decomposition {
+  Prox x, y;
+  double f_x = 0, g_y = 0;
+  double inner = 0;        ///< (x|y) = x·Wy
+  double fenchel_gap = 0;  ///< f(x) + g(y) - (x|y), >= 0 but for rounding (Fenchel 1949)
+  double residual = 0;     ///< ||z - x - y||_W
+  /// ||x - x*||_W and ||y - y*||_W are at most this: the larger of the two proxes' own bounds, and at least
+  /// half the residual, which no smaller bounds could explain.
+  double error_bound = 0;
+  /// `solved`: the error bound is at most tolerance * max(1, ||z||_W, ||x||_W), and f(x), g(y) are finite.
+  Status status = Status::gave_up;
+};
+
+/// z: as many entries as W. Throws InvalidInput when f has another number, or z is not finite.
+Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance = 1e-9);
+
+}  // namespace convex

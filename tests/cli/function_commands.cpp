@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+struct WrongArguments {
+  std::vector<std::string> arguments;
+  std::string beginning;  ///< of the message
+  std::vector<std::string> words;
+};
+
+}  // namespace
+
+TEST_CASE("the conjugate prints as an expression that reads back, with its domain and its value") {
+  const Json norm = Json::parse(run({"conjugate", "norm2(weight=2)", "--json"}).out);
+  CHECK(norm["g"] == "indicator(ball2(radius=2))");
+  CHECK(norm["domain"] == "ball2(radius=2)");
+  CHECK_FALSE(norm.contains("value"));
+  const Json ball = Json::parse(run({"conjugate", norm["g"], "--at", "[3, 4]", "--json"}).out);
+  CHECK(ball["g"] == "norm2(weight=2)");
+  CHECK(ball["domain"] == "everywhere");
+  CHECK(ball["value"] == 10);
+  CHECK(Json::parse(run({"conjugate", "norm2(weight=2)", "--at", "[3, 4]", "--json"}).out)["value"] == "inf");
+  const std::string text = run({"conjugate", "norm2(weight=2)", "--at", "[3, 4]"}).out;
+  for (const char* words :
+       {"g = indicator(ball2(radius=2))", "domain of g: ball2(radius=2)", "g([3, 4]) = inf"})
+    CHECK(text.find(words) != std::string::npos);
+}
+
+TEST_CASE("a conjugate needs no number of entries where the data tell it") {
+  const Json answer = Json::parse(run({"conjugate", "quadratic([[2, 0], [0, 4]])", "--json"}).out);
+  CHECK(answer["entries"] == 2);
+}
+
+TEST_CASE("wrong expressions are told from wrong points and wrong metrics, with a caret under the place") {
+  const std::vector<WrongArguments> table{
+      {{"prox", "norm3()", "--at", "[1]"}, "f:1:1: ", {"norm3", "norm2", "\n  norm3()\n  ^\n"}},
+      {{"prox", "indicator(ball2(-1))", "--at", "[1]"}, "f:1:11: ", {"\n            ^\n"}},
+      {{"prox", "indicator(ball2)", "--at", "[1]"}, "f:1:11: ", {"ball2()"}},
+      {{"prox", "norm2()", "--at", "[1,"}, "--at:1:1: ", {"no ] closes"}},
+      {{"prox", "norm2()", "--at", "1"}, "--at:1:1: ", {"vector"}},
+      {{"prox", "norm2()", "--at", "[]"}, "--at:1:1: ", {"empty"}},
+      {{"prox", "norm2()", "--at", "[[1]]"}, "--at:1:1: ", {"vector"}},
+      {{"prox", "norm2()", "--at", "[1, inf]"}, "--at:1:1: ", {"finite"}},
+      {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "[1, 2]"}, "--metric:1:1: ", {"diagonal"}},
+      {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "diagonal [[1]]"}, "--metric:1:1: ", {"diagonal"}},
+      {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "diag [1, 2]"}, "--metric:1:1: ", {"diagonal"}},
+      {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "diagonal [1]"}, "--metric:1:1: ", {"1", "2"}},
+      {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "[[1, 2], [2, 1]]"},
+       "--metric:1:1: ",
+       {"metric: not positive"}},
+      {{"prox", "norm2()", "--at", "[1]", "--method", "active-set"}, "--method:1:1: ", {"does not apply"}},
+      {{"conjugate", "quadratic([[1]])", "--at", "[1, 2]"}, "f:1:1: ", {"quadratic"}},
+      {{"conjugate", "quadratic([[-1]])"}, "f:1:1: ", {"quadratic"}},
+      {{"conjugate", "norm2(", "--at", "[1, 2]"}, "f:1:1: ", {"no ) closes"}},
+      {{"functions", "norm3"}, "norm3:1:1: ", {"norm3", "norm2"}},
+  };
+  for (const auto& [arguments, beginning, words] : table) {
+    const Outcome outcome = run(arguments);
+    CAPTURE(arguments[1]);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.starts_with("moreau: " + beginning));
+    CHECK(outcome.err.find("; ") != std::string::npos);
+    for (const std::string& word : words) {
+      CAPTURE(word);
+      CHECK(outcome.err.find(word) != std::string::npos);
+    }
+    if (arguments[0] == "functions") continue;
+    std::vector<std::string> as_json = arguments;
+    as_json.emplace_back("--json");
+    CHECK(Json::parse(run(as_json).out).at("status") == "error");
+  }
+}
+
+TEST_CASE("the functions are listed with the name first, and the same names as JSON") {
+  const Json functions = Json::parse(run({"functions", "--json"}).out).at("functions");
+  const std::string text = run({"functions"}).out;
+  std::size_t at = 0;
+  for (const Json& function : functions) {
+    const std::string name = function.at("name");
+    CHECK(text.compare(at, name.size() + 1, name + " ") == 0);
+    at = text.find('\n', at) + 1;
+    for (const char* key : {"kind", "arguments", "formula", "facts", "prox", "source", "examples"}) {
+      CAPTURE(key);
+      CHECK(function.contains(key));
+    }
+    const Outcome details = run({"functions", name});
+    CHECK(details.code == 0);
+    CHECK(details.out.starts_with(name + "("));
+    CHECK(Json::parse(run({"functions", name, "--json"}).out).at("functions") == Json::array({function}));
+  }
+  CHECK(at == text.size());
+}
