@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/vector.hpp"
+
+namespace convex::kernels {
+
+/// A point that is constant on runs of neighbours: run k is the entries from first[k] up to first[k + 1], the
+/// last one up to the end.
+struct Blocks {
+  Vector x;
+  std::vector<Index> first;
+};
+
+/// The derivative of a point whose runs are means of z with weights d, up to constants: J_ij = d_j / Σ_run d.
+Matrix blocks_jacobian(const Blocks&, const Vector& d);
+
+}  // namespace convex::kernels

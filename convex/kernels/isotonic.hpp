@@ -1,0 +1,21 @@
+#pragma once
+
+#include "convex/kernels/blocks.hpp"
+
+namespace convex::kernels {
+
+/// Isotonic regression: the nearest point with x_1 <= x_2 <= ... <= x_n, the projection on the monotone cone,
+/// by pooling adjacent violators (Ayer, Brunk, Ewing, Reid and Silverman 1955) in O(n). Means are of sums in
+/// twice the working precision. d: weights of Σ d_i (x_i - z_i)², positive; InvalidInput otherwise.
+Blocks proj_monotone(const Vector& z);
+Blocks proj_monotone(const Vector& z, const Vector& d);
+
+/// The nearest point with x_1 >= x_2 >= ... >= x_n.
+Blocks proj_decreasing(const Vector& z);
+Blocks proj_decreasing(const Vector& z, const Vector& d);
+
+/// Prox of Σ w_i |u|_(i), |u|_(1) >= |u|_(2) >= ..., with w_1 >= w_2 >= ... >= w_n >= 0 (the sorted l1 norm;
+/// Bogdan, van den Berg, Sabatti, Su and Candès 2015): O(n log n). InvalidInput when w is not so ordered.
+Vector prox_sorted_norm1(const Vector& z, const Vector& w);
+
+}  // namespace convex::kernels
