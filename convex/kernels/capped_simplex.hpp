@@ -3,8 +3,8 @@
 #include "convex/vector.hpp"
 
 /// The simplex with bounded entries and its support function, the sum of the k largest entries. In a diagonal
-/// metric d distances are sqrt(Σ d_i (u_i - z_i)²). z is finite. InvalidInput when sizes do not fit, the set is
-/// empty, or k is not a number of entries.
+/// metric d distances are sqrt(Σ d_i (u_i - z_i)²). z is finite. InvalidInput when sizes do not fit, the set
+/// is empty, or k is not a number of entries.
 namespace convex::kernels {
 
 /// Nearest point of {0 <= x <= cap, Σx = total}, 0 <= total <= n cap.

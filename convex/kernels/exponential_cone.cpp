@@ -1,5 +1,6 @@
 #include "convex/kernels/exponential_cone.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -14,12 +15,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// e^-740 is all but zero: beyond it a ray of the cone or of the polar is an edge of doubles.
-constexpr double last_exponent = 740;
+/// e^-700 is all but zero beside 1, and e^700 is still a double: beyond it a ray is an edge of the cone.
+constexpr double last_exponent = 700;
 /// An entry so small beside the others is zero to any rounding, and not worth a ratio that overflows.
 constexpr double negligible = 0x1p-960;
 
-double exp(DoubleDouble x) { return std::exp(x.hi) * (1 + x.lo); }
+/// Where e^x leaves the range of doubles, x.lo is no longer small.
+double exp(DoubleDouble x) {
+  return std::abs(x.hi) < last_exponent ? std::exp(x.hi) * (1 + x.lo) : std::exp(x.hi);
+}
 
 DoubleDouble quotient(double a, double b) {
   const double q = a / b;
@@ -50,9 +54,9 @@ struct Split {
 
 /// The rays at a distance from one end of the interval of rho. from_low: the end where A vanishes.
 struct Interval {
-  double x, y;         // of z
-  DoubleDouble end;    // 1 - y/x or x/y
-  double width;        // to the other end, may be infinite
+  double x, y;       // of z
+  DoubleDouble end;  // 1 - y/x or x/y
+  double width;      // to the other end, may be infinite
   bool from_low;
 
   Ray at(double distance, double correction) const {
@@ -136,8 +140,10 @@ Split split(double x, double y, double t) {
   const DoubleDouble low = add({1, 0}, negative(quotient(y, x)));
   const double width = x / y + (y / x - 1);
   const Interval from_low{x, y, low, width, true}, from_high{x, y, high, width, false};
-  const Ray middle = from_low.at(width / 2, 0);
-  return {Region::ray, root(middle.up - middle.down >= t ? from_low : from_high, t)};
+  const double middle = low.hi + width / 2;
+  const Ray ray = from_low.at(width / 2, 0);
+  const bool lower_half = middle > last_exponent || (middle > -last_exponent && ray.up - ray.down >= t);
+  return {Region::ray, root(lower_half ? from_low : from_high, t)};
 }
 
 struct ScaledSplit {
@@ -167,12 +173,18 @@ Vector3d proj_exponential_cone(const Vector3d& z) {
   const auto [w, k, parts] = scaled_split(z);
   const Ray& ray = parts.ray;
   switch (parts.region) {
-    case Region::cone: return z;
-    case Region::polar: return Vector3d::Zero();
-    case Region::back_face: return {z[0], 0, std::max(z[2], 0.0)};
-    case Region::t_axis: return {0, 0, std::max(z[2], 0.0)};
-    case Region::t_zero: return {z[0], z[1], 0};
-    case Region::ray: break;
+    case Region::cone:
+      return z;
+    case Region::polar:
+      return Vector3d::Zero();
+    case Region::back_face:
+      return {z[0], 0, std::max(z[2], 0.0)};
+    case Region::t_axis:
+      return {0, 0, std::max(z[2], 0.0)};
+    case Region::t_zero:
+      return {z[0], z[1], 0};
+    case Region::ray:
+      break;
   }
   return restored({ray.A * ray.rho.value(), ray.A, ray.up}, k);
 }
@@ -181,12 +193,18 @@ Vector3d proj_exponential_polar(const Vector3d& z) {
   const auto [w, k, parts] = scaled_split(z);
   const Ray& ray = parts.ray;
   switch (parts.region) {
-    case Region::cone: return Vector3d::Zero();
-    case Region::polar: return z;
-    case Region::back_face: return {0, z[1], std::min(z[2], 0.0)};
-    case Region::t_axis: return {z[0], z[1], std::min(z[2], 0.0)};
-    case Region::t_zero: return {0, 0, z[2]};
-    case Region::ray: break;
+    case Region::cone:
+      return Vector3d::Zero();
+    case Region::polar:
+      return z;
+    case Region::back_face:
+      return {0, z[1], std::min(z[2], 0.0)};
+    case Region::t_axis:
+      return {z[0], z[1], std::min(z[2], 0.0)};
+    case Region::t_zero:
+      return {0, 0, z[2]};
+    case Region::ray:
+      break;
   }
   return restored({ray.B, ray.B * ((1 - ray.rho.hi) - ray.rho.lo), -ray.down}, k);
 }
@@ -195,16 +213,23 @@ Matrix3d proj_exponential_cone_jacobian(const Vector3d& z) {
   const auto [w, k, parts] = scaled_split(z);
   const double kept = z[2] > 0 ? 1 : 0;
   switch (parts.region) {
-    case Region::cone: return Matrix3d::Identity();
-    case Region::polar: return Matrix3d::Zero();
-    case Region::back_face: return Vector3d(1, 0, kept).asDiagonal();
-    case Region::t_axis: return Vector3d(0, 0, kept).asDiagonal();
-    case Region::t_zero: return Vector3d(1, 1, 0).asDiagonal();
-    case Region::ray: break;
+    case Region::cone:
+      return Matrix3d::Identity();
+    case Region::polar:
+      return Matrix3d::Zero();
+    case Region::back_face:
+      return Vector3d(1, 0, kept).asDiagonal();
+    case Region::t_axis:
+      return Vector3d(0, 0, kept).asDiagonal();
+    case Region::t_zero:
+      return Vector3d(1, 1, 0).asDiagonal();
+    case Region::ray:
+      break;
   }
   const Ray& ray = parts.ray;
   const double rho = ray.rho.hi, e = std::exp(std::clamp(rho, -700.0, 700.0));  // beyond, an axis
-  const Vector3d p = Vector3d(rho, 1, e).stableNormalized(), n = Vector3d(1, 1 - rho, -1 / e).stableNormalized();
+  const Vector3d p = Vector3d(rho, 1, e).stableNormalized(),
+                 n = Vector3d(1, 1 - rho, -1 / e).stableNormalized();
   const Vector3d c = p.cross(n);
   const double along = Vector3d(ray.A, 0, ray.up).dot(c), across = Vector3d(0, -ray.B, ray.down).dot(c);
   return p * p.transpose() + along / (along + across) * c * c.transpose();

@@ -14,7 +14,7 @@ double lambert_w(double a) {
     const double step = std::abs(next - w);
     w = next;
     // Quadratic: from a step below 2⁻³⁰ of w the next is rounding. A step that does not shrink is.
-    if (step <= 0x1p-30 * w || step >= last) break;
+    if (!(step > 0x1p-30 * w && step < last)) break;
     last = step;
   }
   return w * (1 + std::log(a / w)) / (1 + w);

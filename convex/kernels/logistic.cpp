@@ -45,7 +45,7 @@ ScalarProx prox_binary_entropy(double z, double d) {
       const double step = value / (1 / (1 - y) + d * y);
       y *= std::exp(-step);
       // Quadratic: after a step below 2⁻³⁰ the next is rounding. A step that does not shrink is.
-      if (std::abs(step) <= 0x1p-30 || std::abs(step) >= last) break;
+      if (!(std::abs(step) > 0x1p-30 && std::abs(step) < last)) break;
       last = std::abs(step);
     }
   const double t = d * y * (1 - y);

@@ -1,5 +1,6 @@
 #include "convex/kernels/power_cone.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <string>
 
@@ -30,8 +31,8 @@ double mean(double x, double y, double alpha) {
   return alpha <= 0.5 ? y * std::pow(x / y, alpha) : x * std::pow(y / x, 1 - alpha);
 }
 
-/// One coordinate of the pair: the positive root of c (c - a) = share · product, the coordinate of the nearest
-/// point, and a - c; log of it, and d log c / d log product.
+/// One coordinate of the pair: the positive root of c (c - a) = share · product, the coordinate of the
+/// nearest point, and a - c; log of it, and d log c / d log product.
 struct Coordinate {
   double root;  // sqrt(a² + 4 share product)
   double log, elasticity;
@@ -50,10 +51,10 @@ double softplus(double s) { return std::max(s, 0.0) + std::log1p(std::exp(-std::
 
 Split split(const Vector3d& z, double alpha) {
   const double x = z[0], y = z[1], height = std::abs(z[2]), beta = 1 - alpha;
-  if (x >= 0 && y >= 0 && mean(x, y, alpha) >= height) return {Region::cone, z, {}};
-  if (x <= 0 && y <= 0 && mean(-x / alpha, -y / beta, alpha) >= height) return {Region::polar, {}, z};
-  if (!(height > 0))
-    return {Region::flat, z.cwiseMax(0.0), z.cwiseMin(0.0)};
+  if (x >= 0 && y >= 0 && mean(x, y, alpha) >= height) return {Region::cone, z, Vector3d::Zero()};
+  if (x <= 0 && y <= 0 && mean(-x / alpha, -y / beta, alpha) >= height)
+    return {Region::polar, Vector3d::Zero(), z};
+  if (!(height > 0)) return {Region::flat, z.cwiseMax(0.0), z.cwiseMin(0.0)};
   const double log_height = std::log(height);
   // s = log(r/(height - r)); the mean of the coordinates over r, in logarithms, falls from above 0 to below.
   const auto excess = [&](double s) {
@@ -74,7 +75,7 @@ Split split(const Vector3d& z, double alpha) {
     const double r = height * (1 / (1 + std::exp(-s))), rest = height * (1 / (1 + std::exp(s)));
     const auto root_of = [&](double a, double share) {
       const double g = std::sqrt(share) * std::sqrt(r) * std::sqrt(rest), root = std::hypot(a, 2 * g);
-      const double larger = (std::abs(a) + root) / 2, smaller = g * (g / larger);
+      const double larger = (std::abs(a) + root) / 2, smaller = larger > 0 ? g * (g / larger) : 0;
       return a > 0 ? std::pair{larger, -smaller} : std::pair{smaller, -larger};
     };
     const auto [first, first_rest] = root_of(x, alpha);

@@ -11,10 +11,9 @@ namespace {
 
 void require_size(const Vector& z, const Vector& data, const char* name) {
   if (data.size() != z.size())
-    throw InvalidInput(std::string(name) + ": has " + std::to_string(data.size()) + " entries for a point of " +
-                       std::to_string(z.size()) + "; give one an entry");
+    throw InvalidInput(std::string(name) + ": has " + std::to_string(data.size()) +
+                       " entries for a point of " + std::to_string(z.size()) + "; give one an entry");
 }
-
 
 inline double clamped(double z, double lower, double upper) {
   const double above = z < lower ? lower : z;

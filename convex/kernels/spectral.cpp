@@ -13,8 +13,8 @@ namespace {
 
 Matrix symmetric_part(const Matrix& Z) {
   if (Z.rows() != Z.cols())
-    throw InvalidInput("psd_cone: the matrix is " + std::to_string(Z.rows()) + "x" + std::to_string(Z.cols()) +
-                       "; give a square one");
+    throw InvalidInput("psd_cone: the matrix is " + std::to_string(Z.rows()) + "x" +
+                       std::to_string(Z.cols()) + "; give a square one");
   return 0.5 * Z + 0.5 * Z.transpose();
 }
 

@@ -2,10 +2,10 @@
 
 #include "convex/vector.hpp"
 
-/// Functions of the eigenvalues of a symmetric matrix, among all n×n matrices with the product Σ X_ij Y_ij: +inf
-/// where X is not symmetric. So the prox at Z is that at its symmetric part S = ½(Z + Zᵀ), it acts on the
-/// eigenvalues (Lewis 1996), and the polar of a cone of symmetric matrices holds every skew matrix. A vector of
-/// n² entries is the matrix stacked by columns; InvalidInput when its size is no square.
+/// Functions of the eigenvalues of a symmetric matrix, among all n×n matrices with the product Σ X_ij Y_ij:
+/// +inf where X is not symmetric. So the prox at Z is that at its symmetric part S = ½(Z + Zᵀ), it acts on
+/// the eigenvalues (Lewis 1996), and the polar of a cone of symmetric matrices holds every skew matrix. A
+/// vector of n² entries is the matrix stacked by columns; InvalidInput when its size is no square.
 namespace convex::kernels {
 
 /// A prox of a spectral function with its derivative in the manner of Lewis and Sendov (2001):

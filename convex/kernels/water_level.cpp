@@ -50,7 +50,9 @@ double water_level(const Vector& point, const Vector& slope, double cap, double 
     draw = draw * 1664525U + 1013904223U;
     const Item& chosen = open[static_cast<std::size_t>((std::uint64_t{draw} * open.size()) >> 32)];
     const bool upper = chosen.none > lo && chosen.none < hi && ((draw & 0x8000U) || !(chosen.full > lo));
-    const double level = upper ? chosen.none : chosen.full > lo && chosen.full < hi ? chosen.full : chosen.none;
+    const double level = upper                                  ? chosen.none
+                         : chosen.full > lo && chosen.full < hi ? chosen.full
+                                                                : chosen.none;
     if (slopes <= 0) base = level;
     (at(level) > total ? lo : hi) = level;
     const auto decided = [&](const Item& item) {

@@ -164,8 +164,8 @@ TEST_CASE("the capped simplex and the sum of the largest entries agree with frac
           RationalVector x;
           for (std::size_t i = 0; i < z.size(); ++i)
             x.push_back(std::max(std::min(z[i], level), Rational(z[i] - Rational(cap) / weights[i])));
-          const Vector found = metric ? k::prox_sum_largest(s.z, largest, cap, s.d)
-                                      : k::prox_sum_largest(s.z, largest, cap);
+          const Vector found =
+              metric ? k::prox_sum_largest(s.z, largest, cap, s.d) : k::prox_sum_largest(s.z, largest, cap);
           if (largest > 0)
             CHECK(oracles::distance(found, x) <=
                   few * (s.z.cwiseAbs().maxCoeff() + cap / s.d.minCoeff()) * (metric ? 1 + spread : 1));
