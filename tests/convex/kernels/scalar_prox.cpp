@@ -178,7 +178,7 @@ void check_against_bisection(const Case& f, double z, double d) {
     CAPTURE(static_cast<double>(slope));
     CAPTURE(found.slope);
     CHECK(std::abs(static_cast<Long>(found.slope) - slope) <=
-          1e-13L * slope + (f.saturates ? (1 + d) * 1e-18L : 1e-290L));
+          (f.saturates ? 1e-12L : 1e-13L) * slope + (f.saturates ? (1 + d) * 1e-18L : 1e-290L));
   }
 }
 
