@@ -1,0 +1,37 @@
+#pragma once
+
+#include "convex/exact/elimination.hpp"
+#include "convex/exact/fraction.hpp"
+#include "convex/metric.hpp"
+
+namespace convex {
+
+/// A metric (x|y) = x·Wy in fractions: W = gram / denominator, gram⁻¹ = inverse.adjugate /
+/// inverse.determinant.
+struct ExactMetric {
+  IntegerRows gram;
+  Integer denominator = 1;
+  ExactInverse inverse;
+  Index dimension() const { return static_cast<Index>(gram.size()); }
+};
+
+ExactMetric identity_metric(Index n);
+
+/// W by its rows. Throws InvalidInput when it is not square, not symmetric (entries may differ by rounding,
+/// as in Metric::dense; their mean is then meant), or not positive definite.
+ExactMetric exact_metric(const ExactRows& W);
+
+/// The doubles of a metric at their exact values.
+ExactMetric exact_metric(const Metric& W);
+
+/// (x|y).
+Fraction inner(const ExactMetric& W, const ExactVector& x, const ExactVector& y);
+
+/// A matrix over one denominator.
+struct IntegerMatrix {
+  IntegerRows rows;
+  Integer denominator = 1;
+};
+IntegerMatrix over_one_denominator(const ExactRows& rows);
+
+}  // namespace convex
