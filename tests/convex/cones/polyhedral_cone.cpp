@@ -127,12 +127,8 @@ TEST_CASE("a cone found from the half-spaces of another is that cone") {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const ConeData data = random_cone_data(seed + 2000, 1 + seed % 6);
     const PolyhedralCone K = convex::generated_cone(data.generators, data.lines);
-    const auto rows = [](const IntegerRows& integers) {
-      convex::ExactRows made;
-      for (const IntegerVector& row : integers) made.push_back({row, 1});
-      return made;
-    };
-    const PolyhedralCone again = convex::halfspace_cone(rows(K.halfspaces), rows(K.equations), K.n);
+    const PolyhedralCone again =
+        convex::halfspace_cone(tests::exact(K.halfspaces), tests::exact(K.equations), K.n);
     CAPTURE(seed);
     CHECK(convex::are_equal(K, again));
     CHECK(again.halfspaces == K.halfspaces);

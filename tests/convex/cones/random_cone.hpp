@@ -32,4 +32,29 @@ inline ConeData random_cone_data(unsigned seed, convex::Index n) {
   return data;
 }
 
+inline convex::PolyhedralCone random_cone(unsigned seed, convex::Index n) {
+  const ConeData data = random_cone_data(seed, n);
+  return convex::generated_cone(data.generators, data.lines);
+}
+
+inline convex::Matrix random_matrix(unsigned seed, convex::Index rows, convex::Index columns) {
+  std::mt19937 random(seed);
+  convex::Matrix M(rows, columns);
+  for (convex::Index i = 0; i < M.size(); ++i)
+    M.data()[i] = std::uniform_int_distribution<int>(-2, 2)(random);
+  return M;
+}
+
+/// Integers, or thirds rounded to doubles; positive definite.
+inline convex::Matrix random_metric(unsigned seed, convex::Index n) {
+  const convex::Matrix B = random_matrix(seed, n, n);
+  return (B * B.transpose() + convex::Matrix::Identity(n, n)) / (seed % 2 == 0 ? 1.0 : 3.0);
+}
+
+inline convex::ExactRows exact(const convex::IntegerRows& rows) {
+  convex::ExactRows made;
+  for (const convex::IntegerVector& row : rows) made.push_back({row, 1});
+  return made;
+}
+
 }  // namespace tests
