@@ -2,15 +2,15 @@
 
 #include "convex/functions/node.hpp"
 
-/// The atoms that operations on graph forms need, each a function of any number of entries.
+/// The atoms that operations on graph forms need, with closed conjugates among themselves.
 namespace convex {
 
 /// a·u.
 std::shared_ptr<const Atom> linear_atom(const Vector& a);
 /// ½|u|².
 std::shared_ptr<const Atom> half_square_atom();
-/// The indicator of {0}.
-std::shared_ptr<const Atom> zero_point_atom();
+/// The indicator of {p}.
+std::shared_ptr<const Atom> point_atom(const Vector& p);
 /// The indicator of {u : u >= 0}.
 std::shared_ptr<const Atom> orthant_atom();
 

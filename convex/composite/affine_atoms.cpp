@@ -1,0 +1,129 @@
+#include "convex/composite/affine_atoms.hpp"
+
+#include <limits>
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Call call_of(const char* name) { return {name, {}, std::nullopt}; }
+
+Call call_of(const char* name, Argument argument) {
+  return {name, {{"", std::move(argument), std::nullopt}}, std::nullopt};
+}
+
+Argument nested(Call call) { return std::make_shared<const Call>(std::move(call)); }
+
+class LinearAtom final : public Atom {
+ public:
+  explicit LinearAtom(Vector a) : slope(std::move(a)) {}
+  Index dimension() const override { return slope.size(); }
+  Facts facts() const override {
+    return {.support = true, .separable = true, .piecewise_quadratic = true, .smooth = true, .finite = true};
+  }
+  Call call() const override { return call_of("linear", slope); }
+  double value(const Vector& x) const override { return slope.dot(x); }
+  Function conjugate() const override { return Function(point_atom(slope)); }
+  std::optional<Vector> subgradient(const Vector&) const override { return slope; }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override { return z - slope.cwiseQuotient(d); }
+  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+    return Matrix::Identity(z.size(), z.size());
+  }
+  const Vector slope;
+};
+
+class HalfSquareAtom final : public Atom {
+ public:
+  Index dimension() const override { return 0; }
+  Facts facts() const override {
+    return {.separable = true, .piecewise_quadratic = true, .smooth = true, .finite = true};
+  }
+  Call call() const override { return call_of("squared_norm2"); }
+  double value(const Vector& x) const override { return 0.5 * x.squaredNorm(); }
+  Function conjugate() const override { return Function(half_square_atom()); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return x; }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return (d.array() / (1 + d.array()) * z.array()).matrix();
+  }
+  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+    return (d.array() / (1 + d.array())).matrix().asDiagonal();
+  }
+};
+
+class PointAtom final : public Atom {
+ public:
+  explicit PointAtom(Vector point) : point_(std::move(point)) {}
+  Index dimension() const override { return point_.size(); }
+  Facts facts() const override {
+    return {.indicator = true, .cone = point_.isZero(0), .separable = true, .piecewise_quadratic = true};
+  }
+  Call call() const override { return call_of("indicator", nested(call_of("point", point_))); }
+  double value(const Vector& x) const override {
+    const double scale = std::max(x.norm(), point_.norm());
+    return (x - point_).norm() <= membership_tolerance * scale ? 0 : infinity;
+  }
+  Function conjugate() const override { return Function(linear_atom(point_)); }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (value(x) > 0) return std::nullopt;
+    return Vector::Zero(x.size());
+  }
+  Vector prox_diagonal(const Vector&, const Vector&) const override { return point_; }
+  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+    return Matrix::Zero(z.size(), z.size());
+  }
+
+ private:
+  Vector point_;
+};
+
+/// {u : sign u >= 0}.
+class OrthantAtom final : public Atom {
+ public:
+  explicit OrthantAtom(double sign) : sign_(sign) {}
+  Index dimension() const override { return 0; }
+  Facts facts() const override {
+    return {.indicator = true, .cone = true, .support = true, .separable = true, .piecewise_quadratic = true};
+  }
+  Call call() const override {
+    const Call positive = call_of("indicator", nested(call_of("orthant")));
+    if (sign_ > 0) return positive;
+    Call reflected = call_of("dilate", nested(positive));
+    reflected.arguments.push_back({"", -1.0, std::nullopt});
+    return reflected;
+  }
+  double value(const Vector& x) const override {
+    const double out = (-sign_ * x.array()).cwiseMax(0.0).matrix().norm();
+    return out <= membership_tolerance * x.norm() ? 0 : infinity;
+  }
+  Function conjugate() const override { return Function(std::make_shared<const OrthantAtom>(-sign_)); }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (value(x) > 0) return std::nullopt;
+    return Vector::Zero(x.size());
+  }
+  Vector prox_diagonal(const Vector& z, const Vector&) const override {
+    return (sign_ * (sign_ * z.array()).cwiseMax(0.0)).matrix();
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+    return (sign_ * z.array() > 0).cast<double>().matrix().asDiagonal();
+  }
+
+ private:
+  double sign_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Atom> linear_atom(const Vector& a) { return std::make_shared<const LinearAtom>(a); }
+std::shared_ptr<const Atom> half_square_atom() { return std::make_shared<const HalfSquareAtom>(); }
+std::shared_ptr<const Atom> point_atom(const Vector& p) { return std::make_shared<const PointAtom>(p); }
+std::shared_ptr<const Atom> orthant_atom() { return std::make_shared<const OrthantAtom>(1.0); }
+
+const Vector* slope_of(const Atom& f) {
+  const auto* linear = dynamic_cast<const LinearAtom*>(&f);
+  return linear ? &linear->slope : nullptr;
+}
+
+bool is_half_square(const Atom& f) { return dynamic_cast<const HalfSquareAtom*>(&f) != nullptr; }
+
+}  // namespace convex

@@ -1,0 +1,45 @@
+#include "convex/composite/conjugate_atom.hpp"
+
+namespace convex {
+namespace {
+
+class ConjugateAtom final : public Atom {
+ public:
+  ConjugateAtom(std::shared_ptr<const Atom> f, Index n)
+      : f_(std::move(f)), n_(n), conjugate_(f_->conjugate()) {}
+  Index dimension() const override { return n_; }
+  Facts facts() const override {
+    const Facts of_f = f_->facts();
+    Facts facts = conjugate_.node().facts();
+    facts.separable = of_f.separable;
+    return facts;
+  }
+  Call call() const override { return conjugate_.node().call(); }
+  double value(const Vector& v) const override { return conjugate_.node().value(v); }
+  Function conjugate() const override { return Function(f_); }
+  std::optional<Vector> subgradient(const Vector& v) const override {
+    return conjugate_.node().subgradient(v);
+  }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return z - f_->prox_diagonal(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    Matrix J = f_->prox_jacobian(d.cwiseProduct(z), d.cwiseInverse());
+    J = -(d.cwiseInverse().asDiagonal() * J * d.asDiagonal());
+    J.diagonal().array() += 1;
+    return J;
+  }
+
+ private:
+  std::shared_ptr<const Atom> f_;
+  Index n_;
+  Function conjugate_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Atom> conjugate_atom(std::shared_ptr<const Atom> f, Index n) {
+  return std::make_shared<const ConjugateAtom>(std::move(f), n);
+}
+
+}  // namespace convex

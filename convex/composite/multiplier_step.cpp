@@ -1,0 +1,93 @@
+#include "convex/composite/multiplier_step.hpp"
+
+#include <cmath>
+
+#include "convex/composite/newton_system.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double relative_accuracy = 0.1;  ///< of the inner minimum, to the step of y
+constexpr double armijo = 1e-4;
+constexpr int halvings = 50;
+constexpr Index newton_limit = 100;
+constexpr double floor_roundings = 16;
+
+/// The inner problem at a ξ.
+struct Inner {
+  Vector xi, t, u, gradient, r;
+  double value = 0;
+  double size = 0;  ///< the sum of the absolute values of the parts of `value`
+};
+
+Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Vector& D, const Vector& ridge,
+               Vector xi) {
+  Inner at;
+  const Vector image = problem.M * xi + problem.b;
+  at.t = image + centre.y.cwiseQuotient(D);
+  at.u = prox_of_terms(problem, at.t, D);
+  at.r = image - at.u;
+  const Vector y = D.cwiseProduct(at.t - at.u);
+  const Vector x = xi.head(problem.n), w_step = xi.tail(problem.k) - centre.xi.tail(problem.k);
+  const Vector covector = metric_difference(problem.W, x, problem.z);
+  at.gradient = problem.c + problem.M.transpose() * y;
+  at.gradient.head(problem.n) += covector;
+  at.gradient.tail(problem.k) += ridge.cwiseProduct(w_step);
+  const auto add = [&](double part) {
+    at.value += part;
+    at.size += std::abs(part);
+  };
+  if (problem.Q.size() > 0) {
+    const Vector image_of_Q = problem.Q * xi;
+    at.gradient += image_of_Q;
+    add(0.5 * xi.dot(image_of_Q));
+  }
+  add(0.5 * covector.dot(x - problem.z));
+  add(problem.c.dot(xi));
+  add(0.5 * ridge.dot(w_step.cwiseAbs2()));
+  add(0.5 * y.dot(at.t - at.u));
+  for (const SaddleTerm& term : problem.terms)
+    add(term.scale * term.f->value(at.u.segment(term.first, term.rows)));
+  at.xi = std::move(xi);
+  return at;
+}
+
+}  // namespace
+
+MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& centre, const Vector& D,
+                               const Vector& ridge) {
+  MultiplierStep result;
+  Inner at = inner_at(problem, centre, D, ridge, centre.xi);
+  const Vector no_r = Vector::Zero(problem.m);
+  for (; result.newton_steps < newton_limit; ++result.newton_steps) {
+    const NewtonSystem system(problem, at.t, D, 1, ridge);
+    if (!system.usable()) break;
+    const Vector direction = system.step(at.gradient, no_r).dxi;
+    const double slope = at.gradient.dot(direction);
+    const double decrement = std::sqrt(std::max(0.0, -slope));
+    const double noise = floor_roundings * unit_roundoff * at.size;
+    const double moved = D.cwiseSqrt().cwiseProduct(at.r).norm();
+    if (decrement <= std::max(relative_accuracy * moved, unit_roundoff * std::sqrt(at.size))) {
+      result.minimised = true;
+      break;
+    }
+    bool accepted = false;
+    double length = 1;
+    for (int halving = 0; halving < halvings && !accepted; ++halving, length /= 2) {
+      Inner next = inner_at(problem, centre, D, ridge, at.xi + length * direction);
+      const double change = next.value - at.value;
+      accepted = change <= armijo * length * slope;
+      // Where rounding hides the descent of the value, the gradient still shows it.
+      if (!accepted && std::abs(change) <= noise && length == 1) {
+        const double next_slope = next.gradient.dot(system.step(next.gradient, no_r).dxi);
+        accepted = next_slope > 0.25 * slope;
+      }
+      if (accepted) at = std::move(next);
+    }
+    if (!accepted) break;
+  }
+  result.point = saddle_point(problem, at.xi, at.t, D);
+  return result;
+}
+
+}  // namespace convex

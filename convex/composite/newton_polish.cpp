@@ -1,0 +1,36 @@
+#include "convex/composite/newton_polish.hpp"
+
+#include "convex/composite/newton_system.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double required_division = 0.7;
+constexpr int step_limit = 60;
+
+}  // namespace
+
+SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
+  SaddlePoint point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
+  const Vector ridge = polish_ridge * problem.R;
+  for (int count = 0; count < step_limit && point.residual > 0; ++count) {
+    const NewtonSystem system(problem, point.t, problem.D, polish_theta, ridge);
+    if (!system.usable()) break;
+    const NewtonStep step = system.step(point.rho, point.r);
+    bool kept = false;
+    for (double length : {1.0, 0.5, 0.1}) {
+      SaddlePoint next =
+          saddle_point(problem, point.xi + length * step.dxi, point.t + length * step.dt, problem.D);
+      if (!(next.residual <= required_division * point.residual) &&
+          !(length < 1 && next.residual <= (1 - 0.3 * length) * point.residual))
+        continue;
+      point = std::move(next);
+      kept = true;
+      break;
+    }
+    if (!kept) break;
+  }
+  return point;
+}
+
+}  // namespace convex

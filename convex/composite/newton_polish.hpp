@@ -1,0 +1,19 @@
+#pragma once
+
+#include "convex/composite/saddle_problem.hpp"
+
+namespace convex {
+
+/// Newton's method on the optimality conditions in the unknowns (ξ, t), for one x = u the normal map of
+/// Robinson (1992): steps are kept while they divide `residual`; quadratic where the Jacobian at the solution
+/// is regular. Returns the last point that was kept; the problem's own D is used throughout.
+SaddlePoint newton_polish(const SaddleProblem&, const SaddlePoint& from);
+
+/// The part of D that Newton's method is regularised with: its step is that of the method of multipliers
+/// with a D larger by 1/polish_theta, so that dependent rows do no harm.
+inline constexpr double polish_theta = 1e-9;
+
+/// The same for w: times R.
+inline constexpr double polish_ridge = 1e-10;
+
+}  // namespace convex

@@ -1,0 +1,85 @@
+#include "convex/composite/newton_system.hpp"
+
+namespace convex {
+namespace {
+
+TermCurvature curvature_of(const SaddleTerm& term, const Vector& t, const Vector& D, double theta,
+                           bool& usable) {
+  const Matrix J = term.f->prox_jacobian(t, D / term.scale);
+  TermCurvature curvature;
+  curvature.diagonal = term.separable;
+  if (term.separable) {
+    const Vector j = J.diagonal().cwiseMin(1.0).cwiseMax(0.0);
+    curvature.b_inverse = (j.array() + theta * (1 - j.array())).inverse();
+    curvature.h = D.array() * (1 - j.array()) * curvature.b_inverse.array();
+    return curvature;
+  }
+  // D is a multiple of the identity here, so J is symmetric but for rounding.
+  const Index rows = J.rows();
+  const Matrix symmetric = 0.5 * (J + J.transpose());
+  Matrix B = (1 - theta) * symmetric;
+  B.diagonal().array() += theta;
+  Eigen::LLT<Matrix> factor(B);
+  if (factor.info() != Eigen::Success) {
+    // A Jacobian that is indefinite by rounding, more than theta covers.
+    constexpr double widening = 1e-8;
+    B.diagonal().array() += widening;
+    factor.compute(B);
+    usable = usable && factor.info() == Eigen::Success;
+  }
+  curvature.B_inverse = factor.solve(Matrix::Identity(rows, rows));
+  Matrix complement = -symmetric;
+  complement.diagonal().array() += 1;
+  const Matrix H = factor.solve(complement);
+  curvature.H = 0.5 * D[0] * (H + H.transpose());
+  return curvature;
+}
+
+}  // namespace
+
+NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const Vector& D, double theta,
+                           const Vector& ridge)
+    : problem_(&problem) {
+  Matrix system = problem.G;
+  system.diagonal().tail(problem.k) += ridge;
+  for (const SaddleTerm& term : problem.terms) {
+    curvature_.push_back(curvature_of(term, t.segment(term.first, term.rows),
+                                      D.segment(term.first, term.rows), theta, usable_));
+    const TermCurvature& curvature = curvature_.back();
+    const SparseMatrix transposed = term.M.transpose();
+    if (curvature.diagonal) {
+      const SparseMatrix product = transposed * curvature.h.asDiagonal() * term.M;
+      system += product;
+    } else {
+      const Matrix product = curvature.H * term.M;
+      system += transposed * product;
+    }
+  }
+  factor_.compute(system);
+  usable_ = usable_ && factor_.info() == Eigen::Success;
+}
+
+NewtonStep NewtonSystem::step(const Vector& rho, const Vector& r) const {
+  const auto apply = [&](const Vector& moved, bool to_y) {
+    Vector image(problem_->m);
+    for (std::size_t j = 0; j < curvature_.size(); ++j) {
+      const SaddleTerm& term = problem_->terms[j];
+      const TermCurvature& at = curvature_[j];
+      const auto part = moved.segment(term.first, term.rows);
+      auto out = image.segment(term.first, term.rows);
+      if (at.diagonal)
+        out = (to_y ? at.h : at.b_inverse).cwiseProduct(part);
+      else
+        out = (to_y ? at.H : at.B_inverse) * part;
+    }
+    return image;
+  };
+  NewtonStep step;
+  step.dxi = factor_.solve(-rho - problem_->M.transpose() * apply(r, true));
+  const Vector moved = problem_->M * step.dxi + r;
+  step.dt = apply(moved, false);
+  step.dy = apply(moved, true);
+  return step;
+}
+
+}  // namespace convex

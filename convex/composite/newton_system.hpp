@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Cholesky>
+
+#include "convex/composite/saddle_problem.hpp"
+
+namespace convex {
+
+/// The second order of a term at t: with J the Jacobian of its prox in D and theta in (0, 1],
+///   B = J + theta (I - J),  H = D (I - J) B⁻¹,
+/// the Hessian of the term after an envelope of size D/theta. Both are diagonal for separable terms.
+struct TermCurvature {
+  bool diagonal = false;
+  Vector h, b_inverse;
+  Matrix H, B_inverse;
+};
+
+/// A step: M(ξ + dxi) + b - (u + J dt) = theta (I - J) dt, dy = D(I - J) dt = H(M dxi + r), and the gradient
+/// of the Lagrangian after it is -ridge·dw.
+struct NewtonStep {
+  Vector dxi, dt, dy;
+};
+
+/// The optimality conditions linearised at a t. theta = 1 gives the Hessian of the method of multipliers'
+/// inner problem; theta -> 0 Newton's method on the conditions themselves.
+class NewtonSystem {
+ public:
+  /// ridge: k, the proximal term on w.
+  NewtonSystem(const SaddleProblem&, const Vector& t, const Vector& D, double theta, const Vector& ridge);
+  /// Solves (G + ridge + MᵀHM) dxi = -rho - MᵀHr.
+  NewtonStep step(const Vector& rho, const Vector& r) const;
+  /// False when the matrix was not positive definite in working precision.
+  bool usable() const { return usable_; }
+
+ private:
+  const SaddleProblem* problem_;
+  std::vector<TermCurvature> curvature_;
+  Eigen::LLT<Matrix> factor_;
+  bool usable_ = true;
+};
+
+}  // namespace convex

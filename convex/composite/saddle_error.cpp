@@ -1,0 +1,87 @@
+#include "convex/composite/saddle_error.hpp"
+
+#include <cmath>
+
+#include "convex/composite/newton_polish.hpp"
+#include "convex/composite/newton_system.hpp"
+
+namespace convex {
+namespace {
+
+/// A prox may be wrong by this many roundings of its result and of its step t - u.
+constexpr double prox_roundings = 2;
+/// What rounding costs M ξ + b - u, in units of the sizes that it is made of.
+constexpr double sum_roundings = 3;
+/// What the estimated error of y and w is multiplied by to be safe.
+constexpr double safety = 4;
+
+/// Bounds on the absolute values of what rounding does to a point's parts.
+struct Rounding {
+  Vector u;    // m: the error of the prox
+  Vector r;    // m: and that of the sum
+  Vector x;    // n: the error of the prox, where x comes from it
+  Vector rho;  // n + k: what the prox's error makes of y, and the last rounding
+};
+
+Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
+  const SparseMatrix magnitude = problem.M.cwiseAbs();
+  Rounding rounding;
+  rounding.u = prox_roundings * unit_roundoff * (point.u.cwiseAbs() + (point.t - point.u).cwiseAbs());
+  rounding.r = rounding.u + sum_roundings * unit_roundoff *
+                                (magnitude * point.xi.cwiseAbs() + problem.b.cwiseAbs() + point.u.cwiseAbs());
+  rounding.rho =
+      magnitude.transpose() * problem.D.cwiseProduct(rounding.u) + unit_roundoff * point.rho.cwiseAbs();
+  rounding.x = Vector::Zero(problem.n);
+  for (Index i = 0; i < problem.n; ++i)
+    if (const Index row = problem.pin[static_cast<std::size_t>(i)]; row >= 0)
+      rounding.x[i] = rounding.u[row] + unit_roundoff * (problem.b[row] != 0 ? std::abs(point.xi[i]) : 0);
+  return rounding;
+}
+
+}  // namespace
+
+SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point) {
+  const Rounding rounding = rounding_of(problem, point);
+  bool scattered = false;
+  for (const SaddleTerm& term : problem.terms) scattered = scattered || !term.separable;
+  SaddleError error;
+  const double x_part = problem.scales.norm_of_size(rounding.x, scattered);
+  const double y_part = problem.scales.dual_norm_of_size(rounding.rho.head(problem.n), scattered);
+  error.rounding = x_part + y_part;
+  const double stationarity = problem.W.dual_norm(point.rho.head(problem.n));
+  // With e = x - x*, the exact prox x - e_x and its subgradient y + e_y: by monotonicity
+  // (rho + e_y - We)·(e - e_x) >= 0, so ||e||² <= ||e|| (||rho|| + ||e_y|| + ||e_x||) + ||rho|| ||e_x||.
+  const double linear = stationarity + error.rounding, constant = stationarity * x_part;
+  if (problem.all_pinned) {
+    error.bound = 0.5 * (linear + std::sqrt(linear * linear + 4 * constant));
+    error.proven = true;
+    return error;
+  }
+  // The Newton step from here, and those that rounding could cause, with signs that a pattern does not
+  // cancel.
+  const NewtonSystem system(problem, point.t, problem.D, polish_theta, polish_ridge * problem.R);
+  Vector dy = Vector::Zero(problem.m), dw = Vector::Zero(problem.k);
+  double dx = 0;
+  for (int probe = 0; probe < 4; ++probe) {
+    const auto sign = [&](Index i) {
+      return std::fmod(0.7548776662466927 * static_cast<double>((probe + 1) * (i + 1)), 1.0) < 0.5 ? -1.0
+                                                                                                   : 1.0;
+    };
+    Vector rho = point.rho, r = point.r;
+    for (Index i = 0; i < rho.size(); ++i) rho[i] += sign(i) * rounding.rho[i];
+    for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
+    const NewtonStep step = system.step(rho, r);
+    dx = std::max(dx, problem.W.norm(step.dxi.head(problem.n)));
+    dw = dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
+    dy = dy.cwiseMax(step.dy.cwiseAbs());
+  }
+  const double product = safety * (dy.dot(point.r.cwiseAbs() + rounding.r) +
+                                   dw.dot((point.rho.cwiseAbs() + rounding.rho).tail(problem.k)));
+  error.of_value = product;
+  error.bound = std::max(0.5 * (linear + std::sqrt(linear * linear + 4 * (constant + product))), safety * dx);
+  error.rounding = std::min(error.bound, error.rounding + safety * dx);
+  if (!system.usable() || !std::isfinite(error.bound)) error.bound = INFINITY;
+  return error;
+}
+
+}  // namespace convex

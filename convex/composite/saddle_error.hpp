@@ -1,0 +1,17 @@
+#pragma once
+
+#include "convex/composite/saddle_problem.hpp"
+
+namespace convex {
+
+/// How far x of a point is from the solution, in ||·||_W, rounding included.
+struct SaddleError {
+  double bound = 0;
+  double rounding = 0;  ///< the part that rounding alone makes up
+  double of_value = 0;  ///< an estimate of the error of the minimum: of second order in the residuals
+  bool proven = false;  ///< by firm nonexpansiveness; else estimated (see `prox`)
+};
+
+SaddleError saddle_error(const SaddleProblem&, const SaddlePoint& point);
+
+}  // namespace convex

@@ -1,0 +1,176 @@
+#include "convex/composite/saddle_problem.hpp"
+
+#include <cmath>
+
+#include "convex/composite/affine_atoms.hpp"
+
+namespace convex {
+namespace {
+
+/// Compliances add along a row: D_r = 1 / sum_c M_rc² / stiffness_c, over the columns whose stiffness is
+/// known; 0 when none is.
+Vector row_stiffness(const SparseMatrix& M, const Vector& column) {
+  Vector compliance = Vector::Zero(M.rows());
+  for (Index c = 0; c < M.cols(); ++c) {
+    if (!(column[c] > 0)) continue;
+    for (SparseMatrix::InnerIterator entry(M, c); entry; ++entry)
+      compliance[entry.row()] += entry.value() * entry.value() / column[c];
+  }
+  for (double& d : compliance)
+    if (d > 0) d = 1 / d;
+  return compliance;
+}
+
+/// One number for the rows of a term that is not separable: their geometric mean.
+void level(Eigen::Ref<Vector> d) {
+  if (d.size() > 0) d.setConstant(std::exp(d.array().log().mean()));
+}
+
+/// Gives every row and every auxiliary variable a scale, from those of x along M.
+void set_scales(SaddleProblem& problem) {
+  Vector column = Vector::Zero(problem.n + problem.k);
+  column.head(problem.n) = problem.scales.middle_by_entry();
+  Vector rows = row_stiffness(problem.M, column);
+  const Vector from_x = rows;
+  for (Index sweep = 0; sweep <= static_cast<Index>(problem.terms.size()) && problem.k > 0; ++sweep) {
+    for (Index c = problem.n; c < column.size(); ++c) {
+      double stiffness = 0;
+      for (SparseMatrix::InnerIterator entry(problem.M, c); entry; ++entry)
+        stiffness += entry.value() * entry.value() * rows[entry.row()];
+      if (!(column[c] > 0)) column[c] = stiffness;
+    }
+    const Vector next = row_stiffness(problem.M, column);
+    rows = (from_x.array() > 0).select(from_x, next);
+  }
+  problem.D = (rows.array() > 0).select(rows, Vector::Ones(problem.m));
+  for (const SaddleTerm& term : problem.terms) {
+    auto d = problem.D.segment(term.first, term.rows);
+    if (term.separable) continue;
+    bool plain = term.rows == problem.n && problem.n > 0;
+    for (Index i = 0; plain && i < term.rows; ++i) plain = term.M.coeff(i, i) == 1;
+    if (plain && term.M.nonZeros() == problem.n)
+      d.setConstant(problem.scales.middle());
+    else
+      level(d);
+  }
+  for (double& d : problem.D) d = std::exp2(std::round(std::log2(d)));
+  problem.R = Vector::Zero(problem.k);
+  for (Index c = 0; c < problem.k; ++c) {
+    for (SparseMatrix::InnerIterator entry(problem.M, problem.n + c); entry; ++entry)
+      problem.R[c] += entry.value() * entry.value() * problem.D[entry.row()];
+    if (problem.Q.size() > 0) problem.R[c] += problem.Q(problem.n + c, problem.n + c);
+    if (!(problem.R[c] > 0)) problem.R[c] = 1;
+  }
+}
+
+void set_pins(SaddleProblem& problem) {
+  const SparseRows rows = problem.M;
+  problem.pin.assign(static_cast<std::size_t>(problem.n), -1);
+  Index pinned = 0;
+  for (Index r = 0; r < problem.m; ++r) {
+    SparseRows::InnerIterator entry(rows, r);
+    if (!entry || entry.value() != 1 || entry.col() >= problem.n) continue;
+    const Index c = entry.col();
+    if (++entry) continue;
+    Index& pin = problem.pin[static_cast<std::size_t>(c)];
+    if (pin < 0) {
+      pin = r;
+      ++pinned;
+    }
+  }
+  problem.all_pinned = problem.k == 0 && pinned == problem.m;
+}
+
+}  // namespace
+
+SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W) {
+  const Index size = f.n + f.k;
+  SaddleProblem problem;
+  problem.n = f.n;
+  problem.k = f.k;
+  problem.W = W;
+  problem.scales = metric_scales(W);
+  problem.z = z;
+  problem.c = Vector::Zero(size);
+  problem.G = Matrix::Zero(size, size);
+  problem.G.topLeftCorner(f.n, f.n) = gram(W);
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<const Vector*> shifts;
+  for (const GraphTerm& term : f.terms) {
+    if (const Vector* slope = slope_of(*term.f)) {
+      problem.c += term.scale * (term.M.transpose() * *slope);
+      continue;
+    }
+    if (is_half_square(*term.f)) {
+      if (problem.Q.size() == 0) problem.Q = Matrix::Zero(size, size);
+      problem.Q += term.scale * Matrix(term.M.transpose() * term.M);
+      problem.c += term.scale * (term.M.transpose() * term.b);
+      continue;
+    }
+    const Index rows = term.M.rows();
+    for (Index c = 0; c < term.M.outerSize(); ++c)
+      for (SparseMatrix::InnerIterator entry(term.M, c); entry; ++entry)
+        if (entry.value() != 0) entries.emplace_back(problem.m + entry.row(), c, entry.value());
+    SaddleTerm added{term.f.get(), term.scale, problem.m, rows, term.M, term.f->facts().separable};
+    added.M.prune([](Index, Index, double value) { return value != 0; });
+    problem.terms.push_back(std::move(added));
+    shifts.push_back(&term.b);
+    problem.m += rows;
+  }
+  if (problem.Q.size() > 0) problem.G += problem.Q;
+  problem.M.resize(problem.m, size);
+  problem.M.setFromTriplets(entries.begin(), entries.end());
+  problem.b.resize(problem.m);
+  for (std::size_t j = 0; j < shifts.size(); ++j)
+    problem.b.segment(problem.terms[j].first, problem.terms[j].rows) = *shifts[j];
+  set_scales(problem);
+  set_pins(problem);
+  return problem;
+}
+
+Vector prox_of_terms(const SaddleProblem& problem, const Vector& t, const Vector& D) {
+  Vector u(problem.m);
+  for (const SaddleTerm& term : problem.terms)
+    u.segment(term.first, term.rows) = term.f->prox_diagonal(t.segment(term.first, term.rows),
+                                                             D.segment(term.first, term.rows) / term.scale);
+  return u;
+}
+
+Vector lagrangian_gradient(const SaddleProblem& problem, const Vector& xi, const Vector& t, const Vector& u,
+                           const Vector& D) {
+  const Index size = problem.n + problem.k;
+  DoubleDoubleVector sum(problem.c);
+  add_metric_difference(problem.W, xi.head(problem.n), problem.z, sum);
+  if (problem.Q.size() > 0)
+    for (Index c = 0; c < size; ++c)
+      add_multiple(size, problem.Q.col(c).data(), {xi[c], 0}, sum.hi.data(), sum.lo.data());
+  for (Index c = 0; c < size; ++c)
+    for (SparseMatrix::InnerIterator entry(problem.M, c); entry; ++entry) {
+      const Index row = entry.row();
+      const DoubleDouble step = two_sum(t[row], -u[row]);
+      add_multiple(1, &entry.value(), {D[row] * step.hi, D[row] * step.lo}, &sum.hi[c], &sum.lo[c]);
+    }
+  return sum.value();
+}
+
+SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, const Vector& D) {
+  SaddlePoint point;
+  point.u = prox_of_terms(problem, t, D);
+  point.y = D.cwiseProduct(t - point.u);
+  for (Index i = 0; i < problem.n; ++i)
+    if (const Index row = problem.pin[static_cast<std::size_t>(i)]; row >= 0)
+      xi[i] = point.u[row] - problem.b[row];
+  point.r = problem.M * xi + problem.b - point.u;
+  for (const Index row : problem.pin)
+    if (row >= 0) point.r[row] = 0;
+  point.rho = lagrangian_gradient(problem, xi, t, point.u, D);
+  const double x_part = problem.W.dual_norm(point.rho.head(problem.n));
+  const double w_part = point.rho.tail(problem.k).cwiseQuotient(problem.R.cwiseSqrt()).norm();
+  const double r_part = problem.D.cwiseSqrt().cwiseProduct(point.r).norm();
+  point.residual = std::hypot(x_part, std::hypot(w_part, r_part));
+  point.xi = std::move(xi);
+  point.t = std::move(t);
+  return point;
+}
+
+}  // namespace convex

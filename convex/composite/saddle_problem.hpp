@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/composite/graph_form.hpp"
+#include "convex/composite/metric_difference.hpp"
+
+namespace convex {
+
+/// A term scale · f(M ξ + b) of a saddle problem: its rows in the stacked M.
+struct SaddleTerm {
+  const Atom* f = nullptr;
+  double scale = 1;
+  Index first = 0, rows = 0;
+  SparseMatrix M;
+  bool separable = false;
+};
+
+/// What the engine solves: minimise over ξ = (x, w), x: n, w: k,
+///   ½||x - z||_W² + ½ ξ·Qξ + c·ξ + sum_j scale_j f_j(M_j ξ + b_j),
+/// linear and square terms of a graph form being in c and Q. M, b, D are stacked over the terms, m rows.
+struct SaddleProblem {
+  Index n = 0, k = 0, m = 0;
+  Metric W = Metric::identity(0);
+  MetricScales scales;
+  Vector z;
+  Matrix G;  ///< the Hessian of the smooth part, blockdiag(W, 0) + Q: (n+k)×(n+k)
+  Matrix Q;  ///< empty when 0
+  Vector c;
+  std::vector<SaddleTerm> terms;
+  SparseMatrix M;
+  Vector b;
+  Vector D;  ///< m: the metric in which a term's prox is taken, of the size of W as seen through M, in powers
+             ///< of 2 so that products with it are exact
+  Vector R;  ///< k: the size of a proximal term on w that weighs as much as D
+  /// Row i with M ξ + b = x_i + b_row for each x_i, or -1. Where there is one, x_i is taken from the prox.
+  std::vector<Index> pin;
+
+  /// M is made of such rows alone, so that v = Mᵀy is a subgradient of f at x.
+  bool all_pinned = false;
+};
+
+SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W);
+
+/// A point of the graphs of the terms' subdifferentials beside a ξ, after Minty: t gives u = prox_D t and
+/// y = D(t - u), a subgradient of the term at u. Solved when r and rho are 0.
+struct SaddlePoint {
+  Vector xi, t, u, y;
+  Vector r;             ///< M ξ + b - u: m
+  Vector rho;           ///< (W(x - z), 0) + Qξ + c + Mᵀy: n + k
+  double residual = 0;  ///< of ||rho_x||_(W⁻¹), ||rho_w||_(R⁻¹) and ||r||_D, the root of the sum of squares
+};
+
+/// The point of a ξ and a t in a metric D (not always the problem's own); pinned entries of x are replaced.
+SaddlePoint saddle_point(const SaddleProblem&, Vector xi, Vector t, const Vector& D);
+
+/// prox_D of every term at its part of t.
+Vector prox_of_terms(const SaddleProblem&, const Vector& t, const Vector& D);
+/// (W(x - z), 0) + Qξ + c + MᵀD(t - u), rounded once where D is made of powers of 2.
+Vector lagrangian_gradient(const SaddleProblem&, const Vector& xi, const Vector& t, const Vector& u,
+                           const Vector& D);
+
+}  // namespace convex
