@@ -39,6 +39,8 @@ class ConjugateAtom final : public Atom {
 }  // namespace
 
 std::shared_ptr<const Atom> conjugate_atom(std::shared_ptr<const Atom> f, Index n) {
+  const Function conjugate = f->conjugate();
+  if (auto atom = std::dynamic_pointer_cast<const Atom>(conjugate.shared())) return atom;
   return std::make_shared<const ConjugateAtom>(std::move(f), n);
 }
 

@@ -1,0 +1,104 @@
+#include "convex/composite/epigraph.hpp"
+
+#include <limits>
+
+#include "convex/composite/conjugate_atom.hpp"
+#include "convex/composite/monotone_root.hpp"
+#include "convex/composite/perspective.hpp"
+
+namespace convex {
+namespace {
+
+/// Roots below this part of the point's size are 0: the point of the domain that is nearest.
+constexpr double vanishing = 1e-24;
+
+class EpigraphAtom final : public Atom {
+ public:
+  EpigraphAtom(std::shared_ptr<const Atom> f, Index n, double side) : f_(std::move(f)), n_(n), side_(side) {}
+  Index dimension() const override { return n_ + 1; }
+  Facts facts() const override {
+    const Facts of_f = f_->facts();
+    return {.indicator = true, .cone = of_f.support || of_f.cone};
+  }
+  Call call() const override {
+    const auto nested = [](const char* name, const Call& inner) -> Call {
+      return {name, {{"", std::make_shared<const Call>(inner), std::nullopt}}, std::nullopt};
+    };
+    const Call epigraph = nested("indicator", nested("epigraph", f_->call()));
+    if (side_ > 0) return epigraph;
+    Vector diagonal = Vector::Ones(n_ + 1);
+    diagonal[n_] = -1;
+    Call reflected = nested("precompose", epigraph);
+    reflected.arguments.push_back({"", Matrix(diagonal.asDiagonal()), std::nullopt});
+    return reflected;
+  }
+  double value(const Vector& z) const override {
+    if (inside(z)) return 0;
+    const double miss = (z - project(z).point).norm();
+    return miss <= membership_tolerance * z.norm() ? 0 : std::numeric_limits<double>::infinity();
+  }
+  Function conjugate() const override {
+    return Function(perspective_atom(conjugate_atom(f_, n_), n_, -side_));
+  }
+  std::optional<Vector> subgradient(const Vector& z) const override {
+    if (value(z) > 0) return std::nullopt;
+    return Vector::Zero(n_ + 1);
+  }
+  Vector prox_diagonal(const Vector& z, const Vector&) const override {
+    return inside(z) ? z : project(z).point;
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector&) const override {
+    if (inside(z)) return Matrix::Identity(n_ + 1, n_ + 1);
+    const double mu = std::max(project(z).mu, smallest(z));
+    const Vector x = z.head(n_), inverse = Vector::Constant(n_, 1 / mu);
+    const Vector v = (x - f_->prox_diagonal(x, inverse)) / mu;
+    const Matrix J = f_->prox_jacobian(x, inverse);
+    const Vector Jv = J * v;
+    const double slope = 1 + v.dot(Jv);
+    Matrix jacobian(n_ + 1, n_ + 1);
+    jacobian.topLeftCorner(n_, n_) = J - Jv / slope * Jv.transpose();
+    jacobian.topRightCorner(n_, 1) = side_ / slope * Jv;
+    jacobian.bottomLeftCorner(1, n_) = side_ / slope * Jv.transpose();
+    jacobian(n_, n_) = 1 - 1 / slope;
+    return jacobian;
+  }
+
+ private:
+  struct Projection {
+    Vector point;
+    double mu = 0;
+  };
+
+  bool inside(const Vector& z) const { return f_->value(z.head(n_)) <= side_ * z[n_]; }
+  static double smallest(const Vector& z) {
+    return std::max(vanishing * z.norm(), std::numeric_limits<double>::min());
+  }
+
+  Projection project(const Vector& z) const {
+    const Vector x = z.head(n_);
+    const double t = side_ * z[n_], above = f_->value(x) - t;
+    const auto excess = [&](double mu) -> ValueAndSlope {
+      const Vector inverse = Vector::Constant(n_, 1 / mu);
+      const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
+      const Matrix J = f_->prox_jacobian(x, inverse);
+      return {t + mu - f_->value(point), 1 + std::max(0.0, v.dot(J * v))};
+    };
+    const double mu = monotone_root(excess, std::isfinite(above) ? above : z.norm() + 1, smallest(z));
+    Projection found{Vector(n_ + 1), mu};
+    found.point << f_->prox_diagonal(x, Vector::Constant(n_, 1 / std::max(mu, smallest(z)))),
+        side_ * (t + mu);
+    return found;
+  }
+
+  std::shared_ptr<const Atom> f_;
+  Index n_;
+  double side_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double side) {
+  return std::make_shared<const EpigraphAtom>(std::move(f), n, side);
+}
+
+}  // namespace convex

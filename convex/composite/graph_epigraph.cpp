@@ -1,0 +1,113 @@
+#include "convex/composite/affine_atoms.hpp"
+#include "convex/composite/epigraph.hpp"
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/composite/graph_placement.hpp"
+#include "convex/composite/perspective.hpp"
+#include "convex/invariant.hpp"
+
+namespace convex {
+namespace {
+
+/// The two matrices one above the other.
+SparseMatrix stacked(const SparseMatrix& top, const SparseMatrix& bottom) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index c = 0; c < top.outerSize(); ++c)
+    for (SparseMatrix::InnerIterator entry(top, c); entry; ++entry)
+      entries.emplace_back(entry.row(), c, entry.value());
+  for (Index c = 0; c < bottom.outerSize(); ++c)
+    for (SparseMatrix::InnerIterator entry(bottom, c); entry; ++entry)
+      entries.emplace_back(top.rows() + entry.row(), c, entry.value());
+  SparseMatrix whole(top.rows() + bottom.rows(), top.cols());
+  whole.setFromTriplets(entries.begin(), entries.end());
+  return whole;
+}
+
+/// a · M as a row.
+SparseMatrix row_of(const Vector& a, const SparseMatrix& M) {
+  const Matrix row = a.transpose() * M;
+  return row.sparseView();
+}
+
+Vector appended(const Vector& b, double last) {
+  Vector whole(b.size() + 1);
+  whole << b, last;
+  return whole;
+}
+
+}  // namespace
+
+GraphForm epigraph(const GraphForm& f) {
+  std::vector<const GraphTerm*> heights;  // terms with a height of their own
+  for (const GraphTerm& term : f.terms)
+    if (!slope_of(*term.f) && !term.f->facts().indicator) heights.push_back(&term);
+  const Index n = f.n + 1, own = std::max<Index>(1, static_cast<Index>(heights.size())) - 1;
+  const Index columns = n + f.k + own;
+  // ξ = (x, t, w, heights of all such terms but the first).
+  GraphForm set{n, f.k + own, {}, 0};
+  const SparseMatrix place = placed(columns, selection(0, f.n, columns), n, f.k);
+  // What is left of t for the first: t - constant - linear terms - the other heights.
+  SparseMatrix rest = selection(f.n, 1, columns);
+  double rest_shift = -f.constant;
+  for (const GraphTerm& term : f.terms) {
+    const SparseMatrix M = term.M * place;
+    if (const Vector* slope = slope_of(*term.f)) {
+      rest = SparseMatrix(rest - term.scale * row_of(*slope, M));
+      rest_shift -= term.scale * slope->dot(term.b);
+    } else if (term.f->facts().indicator) {
+      set.terms.push_back({term.f, 1, M, term.b});
+    }
+  }
+  for (std::size_t j = 1; j < heights.size(); ++j) {
+    const GraphTerm& term = *heights[j];
+    const SparseMatrix height = selection(n + f.k + static_cast<Index>(j) - 1, 1, columns);
+    set.terms.push_back({epigraph_atom(term.f, term.M.rows()), 1,
+                         stacked(SparseMatrix(term.M * place), height), appended(term.b, 0)});
+    rest = SparseMatrix(rest - term.scale * height);
+  }
+  if (heights.empty()) {
+    set.terms.push_back({orthant_atom(), 1, rest, Vector::Constant(1, rest_shift)});
+  } else {
+    const GraphTerm& term = *heights[0];
+    set.terms.push_back({epigraph_atom(term.f, term.M.rows()), 1,
+                         stacked(SparseMatrix(term.M * place), SparseMatrix(rest / term.scale)),
+                         appended(term.b, rest_shift / term.scale)});
+  }
+  return set;
+}
+
+GraphForm pointwise_max(std::span<const GraphForm> f) {
+  invariant(!f.empty(), "a maximum of graph forms has a term");
+  std::vector<GraphForm> sets;
+  for (const GraphForm& part : f) sets.push_back(epigraph(part));
+  GraphForm least = sum(sets);
+  // t, the last entry of the sets, is the first auxiliary variable of the maximum.
+  --least.n;
+  ++least.k;
+  const SparseMatrix t = selection(least.n, 1, least.n + least.k);
+  least.terms.push_back(linear_term(t, Vector::Ones(1)));
+  return least;
+}
+
+GraphForm perspective(const GraphForm& f) {
+  const Index n = f.n + 1, columns = n + f.k;
+  GraphForm cone{n, f.k, {}, 0};
+  const SparseMatrix place = placed(columns, selection(0, f.n, columns), n, f.k);
+  const SparseMatrix s = selection(f.n, 1, columns);
+  SparseMatrix slope = f.constant * s;
+  bool bounded = false;
+  for (const GraphTerm& term : f.terms) {
+    const SparseMatrix M = SparseMatrix(term.M * place) + SparseMatrix(term.b.sparseView()) * s;
+    if (const Vector* a = slope_of(*term.f)) {
+      slope = SparseMatrix(slope + term.scale * row_of(*a, M));
+      continue;
+    }
+    bounded = true;
+    cone.terms.push_back({perspective_atom(term.f, term.M.rows()), term.scale, stacked(M, s),
+                          Vector::Zero(term.M.rows() + 1)});
+  }
+  if (slope.nonZeros() > 0) cone.terms.push_back(linear_term(slope, Vector::Ones(1)));
+  if (!bounded) cone.terms.push_back({orthant_atom(), 1, s, Vector::Zero(1)});
+  return cone;
+}
+
+}  // namespace convex

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// A value and a derivative of an increasing function.
+struct ValueAndSlope {
+  double value = 0, slope = 1;
+};
+
+/// The root mu >= 0 of an increasing function of mu > 0 whose slope is at least 1, by Newton steps kept
+/// inside a bracket: |value| bounds the distance to the root on either side. 0 when the root is below
+/// `smallest`. `start` > 0; values may be infinite.
+template <class Increasing>
+double monotone_root(const Increasing& increasing, double start, double smallest) {
+  double low = 0, high = std::numeric_limits<double>::infinity(), mu = start;
+  constexpr int step_limit = 400;  // bisection of exponents alone ends within it
+  for (int step = 0; step < step_limit; ++step) {
+    const ValueAndSlope at = increasing(mu);
+    if (at.value == 0) return mu;
+    if (at.value < 0) {
+      low = mu;
+      high = std::min(high, mu - at.value);
+    } else {
+      high = mu;
+      low = std::max(low, mu - at.value);
+    }
+    if (high <= smallest) return 0;
+    if (!(high - low > 2 * unit_roundoff * high)) break;
+    double next = mu - at.value / at.slope;
+    if (!(next > low && next < high)) {
+      const bool wide = low < high / 16;
+      next = wide ? (low > 0 ? std::sqrt(low) * std::sqrt(high) : 1e-3 * high) : 0.5 * (low + high);
+      if (!std::isfinite(high)) next = 16 * mu;
+    }
+    if (std::abs(next - mu) <= unit_roundoff * mu) return next;
+    mu = next;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace convex

@@ -1,0 +1,109 @@
+#include "convex/composite/perspective.hpp"
+
+#include <limits>
+
+#include "convex/composite/conjugate_atom.hpp"
+#include "convex/composite/epigraph.hpp"
+#include "convex/composite/monotone_root.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double vanishing = 1e-24;  ///< a root of this part of the point's size is 0
+/// Difference quotients at these parts of |x| that agree to `settled` have come to their limit.
+constexpr double coarse = 1e-9, fine = 1e-12, settled = 1e-6;
+
+class PerspectiveAtom final : public Atom {
+ public:
+  PerspectiveAtom(std::shared_ptr<const Atom> f, Index n, double side)
+      : f_(std::move(f)), n_(n), side_(side) {}
+  Index dimension() const override { return n_ + 1; }
+  Facts facts() const override { return {.cone = f_->facts().cone, .support = true}; }
+  Call call() const override {
+    const auto nested = [](const char* name, const Call& inner) -> Call {
+      return {name, {{"", std::make_shared<const Call>(inner), std::nullopt}}, std::nullopt};
+    };
+    const Call perspective = nested("perspective", f_->call());
+    if (side_ > 0) return perspective;
+    Vector diagonal = Vector::Ones(n_ + 1);
+    diagonal[n_] = -1;
+    Call reflected = nested("precompose", perspective);
+    reflected.arguments.push_back({"", Matrix(diagonal.asDiagonal()), std::nullopt});
+    return reflected;
+  }
+  double value(const Vector& z) const override {
+    const Vector x = z.head(n_);
+    const double s = side_ * z[n_];
+    if (s > 0) return s * f_->value(x / s);
+    if (s < -membership_tolerance * z.norm()) return infinity;
+    const double length = x.norm();
+    if (length <= 0) return 0;
+    const auto quotient = [&](double part) { return part * length * f_->value(x / (part * length)); };
+    const double limit = quotient(fine), before = quotient(coarse);
+    return std::abs(limit - before) <= settled * (std::abs(limit) + length * settled) ? limit : infinity;
+  }
+  Function conjugate() const override { return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -side_)); }
+  std::optional<Vector> subgradient(const Vector& z) const override {
+    const double s = side_ * z[n_];
+    if (!(s > 0)) return std::nullopt;
+    const Vector x = z.head(n_) / s;
+    const std::optional<Vector> v = f_->subgradient(x);
+    if (!v) return std::nullopt;
+    Vector whole(n_ + 1);
+    whole << *v, side_ * (f_->value(x) - v->dot(x));
+    return whole;
+  }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    const double mu = root(z, d[0]);
+    if (mu <= 0) return Vector::Zero(n_ + 1);
+    const Vector q = d[0] * z.head(n_);
+    Vector point(n_ + 1);
+    point << mu / d[0] * at(q, mu), side_ * mu / d[0];
+    return point;
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    const double mu = root(z, d[0]);
+    if (mu <= 0) return Matrix::Zero(n_ + 1, n_ + 1);
+    const Vector q = d[0] * z.head(n_), p = at(q, mu);
+    const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
+    const Vector moved = p - J * p;
+    const double slope = 1 + std::max(0.0, p.dot(moved));
+    Matrix jacobian(n_ + 1, n_ + 1);
+    jacobian.topLeftCorner(n_, n_) = J + moved / slope * moved.transpose();
+    jacobian.topRightCorner(n_, 1) = side_ / slope * moved;
+    jacobian.bottomLeftCorner(1, n_) = side_ / slope * moved.transpose();
+    jacobian(n_, n_) = 1 / slope;
+    return jacobian;
+  }
+
+ private:
+  Vector at(const Vector& q, double mu) const { return f_->prox_diagonal(q / mu, Vector::Constant(n_, mu)); }
+
+  /// The root mu; 0 where the prox is 0.
+  double root(const Vector& z, double d) const {
+    const Vector q = d * z.head(n_);
+    const double s = d * side_ * z[n_];
+    if (f_->conjugate().node().value(q) <= -s) return 0;
+    const auto excess = [&](double mu) -> ValueAndSlope {
+      const Vector p = at(q, mu);
+      const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
+      return {f_->value(p) - p.dot(q - mu * p) + mu - s, 1 + std::max(0.0, p.dot(p - J * p))};
+    };
+    const double size = d * z.norm();
+    const double smallest = std::max(vanishing * size, std::numeric_limits<double>::min());
+    return std::max(monotone_root(excess, s > 0 ? s : size, smallest), smallest);
+  }
+
+  std::shared_ptr<const Atom> f_;
+  Index n_;
+  double side_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Atom> perspective_atom(std::shared_ptr<const Atom> f, Index n, double side) {
+  return std::make_shared<const PerspectiveAtom>(std::move(f), n, side);
+}
+
+}  // namespace convex
