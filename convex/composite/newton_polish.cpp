@@ -1,5 +1,7 @@
 #include "convex/composite/newton_polish.hpp"
 
+#include <algorithm>
+
 #include "convex/composite/newton_system.hpp"
 
 namespace convex {
@@ -7,6 +9,7 @@ namespace {
 
 constexpr double required_division = 0.7;
 constexpr int step_limit = 60;
+constexpr double near = 1e-2;  ///< theta over the relative residual
 
 }  // namespace
 
@@ -14,7 +17,9 @@ SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from)
   SaddlePoint point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
   const Vector ridge = polish_ridge * problem.R;
   for (int count = 0; count < step_limit && point.residual > 0; ++count) {
-    const NewtonSystem system(problem, point.t, problem.D, polish_theta, ridge);
+    const double theta =
+        std::clamp(near * point.residual / solution_size(problem, point), polish_theta, far_theta);
+    const NewtonSystem system(problem, point.t, problem.D, theta, ridge);
     if (!system.usable()) break;
     const NewtonStep step = system.step(point.rho, point.r);
     bool kept = false;

@@ -9,9 +9,9 @@ namespace convex {
 /// is regular. Returns the last point that was kept; the problem's own D is used throughout.
 SaddlePoint newton_polish(const SaddleProblem&, const SaddlePoint& from);
 
-/// The part of D that Newton's method is regularised with: its step is that of the method of multipliers
-/// with a D larger by 1/polish_theta, so that dependent rows do no harm.
-inline constexpr double polish_theta = 1e-9;
+/// Newton's method is regularised with this part of D: its step is that of the method of multipliers with a D
+/// larger by 1/polish_theta, so that dependent rows do no harm. Far from the solution the part is larger.
+inline constexpr double polish_theta = 1e-9, far_theta = 1e-2;
 
 /// The same for w: times R.
 inline constexpr double polish_ridge = 1e-10;

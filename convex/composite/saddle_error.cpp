@@ -10,10 +10,8 @@ namespace {
 
 /// A prox may be wrong by this many roundings of its result and of its step t - u.
 constexpr double prox_roundings = 2;
-/// What rounding costs M ξ + b - u, in units of the sizes that it is made of.
-constexpr double sum_roundings = 3;
 /// What the estimated error of y and w is multiplied by to be safe.
-constexpr double safety = 4;
+constexpr double safety = 2;
 
 /// Bounds on the absolute values of what rounding does to a point's parts.
 struct Rounding {
@@ -27,8 +25,7 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   const SparseMatrix magnitude = problem.M.cwiseAbs();
   Rounding rounding;
   rounding.u = prox_roundings * unit_roundoff * (point.u.cwiseAbs() + (point.t - point.u).cwiseAbs());
-  rounding.r = rounding.u + sum_roundings * unit_roundoff *
-                                (magnitude * point.xi.cwiseAbs() + problem.b.cwiseAbs() + point.u.cwiseAbs());
+  rounding.r = rounding.u + unit_roundoff * point.r.cwiseAbs();
   rounding.rho =
       magnitude.transpose() * problem.D.cwiseProduct(rounding.u) + unit_roundoff * point.rho.cwiseAbs();
   rounding.x = Vector::Zero(problem.n);
@@ -59,7 +56,8 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   }
   // The Newton step from here, and those that rounding could cause, with signs that a pattern does not
   // cancel.
-  const NewtonSystem system(problem, point.t, problem.D, polish_theta, polish_ridge * problem.R);
+  const Vector ridge = polish_ridge * problem.R;
+  const NewtonSystem system(problem, point.t, problem.D, polish_theta, ridge);
   Vector dy = Vector::Zero(problem.m), dw = Vector::Zero(problem.k);
   double dx = 0;
   for (int probe = 0; probe < 4; ++probe) {
@@ -70,7 +68,11 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
     Vector rho = point.rho, r = point.r;
     for (Index i = 0; i < rho.size(); ++i) rho[i] += sign(i) * rounding.rho[i];
     for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
-    const NewtonStep step = system.step(rho, r);
+    NewtonStep step = system.step(rho, r);
+    // What the step leaves of r and rho no y and w can mend (dependent rows); it says nothing about y - y*.
+    r -= polish_theta * step.dy.cwiseQuotient(problem.D);
+    rho.tail(problem.k) += ridge.cwiseProduct(step.dxi.tail(problem.k));
+    step = system.step(rho, r);
     dx = std::max(dx, problem.W.norm(step.dxi.head(problem.n)));
     dw = dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
     dy = dy.cwiseMax(step.dy.cwiseAbs());

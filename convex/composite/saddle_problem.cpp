@@ -153,6 +153,21 @@ Vector lagrangian_gradient(const SaddleProblem& problem, const Vector& xi, const
   return sum.value();
 }
 
+Vector mismatch(const SaddleProblem& problem, const Vector& xi, const Vector& u) {
+  DoubleDoubleVector sum(problem.b);
+  sum.add(-u);
+  for (Index c = 0; c < xi.size(); ++c)
+    for (SparseMatrix::InnerIterator entry(problem.M, c); entry; ++entry)
+      add_multiple(1, &entry.value(), {xi[c], 0}, &sum.hi[entry.row()], &sum.lo[entry.row()]);
+  return sum.value();
+}
+
+double solution_size(const SaddleProblem& problem, const SaddlePoint& point) {
+  const Vector root = problem.D.cwiseSqrt();
+  return std::hypot(problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z),
+                    root.cwiseProduct(point.u).norm(), point.y.cwiseQuotient(root).norm());
+}
+
 SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, const Vector& D) {
   SaddlePoint point;
   point.u = prox_of_terms(problem, t, D);
@@ -160,7 +175,7 @@ SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, cons
   for (Index i = 0; i < problem.n; ++i)
     if (const Index row = problem.pin[static_cast<std::size_t>(i)]; row >= 0)
       xi[i] = point.u[row] - problem.b[row];
-  point.r = problem.M * xi + problem.b - point.u;
+  point.r = mismatch(problem, xi, point.u);
   for (const Index row : problem.pin)
     if (row >= 0) point.r[row] = 0;
   point.rho = lagrangian_gradient(problem, xi, t, point.u, D);

@@ -54,8 +54,13 @@ struct SaddlePoint {
 /// The point of a ξ and a t in a metric D (not always the problem's own); pinned entries of x are replaced.
 SaddlePoint saddle_point(const SaddleProblem&, Vector xi, Vector t, const Vector& D);
 
+/// What `residual` is relative to: ||x||_W + ||z||_W, ||u||_D and ||y||_(D⁻¹).
+double solution_size(const SaddleProblem&, const SaddlePoint&);
+
 /// prox_D of every term at its part of t.
 Vector prox_of_terms(const SaddleProblem&, const Vector& t, const Vector& D);
+/// M ξ + b - u, rounded once.
+Vector mismatch(const SaddleProblem&, const Vector& xi, const Vector& u);
 /// (W(x - z), 0) + Qξ + c + MᵀD(t - u), rounded once where D is made of powers of 2.
 Vector lagrangian_gradient(const SaddleProblem&, const Vector& xi, const Vector& t, const Vector& u,
                            const Vector& D);

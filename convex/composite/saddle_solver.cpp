@@ -19,12 +19,6 @@ constexpr Index patience = 4;  ///< outer steps without progress before the end
 /// is a separating one: Mᵀ takes it to this part of its size.
 constexpr double separated = 10 * membership_tolerance, separating = 1e-5;
 
-double size_of(const SaddleProblem& problem, const SaddlePoint& point) {
-  const Vector root = problem.D.cwiseSqrt();
-  return std::hypot(problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z),
-                    root.cwiseProduct(point.u).norm(), point.y.cwiseQuotient(root).norm());
-}
-
 /// Is the gap r of a step with a large D the shortest vector between the domains? Then Dr separates them.
 bool separates(const SaddleProblem& problem, const SaddlePoint& point, const Vector& D) {
   const Vector normal = D.cwiseProduct(point.r);
@@ -47,7 +41,7 @@ SaddleSolution solve(const SaddleProblem& problem) {
     if (better) best = std::move(point);
     return better;
   };
-  const auto finished = [&] { return best.residual <= rounding_level * size_of(problem, best); };
+  const auto finished = [&] { return best.residual <= rounding_level * solution_size(problem, best); };
   keep(newton_polish(problem, best));
   SaddlePoint centre = best;
   double factor = 1, ridge = first_ridge, last_gap = 0;
@@ -69,7 +63,8 @@ SaddleSolution solve(const SaddleProblem& problem) {
     if (keep(polished) && best.residual <= 0.5 * before) centre = best;
     keep(centre);
     idle = best.residual <= 0.9 * before || factor < largest_growth ? 0 : idle + 1;
-    if (best.residual <= 100 * rounding_level * size_of(problem, best) && best.residual > 0.5 * before) break;
+    if (best.residual <= 100 * rounding_level * solution_size(problem, best) && best.residual > 0.5 * before)
+      break;
     if (step.minimised) factor = std::min(growth * factor, largest_growth);
     ridge = std::max(ridge / growth, smallest_ridge);
   }

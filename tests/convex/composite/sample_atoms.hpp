@@ -89,7 +89,9 @@ class Norm1 final : public Sample {
 class Box final : public Sample {
  public:
   Box(Vector lower, Vector upper) : lower_(std::move(lower)), upper_(std::move(upper)) {}
-  double value(const Vector& x) const override { return indicator((x - prox_diagonal(x, x)).norm(), x.norm()); }
+  double value(const Vector& x) const override {
+    return indicator((x - prox_diagonal(x, x)).norm(), x.norm());
+  }
   Facts facts() const override { return {.indicator = true, .separable = true, .piecewise_quadratic = true}; }
   double conjugate_value(const Vector& v) const override {
     return lower_.cwiseProduct(v).cwiseMax(upper_.cwiseProduct(v)).sum();
