@@ -22,8 +22,9 @@ constexpr double rounding_of_w = 8 * unit_roundoff;
 /// In the start by blocks a row this close to the span of the others is left to the careful steps.
 constexpr double block_dependence = 1e-7;
 
-/// Times that the working set is changed after a refinement before the method gives up.
-constexpr int most_rounds = 100;
+/// Times that the working set is changed after a refinement before the method gives up, and before doubles
+/// are held to be the cause.
+constexpr int most_rounds = 100, patient_rounds = 4;
 
 template <int MaxSize>
 class DualActiveSet {
@@ -50,6 +51,9 @@ class DualActiveSet {
     for (int round = 0; round < most_rounds; ++round) {
       if (!descend(limit)) return infeasible();
       refined = refine(set_);
+      // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
+      if (refined.contraction < 1)
+        seen_noise_ = round < patient_rounds ? std::max(seen_noise_, refined.first) : 2 * w_noise_;
       if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
@@ -63,7 +67,7 @@ class DualActiveSet {
   enum class Outcome { unchanged, changed, infeasible };
 
   /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
-  /// condition of W amplifies.
+  /// condition of W amplifies; and what a refinement has seen, which has the condition of A in it.
   void judge_noise() {
     double terms = set_.w_free().norm() + set_.w().norm(), longest = 0;
     for (Index k = 0; k < set_.size(); ++k) {
@@ -72,7 +76,7 @@ class DualActiveSet {
       longest = std::max(longest, length);
     }
     inverse_norm_ = set_.factor().inverse_norm();
-    w_noise_ = rounding_of_w * terms * std::max(1.0, inverse_norm_ * longest);
+    w_noise_ = std::max(seen_noise_, rounding_of_w * terms * std::max(1.0, inverse_norm_ * longest));
   }
 
   /// What that does to lambda_k |v_k|.
@@ -287,7 +291,8 @@ class DualActiveSet {
   /// Takes in a row that the refined point violates.
   Outcome admit_violated(const RefinedPoint& refined) {
     constexpr double silence = 0x1p-95;  // of dot products in twice the precision
-    const double scale = set_.scale(), left = refined.remaining(), q_length = set_.w().norm();
+    const double scale = set_.scale(), left = refined.remaining();
+    const Vector q_size = refined.q.hi.cwiseAbs();
     const double plain_rounding = 2 * static_cast<double>(problem_.dimension()) * unit_roundoff;
     slack_ = problem_.U.times(refined.q.hi) - problem_.s;
     std::vector<Index> rows;
@@ -295,8 +300,7 @@ class DualActiveSet {
       const double s = std::abs(problem_.s[a]), length = row_scale_[a];
       if (set_.holds(a)) {
         slack_[a] = 0;
-      } else if (std::abs(slack_[a]) <=
-                 plain_rounding * (s + length * problem_.A.factor_condition() * q_length)) {
+      } else if (std::abs(slack_[a]) <= plain_rounding * (s + problem_.U.absolute_dot(a, q_size))) {
         slack_[a] = slack(problem_, a, refined.q).value();
         if (std::abs(slack_[a]) <= silence * (s + length * scale) + 2 * length * left) slack_[a] = 0;
       }
@@ -329,7 +333,7 @@ class DualActiveSet {
   Vector slack_, farkas_;
   Split split_;
   Index steps_ = 0;
-  double w_noise_ = 0, inverse_norm_ = 0;
+  double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0;
 };
 
 }  // namespace

@@ -49,9 +49,9 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
     if (!set.holds(a)) worst = std::max(worst, -slack[a]);
   for (Index a : problem.two_sided)
     if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
-  solution.error_bound = finished ? 2 * refined.remaining() + rounding_norm(problem, refined.q.lo) +
-                                        worst * set.factor().inverse_norm()
-                                  : infinity;
+  solution.rounding = rounding_norm(problem, refined.q.lo);
+  solution.error_bound =
+      finished ? 2 * refined.remaining() + solution.rounding + worst * set.factor().inverse_norm() : infinity;
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   solution.status = close ? Status::solved : Status::inaccurate;
   return solution;

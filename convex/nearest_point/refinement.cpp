@@ -9,6 +9,9 @@ namespace {
 /// rounded answer and the signs of its slacks can need.
 constexpr double enough = 0x1p-68;
 
+/// A correction below this is made of the rounding of the residuals, which the condition of A enlarges.
+constexpr double at_rounding = 0x1p-80;
+
 /// Beyond this the corrections do not converge fast enough to be trusted.
 constexpr double slowest_contraction = 0.25;
 
@@ -38,9 +41,10 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
       r2[j] = -slack(problem, set.rows()[static_cast<std::size_t>(j)], point.q).value();
     set.correct(problem.A.whiten(r1), r2, dw, dlambda);
     point.last = dw.norm();
+    if (k == 0) point.first = point.last;
     // Once at the rounding of the residuals themselves, corrections no longer shrink: that is the end, not a
     // failure.
-    const double floor = 0x1p-98 * scale;
+    const double floor = at_rounding * scale;
     if (k == 0)
       point.contraction = point.last > 0 ? std::max(point.last / previous, unit_roundoff) : unit_roundoff;
     else if (point.last > floor)

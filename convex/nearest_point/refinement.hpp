@@ -8,6 +8,7 @@ namespace convex {
 struct RefinedPoint {
   DoubleDoubleVector q;       ///< n
   DoubleDoubleVector lambda;  ///< over W
+  double first = 0;           ///< ||dq||_A of the first correction: the rounding of the plain solve
   double last = 0;            ///< ||dq||_A of the last correction
   double contraction =
       0;  ///< by what each correction was smaller than the one before (about condition times u)

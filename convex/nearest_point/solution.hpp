@@ -34,6 +34,7 @@ struct Solution {
   Vector q, lambda, slack;
   Residuals residuals;
   double error_bound = 0;        ///< an estimate of ||q - q*||_A that takes the conditioning in
+  double rounding = 0;           ///< the part of error_bound that is the rounding of q to doubles
   double acceleration_norm = 0;  ///< ||q||_A
   double force_norm = 0;         ///< ||z||_(A⁻¹)
   std::vector<Index> basis;      ///< the independent active rows that the answer rests on
