@@ -6,6 +6,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/definite_part.hpp"
+#include "convex/linear_quadratic/polish.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
 #include "convex/nearest_point/active_set.hpp"
 
@@ -79,7 +80,7 @@ class ProximalPoint {
         return point_;
       }
       guess = solution.basis;
-      if (settled(solution)) return judged();
+      if (settled(solution)) return finished(solution);
       if (point_.rounds == patient_rounds && soft_.any) {
         point_.ray = descent_ray(f_);
         if (point_.ray.size() > 0) {
@@ -111,7 +112,7 @@ class ProximalPoint {
   /// The nearest-point problem around the present point: its linear term is Aξ - (gradient at ξ), so that A
   /// enters by differences only.
   Solution round(const std::vector<Index>& guess) {
-    DoubleDoubleVector pull = gradient(f_, W_, z_, point_.xi);
+    DoubleDoubleVector pull = gradient(f_, W_, z_, DoubleDoubleVector(point_.xi));
     pull.hi = -pull.hi;
     pull.lo = -pull.lo;
     add_product(problem_.A, DoubleDoubleVector(point_.xi), pull);
@@ -178,6 +179,21 @@ class ProximalPoint {
     least_ = std::max(least_, softness_);
     soften();
     return true;
+  }
+
+  /// Sharpens a settled point with its rows held.
+  ProgramPoint finished(const Solution& solution) {
+    if ((soft_.any || !f_.polyhedral()) && f_.n > 0 && !rough_) {
+      const PolishedPoint better = polish(f_, W_, z_, problem_, solution.basis, point_.xi, point_.lambda);
+      const double moved = better.converged ? W_.norm((better.xi - point_.xi).head(f_.n)) : infinity;
+      // A polished point far from the settled one rests on other rows than the best.
+      if (moved <= point_.error_bound + still * forces_) {
+        point_.xi = better.xi;
+        point_.lambda = better.lambda;
+        point_.error_bound = better.missing + (solution.error_bound - solution.rounding);
+      }
+    }
+    return judged();
   }
 
   ProgramPoint judged() {

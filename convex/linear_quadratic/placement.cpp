@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 SparseMatrix placement(const LinearQuadratic& f, Index columns, Index first, Entries entries) {
   for (Index j = 0; j < f.auxiliaries(); ++j)
@@ -40,4 +40,4 @@ void require(bool holds, const char* where, const char* message) {
   if (!holds) throw InvalidInput(std::string(where) + ": " + message);
 }
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -3,7 +3,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::linear_quadratic {
 
 using Entries = std::vector<Eigen::Triplet<double>>;
 
@@ -21,4 +21,4 @@ SparseMatrix gram(const Metric& W);
 /// InvalidInput "where: what; what to do" unless it holds.
 void require(bool holds, const char* where, const char* message);
 
-}  // namespace convex
+}  // namespace convex::linear_quadratic

@@ -9,9 +9,9 @@ void add_product(const SparseMatrix& A, const DoubleDoubleVector& x, DoubleDoubl
       add_multiple(1, &it.value(), x[j], &sum.hi[it.row()], &sum.lo[it.row()]);
 }
 
-DoubleDoubleVector slope(const LinearQuadratic& f, const Vector& xi) {
+DoubleDoubleVector slope(const LinearQuadratic& f, const DoubleDoubleVector& xi) {
   DoubleDoubleVector sum(f.c);
-  add_product(f.H, DoubleDoubleVector(xi), sum);
+  add_product(f.H, xi, sum);
   return sum;
 }
 
@@ -42,10 +42,11 @@ void add_product(const Metric& A, const DoubleDoubleVector& x, DoubleDoubleVecto
   }
 }
 
-DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z, const Vector& xi) {
+DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z,
+                            const DoubleDoubleVector& xi) {
   DoubleDoubleVector sum = slope(f, xi), away(f.n);
   for (Index i = 0; i < f.n; ++i) {
-    const DoubleDouble d = two_sum(xi[i], -z[i]);
+    const DoubleDouble d = add(xi[i], {-z[i], 0});
     away.hi[i] = d.hi;
     away.lo[i] = d.lo;
   }
@@ -55,13 +56,13 @@ DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vec
 
 Vector stationarity_defect(const LinearQuadratic& f, const Metric& W, const Vector& z, const Vector& xi,
                            const Vector& lambda) {
-  DoubleDoubleVector sum = gradient(f, W, z, xi);
+  DoubleDoubleVector sum = gradient(f, W, z, DoubleDoubleVector(xi));
   subtract_multipliers(f, lambda, sum);
   return sum.value();
 }
 
 Vector subgradient_of_multipliers(const LinearQuadratic& f, const Vector& xi, const Vector& lambda) {
-  DoubleDoubleVector sum = slope(f, xi);
+  DoubleDoubleVector sum = slope(f, DoubleDoubleVector(xi));
   subtract_multipliers(f, lambda, sum);
   return sum.value().head(f.n);
 }

@@ -10,7 +10,8 @@ namespace convex {
 void add_product(const Metric& A, const DoubleDoubleVector& x, DoubleDoubleVector& sum);
 
 /// Hξ + c + W(x - z), W acting on the first n entries, in twice the working precision: n + k.
-DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z, const Vector& xi);
+DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z,
+                            const DoubleDoubleVector& xi);
 
 /// That minus Gᵀlambda, rounded once: 0 at the solution.
 Vector stationarity_defect(const LinearQuadratic& f, const Metric& W, const Vector& z, const Vector& xi,
