@@ -86,6 +86,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
     }
     if (!accepted) break;
   }
+  result.gap = at.r;
   result.point = saddle_point(problem, at.xi, at.t, D);
   return result;
 }

@@ -7,6 +7,7 @@ namespace convex {
 /// What a step of the method of multipliers came to.
 struct MultiplierStep {
   SaddlePoint point;
+  Vector gap;  ///< M ξ + b - u before entries of x were replaced: D·gap is what the step added to y
   bool minimised = false;  ///< the inner problem was solved as accurately as convergence asks for
   Index newton_steps = 0;
 };

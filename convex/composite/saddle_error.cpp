@@ -10,8 +10,12 @@ namespace {
 
 /// A prox may be wrong by this many roundings of its result and of its step t - u.
 constexpr double prox_roundings = 2;
-/// What the estimated error of y and w is multiplied by to be safe.
-constexpr double safety = 2;
+/// A residual above this part of the sizes is not rounding, and the Newton step from there is not exact.
+constexpr double settled = 1e-13;
+/// What the estimated errors of y and w are multiplied by to be safe, at rounding level and far from it; and
+/// that of x, at rounding level, where it may be much smaller than monotonicity shows: where the terms' own
+/// curvature, and not W, holds x.
+constexpr double safety = 2, far_safety = 20, own_safety = 10;
 
 /// Bounds on the absolute values of what rounding does to a point's parts.
 struct Rounding {
@@ -27,7 +31,7 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   rounding.u = prox_roundings * unit_roundoff * (point.u.cwiseAbs() + (point.t - point.u).cwiseAbs());
   rounding.r = rounding.u + unit_roundoff * point.r.cwiseAbs();
   rounding.rho =
-      magnitude.transpose() * problem.D.cwiseProduct(rounding.u) + unit_roundoff * point.rho.cwiseAbs();
+      magnitude.transpose() * point.D.cwiseProduct(rounding.u) + unit_roundoff * point.rho.cwiseAbs();
   rounding.x = Vector::Zero(problem.n);
   for (Index i = 0; i < problem.n; ++i)
     if (const Index row = problem.pin[static_cast<std::size_t>(i)]; row >= 0)
@@ -57,7 +61,7 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   // The Newton step from here, and those that rounding could cause, with signs that a pattern does not
   // cancel.
   const Vector ridge = polish_ridge * problem.R;
-  const NewtonSystem system(problem, point.t, problem.D, polish_theta, ridge);
+  const NewtonSystem system(problem, point.t, point.D, polish_theta, ridge);
   Vector dy = Vector::Zero(problem.m), dw = Vector::Zero(problem.k);
   double dx = 0;
   for (int probe = 0; probe < 4; ++probe) {
@@ -70,18 +74,22 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
     for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
     NewtonStep step = system.step(rho, r);
     // What the step leaves of r and rho no y and w can mend (dependent rows); it says nothing about y - y*.
-    r -= polish_theta * step.dy.cwiseQuotient(problem.D);
+    r -= polish_theta * step.dy.cwiseQuotient(point.D);
     rho.tail(problem.k) += ridge.cwiseProduct(step.dxi.tail(problem.k));
     step = system.step(rho, r);
     dx = std::max(dx, problem.W.norm(step.dxi.head(problem.n)));
     dw = dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
     dy = dy.cwiseMax(step.dy.cwiseAbs());
   }
-  const double product = safety * (dy.dot(point.r.cwiseAbs() + rounding.r) +
+  const bool at_rounding = point.residual <= settled * solution_size(problem, point);
+  const double factor = at_rounding ? safety : far_safety;
+  const double product = factor * (dy.dot(point.r.cwiseAbs() + rounding.r) +
                                    dw.dot((point.rho.cwiseAbs() + rounding.rho).tail(problem.k)));
   error.of_value = product;
-  error.bound = std::max(0.5 * (linear + std::sqrt(linear * linear + 4 * (constant + product))), safety * dx);
-  error.rounding = std::min(error.bound, error.rounding + safety * dx);
+  const double monotone = 0.5 * (linear + std::sqrt(linear * linear + 4 * (constant + product)));
+  error.bound = at_rounding ? std::min(std::max(monotone, factor * dx), own_safety * dx)
+                            : std::max(monotone, factor * dx);
+  error.rounding = std::min(error.bound, error.rounding + factor * dx);
   if (!system.usable() || !std::isfinite(error.bound)) error.bound = INFINITY;
   return error;
 }

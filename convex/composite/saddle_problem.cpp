@@ -170,6 +170,7 @@ double solution_size(const SaddleProblem& problem, const SaddlePoint& point) {
 
 SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, const Vector& D) {
   SaddlePoint point;
+  point.D = D;
   point.u = prox_of_terms(problem, t, D);
   point.y = D.cwiseProduct(t - point.u);
   for (Index i = 0; i < problem.n; ++i)

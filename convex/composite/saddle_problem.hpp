@@ -46,6 +46,7 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
 /// y = D(t - u), a subgradient of the term at u. Solved when r and rho are 0.
 struct SaddlePoint {
   Vector xi, t, u, y;
+  Vector D;             ///< the metric that it was taken in
   Vector r;             ///< M ξ + b - u: m
   Vector rho;           ///< (W(x - z), 0) + Qξ + c + Mᵀy: n + k
   double residual = 0;  ///< of ||rho_x||_(W⁻¹), ||rho_w||_(R⁻¹) and ||r||_D, the root of the sum of squares

@@ -5,6 +5,7 @@
 
 #include "convex/composite/multiplier_step.hpp"
 #include "convex/composite/newton_polish.hpp"
+#include "convex/composite/saddle_error.hpp"
 
 namespace convex {
 namespace {
@@ -12,64 +13,117 @@ namespace {
 constexpr Index outer_limit = 60;
 constexpr double growth = 8, largest_growth = 0x1p33;  ///< of D, by which outer steps converge superlinearly
 constexpr double first_ridge = 1e-2, smallest_ridge = 1e-10;  ///< of the proximal term on w, times R
-/// Below this part of the sizes of x and y there is only rounding; a few more steps are tried, then it stops.
-constexpr double rounding_level = 1e-15;
+/// Below this part of the size of x there is only rounding; near it steps go on while they halve the
+/// residual.
+constexpr double rounding_level = 1e-15, near_rounding = 1e-13;
 constexpr Index patience = 4;  ///< outer steps without progress before the end
-/// The domains are apart when the gap between M ξ + b and u stays this large beside them, and its direction
-/// is a separating one: Mᵀ takes it to this part of its size.
-constexpr double separated = 10 * membership_tolerance, separating = 1e-5;
+/// The domains are apart when they stay this part of the sizes of x and u from each other and Mᵀ makes little
+/// of the separating normal. A support point comes from projecting a point so far out: its truncation, one
+/// over it, and its rounding are both well below `separated`.
+constexpr double separated = 1e-5, separating = 1e-2, far_out = 1e7, stiff = 0x1p120;
+/// D is enlarged when multipliers exceed it by this factor.
+constexpr double unbalanced = 16;
 
-/// Is the gap r of a step with a large D the shortest vector between the domains? Then Dr separates them.
-bool separates(const SaddleProblem& problem, const SaddlePoint& point, const Vector& D) {
-  const Vector normal = D.cwiseProduct(point.r);
+/// Do the terms' domains lie apart along the gap of a step? Its normal q = D·gap has Mᵀq = 0 then, and
+/// q·b > sum of sup {q·u : u in a domain}, which the nearest point of a point far out along q
+/// comes near to (a stiff prox is the projection on the domain).
+bool separates(const SaddleProblem& problem, const MultiplierStep& step, const Vector& D) {
+  const Vector normal = D.cwiseProduct(step.gap).normalized();
   const SparseMatrix magnitude = problem.M.cwiseAbs();
-  const double size = (magnitude.transpose() * normal.cwiseAbs()).norm();
-  const double apart = point.r.norm();
-  const double around = point.u.norm() + problem.b.norm() + (magnitude * point.xi.cwiseAbs()).norm();
-  return apart > separated * around && (problem.M.transpose() * normal).norm() <= separating * size;
+  const Vector image = problem.M * step.point.xi + problem.b;
+  const double around =
+      step.point.u.norm() + problem.b.norm() + (magnitude * step.point.xi.cwiseAbs()).norm();
+  if (!(step.gap.norm() > separated * around)) return false;
+  const Vector reach = prox_of_terms(problem, step.point.u + far_out * around * normal, stiff * D);
+  const double apart = normal.dot(image - reach), reached = normal.cwiseAbs().dot(reach.cwiseAbs());
+  return apart > separated * (around + reached) &&
+         (problem.M.transpose() * normal).norm() * step.point.xi.norm() <= separating * apart;
 }
 
-}  // namespace
+/// ||x||_W + ||z||_W; when there is no x, the sizes of u and y.
+double target_size(const SaddleProblem& problem, const SaddlePoint& point) {
+  if (problem.n == 0) return solution_size(problem, point);
+  return problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z);
+}
 
-SaddleSolution solve(const SaddleProblem& problem) {
-  SaddleSolution solution;
-  Vector xi = Vector::Zero(problem.n + problem.k);
-  xi.head(problem.n) = problem.z;
-  SaddlePoint best = saddle_point(problem, xi, problem.M * xi + problem.b, problem.D);
-  const auto keep = [&](SaddlePoint point) {
-    const bool better = point.residual < best.residual || !std::isfinite(best.residual);
-    if (better) best = std::move(point);
-    return better;
+/// One run with a fixed D, from solution.point on.
+void run(const SaddleProblem& problem, SaddleSolution& solution) {
+  SaddlePoint& best = solution.point;
+  const auto keep = [&](const SaddlePoint& point) {
+    if (point.residual < best.residual || !std::isfinite(best.residual)) best = point;
   };
-  const auto finished = [&] { return best.residual <= rounding_level * solution_size(problem, best); };
   keep(newton_polish(problem, best));
   SaddlePoint centre = best;
   double factor = 1, ridge = first_ridge, last_gap = 0;
   Index idle = 0, apart = 0;
-  for (; solution.outer_steps < outer_limit && !finished() && idle < patience; ++solution.outer_steps) {
-    const Vector D = factor * problem.D;
-    MultiplierStep step = multiplier_step(problem, centre, D, ridge * problem.R);
-    solution.newton_steps += step.newton_steps;
+  for (Index outer = 0; outer < outer_limit && idle < patience; ++outer) {
     const double before = best.residual;
-    const SaddlePoint polished = newton_polish(problem, step.point);
-    const double gap = step.point.r.norm();
-    apart = gap > 0.9 * last_gap && separates(problem, step.point, D) ? apart + 1 : 0;
-    if (apart >= patience) {
-      solution.infeasible = true;
-      break;
-    }
+    if (before <= rounding_level * target_size(problem, best)) break;
+    const Vector D = factor * problem.D;
+    const MultiplierStep step = multiplier_step(problem, centre, D, ridge * problem.R);
+    solution.newton_steps += step.newton_steps;
+    ++solution.outer_steps;
+    const double gap = step.gap.norm();
+    apart = gap > 0.9 * last_gap ? apart + 1 : 0;
     last_gap = gap;
-    centre = std::move(step.point);
-    if (keep(polished) && best.residual <= 0.5 * before) centre = best;
+    if (apart >= 2 && separates(problem, step, D)) {
+      solution.infeasible = true;
+      return;
+    }
+    const SaddlePoint polished = newton_polish(problem, step.point);
+    centre = step.point;
+    keep(polished);
     keep(centre);
-    idle = best.residual <= 0.9 * before || factor < largest_growth ? 0 : idle + 1;
-    if (best.residual <= 100 * rounding_level * solution_size(problem, best) && best.residual > 0.5 * before)
-      break;
+    if (polished.residual <= 0.5 * before) centre = polished;
+    if (best.residual > 0.5 * before) {
+      if (best.residual <= near_rounding * solution_size(problem, best)) break;
+      if (factor >= largest_growth) ++idle;
+    } else {
+      idle = 0;
+    }
     if (step.minimised) factor = std::min(growth * factor, largest_growth);
     ridge = std::max(ridge / growth, smallest_ridge);
   }
-  solution.point = std::move(best);
-  return solution;
+}
+
+/// D enlarged to |y|/|u| in the terms where it is much smaller; false when there is none.
+bool balance(SaddleProblem& problem, const SaddlePoint& point) {
+  bool changed = false;
+  for (const SaddleTerm& term : problem.terms) {
+    const double u = point.u.segment(term.first, term.rows).norm();
+    auto d = problem.D.segment(term.first, term.rows);
+    const double y = point.y.segment(term.first, term.rows).norm();
+    const double factor = y / (u * d.maxCoeff());
+    if (!(factor > unbalanced && std::isfinite(factor))) continue;
+    d *= std::exp2(std::floor(std::log2(factor)));
+    changed = true;
+  }
+  return changed;
+}
+
+double error_of(const SaddleProblem& problem, const SaddlePoint& point) {
+  const SaddleError error = saddle_error(problem, point);
+  return problem.n > 0 ? error.bound : error.of_value;
+}
+
+}  // namespace
+
+SaddleSolution solve(SaddleProblem problem) {
+  Vector xi = Vector::Zero(problem.n + problem.k);
+  xi.head(problem.n) = problem.z;
+  SaddleSolution solution;
+  solution.point = saddle_point(problem, xi, problem.M * xi + problem.b, problem.D);
+  run(problem, solution);
+  if (solution.infeasible || problem.all_pinned ||
+      solution.point.residual <= rounding_level * target_size(problem, solution.point) ||
+      !balance(problem, solution.point))
+    return solution;
+  SaddleSolution other = solution;
+  const SaddlePoint& last = solution.point;
+  other.point = saddle_point(problem, last.xi, last.u + last.y.cwiseQuotient(problem.D), problem.D);
+  run(problem, other);
+  const bool better = other.infeasible || error_of(problem, other.point) < error_of(problem, solution.point);
+  return better ? other : solution;
 }
 
 }  // namespace convex

@@ -1,0 +1,133 @@
+#include <cmath>
+#include <limits>
+
+#include "convex/composite/affine_atoms.hpp"
+#include "convex/composite/composite_prox.hpp"
+#include "convex/composite/saddle_error.hpp"
+#include "convex/composite/saddle_solver.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double tolerance = 1e-12;  ///< of a value, relative to the sizes of what it is a sum of
+/// An error below this part of the squares of the sizes is nothing, even where the value is 0.
+constexpr double vanishing = 1e-20;
+/// A miss of a domain by this much is not slow convergence.
+constexpr double surely_outside = 1e3 * membership_tolerance;
+
+/// scale f(Mx + b), with the membership tolerance relative to the sizes that Mx + b is made of.
+double term_value(const GraphTerm& term, const Vector& x) {
+  const Vector at = term.M * x + term.b;
+  const double value = term.f->value(at);
+  if (value < infinity) return term.scale * value;
+  const double size = (term.M.cwiseAbs() * x.cwiseAbs() + term.b.cwiseAbs()).norm();
+  // A stiff prox is the projection on the domain, nearly.
+  constexpr double stiff = 1e12;
+  const Vector nearest = term.f->prox_diagonal(at, Vector::Constant(at.size(), stiff / (size * size)));
+  return (at - nearest).norm() <= membership_tolerance * size ? term.scale * term.f->value(nearest)
+                                                              : infinity;
+}
+
+/// The terms as functions of w at a given x.
+GraphForm at_x(const GraphForm& f, const Vector& x) {
+  GraphForm rest{0, f.k, {}, f.constant};
+  for (const GraphTerm& term : f.terms)
+    rest.terms.push_back({term.f, term.scale, term.M.rightCols(f.k), term.b + term.M.leftCols(f.n) * x});
+  return rest;
+}
+
+GraphValue direct_value(const GraphForm& f, const Vector& x) {
+  GraphValue found{f.constant, Vector(0), Vector::Zero(f.n), 0, Status::solved};
+  double size = std::abs(f.constant);
+  for (const GraphTerm& term : f.terms) {
+    const double part = term_value(term, x);
+    found.value += part;
+    size += std::abs(part);
+    const std::optional<Vector> slope = term.f->subgradient(term.M * x + term.b);
+    if (slope && found.v)
+      *found.v += term.scale * (term.M.transpose() * *slope);
+    else
+      found.v.reset();
+  }
+  found.error_bound = 4 * unit_roundoff * size;
+  return found;
+}
+
+/// The sum of the terms at (x, w).
+double sum_of_terms(const GraphForm& f, const Vector& whole) {
+  double sum = f.constant;
+  for (const GraphTerm& term : f.terms) sum += term.scale * term.f->value(term.M * whole + term.b);
+  return sum;
+}
+
+/// Does f(x, ·) fall without end from w along the direction of a gradient that no multiplier cancels?
+bool falls_without_end(const GraphForm& f, const Vector& x, const Vector& w, const Vector& gradient) {
+  if (!(gradient.norm() > 0)) return false;
+  const Vector step = -(x.norm() + w.norm() + 1) / gradient.norm() * gradient;
+  constexpr double far = 1e6, farther = 1e9, falling = 0.5;  // as the distance grows, nearly
+  Vector whole(f.n + f.k);
+  whole << x, w + far * step;
+  const double there = sum_of_terms(f, whole);
+  whole << x, w + farther * step;
+  return there < 0 && sum_of_terms(f, whole) < falling * farther / far * there;
+}
+
+}  // namespace
+
+GraphValue evaluate(const GraphForm& f, const Vector& x) {
+  if (f.n != x.size())
+    throw InvalidInput("graph form: a function of " + std::to_string(f.n) + " entries at a point of " +
+                       std::to_string(x.size()) + "; give one of the same size");
+  if (f.k == 0) return direct_value(f, x);
+  const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0));
+  const SaddleSolution solution = solve(problem);
+  const SaddlePoint& point = solution.point;
+  GraphValue found;
+  found.value = f.constant;
+  double size = std::abs(f.constant), outside = 0;
+  const auto add = [&](double part) {
+    found.value += part;
+    size += std::abs(part);
+  };
+  Vector whole(f.n + f.k);
+  whole << x, point.xi;
+  Vector slope = Vector::Zero(f.n + f.k);
+  std::size_t j = 0;
+  for (const GraphTerm& term : f.terms) {
+    if (slope_of(*term.f) || is_half_square(*term.f)) {
+      const Vector at = term.M * whole + term.b;
+      add(term.scale * term.f->value(at));
+      slope += term.scale * (term.M.transpose() * *term.f->subgradient(at));
+      continue;
+    }
+    const SaddleTerm& in = problem.terms[j++];
+    const Vector r = point.r.segment(in.first, in.rows), y = point.y.segment(in.first, in.rows);
+    add(term.scale * term.f->value(point.u.segment(in.first, in.rows)));
+    // To first order what the miss r costs; with it the sum is a lower bound of the value.
+    add(y.dot(r));
+    slope += term.M.transpose() * y;
+    const double around = (term.M.cwiseAbs() * whole.cwiseAbs() + term.b.cwiseAbs()).norm();
+    if (around > 0) outside = std::max(outside, r.norm() / around);
+  }
+  if (solution.infeasible || outside > membership_tolerance) {
+    found.value = infinity;
+    const bool sure = solution.infeasible || outside > surely_outside;
+    found.status = sure ? Status::solved : Status::inaccurate;
+    return found;
+  }
+  found.w = point.xi;
+  found.v = slope.head(f.n);
+  found.error_bound = saddle_error(problem, point).of_value + 8 * unit_roundoff * size;
+  const bool accurate =
+      found.error_bound <= tolerance * size || point.residual <= converged * solution_size(problem, point);
+  if (accurate) return found;
+  found.status = Status::inaccurate;
+  if (falls_without_end(f, x, point.xi, point.rho)) {
+    found.value = -infinity;
+    found.v.reset();
+  }
+  return found;
+}
+
+}  // namespace convex
