@@ -119,9 +119,8 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   found.w = point.xi;
   found.v = slope.head(f.n);
   found.error_bound = saddle_error(problem, point).of_value + 8 * unit_roundoff * size;
-  const bool accurate =
-      found.error_bound <= tolerance * size || point.residual <= converged * solution_size(problem, point);
-  if (accurate) return found;
+  const double energy = point.u.dot(point.D.cwiseProduct(point.u));
+  if (found.error_bound <= std::max(tolerance * size, vanishing * energy)) return found;
   found.status = Status::inaccurate;
   if (falls_without_end(f, x, point.xi, point.rho)) {
     found.value = -infinity;
