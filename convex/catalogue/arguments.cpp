@@ -32,6 +32,9 @@ double number_of(std::string_view text) {
   return value;
 }
 
+/// Larger numbers of entries are slips.
+constexpr double most_counted = 1e9;
+
 bool is_variadic(const CatalogueEntry& entry) {
   return !entry.parameters.empty() && entry.parameters.back().kind == ParameterKind::functions;
 }
@@ -120,13 +123,41 @@ Vector Arguments::vector(std::string_view parameter) const {
   return *vector;
 }
 
-Matrix Arguments::matrix(std::string_view parameter) const {
+bool Arguments::is_vector(std::string_view parameter) const {
+  const NamedArgument* argument = find(parameter);
+  return argument && std::holds_alternative<Vector>(argument->value);
+}
+
+Index Arguments::count(std::string_view parameter) const {
+  const double value = number(parameter);
+  if (!(value >= 1 && value <= most_counted) || value != std::floor(value))
+    refuse(parameter, "not a whole number; give 1, 2, …");
+  return static_cast<Index>(value);
+}
+
+std::vector<Index> Arguments::counts(std::string_view parameter) const {
+  std::vector<Index> counts;
+  for (double value : vector(parameter)) {
+    if (!(value >= 1 && value <= most_counted) || value != std::floor(value))
+      refuse(parameter, "an entry is not a whole number; give 1, 2, …");
+    counts.push_back(static_cast<Index>(value));
+  }
+  return counts;
+}
+
+Matrix Arguments::pieces(std::string_view parameter) const {
   const NamedArgument* argument = find(parameter);
   invariant(argument != nullptr, "a matrix has no default");
   const Matrix* matrix = std::get_if<Matrix>(&argument->value);
   if (!matrix) refuse(parameter, "not a matrix; write [[1,2],[3,4]]");
-  if (!matrix->allFinite()) refuse(parameter, "an entry is not finite; give numbers");
+  if (matrix->hasNaN()) refuse(parameter, "an entry is not a number; give numbers");
   return *matrix;
+}
+
+Matrix Arguments::matrix(std::string_view parameter) const {
+  const Matrix read = pieces(parameter);
+  if (!read.allFinite()) refuse(parameter, "an entry is not finite; give numbers");
+  return read;
 }
 
 const Call& Arguments::call_of(const NamedArgument& argument, std::string_view parameter) const {

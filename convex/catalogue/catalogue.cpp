@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "convex/functions/node.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace convex {
@@ -25,6 +26,7 @@ Function make(const CatalogueEntry& entry, const Call& call, const Space& space)
     if (f.dimension() != 0 && f.dimension() != space.dimension())
       throw at(call.name + ": it takes " + std::to_string(f.dimension()) + " entries, the space has " +
                std::to_string(space.dimension()) + "; give data of that size");
+    f.node().require_size(space.dimension());
     return f;
   } catch (const InvalidInput& error) {
     if (error.place() || !call.place) throw;

@@ -49,7 +49,9 @@ std::span<const CatalogueEntry> catalogue();
 
 /// The parts of the catalogue, each at home with what it makes.
 std::vector<CatalogueEntry> set_entries();
+std::vector<CatalogueEntry> cone_entries();
 std::vector<CatalogueEntry> function_entries();
+std::vector<CatalogueEntry> norm_entries();
 std::vector<CatalogueEntry> operation_entries();
 
 /// The entry of that name, or null.
@@ -68,8 +70,16 @@ class Arguments {
  public:
   Arguments(const CatalogueEntry& entry, const Call& call, const Space& space);
   double number(std::string_view parameter) const;
+  /// A whole number >= 1.
+  Index count(std::string_view parameter) const;
+  std::vector<Index> counts(std::string_view parameter) const;
+  /// A vector; a number where a vector is wanted stands for as many equal entries as the space has.
   Vector vector(std::string_view parameter) const;
+  /// Was it given as a vector, and not as a number or not at all?
+  bool is_vector(std::string_view parameter) const;
   Matrix matrix(std::string_view parameter) const;
+  /// A matrix whose entries may be infinite.
+  Matrix pieces(std::string_view parameter) const;
   Set set(std::string_view parameter) const;
   /// The function of a parameter, built in `in` instead of the call's own space when given (blocks, images).
   Function function(std::string_view parameter) const;

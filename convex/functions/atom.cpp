@@ -2,9 +2,7 @@
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/functions/node.hpp"
-#if __has_include("convex/linear_quadratic/prox.hpp")
 #include "convex/linear_quadratic/prox.hpp"
-#endif
 
 namespace convex {
 namespace {
@@ -60,18 +58,12 @@ std::optional<Prox> Atom::prox_general(const Vector&, const Metric&) const { ret
 
 Prox Atom::prox(const Vector& z, const Metric& W) const {
   const Vector d = diagonal_of(W);
-  if (d.size() > 0 && (facts().separable || d.maxCoeff() == d.minCoeff()))
+  if (d.size() > 0 && (takes_any_diagonal() || d.maxCoeff() == d.minCoeff()))
     return in_diagonal_metric(*this, z, d);
   if (std::optional<Prox> own = prox_general(z, W)) return *own;
-#if __has_include("convex/linear_quadratic/prox.hpp")
   if (const std::optional<LinearQuadratic> form = linear_quadratic(z.size()))
     return convex::prox(*form, z, W);
-#endif
-#if __has_include("convex/composite/composite_prox.cpp")
   return convex::prox(*graph(z.size()), z, W);
-#else
-  throw InvalidInput(call().name + ": no prox in this metric yet; give a diagonal one");
-#endif
 }
 
 std::optional<GraphForm> Atom::graph(Index n) const {

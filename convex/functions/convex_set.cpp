@@ -2,13 +2,7 @@
 
 #include <limits>
 
-#if __has_include("convex/linear_quadratic/operations.hpp")
 #include "convex/linear_quadratic/operations.hpp"
-#else
-namespace convex {
-struct LinearQuadratic {};
-}  // namespace convex
-#endif
 
 namespace convex {
 namespace {
@@ -19,6 +13,8 @@ class SetIndicator : public Atom {
  public:
   explicit SetIndicator(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
   Index dimension() const override { return S_->dimension(); }
+  void require_size(Index n) const override { S_->require_size(n); }
+  bool takes_any_diagonal() const override { return S_->takes_any_diagonal(); }
   Facts facts() const override {
     Facts facts = S_->facts();
     facts.indicator = true;
@@ -47,6 +43,8 @@ class SetSupport : public Atom {
  public:
   explicit SetSupport(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
   Index dimension() const override { return S_->dimension(); }
+  void require_size(Index n) const override { S_->require_size(n); }
+  bool takes_any_diagonal() const override { return S_->takes_any_diagonal(); }
   Facts facts() const override {
     const Facts of_set = S_->facts();
     return {.indicator = of_set.cone,
@@ -79,6 +77,43 @@ class SetSupport : public Atom {
   std::shared_ptr<const ConvexSet> S_;
 };
 
+class ConeSet : public ConvexSet {
+ public:
+  explicit ConeSet(Cone K) : K_(std::move(K)) {}
+  Index dimension() const override { return K_.dimension; }
+  void require_size(Index n) const override {
+    if (K_.require_size) K_.require_size(n);
+  }
+  Call call() const override { return K_.call; }
+  Call support_call() const override { return K_.polar_call; }
+  Facts facts() const override {
+    return {.indicator = true, .cone = true, .support = true, .piecewise_quadratic = K_.form != nullptr};
+  }
+  bool bounded() const override { return false; }
+  bool takes_any_diagonal() const override { return K_.any_diagonal; }
+  Vector project(const Vector& z, const Vector& d) const override { return K_.project(z, d); }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override { return K_.jacobian(z, d); }
+  double support(const Vector& v) const override {
+    const double outside = project(v, Vector::Ones(v.size())).stableNorm();
+    return outside <= membership_tolerance * v.stableNorm() ? 0 : infinity;
+  }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    if (support(v) > 0) return std::nullopt;
+    return Vector::Zero(v.size());
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return K_.project_polar && d.maxCoeff() == d.minCoeff() ? K_.project_polar(z)
+                                                            : ConvexSet::support_prox(z, d);
+  }
+  std::optional<LinearQuadratic> indicator_form(Index n) const override {
+    if (!K_.form) return std::nullopt;
+    return K_.form(n);
+  }
+
+ private:
+  Cone K_;
+};
+
 }  // namespace
 
 Call ConvexSet::support_call() const { return {"support", {argument(call())}}; }
@@ -94,11 +129,9 @@ Vector ConvexSet::support_prox(const Vector& z, const Vector& d) const {
 
 std::optional<LinearQuadratic> ConvexSet::indicator_form(Index) const { return std::nullopt; }
 
-std::optional<LinearQuadratic> ConvexSet::support_form([[maybe_unused]] Index n) const {
-#if __has_include("convex/linear_quadratic/operations.hpp")
+std::optional<LinearQuadratic> ConvexSet::support_form(Index n) const {
   if (const std::optional<LinearQuadratic> form = indicator_form(n))
     return linear_quadratic::conjugate(*form);
-#endif
   return std::nullopt;
 }
 
@@ -115,14 +148,6 @@ Set set_of(std::shared_ptr<const ConvexSet> S) {
   return {indicator_of(std::move(S)), std::move(call)};
 }
 
-double ConvexCone::support(const Vector& v) const {
-  const double outside = project(v, Vector::Ones(v.size())).norm();
-  return outside <= membership_tolerance * v.norm() ? 0 : infinity;
-}
-
-std::optional<Vector> ConvexCone::maximiser(const Vector& v) const {
-  if (support(v) > 0) return std::nullopt;
-  return Vector::Zero(v.size());
-}
+Set set_of(Cone K) { return set_of(std::make_shared<ConeSet>(std::move(K))); }
 
 }  // namespace convex

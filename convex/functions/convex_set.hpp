@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "convex/functions/node.hpp"
@@ -9,11 +10,12 @@ namespace convex {
 /// A closed convex set S, not empty, by what algorithms know of it: its projection and its support function.
 /// `indicator_of` and `support_of` make the two conjugate functions of it; every norm, max and sum_largest is
 /// the support function of such a set, so that each pair has one algorithm. d is n positive numbers, all
-/// equal unless `facts().separable`.
+/// equal unless `takes_any_diagonal()`.
 class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
  public:
   virtual ~ConvexSet() = default;
   virtual Index dimension() const = 0;
+  virtual void require_size(Index) const {}
   /// The set in the language, such as box(lower=0, upper=1).
   virtual Call call() const = 0;
   /// Its support function in the language; support(call()) unless it has a name of its own.
@@ -25,6 +27,7 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   /// The size of the data, against which `membership_tolerance` is measured beside |x|; 0 for a cone.
   virtual double scale() const { return 0; }
 
+  virtual bool takes_any_diagonal() const { return facts().separable; }
   /// argmin sum_i d_i (u_i - z_i)² over S.
   virtual Vector project(const Vector& z, const Vector& d) const = 0;
   /// An element of the generalised Jacobian of z -> project(z, d).
@@ -57,12 +60,20 @@ Function support_of(std::shared_ptr<const ConvexSet> S);
 /// S under its own name.
 Set set_of(std::shared_ptr<const ConvexSet> S);
 
-/// A closed convex cone K: its support function is the indicator of its polar, {v : project(v) = 0}.
-class ConvexCone : public ConvexSet {
- public:
-  bool bounded() const override { return false; }
-  double support(const Vector& v) const override;
-  std::optional<Vector> maximiser(const Vector& v) const override;
+/// A closed convex cone by its algorithms. Its support function is the indicator of its polar, {v : the
+/// projection of v is 0}.
+struct Cone {
+  Call call;
+  Call polar_call;      ///< the indicator of the polar
+  Index dimension = 0;  ///< 0: any number of entries
+  std::function<Vector(const Vector& z, const Vector& d)> project;
+  std::function<Matrix(const Vector& z, const Vector& d)> jacobian;
+  /// The projection on the polar in the plain metric; z - project(z) in any when empty.
+  std::function<Vector(const Vector& z)> project_polar = {};
+  std::function<void(Index n)> require_size = {};
+  std::function<LinearQuadratic(Index n)> form = {};
+  bool any_diagonal = false;
 };
+Set set_of(Cone K);
 
 }  // namespace convex

@@ -15,6 +15,7 @@ void check(const Function& f, const Vector& x, const char* what) {
   if (n != 0 && x.size() != n)
     throw InvalidInput(f.call().name + ": " + what + " has " + std::to_string(x.size()) +
                        " entries, the function takes " + std::to_string(n) + "; give as many");
+  f.node().require_size(x.size());
   for (Index i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]))
       throw InvalidInput(f.call().name + ": entry " + std::to_string(i) + " of " + what +

@@ -12,6 +12,9 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
  public:
   virtual ~FunctionNode() = default;
   virtual Index dimension() const = 0;
+  /// Throws InvalidInput when n entries cannot be: a matrix that is not square, fewer entries than are
+  /// summed.
+  virtual void require_size(Index) const {}
   virtual Facts facts() const = 0;
   virtual Call call() const = 0;
   virtual double value(const Vector& x) const = 0;
@@ -32,8 +35,11 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
 /// Newton method on its graph form.
 class Atom : public FunctionNode {
  public:
-  /// argmin f(u) + ½ sum_i d_i (u_i - z_i)². d: n, positive; all entries equal unless facts().separable.
+  /// argmin f(u) + ½ sum_i d_i (u_i - z_i)². d: n, positive; all entries equal unless
+  /// takes_any_diagonal().
   virtual Vector prox_diagonal(const Vector& z, const Vector& d) const = 0;
+  /// Does `prox_diagonal` take any positive d, and not just equal ones?
+  virtual bool takes_any_diagonal() const { return facts().separable; }
   /// A subgradient of f at x = prox_diagonal(z, d) by a formula of its own: the one nearest to D(z - x),
   /// which is D(z - x) itself up to rounding. None where there is no such formula.
   virtual std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const;

@@ -11,6 +11,8 @@ void require_finite(const char* maker, const char* parameter, const Vector& numb
 void require_finite(const char* maker, const char* parameter, const Matrix& numbers);
 /// Finite and >= 0.
 void require_nonnegative(const char* maker, const char* parameter, double number);
+/// Whether n entries stack a square matrix by columns.
+void require_square(const char* maker, Index n);
 /// Finite and > 0.
 void require_positive(const char* maker, const char* parameter, double number);
 

@@ -1,0 +1,125 @@
+#include "convex/functions/cones.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "convex/functions/convex_set.hpp"
+#include "convex/functions/parameter.hpp"
+#include "convex/kernels/exponential_cone.hpp"
+#include "convex/kernels/isotonic.hpp"
+#include "convex/kernels/power_cone.hpp"
+#include "convex/kernels/second_order_cone.hpp"
+#include "convex/kernels/spectral.hpp"
+#include "convex/linear_quadratic/sets.hpp"
+
+namespace convex {
+namespace {
+
+Call indicator_call(const Call& set) { return {"indicator", {argument(set)}}; }
+Call support_call(const Call& set) { return {"support", {argument(set)}}; }
+/// The indicator of -K.
+Call mirrored(const Call& K) { return {"dilate", {argument(indicator_call(K)), argument("rho", -1.0)}}; }
+
+std::function<void(Index)> at_least(const char* name, Index least) {
+  return [name, least](Index n) {
+    if (n < least)
+      throw InvalidInput(std::string(name) + ": " + std::to_string(n) + " entries; give at least " +
+                         std::to_string(least));
+  };
+}
+
+/// A cone in the plain metric by its projections.
+template <class Project, class Polar, class Jacobian>
+Cone plain_cone(Call call, Call polar_call, Index dimension, Project project, Polar polar,
+                Jacobian jacobian) {
+  return {.call = std::move(call),
+          .polar_call = std::move(polar_call),
+          .dimension = dimension,
+          .project = [project](const Vector& z, const Vector&) -> Vector { return project(z); },
+          .jacobian = [jacobian](const Vector& z, const Vector&) -> Matrix { return jacobian(z); },
+          .project_polar = [polar](const Vector& z) -> Vector { return polar(z); }};
+}
+
+/// The dual -K° of a cone in R³: its projection is -polar(-z), its polar is -K.
+template <class Project, class Polar, class Jacobian>
+Cone dual_cone(const Call& call, const Call& of, Project project, Polar polar, Jacobian jacobian) {
+  return plain_cone(
+      call, mirrored(of), 3, [polar](const Vector& z) { return Vector(-polar(-z)); },
+      [project](const Vector& z) { return Vector(-project(-z)); },
+      [jacobian](const Vector& z) { return Matrix(Matrix::Identity(3, 3) - jacobian(-z)); });
+}
+
+void require_exponent(const char* cone, double alpha) {
+  if (!(alpha > 0 && alpha < 1))
+    throw InvalidInput(std::string(cone) + "(alpha): not between 0 and 1; give 0 < alpha < 1");
+}
+
+}  // namespace
+
+Set second_order_cone() {
+  const Call call{"second_order_cone"};
+  return set_of(plain_cone(call, mirrored(call), 0, kernels::proj_second_order_cone,
+                           kernels::proj_second_order_polar, kernels::proj_second_order_cone_jacobian));
+}
+
+Set rotated_second_order_cone() {
+  const Call call{"rotated_second_order_cone"};
+  Cone K = plain_cone(call, mirrored(call), 0, kernels::proj_rotated_cone, kernels::proj_rotated_polar,
+                      kernels::proj_rotated_cone_jacobian);
+  K.require_size = at_least("rotated_second_order_cone", 2);
+  return set_of(std::move(K));
+}
+
+Set psd_cone() {
+  const Call call{"psd_cone"};
+  Cone K = plain_cone(call, support_call(call), 0, kernels::proj_psd_cone, kernels::proj_psd_polar,
+                      [](const Vector& z) {
+                        const Index n = kernels::order_of_stacked(z);
+                        return kernels::psd_projection(z.reshaped(n, n)).jacobian();
+                      });
+  K.require_size = [](Index n) { require_square("psd_cone", n); };
+  return set_of(std::move(K));
+}
+
+Set exponential_cone() {
+  return set_of(plain_cone({"exponential_cone"}, mirrored({"dual_exponential_cone"}), 3,
+                           kernels::proj_exponential_cone, kernels::proj_exponential_polar,
+                           kernels::proj_exponential_cone_jacobian));
+}
+
+Set dual_exponential_cone() {
+  return set_of(dual_cone({"dual_exponential_cone"}, {"exponential_cone"}, kernels::proj_exponential_cone,
+                          kernels::proj_exponential_polar, kernels::proj_exponential_cone_jacobian));
+}
+
+Set power_cone(double alpha) {
+  require_exponent("power_cone", alpha);
+  return set_of(plain_cone(
+      {"power_cone", {argument("alpha", alpha)}}, mirrored({"dual_power_cone", {argument("alpha", alpha)}}),
+      3, [alpha](const Vector& z) { return kernels::proj_power_cone(z, alpha); },
+      [alpha](const Vector& z) { return kernels::proj_power_polar(z, alpha); },
+      [alpha](const Vector& z) { return kernels::proj_power_cone_jacobian(z, alpha); }));
+}
+
+Set dual_power_cone(double alpha) {
+  require_exponent("dual_power_cone", alpha);
+  return set_of(dual_cone(
+      {"dual_power_cone", {argument("alpha", alpha)}}, {"power_cone", {argument("alpha", alpha)}},
+      [alpha](const Vector& z) { return kernels::proj_power_cone(z, alpha); },
+      [alpha](const Vector& z) { return kernels::proj_power_polar(z, alpha); },
+      [alpha](const Vector& z) { return kernels::proj_power_cone_jacobian(z, alpha); }));
+}
+
+Set monotone_cone() {
+  const Call call{"monotone_cone"};
+  return set_of(Cone{
+      .call = call,
+      .polar_call = support_call(call),
+      .project = [](const Vector& z, const Vector& d) { return kernels::proj_monotone(z, d).x; },
+      .jacobian = [](const Vector& z,
+                     const Vector& d) { return kernels::blocks_jacobian(kernels::proj_monotone(z, d), d); },
+      .form = linear_quadratic::monotone_cone,
+      .any_diagonal = true});
+}
+
+}  // namespace convex

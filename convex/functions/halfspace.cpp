@@ -1,0 +1,116 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "convex/functions/convex_set.hpp"
+#include "convex/functions/parameter.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/linear_quadratic/sets.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// {x : a·x <= b}, or {x : a·x = b} when two-sided: the projection is one multiplier in any metric. a, b are
+/// kept divided by |a|; a = 0 stands for the whole space.
+class Slab : public ConvexSet {
+ public:
+  Slab(Call call, const Vector& a, double b, bool two_sided)
+      : call_(std::move(call)), a_(a), b_(b), given_a_(a), given_b_(b), two_sided_(two_sided) {
+    const double length = a.stableNorm();
+    if (length > 0) {
+      a_ /= length;
+      b_ /= length;
+    }
+  }
+  Index dimension() const override { return a_.size(); }
+  Call call() const override { return call_; }
+  Facts facts() const override { return {.cone = given_b_ == 0, .piecewise_quadratic = true}; }
+  bool bounded() const override { return false; }
+  bool takes_any_diagonal() const override { return true; }
+  double scale() const override { return std::abs(b_); }
+
+  Vector project(const Vector& z, const Vector& d) const override {
+    const Vector normal = a_.cwiseQuotient(d);
+    return z - multiplier(z, normal) * normal;
+  }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+    const Matrix identity = Matrix::Identity(z.size(), z.size());
+    const Vector normal = a_.cwiseQuotient(d);
+    const bool active = two_sided_ ? !a_.isZero(0) : multiplier(z, normal) > 0;
+    if (!active) return identity;
+    return identity - normal * a_.transpose() / a_.dot(normal);
+  }
+  double support(const Vector& v) const override {
+    const auto weight = weight_of(v);
+    return weight ? *weight * b_ : infinity;
+  }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    const auto weight = weight_of(v);
+    if (!weight) return std::nullopt;
+    return *weight != 0 || two_sided_ || b_ < 0 ? Vector(b_ * a_) : Vector::Zero(a_.size());
+  }
+  std::optional<Prox> project_general(const Vector& z, const Metric& W) const override {
+    const Vector normal = W.solve(a_);  // a is a covector; W makes it a direction
+    const double weight = multiplier(z, normal);
+    Prox result;
+    result.x = z - weight * normal;
+    result.v = weight * a_;
+    result.error_bound =
+        W.dual_norm(W.multiply(result.x - z) + result.v) + 4 * unit_roundoff * (W.norm(z) + W.norm(result.x));
+    result.method = "closed form";
+    return result;
+  }
+  std::optional<LinearQuadratic> indicator_form(Index) const override {
+    return two_sided_ ? linear_quadratic::hyperplane(given_a_, given_b_)
+                      : linear_quadratic::halfspace(given_a_, given_b_);
+  }
+
+ private:
+  double multiplier(const Vector& z, const Vector& normal) const {
+    const double length = a_.dot(normal);
+    if (!(length > 0)) return 0;
+    const double excess = a_.dot(z) - b_;
+    return (two_sided_ ? excess : std::max(0.0, excess)) / length;
+  }
+  /// The w with v = wa, w >= 0 unless two-sided; none when there is none.
+  std::optional<double> weight_of(const Vector& v) const {
+    const double weight = a_.dot(v), allowance = membership_tolerance * v.norm();
+    if ((v - weight * a_).norm() > allowance) return std::nullopt;
+    if (!two_sided_ && weight < -allowance) return std::nullopt;
+    return two_sided_ ? weight : std::max(0.0, weight);
+  }
+  Call call_;
+  Vector a_;
+  double b_;
+  Vector given_a_;
+  double given_b_;
+  bool two_sided_;
+};
+
+void check(const char* set, const Vector& a, double b) {
+  require_finite(set, "a", a);
+  require_finite(set, "b", b);
+  if (a.size() == 0) throw InvalidInput(std::string(set) + "(a): no entries; give at least one");
+}
+
+}  // namespace
+
+Set halfspace(const Vector& a, double b) {
+  check("halfspace", a, b);
+  if (a.isZero(0) && b < 0)
+    throw InvalidInput("halfspace: a = 0 and b < 0, so the set is empty; give another a or b >= 0");
+  const Call call{"halfspace", {argument("a", a), argument("b", b)}};
+  return set_of(std::make_shared<Slab>(call, a, b, false));
+}
+
+Set hyperplane(const Vector& a, double b) {
+  check("hyperplane", a, b);
+  if (a.isZero(0) && b != 0)
+    throw InvalidInput("hyperplane: a = 0 and b is not 0, so the set is empty; give another a or b = 0");
+  const Call call{"hyperplane", {argument("a", a), argument("b", b)}};
+  return set_of(std::make_shared<Slab>(call, a, b, true));
+}
+
+}  // namespace convex

@@ -1,0 +1,88 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "convex/functions/scalar_sum.hpp"
+#include "convex/functions/separable_functions.hpp"
+#include "convex/kernels/log_barrier.hpp"
+#include "convex/kernels/logistic.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct LogBarrier {
+  Index dimension() const { return 0; }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }  // open: no point outside counts as inside
+  Call call() const { return {"log_barrier"}; }
+  Function conjugate() const;
+  double value(double x, Index) const { return x > 0 ? -std::log(x) : infinity; }
+  double slope(double x, Index) const { return x > 0 ? -1 / x : -infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_log_barrier(z, d); }
+};
+
+/// -1 - log(-x) = -log(-ex).
+struct LogBarrierConjugate {
+  Index dimension() const { return 0; }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }
+  Call call() const {
+    return {"dilate", {argument(Call{"log_barrier"}), argument("rho", -1 / std::numbers::e)}};
+  }
+  Function conjugate() const { return log_barrier(); }
+  double value(double x, Index) const { return x < 0 ? -1 - std::log(-x) : infinity; }
+  double slope(double x, Index) const { return x < 0 ? -1 / x : infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const {
+    return kernels::prox_log_barrier_conjugate(z, d);
+  }
+};
+
+struct Logistic {
+  Index dimension() const { return 0; }
+  bool finite() const { return true; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }
+  Call call() const { return {"logistic"}; }
+  Function conjugate() const { return binary_entropy(); }
+  double value(double x, Index) const { return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x))); }
+  double slope(double x, Index) const {
+    return x > 0 ? 1 / (1 + std::exp(-x)) : std::exp(x) / (1 + std::exp(x));
+  }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_logistic(z, d); }
+};
+
+struct BinaryEntropy {
+  Index dimension() const { return 0; }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {0, 1}; }
+  Call call() const { return {"binary_entropy"}; }
+  Function conjugate() const { return logistic(); }
+  double value(double x, Index) const {
+    if (x < 0 || x > 1) return infinity;
+    if (x == 0 || x == 1) return 0;
+    return x * std::log(x) + (1 - x) * std::log1p(-x);
+  }
+  double slope(double x, Index) const {
+    if (x <= 0) return -infinity;
+    if (x >= 1) return infinity;
+    return std::log(x) - std::log1p(-x);
+  }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_binary_entropy(z, d); }
+};
+
+Function LogBarrier::conjugate() const { return scalar_sum(LogBarrierConjugate{}); }
+
+}  // namespace
+
+Function log_barrier() { return scalar_sum(LogBarrier{}); }
+
+Function logistic() { return scalar_sum(Logistic{}); }
+
+Function binary_entropy() { return scalar_sum(BinaryEntropy{}); }
+
+}  // namespace convex

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "convex/functions/convex_set.hpp"
+#include "convex/functions/norms.hpp"
+#include "convex/functions/parameter.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/kernels/capped_simplex.hpp"
+#include "convex/kernels/simplex.hpp"
+#include "convex/linear_quadratic/functions.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/linear_quadratic/sets.hpp"
+
+namespace convex {
+namespace {
+
+bool equal(const Vector& d) { return d.maxCoeff() == d.minCoeff(); }
+
+/// A bounded polytope with kernels for every diagonal metric.
+class Polytope : public ConvexSet {
+ public:
+  Index dimension() const override { return 0; }
+  Facts facts() const override { return {.piecewise_quadratic = true}; }
+  bool bounded() const override { return true; }
+  bool takes_any_diagonal() const override { return true; }
+};
+
+/// {|x|₁ <= radius}, whose support function is norm_inf.
+class Ball1 : public Polytope {
+ public:
+  explicit Ball1(double radius) : radius_(radius) {}
+  Call call() const override { return {"ball1", {argument("radius", radius_)}}; }
+  Call support_call() const override { return {"norm_inf", {argument("weight", radius_)}}; }
+  double scale() const override { return radius_; }
+  Vector project(const Vector& z, const Vector& d) const override {
+    return equal(d) ? kernels::proj_ball1(z, radius_) : kernels::proj_ball1(z, radius_, d);
+  }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+    return kernels::proj_ball1_jacobian(z, radius_, d);
+  }
+  double support(const Vector& v) const override { return radius_ * v.lpNorm<Eigen::Infinity>(); }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    Vector x = Vector::Zero(v.size());
+    Index largest = 0;
+    if (v.cwiseAbs().maxCoeff(&largest) > 0) x[largest] = std::copysign(radius_, v[largest]);
+    return x;
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return equal(d) ? kernels::prox_norm_inf(z, radius_ / d[0]) : kernels::prox_norm_inf(z, radius_, d);
+  }
+  std::optional<LinearQuadratic> indicator_form(Index n) const override {
+    return linear_quadratic::ball1(n, radius_);
+  }
+  std::optional<LinearQuadratic> support_form(Index n) const override {
+    return linear_quadratic::norm_inf(n, radius_);
+  }
+
+ private:
+  double radius_;
+};
+
+/// {x >= 0, Σx = total}, whose support function is total·max.
+class Simplex : public Polytope {
+ public:
+  explicit Simplex(double total) : total_(total) {}
+  Call call() const override { return {"simplex", {argument("total", total_)}}; }
+  Call support_call() const override { return total_ == 1 ? Call{"max"} : ConvexSet::support_call(); }
+  double scale() const override { return total_; }
+  Vector project(const Vector& z, const Vector& d) const override {
+    return equal(d) ? kernels::proj_simplex(z, total_) : kernels::proj_simplex(z, total_, d);
+  }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+    return kernels::proj_simplex_jacobian(z, total_, d);
+  }
+  double support(const Vector& v) const override { return total_ * v.maxCoeff(); }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    Vector x = Vector::Zero(v.size());
+    Index largest = 0;
+    v.maxCoeff(&largest);
+    x[largest] = total_;
+    return x;
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return equal(d) ? kernels::prox_max(z, total_ / d[0]) : kernels::prox_max(z, total_, d);
+  }
+  std::optional<LinearQuadratic> indicator_form(Index n) const override {
+    return linear_quadratic::simplex(n, total_);
+  }
+  std::optional<LinearQuadratic> support_form(Index n) const override {
+    if (total_ == 0) return linear_quadratic::zero(n);
+    return linear_quadratic::scale(linear_quadratic::max(n), total_);
+  }
+
+ private:
+  double total_;
+};
+
+/// {0 <= x <= cap, Σx = total}; with cap 1 and total k its support function is the sum of the k largest.
+class CappedSimplex : public Polytope {
+ public:
+  CappedSimplex(double total, double cap) : total_(total), cap_(cap) {}
+  void require_size(Index n) const override {
+    if (total_ <= static_cast<double>(n) * cap_) return;
+    if (named_sum())
+      throw InvalidInput("sum_largest(k): k is more than the " + std::to_string(n) + " entries; give fewer");
+    throw InvalidInput("capped_simplex(total): more than " + std::to_string(n) +
+                       " entries of at most cap can sum to, so the set is empty; give a smaller total");
+  }
+  Call call() const override {
+    return {"capped_simplex", {argument("total", total_), argument("cap", cap_)}};
+  }
+  Call support_call() const override {
+    return named_sum() ? Call{"sum_largest", {argument("k", total_)}} : ConvexSet::support_call();
+  }
+  double scale() const override { return total_; }
+  Vector project(const Vector& z, const Vector& d) const override {
+    return equal(d) ? kernels::proj_capped_simplex(z, cap_, total_)
+                    : kernels::proj_capped_simplex(z, cap_, total_, d);
+  }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+    return kernels::proj_capped_simplex_jacobian(z, cap_, total_, d);
+  }
+  double support(const Vector& v) const override { return maximiser(v)->dot(v); }
+  /// The largest entries filled up to cap, the last one with the rest.
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    std::vector<Index> order(static_cast<std::size_t>(v.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return v[i] > v[j]; });
+    Vector x = Vector::Zero(v.size());
+    double rest = total_;
+    for (Index i : order) {
+      x[i] = std::min(cap_, rest);
+      rest -= x[i];
+    }
+    return x;
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    if (cap_ != 1) return ConvexSet::support_prox(z, d);
+    return equal(d) ? kernels::prox_sum_largest(z, total_, 1 / d[0])
+                    : kernels::prox_sum_largest(z, total_, 1, d);
+  }
+  std::optional<LinearQuadratic> indicator_form(Index n) const override {
+    Assembly form(n, 0);
+    for (Index i = 0; i < n; ++i) {
+      form.row(0);
+      form.entry(i, 1);
+      form.row(-cap_);
+      form.entry(i, -1);
+    }
+    form.equation(total_);
+    for (Index i = 0; i < n; ++i) form.entry(i, 1);
+    return form.finish();
+  }
+  std::optional<LinearQuadratic> support_form(Index n) const override {
+    if (named_sum()) return linear_quadratic::sum_largest(n, static_cast<Index>(total_));
+    return ConvexSet::support_form(n);
+  }
+
+ private:
+  bool named_sum() const { return cap_ == 1 && total_ >= 1 && total_ == std::floor(total_); }
+  double total_, cap_;
+};
+
+}  // namespace
+
+Set ball1(double radius) {
+  require_nonnegative("ball1", "radius", radius);
+  return set_of(std::make_shared<Ball1>(radius));
+}
+
+Function norm_inf(double weight) {
+  require_nonnegative("norm_inf", "weight", weight);
+  return support_of(std::make_shared<Ball1>(weight));
+}
+
+Set simplex(double total) {
+  require_finite("simplex", "total", total);
+  if (total < 0) throw InvalidInput("simplex(total): negative, so the set is empty; give 0 or more");
+  return set_of(std::make_shared<Simplex>(total));
+}
+
+Function max() { return support_of(std::make_shared<Simplex>(1)); }
+
+Set capped_simplex(double total, double cap) {
+  require_finite("capped_simplex", "total", total);
+  if (total < 0) throw InvalidInput("capped_simplex(total): negative, so the set is empty; give 0 or more");
+  require_positive("capped_simplex", "cap", cap);
+  return set_of(std::make_shared<CappedSimplex>(total, cap));
+}
+
+Function sum_largest(double k) {
+  if (!(k >= 1) || k != std::floor(k))
+    throw InvalidInput("sum_largest(k): not a number of entries; give 1, 2, …");
+  return support_of(std::make_shared<CappedSimplex>(k, 1));
+}
+
+}  // namespace convex

@@ -1,0 +1,144 @@
+#include <cmath>
+#include <limits>
+
+#include "convex/functions/parameter.hpp"
+#include "convex/functions/piecewise_functions.hpp"
+#include "convex/functions/scalar_sum.hpp"
+#include "convex/functions/separable_functions.hpp"
+#include "convex/kernels/power.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct AnySize {
+  Index dimension() const { return 0; }
+};
+
+/// |x|^p, p > 1.
+struct Power : AnySize {
+  double p;
+  bool finite() const { return true; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }
+  Call call() const { return {"power", {argument("p", p)}}; }
+  Function conjugate() const;
+  double value(double x, Index) const { return std::pow(std::abs(x), p); }
+  double slope(double x, Index) const { return std::copysign(p * std::pow(std::abs(x), p - 1), x); }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power(z, d, p); }
+};
+
+/// (p - 1) |x/p|^(p/(p-1)).
+struct PowerConjugate : AnySize {
+  double p;
+  double q() const { return p / (p - 1); }
+  bool finite() const { return true; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }
+  Call call() const {
+    return {"scale",
+            {argument(Call{"power", {argument("p", q())}}), argument("alpha", (p - 1) * std::pow(p, -q()))}};
+  }
+  Function conjugate() const { return power(p); }
+  double value(double x, Index) const { return (p - 1) * std::pow(std::abs(x) / p, q()); }
+  double slope(double x, Index) const { return std::copysign(std::pow(std::abs(x) / p, 1 / (p - 1)), x); }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power_conjugate(z, d, p); }
+};
+
+struct InversePower : AnySize {
+  double q;
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }  // open: no point outside counts as inside
+  Call call() const { return {"inverse_power", {argument("q", q)}}; }
+  Function conjugate() const;
+  double value(double x, Index) const { return x > 0 ? std::pow(x, -q) : infinity; }
+  double slope(double x, Index) const { return x > 0 ? -q * std::pow(x, -q - 1) : -infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_inverse_power(z, d, q); }
+};
+
+/// -(1 + q) (-x/q)^(q/(1+q)) on x <= 0.
+struct InversePowerConjugate : AnySize {
+  double q;
+  double r() const { return q / (1 + q); }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {.high = 0}; }
+  Call call() const {
+    const Call mirrored{"dilate",
+                        {argument(Call{"negative_power", {argument("r", r())}}), argument("rho", -1.0)}};
+    return {"scale", {argument(mirrored), argument("alpha", (1 + q) * std::pow(q, -r()))}};
+  }
+  Function conjugate() const { return inverse_power(q); }
+  double value(double x, Index) const { return x > 0 ? infinity : -(1 + q) * std::pow(-x / q, r()); }
+  double slope(double x, Index) const { return x < 0 ? std::pow(-x / q, -1 / (1 + q)) : infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const {
+    return kernels::prox_inverse_power_conjugate(z, d, q);
+  }
+};
+
+/// -x^r on x >= 0: with q = r/(1-r) and h the conjugate of t^-q it is h(-x) / ((1+q) q^-r).
+struct NegativePower : AnySize {
+  double r;
+  double q() const { return r / (1 - r); }
+  double factor() const { return (1 + q()) * std::pow(q(), -r); }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {.low = 0}; }
+  Call call() const { return {"negative_power", {argument("r", r)}}; }
+  Function conjugate() const;
+  double value(double x, Index) const { return x < 0 ? infinity : -std::pow(x, r); }
+  double slope(double x, Index) const { return x > 0 ? -r * std::pow(x, r - 1) : -infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const {
+    const kernels::ScalarProx mirrored = kernels::prox_inverse_power_conjugate(-z, factor() * d, q());
+    return {-mirrored.x, mirrored.slope};
+  }
+};
+
+/// (1-r) r^q (-x)^-q on x < 0, q = r/(1-r).
+struct NegativePowerConjugate : AnySize {
+  double r;
+  double q() const { return r / (1 - r); }
+  double factor() const { return (1 - r) * std::pow(r, q()); }
+  bool finite() const { return false; }
+  bool smooth() const { return true; }
+  Ends ends(Index) const { return {}; }
+  Call call() const {
+    const Call mirrored{"dilate",
+                        {argument(Call{"inverse_power", {argument("q", q())}}), argument("rho", -1.0)}};
+    return {"scale", {argument(mirrored), argument("alpha", factor())}};
+  }
+  Function conjugate() const { return negative_power(r); }
+  double value(double x, Index) const { return x < 0 ? factor() * std::pow(-x, -q()) : infinity; }
+  double slope(double x, Index) const { return x < 0 ? factor() * q() * std::pow(-x, -q() - 1) : infinity; }
+  kernels::ScalarProx prox(double z, double d, Index) const {
+    const kernels::ScalarProx mirrored = kernels::prox_inverse_power(-z, d / factor(), q());
+    return {-mirrored.x, mirrored.slope};
+  }
+};
+
+Function Power::conjugate() const { return scalar_sum(PowerConjugate{{}, p}); }
+Function InversePower::conjugate() const { return scalar_sum(InversePowerConjugate{{}, q}); }
+Function NegativePower::conjugate() const { return scalar_sum(NegativePowerConjugate{{}, r}); }
+
+}  // namespace
+
+Function power(double p) {
+  require_finite("power", "p", p);
+  if (p < 1) throw InvalidInput("power(p): less than 1; |x|^p would not be convex, give 1 or more");
+  return p == 1 ? norm1(1) : scalar_sum(Power{{}, p});
+}
+
+Function inverse_power(double q) {
+  require_positive("inverse_power", "q", q);
+  return scalar_sum(InversePower{{}, q});
+}
+
+Function negative_power(double r) {
+  require_finite("negative_power", "r", r);
+  if (!(r > 0 && r < 1)) throw InvalidInput("negative_power(r): not between 0 and 1; give 0 < r < 1");
+  return scalar_sum(NegativePower{{}, r});
+}
+
+}  // namespace convex

@@ -1,0 +1,45 @@
+#include "convex/functions/program_function.hpp"
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/functions/node.hpp"
+#include "convex/linear_quadratic/prox.hpp"
+#include "convex/linear_quadratic/value.hpp"
+
+namespace convex {
+namespace {
+
+/// One side of the pair; `swapped` is the conjugate.
+class ProgramNode : public FunctionNode {
+ public:
+  ProgramNode(std::shared_ptr<const ProgramFunction> parts, bool swapped)
+      : parts_(std::move(parts)), swapped_(swapped) {}
+  Index dimension() const override { return form().n; }
+  Facts facts() const override {
+    Facts facts = swapped_ ? parts_->conjugate_facts : parts_->facts;
+    facts.piecewise_quadratic = true;
+    return facts;
+  }
+  Call call() const override { return swapped_ ? parts_->conjugate_call : parts_->call; }
+  double value(const Vector& x) const override { return convex::value(form(), x); }
+  Prox prox(const Vector& z, const Metric& W) const override { return convex::prox(form(), z, W); }
+  Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return evaluate(form(), x).v; }
+  std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(); }
+  std::optional<GraphForm> graph(Index) const override {
+    return swapped_ ? convex::conjugate(parts_->graph) : parts_->graph;
+  }
+
+ private:
+  const LinearQuadratic& form() const { return swapped_ ? parts_->conjugate_form : parts_->form; }
+  std::shared_ptr<const ProgramFunction> parts_;
+  bool swapped_;
+};
+
+}  // namespace
+
+Function program_function(ProgramFunction parts) {
+  return Function(
+      std::make_shared<ProgramNode>(std::make_shared<const ProgramFunction>(std::move(parts)), false));
+}
+
+}  // namespace convex

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/functions/node.hpp"
+#include "convex/kernels/scalar_prox.hpp"
+
+namespace convex {
+
+/// Σ_i f_i(x_i) with smooth f_i given by a law:
+///   Call call() const; Function conjugate() const; Index dimension() const (0: any);
+///   bool finite() const;                            f_i is finite everywhere
+///   double value(double x, Index i) const;          +inf outside the domain
+///   double slope(double x, Index i) const;          f_i'(x); -inf left of the domain, +inf right of it
+///   kernels::ScalarProx prox(double z, double d, Index i) const;
+///   Interval-like pair ends(Index i) const: the closure [low, high] of the domain.
+template <class Law>
+class ScalarSum : public Atom {
+ public:
+  explicit ScalarSum(Law law) : law_(std::move(law)) {}
+  Index dimension() const override { return law_.dimension(); }
+  Facts facts() const override {
+    return {.separable = true, .smooth = law_.smooth(), .finite = law_.finite()};
+  }
+  Call call() const override { return law_.call(); }
+  Function conjugate() const override { return law_.conjugate(); }
+
+  double value(const Vector& x) const override {
+    const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
+    double sum = 0;
+    for (Index i = 0; i < x.size(); ++i) sum += law_.value(inside(x[i], allowance, i), i);
+    return sum;
+  }
+
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
+    Vector v(x.size());
+    for (Index i = 0; i < x.size(); ++i) v[i] = law_.slope(inside(x[i], allowance, i), i);
+    if (!v.allFinite()) return std::nullopt;
+    return v;
+  }
+
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    Vector x(z.size());
+    for (Index i = 0; i < z.size(); ++i) x[i] = law_.prox(z[i], d[i], i).x;
+    return x;
+  }
+
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    Vector slope(z.size());
+    for (Index i = 0; i < z.size(); ++i) slope[i] = law_.prox(z[i], d[i], i).slope;
+    return slope.asDiagonal();
+  }
+
+  /// The slope nearest to the force among those within the rounding of x, which the bound counts by itself:
+  /// near the ends of a domain the slope at the rounded x may be far from that at x.
+  std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
+    Vector v(x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+      const double rounding =
+          std::max(roundings_of_x * unit_roundoff * std::abs(x[i]), std::numeric_limits<double>::min());
+      const double force = d[i] * (z[i] - x[i]);
+      v[i] = std::max(law_.slope(x[i] - rounding, i), std::min(force, law_.slope(x[i] + rounding, i)));
+    }
+    return v;
+  }
+
+ private:
+  static constexpr double roundings_of_x = 4;
+
+  /// x, moved to the end of the domain that it misses by no more than `allowance`.
+  double inside(double x, double allowance, Index i) const {
+    const auto [low, high] = law_.ends(i);
+    const double nearest = std::clamp(x, low, high);
+    return std::abs(nearest - x) <= allowance ? nearest : x;
+  }
+  Law law_;
+};
+
+template <class Law>
+Function scalar_sum(Law law) {
+  return Function(std::make_shared<ScalarSum<Law>>(std::move(law)));
+}
+
+/// The closure of a domain.
+struct Ends {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace convex

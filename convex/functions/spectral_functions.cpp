@@ -1,0 +1,165 @@
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "convex/functions/convex_set.hpp"
+#include "convex/functions/norms.hpp"
+#include "convex/functions/parameter.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/kernels/nuclear_norm.hpp"
+#include "convex/kernels/spectral.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Matrix unstacked(const Vector& x, Index rows) { return x.reshaped(rows, x.size() / rows); }
+Vector stacked(const Matrix& X) { return X.reshaped(); }
+
+/// {largest singular value <= radius}, whose support function is the nuclear norm.
+class SpectralBall : public ConvexSet {
+ public:
+  SpectralBall(double radius, Index rows) : radius_(radius), rows_(rows) {}
+  Index dimension() const override { return 0; }
+  void require_size(Index n) const override {
+    if (n % rows_ != 0)
+      throw InvalidInput("nuclear_norm(rows): " + std::to_string(n) + " entries are no matrix of " +
+                         std::to_string(rows_) + " rows; give a divisor");
+  }
+  Call call() const override { return named("spectral_ball", "radius"); }
+  Call support_call() const override { return named("nuclear_norm", "weight"); }
+  Facts facts() const override { return {}; }
+  bool bounded() const override { return true; }
+  double scale() const override { return radius_; }
+  Vector project(const Vector& z, const Vector&) const override {
+    return stacked(kernels::proj_spectral_ball(unstacked(z, rows_), radius_));
+  }
+  Matrix project_jacobian(const Vector& z, const Vector&) const override {
+    return Matrix::Identity(z.size(), z.size()) -
+           kernels::nuclear_norm_prox(unstacked(z, rows_), radius_).jacobian();
+  }
+  double support(const Vector& v) const override {
+    return radius_ * kernels::nuclear_norm_prox(unstacked(v, rows_), 0).sigma.sum();
+  }
+  /// U Vᵀ over the positive singular values.
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    const kernels::NuclearNormProx parts = kernels::nuclear_norm_prox(unstacked(v, rows_), 0);
+    const double negligible = parts.sigma.maxCoeff() * static_cast<double>(v.size()) * unit_roundoff;
+    const Index rank = (parts.sigma.array() > negligible).count();
+    return stacked(radius_ * parts.U.leftCols(rank) * parts.V.leftCols(rank).transpose());
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return kernels::prox_nuclear_norm(z, radius_ / d[0], rows_);
+  }
+
+ private:
+  Call named(const char* name, const char* number) const {
+    return {name, {argument(number, radius_), argument("rows", static_cast<double>(rows_))}};
+  }
+  double radius_;
+  Index rows_;
+};
+
+/// What -log det and its conjugate -n - log det(-S), S the symmetric part, share.
+class LogDeterminant : public Atom {
+ public:
+  Index dimension() const override { return 0; }
+  void require_size(Index n) const override { require_square("neg_log_det", n); }
+  Facts facts() const override { return {.smooth = true}; }
+};
+
+struct Parts {
+  Matrix symmetric;
+  double skew;  ///< the norm of the rest
+};
+
+Parts parts_of(const Vector& x) {
+  const Index n = kernels::order_of_stacked(x);
+  const Matrix X = unstacked(x, n);
+  return {0.5 * (X + X.transpose()), 0.5 * (X - X.transpose()).norm()};
+}
+
+/// log det of a positive definite matrix; none of another.
+std::optional<double> log_det(const Matrix& S) {
+  const Eigen::LLT<Matrix> factor(S);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+class NegLogDet : public LogDeterminant {
+ public:
+  Call call() const override { return {"neg_log_det"}; }
+  Function conjugate() const override;
+  double value(const Vector& x) const override {
+    const auto [S, skew] = parts_of(x);
+    const auto log = log_det(S);
+    return log && skew <= membership_tolerance * x.norm() ? -*log : infinity;
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (std::isinf(value(x))) return std::nullopt;
+    const Matrix S = parts_of(x).symmetric;
+    return stacked(-S.llt().solve(Matrix::Identity(S.rows(), S.rows())));
+  }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return kernels::prox_log_det(z, 1 / d[0]);
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    return kernels::log_det_prox(unstacked(z, kernels::order_of_stacked(z)), 1 / d[0]).jacobian();
+  }
+};
+
+class NegLogDetConjugate : public LogDeterminant {
+ public:
+  Call call() const override { return {"conjugate", {argument(Call{"neg_log_det"})}}; }
+  Function conjugate() const override { return neg_log_det(); }
+  double value(const Vector& v) const override {
+    const Matrix S = parts_of(v).symmetric;
+    const auto log = log_det(-S);
+    return log ? -static_cast<double>(S.rows()) - *log : infinity;
+  }
+  /// -S⁻¹, the matrix that attains the supremum.
+  std::optional<Vector> subgradient(const Vector& v) const override {
+    if (std::isinf(value(v))) return std::nullopt;
+    const Matrix S = parts_of(v).symmetric;
+    return stacked((-S).llt().solve(Matrix::Identity(S.rows(), S.rows())));
+  }
+  /// Eigenvalues ½(lambda - sqrt(lambda² + 4/d)), by the mirror image of the prox of -log det; the skew part
+  /// is free.
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    const Index n = kernels::order_of_stacked(z);
+    const Matrix Z = unstacked(z, n);
+    return stacked(0.5 * (Z - Z.transpose())) - kernels::prox_log_det(-z, 1 / d[0]);
+  }
+  Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
+    const Vector inverse = d.cwiseInverse();
+    const Index n = kernels::order_of_stacked(z);
+    return Matrix::Identity(z.size(), z.size()) -
+           kernels::log_det_prox(unstacked(d.cwiseProduct(z), n), 1 / inverse[0]).jacobian();
+  }
+};
+
+Function NegLogDet::conjugate() const { return Function(std::make_shared<NegLogDetConjugate>()); }
+
+void require_rows(const char* maker, Index rows) {
+  if (rows < 1) throw InvalidInput(std::string(maker) + "(rows): less than 1; give the rows of the matrix");
+}
+
+}  // namespace
+
+Set spectral_ball(double radius, Index rows) {
+  require_nonnegative("spectral_ball", "radius", radius);
+  require_rows("spectral_ball", rows);
+  return set_of(std::make_shared<SpectralBall>(radius, rows));
+}
+
+Function nuclear_norm(double weight, Index rows) {
+  require_nonnegative("nuclear_norm", "weight", weight);
+  require_rows("nuclear_norm", rows);
+  return support_of(std::make_shared<SpectralBall>(weight, rows));
+}
+
+Function neg_log_det() { return Function(std::make_shared<NegLogDet>()); }
+
+}  // namespace convex

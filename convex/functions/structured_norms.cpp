@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "convex/functions/convex_set.hpp"
+#include "convex/functions/norms.hpp"
+#include "convex/functions/parameter.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/kernels/isotonic.hpp"
+#include "convex/kernels/norm2.hpp"
+#include "convex/kernels/total_variation.hpp"
+#include "convex/linear_quadratic/functions.hpp"
+
+namespace convex {
+namespace {
+
+/// The set of the dual norm: every projection comes from the prox of the norm by Moreau's identity,
+/// z - D⁻¹ prox^(D⁻¹)(Dz).
+class DualBall : public ConvexSet {
+ public:
+  bool bounded() const override { return true; }
+  Vector project(const Vector& z, const Vector& d) const override {
+    return z - support_prox(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
+  }
+  Matrix project_jacobian(const Vector& z, const Vector& d) const override {
+    const Vector inverse = d.cwiseInverse();
+    const Matrix J = norm_jacobian(d.cwiseProduct(z), inverse);
+    return Matrix::Identity(z.size(), z.size()) - inverse.asDiagonal() * J * d.asDiagonal();
+  }
+  virtual Matrix norm_jacobian(const Vector& z, const Vector& d) const = 0;
+};
+
+/// {|x_1 + … + x_i| <= bound for i < n, = 0 for i = n} = {Dᵀu : |u_i| <= bound}, D the differences.
+class BoundedPartialSums : public DualBall {
+ public:
+  explicit BoundedPartialSums(double bound) : bound_(bound) {}
+  Index dimension() const override { return 0; }
+  Call call() const override { return {"bounded_partial_sums", {argument("bound", bound_)}}; }
+  Call support_call() const override { return {"total_variation", {argument("weight", bound_)}}; }
+  Facts facts() const override { return {.piecewise_quadratic = true}; }
+  bool takes_any_diagonal() const override { return true; }
+  double scale() const override { return bound_; }
+  double support(const Vector& v) const override {
+    double sum = 0;
+    for (Index i = 0; i + 1 < v.size(); ++i) sum += std::abs(v[i + 1] - v[i]);
+    return bound_ * sum;
+  }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    Vector x = Vector::Zero(v.size());
+    for (Index i = 0; i + 1 < v.size(); ++i) {
+      const double sign = v[i + 1] > v[i] ? bound_ : v[i + 1] < v[i] ? -bound_ : 0;
+      x[i] -= sign;
+      x[i + 1] += sign;
+    }
+    return x;
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return kernels::prox_total_variation(z, bound_, d).x;
+  }
+  Matrix norm_jacobian(const Vector& z, const Vector& d) const override {
+    return kernels::blocks_jacobian(kernels::prox_total_variation(z, bound_, d), d);
+  }
+  std::optional<LinearQuadratic> support_form(Index n) const override {
+    return linear_quadratic::total_variation(n, bound_);
+  }
+  std::optional<LinearQuadratic> indicator_form(Index n) const override {
+    Assembly form(n, 0);
+    const auto running_sum = [&](Index last, double sign) {
+      for (Index i = 0; i <= last; ++i) form.entry(i, sign);
+    };
+    for (Index i = 0; i + 1 < n; ++i)
+      for (double sign : {1.0, -1.0}) {
+        form.row(-bound_);
+        running_sum(i, sign);
+      }
+    form.equation(0);
+    running_sum(n - 1, 1);
+    return form.finish();
+  }
+
+ private:
+  double bound_;
+};
+
+/// The convex hull of all signed permutations of w, w_1 >= w_2 >= … >= 0.
+class SignedPermutahedron : public DualBall {
+ public:
+  explicit SignedPermutahedron(Vector weights) : weights_(std::move(weights)) {}
+  Index dimension() const override { return weights_.size(); }
+  Call call() const override { return {"signed_permutahedron", {argument("weights", weights_)}}; }
+  Call support_call() const override { return {"sorted_norm1", {argument("weights", weights_)}}; }
+  Facts facts() const override { return {}; }
+  double scale() const override { return weights_.norm(); }
+  double support(const Vector& v) const override { return maximiser(v)->dot(v); }
+  std::optional<Vector> maximiser(const Vector& v) const override {
+    Vector x(v.size());
+    const std::vector<Index> order = by_size(v);
+    for (std::size_t k = 0; k < order.size(); ++k)
+      x[order[k]] = std::copysign(weights_[static_cast<Index>(k)], v[order[k]]);
+    return x;
+  }
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return kernels::prox_sorted_norm1(z, weights_ / d[0]);
+  }
+  /// On each run of entries pooled to one |x| > 0 the mean with their signs; 0 where x = 0.
+  Matrix norm_jacobian(const Vector& z, const Vector& d) const override {
+    const Vector x = support_prox(z, d);
+    const std::vector<Index> order = by_size(z);
+    Matrix J = Matrix::Zero(z.size(), z.size());
+    for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
+      bool pooled = false;  // entries that are equal by chance move by themselves
+      last = first;
+      for (; last < order.size() && std::abs(x[order[last]]) == std::abs(x[order[first]]); ++last) {
+        const double size = std::abs(z[order[last]]), weight = weights_[static_cast<Index>(last)] / d[0];
+        const double moved = std::abs(size - weight - std::abs(x[order[last]]));
+        pooled = pooled || moved > 4 * unit_roundoff * (size + weight);
+      }
+      const double share = 1 / static_cast<double>(last - first);
+      for (std::size_t k = first; k < last; ++k) {
+        if (!pooled && (x[order[k]] != 0 || weights_[static_cast<Index>(k)] == 0)) J(order[k], order[k]) = 1;
+        for (std::size_t l = first; pooled && x[order[k]] != 0 && l < last; ++l)
+          J(order[k], order[l]) = std::copysign(share, x[order[k]] * x[order[l]]);
+      }
+    }
+    return J;
+  }
+
+ private:
+  static std::vector<Index> by_size(const Vector& v) {
+    std::vector<Index> order(static_cast<std::size_t>(v.size()));
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<Index>(k);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Index i, Index j) { return std::abs(v[i]) > std::abs(v[j]); });
+    return order;
+  }
+  Vector weights_;
+};
+
+}  // namespace
+
+Set bounded_partial_sums(double bound) {
+  require_nonnegative("bounded_partial_sums", "bound", bound);
+  return set_of(std::make_shared<BoundedPartialSums>(bound));
+}
+
+Function total_variation(double weight) {
+  require_nonnegative("total_variation", "weight", weight);
+  return support_of(std::make_shared<BoundedPartialSums>(weight));
+}
+
+namespace {
+
+std::shared_ptr<const ConvexSet> sorted(const char* maker, const Vector& weights) {
+  require_finite(maker, "weights", weights);
+  if (weights.size() == 0 || weights.minCoeff() < 0 ||
+      !std::is_sorted(weights.begin(), weights.end(), std::greater<>()))
+    throw InvalidInput(std::string(maker) +
+                       "(weights): not w_1 >= w_2 >= … >= 0; the function would not be convex, sort them");
+  return std::make_shared<SignedPermutahedron>(weights);
+}
+
+}  // namespace
+
+Set signed_permutahedron(const Vector& weights) { return set_of(sorted("signed_permutahedron", weights)); }
+
+Function sorted_norm1(const Vector& weights) { return support_of(sorted("sorted_norm1", weights)); }
+
+}  // namespace convex
