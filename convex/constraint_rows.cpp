@@ -10,8 +10,10 @@ Index ConstraintRows::count() const { return is_sparse() ? sparse().rows() : den
 Index ConstraintRows::dimension() const { return is_sparse() ? sparse().cols() : dense().cols(); }
 
 bool ConstraintRows::is_finite() const {
-  if (is_sparse()) return Eigen::Map<const Vector>(sparse().valuePtr(), sparse().nonZeros()).allFinite();
-  return dense().allFinite();
+  // Zero times a number that is not finite is not zero; the sum of all these vectorises, a test of each does
+  // not.
+  if (is_sparse()) return (0 * Eigen::Map<const Vector>(sparse().valuePtr(), sparse().nonZeros())).sum() == 0;
+  return (0 * dense()).sum() == 0;
 }
 
 Vector ConstraintRows::row(Index a) const {
@@ -30,8 +32,17 @@ void ConstraintRows::copy_row(Index a, Eigen::Ref<Vector> into) const {
 }
 
 Vector ConstraintRows::times(const Vector& x) const {
-  if (is_sparse()) return sparse() * x;
-  return dense() * x;
+  Vector product;
+  times(x, product);
+  return product;
+}
+
+void ConstraintRows::times(const Vector& x, Vector& into) const {
+  into.resize(count());
+  if (is_sparse())
+    into.noalias() = sparse() * x;
+  else
+    into.noalias() = dense() * x;
 }
 
 Vector ConstraintRows::transpose_times(const Vector& lambda) const {

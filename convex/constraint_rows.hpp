@@ -27,6 +27,7 @@ class ConstraintRows {
   void copy_row(Index a, Eigen::Ref<Vector> into) const;
   /// U x: m.
   Vector times(const Vector& x) const;
+  void times(const Vector& x, Vector& into) const;
   /// Uᵀ lambda: n.
   Vector transpose_times(const Vector& lambda) const;
   /// u_a·x in twice the working precision.

@@ -48,10 +48,14 @@ template <class Product>
     for (Index l = 0; l < lanes; ++l)
       accumulate<Product>(x[i + l], y_hi[i + l], x[i + l] * y_lo[i + l], hi[static_cast<std::size_t>(l)],
                           lo[static_cast<std::size_t>(l)]);
-  for (; i < n; ++i) accumulate<Product>(x[i], y_hi[i], x[i] * y_lo[i], hi[0], lo[0]);
-  DoubleDouble sum;
-  for (std::size_t l = 0; l < lanes; ++l) sum = add(sum, two_sum(hi[l], lo[l]));
-  return sum;
+  for (std::size_t l = 0; i < n; ++i, ++l)
+    accumulate<Product>(x[i], y_hi[i], x[i] * y_lo[i], hi[l], lo[l]);
+  // In pairs: one after the other, the lanes would wait for each other longer than the loop takes.
+  std::array<DoubleDouble, lanes> sum;
+  for (std::size_t l = 0; l < lanes; ++l) sum[l] = two_sum(hi[l], lo[l]);
+  for (std::size_t half = lanes / 2; half > 0; half /= 2)
+    for (std::size_t l = 0; l < half; ++l) sum[l] = add(sum[l], sum[l + half]);
+  return sum[0];
 }
 
 #if defined(__x86_64__) && !defined(__FMA__)

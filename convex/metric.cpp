@@ -7,6 +7,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/triangular_solve.hpp"
 
 namespace convex {
 namespace {
@@ -36,6 +37,25 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
       "A: not positive definite to working precision; every motion must have a positive kinetic energy");
 }
 
+/// W = Wᵀ, entry by entry, and all finite: what is not differs from itself.
+bool is_symmetric(const Matrix& W) {
+  const Index n = W.rows();
+  Index unequal = 0;
+  for (Index j = 0; j < n; ++j) {
+    const double *column = W.data() + j * n, *row = W.data() + j;
+    for (Index i = 0; i <= j; ++i) unequal += !(column[i] - row[i * n] == 0);
+  }
+  return unequal == 0;
+}
+
+void mirror_lower_triangle(Matrix& L) {
+  const Index n = L.rows();
+  for (Index j = 0; j < n; ++j) {
+    double *column = L.data() + j * n, *row = L.data() + j;
+    for (Index i = 0; i < j; ++i) column[i] = row[i * n];
+  }
+}
+
 void require_finite(double value, Index i, Index j) {
   if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
 }
@@ -47,7 +67,7 @@ struct Metric::Data {
   Vector diagonal;        // of W
   Vector root;            // sqrt of the diagonal, kind diagonal
   Matrix W;               // kind dense
-  Matrix L;               // kind dense, lower triangle
+  Matrix L;               // kind dense, the factor in the lower triangle, its transpose in the upper
   SparseMatrix sparse_W;  // kind sparse
   Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> sparse_factor;
   double factor_condition = 1;
@@ -79,10 +99,9 @@ Metric Metric::dense(const Matrix& W) {
   const Index n = W.rows();
   data->kind = MetricKind::dense;
   data->W = W;
-  constexpr Index tile = 16;  // so that both triangles are read along their columns
-  for (Index first = 0; first < n; first += tile)
+  if (!is_symmetric(W))
     for (Index j = 0; j < n; ++j)
-      for (Index i = first; i < std::min(first + tile, j + 1); ++i) {
+      for (Index i = 0; i <= j; ++i) {
         const double a = W(i, j), b = W(j, i);
         if (a == b && std::isfinite(a)) continue;
         require_finite(a, i, j);
@@ -101,6 +120,7 @@ Metric Metric::dense(const Matrix& W) {
     smallest = std::min(smallest, relative);
   }
   data->factor_condition = 1 / std::sqrt(smallest);
+  mirror_lower_triangle(data->L);
   return Metric(std::move(data));
 }
 
@@ -194,7 +214,7 @@ double Metric::norm(const Vector& x) const {
     case MetricKind::diagonal:
       return data_->root.cwiseProduct(x).norm();
     case MetricKind::dense:
-      return (data_->L.triangularView<Eigen::Lower>().transpose() * x).norm();
+      return (data_->L.triangularView<Eigen::Upper>() * x).norm();
     case MetricKind::sparse:
       return (data_->sparse_factor.matrixU() * (data_->sparse_factor.permutationP() * x).eval()).norm();
   }
@@ -220,16 +240,9 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
     case MetricKind::diagonal:
       C.array().colwise() /= data_->root.array();
       break;
-    case MetricKind::dense: {
-      const auto L = data_->L.triangularView<Eigen::Lower>();
-      if (C.cols() == 1) {
-        auto c = C.col(0);  // for one covector the solve with a matrix would pack and block in vain
-        L.solveInPlace(c);
-      } else {
-        L.solveInPlace(C);
-      }
+    case MetricKind::dense:
+      solve_lower_triangle(data_->L, C);
       break;
-    }
     case MetricKind::sparse: {
       Matrix permuted = data_->sparse_factor.permutationP() * C;
       data_->sparse_factor.matrixL().solveInPlace(permuted);
@@ -247,7 +260,7 @@ void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
       w.array() /= data_->root.array();
       break;
     case MetricKind::dense:
-      data_->L.triangularView<Eigen::Lower>().transpose().solveInPlace(w);
+      solve_upper_triangle(data_->L, w);
       break;
     case MetricKind::sparse: {
       Vector permuted = w;

@@ -49,7 +49,8 @@ class DualActiveSet {
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
     for (int round = 0; round < most_rounds; ++round) {
-      if (!descend(limit)) return infeasible();
+      // A settled start has been looked at in doubles already.
+      if ((round > 0 || !settled_) && !descend(limit)) return infeasible();
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
       if (refined.contraction < 1)
@@ -185,10 +186,13 @@ class DualActiveSet {
         return;
       }
     }
-    GuessedRows found = guess_by_blocks(problem_, set_.w_free(), row_scale_, guess);
+    GuessedRows found = guess_by_blocks(problem_, set_.w_free(), row_scale_, guess, slack_);
     set_.append_block(found.rows, found.whitened, block_dependence);
     steps_ += static_cast<Index>(found.rows.size());
+    const Index held = set_.size();
     drop_until_dual_feasible();
+    settled_ = found.settled && set_.size() == held &&
+               held == static_cast<Index>(found.rows.size() + problem_.two_sided.size());
   }
 
   /// Steps of Goldfarb and Idnani in doubles until no row is violated beyond rounding, or the limit is
@@ -322,7 +326,7 @@ class DualActiveSet {
 
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
-    return judged_answer(set_, refined, slack_, finished, accuracy_, steps_);
+    return judged_answer(set_, refined, slack_, row_scale_, finished, accuracy_, steps_);
   }
 
   const NearestPointProblem& problem_;
@@ -332,6 +336,7 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
+  bool settled_ = false;  // the rows of the start are right as far as doubles tell
   Index steps_ = 0;
   double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0;
 };

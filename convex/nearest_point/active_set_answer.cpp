@@ -25,7 +25,7 @@ double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
 
 template <int MaxSize>
 Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
-                       bool finished, const Accuracy& accuracy, Index steps) {
+                       const Vector& row_scale, bool finished, const Accuracy& accuracy, Index steps) {
   const NearestPointProblem& problem = set.problem();
   Solution solution;
   solution.method = method;
@@ -40,9 +40,12 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
   }
   solution.basis = set.rows();
   solution.slack = slack;
-  solution.residuals = residuals(problem, solution.q, solution.lambda, length);
-  solution.acceleration_norm = problem.A.norm(solution.q);
+  solution.acceleration_norm = set.w().norm();
   solution.force_norm = set.w_free().norm();
+  const double diagonal_norm = std::sqrt(problem.A.diagonal().dot(solution.q.cwiseAbs2()));
+  solution.residuals = residuals(problem, solution.q, solution.lambda,
+                                 KnownParts{std::move(length), slack, row_scale * diagonal_norm,
+                                            solution.acceleration_norm, solution.force_norm});
 
   double worst = 0;
   for (Index a = 0; a < problem.rows(); ++a)
@@ -69,9 +72,9 @@ Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights
   return solution;
 }
 
-template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&, bool,
-                                const Accuracy&, Index);
-template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, bool,
+template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&,
+                                const Vector&, bool, const Accuracy&, Index);
+template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&, bool,
                                 const Accuracy&, Index);
 template Solution infeasible_answer(const WorkingSet<Eigen::Dynamic>&, const Vector&, Index);
 template Solution infeasible_answer(const WorkingSet<8>&, const Vector&, Index);

@@ -10,6 +10,7 @@ namespace convex {
 struct GuessedRows {
   std::vector<Index> rows;
   Matrix whitened;
+  bool settled = false;  ///< no row was found wrong at the point that they define
 };
 
 /// A guess at the active rows, without the two-sided ones, by principal pivoting in blocks (Kunisch and Rendl
@@ -17,8 +18,9 @@ struct GuessedRows {
 /// once, for as long as that reduces their number. It works on the Gram matrix of the whitened rows, which
 /// squares their condition: good enough for a guess, never used for an answer. w_free = F⁻¹z; row_scale:
 /// positive lengths of the rows that violations are compared by; first: rows to begin with, or empty to begin
-/// with those that the free motion violates.
+/// with those that are violated where `slack`, Uq - s at the point that keeps the two-sided rows alone, says
+/// so.
 GuessedRows guess_by_blocks(const NearestPointProblem&, const Vector& w_free, const Vector& row_scale,
-                            std::vector<Index> first);
+                            std::vector<Index> first, Vector slack);
 
 }  // namespace convex

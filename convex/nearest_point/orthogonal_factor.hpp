@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/triangular_solve.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {
@@ -52,6 +53,7 @@ class OrthogonalFactor {
     Q_.col(size_) = d / rho;
     lengths_[size_] = R_.col(size_).head(size_ + 1).norm();
     ++size_;
+    inverse_norm_ = 0;
   }
 
   /// Takes in the columns of `block` (whitened rows; overwritten) that are not dependent on those before
@@ -96,6 +98,7 @@ class OrthogonalFactor {
       lengths_[k] = lengths_[k + 1];
     }
     --size_;
+    inverse_norm_ = 0;
     for (Index k = j; k < size_; ++k) {
       Eigen::JacobiRotation<double> rotation;
       rotation.makeGivens(R_(k, k), R_(k + 1, k), &R_(k, k));
@@ -107,7 +110,11 @@ class OrthogonalFactor {
 
   /// x := R⁻¹x.
   void solve_upper(Eigen::Ref<Column> x) const {
-    if (size_ > 0) R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().solveInPlace(x);
+    if constexpr (MaxSize == Eigen::Dynamic) {
+      solve_upper_triangle(R_.topLeftCorner(size_, size_), x);
+    } else if (size_ > 0) {
+      R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().solveInPlace(x);
+    }
   }
   /// x := R⁻ᵀx.
   void solve_lower(Eigen::Ref<Column> x) const {
@@ -117,11 +124,12 @@ class OrthogonalFactor {
   /// An estimate of 1 / (smallest singular value of R), from one step of inverse iteration each way.
   double inverse_norm() const {
     if (size_ == 0) return 0;
+    if (inverse_norm_ > 0) return inverse_norm_;
     Column x = Column::Constant(size_, 1 / std::sqrt(static_cast<double>(size_)));
     solve_lower(x);
     x /= x.norm();
     solve_upper(x);
-    return x.norm();
+    return inverse_norm_ = x.norm();
   }
 
  private:
@@ -131,6 +139,7 @@ class OrthogonalFactor {
   Columns Q_, R_;
   Column scratch_, lengths_;
   Index size_ = 0;
+  mutable double inverse_norm_ = 0;  // once asked for, until the rows change
 };
 
 }  // namespace convex

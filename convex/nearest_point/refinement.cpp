@@ -17,10 +17,15 @@ constexpr double slowest_contraction = 0.25;
 
 constexpr int most_corrections = 40;
 
-/// An entry no larger than its last correction is rounding noise about zero.
-void silence_noise(DoubleDoubleVector& x, const Vector& correction) {
+/// When the first correction is this small a part of what it corrects, the second would be below `enough` by
+/// far: the first is then the last.
+constexpr double certain_contraction = 0x1p-44;
+
+/// An entry no larger than what may be missing in it is rounding noise about zero.
+template <class Noise>
+void silence_noise(DoubleDoubleVector& x, Noise noise) {
   for (Index i = 0; i < x.size(); ++i)
-    if (std::abs(x.hi[i]) <= 2 * std::abs(correction[i])) x.hi[i] = x.lo[i] = 0;
+    if (std::abs(x.hi[i]) <= noise(i)) x.hi[i] = x.lo[i] = 0;
 }
 
 }  // namespace
@@ -54,12 +59,20 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     if (!(point.contraction < slowest_contraction)) break;
     point.q.add(dq);
     point.lambda.add(step);
+    if (k == 0 && point.contraction <= certain_contraction && point.last > 0) {
+      const double missing = 4 * point.remaining() * problem.A.factor_condition();
+      silence_noise(point.q, [&](Index i) { return missing / std::sqrt(problem.A.diagonal()[i]); });
+      const double inverse_norm = set.factor().inverse_norm();
+      silence_noise(point.lambda, [&](Index) { return missing * inverse_norm; });
+      return point;
+    }
     if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
     previous = point.last;
   }
   if (point.contraction < slowest_contraction) {
-    silence_noise(point.q, dq);
-    silence_noise(point.lambda, step);
+    // The last correction of an entry is more than what is missing in it.
+    silence_noise(point.q, [&](Index i) { return 2 * std::abs(dq[i]); });
+    silence_noise(point.lambda, [&](Index k) { return 2 * std::abs(step[k]); });
   }
   return point;
 }

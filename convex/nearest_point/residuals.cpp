@@ -21,13 +21,22 @@ Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>
 }
 
 Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
-                    Vector length) {
+                    const Vector& length) {
+  return residuals(
+      problem, q, lambda,
+      KnownParts{
+          length, problem.U.times(q) - problem.s, {}, problem.A.norm(q), problem.A.dual_norm(problem.z)});
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                    KnownParts known) {
+  Vector& length = known.length;
+  Vector& rest = known.slack;
   const Index m = problem.rows();
   std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
 
   const DoubleDoubleVector point(q);
-  Vector rest = problem.U.times(q) - problem.s;
   // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
   constexpr double near = 1e-8;
   const Vector magnitude = q.cwiseAbs();
@@ -35,20 +44,22 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
   for (Index a = 0; a < m; ++a) {
     const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
     if (lambda[a] != 0) loaded.push_back(a);
-    if (rest[a] > 0 && !is_two_sided && lambda[a] == 0 &&
-        rest[a] > near * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
-      continue;
+    if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
+      const double s = std::abs(problem.s[a]);
+      if (known.magnitude.size() > 0 && rest[a] > near * (s + known.magnitude[a])) continue;
+      if (rest[a] > near * (s + problem.U.absolute_dot(a, magnitude))) continue;
+    }
     rest[a] = slack(problem, a, point).value();
     if (lambda[a] == 0 && rest[a] >= 0 && !is_two_sided) continue;
     matter.push_back(a);
     if (length[a] <= 0) unknown.push_back(a);
   }
-  length += dual_lengths(problem, unknown);
+  if (!unknown.empty()) length += dual_lengths(problem, unknown);
 
   DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
   for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
   const double stationarity = problem.A.dual_norm(stationarity_residual(problem, point, loaded, weights));
-  const double q_norm = problem.A.norm(q), scale = std::max(q_norm, problem.A.dual_norm(problem.z));
+  const double q_norm = known.q_norm, scale = std::max(q_norm, known.force_norm);
   const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
 
   Residuals found;
