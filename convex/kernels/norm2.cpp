@@ -41,7 +41,7 @@ void for_groups(const std::vector<Index>& sizes, const Vector& weight, Visit vis
 
 }  // namespace
 
-double length(const Vector& z) {
+double length(const Eigen::Ref<const Vector>& z) {
   const double square = z.squaredNorm();
   // Squares are exact to rounding unless some that count left the range of doubles.
   if (square > 0x1p-900 && square < 0x1p1000) return std::sqrt(square);
@@ -51,11 +51,17 @@ double length(const Vector& z) {
   return std::ldexp(z.unaryExpr([k](double v) { return std::ldexp(v, -k); }).norm(), k);
 }
 
+Vector rescaled(const Eigen::Ref<const Vector>& z, double norm, double wanted) {
+  const double factor = wanted / norm;
+  if (factor > 0x1p-1000 && factor < 0x1p1000) return factor * z;  // a normal number carries all digits
+  return (z / norm) * wanted;
+}
+
 Vector proj_ball2(const Vector& z, double radius) {
   require(radius, "ball2: the radius");
   const double norm = length(z);
   if (norm <= radius) return z;
-  return (z / norm) * radius;
+  return rescaled(z, norm, radius);
 }
 
 Vector proj_ball2(const Vector& z, double radius, const Vector& center) {
@@ -66,7 +72,7 @@ Vector proj_ball2(const Vector& z, double radius, const Vector& center) {
   const Vector v = z - center;
   const double norm = length(v);
   if (norm <= radius) return z;
-  return center + (v / norm) * radius;
+  return center + rescaled(v, norm, radius);
 }
 
 Matrix proj_ball2_jacobian(const Vector& z, double radius, const Vector& center) {
@@ -83,7 +89,7 @@ Vector prox_norm2(const Vector& z, double weight) {
   require(weight, "norm2: the weight");
   const double norm = length(z);
   if (norm <= weight) return Vector::Zero(z.size());
-  return (z / norm) * (norm - weight);
+  return rescaled(z, norm, norm - weight);
 }
 
 Matrix prox_norm2_jacobian(const Vector& z, double weight) {

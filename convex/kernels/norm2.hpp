@@ -9,7 +9,9 @@
 namespace convex::kernels {
 
 /// |z|₂, of any scale.
-double length(const Vector& z);
+double length(const Eigen::Ref<const Vector>& z);
+/// z wanted/norm, for 0 <= wanted and the positive norm of z.
+Vector rescaled(const Eigen::Ref<const Vector>& z, double norm, double wanted);
 
 /// Nearest point of {|x - center| <= radius}.
 Vector proj_ball2(const Vector& z, double radius = 1);

@@ -60,7 +60,7 @@ Vector proj_cone(const Vector& z, double side) {
   if (v <= -t) return Vector::Zero(m + 1);
   const double half = v / 2 + t / 2;
   Vector x(m + 1);
-  x.head(m) = (z.head(m) / v) * half;
+  x.head(m) = rescaled(z.head(m), v, half);
   x[m] = side * half;
   return x;
 }

@@ -15,61 +15,65 @@ void require_size(const Vector& z, const Vector& data, const char* name) {
                        " entries for a point of " + std::to_string(z.size()) + "; give one an entry");
 }
 
-inline double clamped(double z, double lower, double upper) {
+[[gnu::always_inline]] inline double clamped(double z, double lower, double upper) {
   const double above = z < lower ? lower : z;
   return above > upper ? upper : above;
 }
 
-inline double norm1_entry(double z, double t) { return z - clamped(z, -t, t); }
+[[gnu::always_inline]] inline double norm1_entry(double z, double t) { return z - clamped(z, -t, t); }
 /// The line z mu/(mu + t) through 0, held between z - t and z + t.
-inline double huber_entry(double z, double mu, double t) {
+[[gnu::always_inline]] inline double huber_entry(double z, double mu, double t) {
   return clamped(z * (mu > 0 || t > 0 ? mu / (mu + t) : 1), z - t, z + t);
 }
-inline double hinge_entry(double z, double t) {
+[[gnu::always_inline]] inline double hinge_entry(double z, double t) {
   const double raised = z + t < 1 ? z + t : 1;
   return z > raised ? z : raised;
 }
-inline double squared_hinge_entry(double z, double t) { return z < 1 ? (z + t) / (1 + t) : z; }
-inline double elastic_net_entry(double z, double t1, double t2) { return norm1_entry(z, t1) / (1 + t2); }
+[[gnu::always_inline]] inline double squared_hinge_entry(double z, double t) {
+  return z < 1 ? (z + t) / (1 + t) : z;
+}
+[[gnu::always_inline]] inline double elastic_net_entry(double z, double t1, double t2) {
+  return norm1_entry(z, t1) / (1 + t2);
+}
 
 MOREAU_CLONES void norm1_loop(Index n, const double* z, double t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = norm1_entry(z[i], t);
+  fill_entries(n, x, [=](Index i) { return norm1_entry(z[i], t); });
 }
 MOREAU_CLONES void norm1_loop(Index n, const double* z, const double* t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = norm1_entry(z[i], t[i]);
+  fill_entries(n, x, [=](Index i) { return norm1_entry(z[i], t[i]); });
 }
 MOREAU_CLONES void box_loop(Index n, const double* z, double lower, double upper, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = clamped(z[i], lower, upper);
+  fill_entries(n, x, [=](Index i) { return clamped(z[i], lower, upper); });
 }
 MOREAU_CLONES void box_loop(Index n, const double* z, const double* lower, const double* upper,
                             double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = clamped(z[i], lower[i], upper[i]);
+  fill_entries(n, x, [=](Index i) { return clamped(z[i], lower[i], upper[i]); });
 }
 MOREAU_CLONES void huber_loop(Index n, const double* z, double shrink, double t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = clamped(z[i] * shrink, z[i] - t, z[i] + t);
+  fill_entries(n, x, [=](Index i) { return clamped(z[i] * shrink, z[i] - t, z[i] + t); });
 }
 MOREAU_CLONES void huber_loop_in_metric(Index n, const double* z, double mu, const double* t,
                                         double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = huber_entry(z[i], mu, t[i]);
+  fill_entries(n, x, [=](Index i) { return huber_entry(z[i], mu, t[i]); });
 }
 MOREAU_CLONES void hinge_loop(Index n, const double* z, double t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = hinge_entry(z[i], t);
+  fill_entries(n, x, [=](Index i) { return hinge_entry(z[i], t); });
 }
 MOREAU_CLONES void hinge_loop(Index n, const double* z, const double* t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = hinge_entry(z[i], t[i]);
+  fill_entries(n, x, [=](Index i) { return hinge_entry(z[i], t[i]); });
 }
 MOREAU_CLONES void squared_hinge_loop(Index n, const double* z, double t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = squared_hinge_entry(z[i], t);
+  fill_entries(n, x, [=](Index i) { return squared_hinge_entry(z[i], t); });
 }
 MOREAU_CLONES void squared_hinge_loop(Index n, const double* z, const double* t, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = squared_hinge_entry(z[i], t[i]);
+  fill_entries(n, x, [=](Index i) { return squared_hinge_entry(z[i], t[i]); });
 }
 MOREAU_CLONES void elastic_net_loop(Index n, const double* z, double t1, double t2, double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = elastic_net_entry(z[i], t1, t2);
+  fill_entries(n, x, [=](Index i) { return elastic_net_entry(z[i], t1, t2); });
 }
 MOREAU_CLONES void elastic_net_loop(Index n, const double* z, const double* t1, const double* t2,
                                     double* __restrict x) {
-  for (Index i = 0; i < n; ++i) x[i] = elastic_net_entry(z[i], t1[i], t2[i]);
+  fill_entries(n, x, [=](Index i) { return elastic_net_entry(z[i], t1[i], t2[i]); });
 }
 
 /// One entry after the other, where speed does not matter.

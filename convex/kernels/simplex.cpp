@@ -4,6 +4,7 @@
 #include <string>
 
 #include "convex/invalid_input.hpp"
+#include "convex/kernels/separable.hpp"
 #include "convex/kernels/top_level.hpp"
 #include "convex/kernels/water_level.hpp"
 
@@ -97,7 +98,7 @@ Vector proj_ball1(const Vector& z, double radius, const Vector& d) {
 Vector prox_max(const Vector& z, double weight) {
   require(weight, "max: the weight");
   if (z.size() == 0 || !(weight > 0)) return z;
-  return z.cwiseMin(top_level(z, weight, Values::signed_ones).value());
+  return proj_box(z, -infinity, top_level(z, weight, Values::signed_ones).value());
 }
 
 Vector prox_max(const Vector& z, double weight, const Vector& d) {
@@ -105,7 +106,7 @@ Vector prox_max(const Vector& z, double weight, const Vector& d) {
   const Vector metric = balanced_metric(z, d);
   if (z.size() == 0 || !(weight > 0)) return z;
   const double scaled = std::ldexp(weight, -std::ilogb(d.maxCoeff()));
-  return z.cwiseMin(water_level(z, metric, infinity, scaled));
+  return proj_box(z, -infinity, water_level(z, metric, infinity, scaled));
 }
 
 Vector prox_norm_inf(const Vector& z, double weight) {
@@ -113,7 +114,7 @@ Vector prox_norm_inf(const Vector& z, double weight) {
   if (!(weight > 0)) return z;
   if (sum_of_absolutes(z) <= weight) return Vector::Zero(z.size());
   const double level = top_level(z, weight, Values::absolute_ones).value();
-  return z.cwiseMin(level).cwiseMax(-level);
+  return proj_box(z, -level, level);
 }
 
 Vector prox_norm_inf(const Vector& z, double weight, const Vector& d) {
@@ -123,7 +124,7 @@ Vector prox_norm_inf(const Vector& z, double weight, const Vector& d) {
   if (!(weight > 0)) return z;
   if (metric.dot(z.cwiseAbs()) <= scaled) return Vector::Zero(z.size());
   const double level = water_level(z.cwiseAbs(), metric, infinity, scaled);
-  return z.cwiseMin(level).cwiseMax(-level);
+  return proj_box(z, -level, level);
 }
 
 Matrix proj_simplex_jacobian(const Vector& z, double total, const Vector& d) {

@@ -16,40 +16,47 @@ struct Corner {
   DoubleDouble across, up;
 };
 
+/// a - b for pairs, to a few roundings of itself: if the high parts do not subtract exactly, they do not
+/// cancel.
+double difference(DoubleDouble a, DoubleDouble b) { return (a.hi - b.hi) + (a.lo - b.lo); }
+
 double slope(const Corner& from, const Corner& to) {
-  const double rise = add(to.up, {-from.up.hi, -from.up.lo}).value(),
-               run = add(to.across, {-from.across.hi, -from.across.lo}).value();
-  return rise / run;
+  return difference(to.up, from.up) / difference(to.across, from.across);
 }
 
 /// A chain of corners from the funnel's apex, with the slope at which each is reached from the one before.
 class Chain {
  public:
-  explicit Chain(std::size_t capacity) : corners_(capacity), slopes_(capacity) {}
-  bool empty() const { return front_ == back_; }
-  const Corner& first() const { return corners_[front_]; }
-  double first_slope() const { return slopes_[front_]; }
-  void pop_first() { ++front_; }
+  bool empty() const { return front_ == corners_.size(); }
+  bool single() const { return corners_.size() - front_ == 1; }
+  const Corner& first() const { return corners_[front_].corner; }
+  double first_slope() const { return corners_[front_].slope; }
+  void pop_first() {
+    if (++front_ < corners_.size()) return;
+    corners_.clear();
+    front_ = 0;
+  }
 
   /// Appends a corner, after dropping those that a straight line to it passes on the inner side; `turn` is 1
   /// for the upper wall (slopes increase along the chain), -1 for the lower.
   void extend(const Corner& apex, const Corner& corner, double turn) {
-    double arrival = slope(empty() ? apex : corners_[back_ - 1], corner);
-    while (!empty() && turn * slopes_[back_ - 1] >= turn * arrival) {
-      --back_;
-      arrival = slope(empty() ? apex : corners_[back_ - 1], corner);
+    double arrival = slope(empty() ? apex : corners_.back().corner, corner);
+    while (!empty() && turn * corners_.back().slope >= turn * arrival) {
+      corners_.pop_back();
+      arrival = slope(empty() ? apex : corners_.back().corner, corner);
     }
-    corners_[back_] = corner;
-    slopes_[back_++] = arrival;
+    corners_.push_back({corner, arrival});
   }
   /// The chain has one corner, now reached from another apex.
-  void restart(const Corner& apex) { slopes_[front_] = slope(apex, corners_[front_]); }
-  bool single() const { return back_ - front_ == 1; }
+  void restart(const Corner& apex) { corners_[front_].slope = slope(apex, corners_[front_].corner); }
 
  private:
-  std::vector<Corner> corners_;
-  std::vector<double> slopes_;
-  std::size_t front_ = 0, back_ = 0;
+  struct Reached {
+    Corner corner;
+    double slope;
+  };
+  std::vector<Reached> corners_;
+  std::size_t front_ = 0;
 };
 
 /// The runs of the answer, one a straight piece of the string.
@@ -76,8 +83,7 @@ void bend(Chain& own, Chain& other, double turn, Corner& apex, Drawn& drawn) {
 template <class Entry>
 Blocks taut_string(Index n, double weight, Entry entry) {
   Drawn drawn{{Vector(n), {}}};
-  const auto capacity = static_cast<std::size_t>(n + 1);
-  Chain upper(capacity), lower(capacity);
+  Chain upper, lower;
   Corner apex, walk;
   for (Index i = 0; i < n; ++i) {
     const auto [across, up] = entry(i);

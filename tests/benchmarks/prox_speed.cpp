@@ -1,0 +1,134 @@
+// Time of each kernel beside a plain copy of the same vector.
+//   prox_speed [--smoke]
+// Prints ns per entry (the fastest of many runs taken in turn with the copy) and, in parentheses, how many
+// times the copy's time that is. Every run allocates its result, as the copy does.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "convex/kernels/capped_simplex.hpp"
+#include "convex/kernels/exponential_cone.hpp"
+#include "convex/kernels/isotonic.hpp"
+#include "convex/kernels/log_barrier.hpp"
+#include "convex/kernels/logistic.hpp"
+#include "convex/kernels/norm2.hpp"
+#include "convex/kernels/power.hpp"
+#include "convex/kernels/power_cone.hpp"
+#include "convex/kernels/relative_entropy.hpp"
+#include "convex/kernels/second_order_cone.hpp"
+#include "convex/kernels/separable.hpp"
+#include "convex/kernels/simplex.hpp"
+#include "convex/kernels/total_variation.hpp"
+
+namespace {
+
+using convex::Index;
+using convex::Vector;
+namespace k = convex::kernels;
+
+struct Kernel {
+  std::string name;
+  std::function<Vector(const Vector&)> run;
+};
+
+template <class Prox>
+Kernel each_entry(const std::string& name, Prox prox) {
+  return {name, [prox](const Vector& z) {
+            Vector x(z.size());
+            for (Index i = 0; i < z.size(); ++i) x[i] = prox(z[i]).x;
+            return x;
+          }};
+}
+
+template <class Projection>
+Kernel each_triple(const std::string& name, Projection proj) {
+  return {name, [proj](const Vector& z) {
+            Vector x = z;
+            for (Index i = 0; i + 3 <= z.size(); i += 3) x.segment<3>(i) = proj(z.segment<3>(i));
+            return x;
+          }};
+}
+
+std::vector<Kernel> kernels() {
+  return {
+      {"norm1", [](const Vector& z) { return k::prox_norm1(z, 0.7); }},
+      {"box", [](const Vector& z) { return k::proj_box(z, -0.5, 1); }},
+      {"huber", [](const Vector& z) { return k::prox_huber(z, 0.5, 0.7); }},
+      {"hinge", [](const Vector& z) { return k::prox_hinge(z, 0.7); }},
+      {"elastic_net", [](const Vector& z) { return k::prox_elastic_net(z, 0.3, 0.7); }},
+      {"norm2", [](const Vector& z) { return k::prox_norm2(z, 1); }},
+      {"second_order_cone", k::proj_second_order_cone},
+      {"simplex", [](const Vector& z) { return k::proj_simplex(z, 1); }},
+      {"simplex, total n/2", [](const Vector& z) { return k::proj_simplex(z, 0.5 * double(z.size())); }},
+      {"simplex, total 100n", [](const Vector& z) { return k::proj_simplex(z, 100 * double(z.size())); }},
+      {"ball1", [](const Vector& z) { return k::proj_ball1(z, 1); }},
+      {"ball1, radius n/2", [](const Vector& z) { return k::proj_ball1(z, 0.5 * double(z.size())); }},
+      {"norm_inf", [](const Vector& z) { return k::prox_norm_inf(z, 1); }},
+      {"max", [](const Vector& z) { return k::prox_max(z, 1); }},
+      {"simplex in a metric",
+       [](const Vector& z) { return k::proj_simplex(z, 1, z.array().square() + 0.1); }},
+      {"sum_largest, k = n/10",
+       [](const Vector& z) { return k::prox_sum_largest(z, std::floor(0.1 * double(z.size()))); }},
+      {"isotonic", [](const Vector& z) { return k::proj_monotone(z).x; }},
+      {"total_variation", [](const Vector& z) { return k::prox_total_variation(z, 2).x; }},
+      each_entry("entropy", [](double z) { return k::prox_entropy(z, 1); }),
+      each_entry("exponential", [](double z) { return k::prox_exponential(z, 1); }),
+      each_entry("logistic", [](double z) { return k::prox_logistic(z, 1); }),
+      each_entry("log_barrier", [](double z) { return k::prox_log_barrier(z, 1); }),
+      each_entry("power 1.5", [](double z) { return k::prox_power(z, 1, 1.5); }),
+      each_entry("inverse_power 1", [](double z) { return k::prox_inverse_power(z, 1, 1); }),
+      each_triple("exponential_cone", [](const Eigen::Vector3d& z) { return k::proj_exponential_cone(z); }),
+      each_triple("power_cone 0.3", [](const Eigen::Vector3d& z) { return k::proj_power_cone(z, 0.3); }),
+  };
+}
+
+double sink = 0;  // keeps results alive
+
+template <class Work>
+double seconds(Work work, int calls) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < calls; ++i) {
+    const Vector x = work();
+    sink += x[x.size() / 2];
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / calls;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool smoke = argc > 1 && std::strcmp(argv[1], "--smoke") == 0;
+  const std::vector<Index> sizes =
+      smoke ? std::vector<Index>{10, 100} : std::vector<Index>{1000, 10000, 100000, 1000000, 10000000};
+  std::printf("%-24s", "ns per entry (x copy)");
+  for (Index n : sizes) std::printf(" %16.0e", static_cast<double>(n));
+  std::printf("\n");
+  for (const Kernel& kernel : kernels()) {
+    std::printf("%-24s", kernel.name.c_str());
+    for (Index n : sizes) {
+      std::mt19937_64 generator(1);
+      std::normal_distribution<double> normal;
+      Vector z(n);
+      for (double& v : z) v = normal(generator);
+      const auto copy = [&] { return Vector(z); };
+      const auto run = [&] { return kernel.run(z); };
+      const double once = seconds(run, 1);
+      const int calls = smoke ? 1 : std::max(1, static_cast<int>(1e-3 / once));
+      double best = once, best_copy = seconds(copy, 1);
+      for (int batch = 0; batch < (smoke ? 1 : once > 0.5 ? 3 : 15); ++batch) {
+        best = std::min(best, seconds(run, calls));
+        best_copy = std::min(best_copy, seconds(copy, std::min(calls * 4, 4000)));
+      }
+      std::printf(" %8.2f (%5.1f)", best / static_cast<double>(n) * 1e9, best / best_copy);
+      std::fflush(stdout);
+    }
+    std::printf("\n");
+  }
+  return std::isnan(sink) ? 1 : 0;
+}
