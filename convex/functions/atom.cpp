@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "convex/composite/composite_prox.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
@@ -44,6 +45,7 @@ Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
   result.error_bound = (result.v - force).cwiseQuotient(root).norm() +
                        roundings_of_a_formula * unit_roundoff *
                            (root.cwiseProduct(z).norm() + root.cwiseProduct(result.x).norm());
+  result.duality_gap = f.value(result.x) + f.conjugate().node().value(result.v) - result.x.dot(result.v);
   result.method = "closed form";
   return result;
 }
@@ -61,9 +63,9 @@ Prox Atom::prox(const Vector& z, const Metric& W) const {
   if (d.size() > 0 && (takes_any_diagonal() || d.maxCoeff() == d.minCoeff()))
     return in_diagonal_metric(*this, z, d);
   if (std::optional<Prox> own = prox_general(z, W)) return *own;
-  if (const std::optional<LinearQuadratic> form = linear_quadratic(z.size()))
-    return convex::prox(*form, z, W);
-  return convex::prox(*graph(z.size()), z, W);
+  const std::optional<LinearQuadratic> form = linear_quadratic(z.size());
+  return without_rounding_at_zero(form ? convex::prox(*form, z, W) : convex::prox(*graph(z.size()), z, W),
+                                  facts(), z, W);
 }
 
 std::optional<GraphForm> Atom::graph(Index n) const {

@@ -66,6 +66,12 @@ std::string to_text(const Call& call) {
   return text;
 }
 
+std::string to_text(double number) {
+  std::string text;
+  append(text, number);
+  return text;
+}
+
 NamedArgument argument(Call call) { return {"", std::make_shared<const Call>(std::move(call)), {}}; }
 
 NamedArgument argument(std::string key, Argument value) { return {std::move(key), std::move(value), {}}; }

@@ -38,5 +38,6 @@ NamedArgument argument(std::string key, Argument value);
 
 /// The call as text that reads back to the same call: numbers with the shortest digits that read back.
 std::string to_text(const Call& call);
+std::string to_text(double number);
 
 }  // namespace convex

@@ -20,12 +20,8 @@ Call support_call(const Call& set) { return {"support", {argument(set)}}; }
 /// The indicator of -K.
 Call mirrored(const Call& K) { return {"dilate", {argument(indicator_call(K)), argument("rho", -1.0)}}; }
 
-std::function<void(Index)> at_least(const char* name, Index least) {
-  return [name, least](Index n) {
-    if (n < least)
-      throw InvalidInput(std::string(name) + ": " + std::to_string(n) + " entries; give at least " +
-                         std::to_string(least));
-  };
+void require_two(Index n, const std::string& name) {
+  if (n < 2) throw InvalidInput(name + ": " + std::to_string(n) + " entries; give at least 2");
 }
 
 /// A cone in the plain metric by its projections.
@@ -66,7 +62,7 @@ Set rotated_second_order_cone() {
   const Call call{"rotated_second_order_cone"};
   Cone K = plain_cone(call, mirrored(call), 0, kernels::proj_rotated_cone, kernels::proj_rotated_polar,
                       kernels::proj_rotated_cone_jacobian);
-  K.require_size = at_least("rotated_second_order_cone", 2);
+  K.require_size = require_two;
   return set_of(std::move(K));
 }
 
@@ -77,7 +73,7 @@ Set psd_cone() {
                         const Index n = kernels::order_of_stacked(z);
                         return kernels::psd_projection(z.reshaped(n, n)).jacobian();
                       });
-  K.require_size = [](Index n) { require_square("psd_cone", n); };
+  K.require_size = [](Index n, const std::string& name) { require_square(name, n); };
   return set_of(std::move(K));
 }
 

@@ -13,7 +13,7 @@ class SetIndicator : public Atom {
  public:
   explicit SetIndicator(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
   Index dimension() const override { return S_->dimension(); }
-  void require_size(Index n) const override { S_->require_size(n); }
+  void require_size(Index n) const override { S_->require_size(n, S_->call().name); }
   bool takes_any_diagonal() const override { return S_->takes_any_diagonal(); }
   Facts facts() const override {
     Facts facts = S_->facts();
@@ -43,7 +43,7 @@ class SetSupport : public Atom {
  public:
   explicit SetSupport(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
   Index dimension() const override { return S_->dimension(); }
-  void require_size(Index n) const override { S_->require_size(n); }
+  void require_size(Index n) const override { S_->require_size(n, S_->support_call().name); }
   bool takes_any_diagonal() const override { return S_->takes_any_diagonal(); }
   Facts facts() const override {
     const Facts of_set = S_->facts();
@@ -81,8 +81,8 @@ class ConeSet : public ConvexSet {
  public:
   explicit ConeSet(Cone K) : K_(std::move(K)) {}
   Index dimension() const override { return K_.dimension; }
-  void require_size(Index n) const override {
-    if (K_.require_size) K_.require_size(n);
+  void require_size(Index n, const std::string& name) const override {
+    if (K_.require_size) K_.require_size(n, name);
   }
   Call call() const override { return K_.call; }
   Call support_call() const override { return K_.polar_call; }
@@ -119,8 +119,8 @@ class ConeSet : public ConvexSet {
 Call ConvexSet::support_call() const { return {"support", {argument(call())}}; }
 
 bool ConvexSet::contains(const Vector& x) const {
-  const double miss = (x - project(x, Vector::Ones(x.size()))).norm();
-  return miss <= membership_tolerance * (x.norm() + scale());
+  const double miss = (x - project(x, Vector::Ones(x.size()))).stableNorm();
+  return miss <= membership_tolerance * (x.stableNorm() + scale());
 }
 
 Vector ConvexSet::support_prox(const Vector& z, const Vector& d) const {

@@ -15,7 +15,8 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
  public:
   virtual ~ConvexSet() = default;
   virtual Index dimension() const = 0;
-  virtual void require_size(Index) const {}
+  /// Throws InvalidInput "name: …" when the set, or its support function, of that name has no n entries.
+  virtual void require_size(Index, const std::string&) const {}
   /// The set in the language, such as box(lower=0, upper=1).
   virtual Call call() const = 0;
   /// Its support function in the language; support(call()) unless it has a name of its own.
@@ -70,7 +71,7 @@ struct Cone {
   std::function<Matrix(const Vector& z, const Vector& d)> jacobian;
   /// The projection on the polar in the plain metric; z - project(z) in any when empty.
   std::function<Vector(const Vector& z)> project_polar = {};
-  std::function<void(Index n)> require_size = {};
+  std::function<void(Index n, const std::string& name)> require_size = {};
   std::function<LinearQuadratic(Index n)> form = {};
   bool any_diagonal = false;
 };

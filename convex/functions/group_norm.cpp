@@ -18,9 +18,9 @@ class GroupBall : public ConvexSet {
   GroupBall(double radius, std::vector<Index> sizes) : radius_(radius), sizes_(std::move(sizes)) {}
 
   Index dimension() const override { return std::accumulate(sizes_.begin(), sizes_.end(), Index{0}); }
-  void require_size(Index n) const override {
+  void require_size(Index n, const std::string& name) const override {
     if (size_ > 0 && n % size_ != 0)
-      throw InvalidInput("group_norm(sizes): " + std::to_string(n) + " entries are no groups of " +
+      throw InvalidInput(name + "(sizes): " + std::to_string(n) + " entries are no groups of " +
                          std::to_string(size_) + "; give a divisor, or a size for each group");
   }
   Call call() const override { return named("group_ball", "radius"); }

@@ -2,6 +2,7 @@
 #include <limits>
 #include <string>
 
+#include "convex/functions/closed_form.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
@@ -53,14 +54,15 @@ class Slab : public ConvexSet {
   }
   std::optional<Prox> project_general(const Vector& z, const Metric& W) const override {
     const Vector normal = W.solve(a_);  // a is a covector; W makes it a direction
-    const double weight = multiplier(z, normal);
-    Prox result;
-    result.x = z - weight * normal;
-    result.v = weight * a_;
-    result.error_bound =
-        W.dual_norm(W.multiply(result.x - z) + result.v) + 4 * unit_roundoff * (W.norm(z) + W.norm(result.x));
-    result.method = "closed form";
-    return result;
+    double weight = multiplier(z, normal);
+    if (weight == 0) return closed_form(z, W, z, Vector::Zero(z.size()));
+    Vector x = z - weight * normal;
+    // Refined once, on 0 = W(x - z) + weight a and a·x = b.
+    x -= W.solve(stationarity(z, W, x, weight * a_));
+    const double rest = (a_.dot(x) - b_) / a_.dot(normal);
+    weight += rest;
+    x -= rest * normal;
+    return closed_form(z, W, x, weight * a_);
   }
   std::optional<LinearQuadratic> indicator_form(Index) const override {
     return two_sided_ ? linear_quadratic::hyperplane(given_a_, given_b_)
@@ -76,8 +78,8 @@ class Slab : public ConvexSet {
   }
   /// The w with v = wa, w >= 0 unless two-sided; none when there is none.
   std::optional<double> weight_of(const Vector& v) const {
-    const double weight = a_.dot(v), allowance = membership_tolerance * v.norm();
-    if ((v - weight * a_).norm() > allowance) return std::nullopt;
+    const double weight = a_.dot(v), allowance = membership_tolerance * v.stableNorm();
+    if ((v - weight * a_).stableNorm() > allowance) return std::nullopt;
     if (!two_sided_ && weight < -allowance) return std::nullopt;
     return two_sided_ ? weight : std::max(0.0, weight);
   }
@@ -92,6 +94,8 @@ class Slab : public ConvexSet {
 void check(const char* set, const Vector& a, double b) {
   require_finite(set, "a", a);
   require_finite(set, "b", b);
+  if (!a.isZero(0) && !std::isfinite(b / a.stableNorm()))
+    throw InvalidInput(std::string(set) + ": b over the length of a is not a number; scale them");
   if (a.size() == 0) throw InvalidInput(std::string(set) + "(a): no entries; give at least one");
 }
 

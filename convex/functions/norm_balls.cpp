@@ -101,12 +101,10 @@ class Simplex : public Polytope {
 class CappedSimplex : public Polytope {
  public:
   CappedSimplex(double total, double cap) : total_(total), cap_(cap) {}
-  void require_size(Index n) const override {
-    if (total_ <= static_cast<double>(n) * cap_) return;
-    if (named_sum())
-      throw InvalidInput("sum_largest(k): k is more than the " + std::to_string(n) + " entries; give fewer");
-    throw InvalidInput("capped_simplex(total): more than " + std::to_string(n) +
-                       " entries of at most cap can sum to, so the set is empty; give a smaller total");
+  void require_size(Index n, const std::string& name) const override {
+    if (total_ > static_cast<double>(n) * cap_)
+      throw InvalidInput(name + ": " + std::to_string(n) + " entries of at most " + to_text(cap_) +
+                         " cannot sum to " + to_text(total_) + ", so the set is empty; give a smaller sum");
   }
   Call call() const override {
     return {"capped_simplex", {argument("total", total_), argument("cap", cap_)}};

@@ -31,10 +31,10 @@ void require_nonnegative(const char* maker, const char* parameter, double number
   if (number < 0) refuse(maker, parameter, "negative; give 0 or more");
 }
 
-void require_square(const char* maker, Index n) {
+void require_square(const std::string& maker, Index n) {
   const Index order = static_cast<Index>(std::llround(std::sqrt(static_cast<double>(n))));
   if (order * order != n)
-    throw InvalidInput(std::string(maker) + ": " + std::to_string(n) +
+    throw InvalidInput(maker + ": " + std::to_string(n) +
                        " entries are no square matrix stacked by columns; give n*n");
 }
 

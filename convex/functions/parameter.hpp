@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "convex/vector.hpp"
 
 /// What the makers of functions and sets ask of their numbers. Each throws InvalidInput
@@ -12,7 +14,7 @@ void require_finite(const char* maker, const char* parameter, const Matrix& numb
 /// Finite and >= 0.
 void require_nonnegative(const char* maker, const char* parameter, double number);
 /// Whether n entries stack a square matrix by columns.
-void require_square(const char* maker, Index n);
+void require_square(const std::string& maker, Index n);
 /// Finite and > 0.
 void require_positive(const char* maker, const char* parameter, double number);
 

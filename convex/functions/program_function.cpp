@@ -1,6 +1,7 @@
 #include "convex/functions/program_function.hpp"
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
@@ -21,7 +22,9 @@ class ProgramNode : public FunctionNode {
   }
   Call call() const override { return swapped_ ? parts_->conjugate_call : parts_->call; }
   double value(const Vector& x) const override { return convex::value(form(), x); }
-  Prox prox(const Vector& z, const Metric& W) const override { return convex::prox(form(), z, W); }
+  Prox prox(const Vector& z, const Metric& W) const override {
+    return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
+  }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
   std::optional<Vector> subgradient(const Vector& x) const override { return evaluate(form(), x).v; }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(); }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <string>
 
+#include "convex/composite/metric_difference.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/functions/parameter.hpp"
 
@@ -35,26 +37,6 @@ Spectrum spectrum(const Matrix& Q) {
   return {eigen.eigenvectors().rightCols(rank), eigen.eigenvectors().leftCols(n - rank), values.tail(rank)};
 }
 
-Matrix gram_of(const Metric& W) {
-  switch (W.kind()) {
-    case MetricKind::dense:
-      return W.dense_gram();
-    case MetricKind::sparse:
-      return W.sparse_gram();
-    default:
-      return W.diagonal().asDiagonal();
-  }
-}
-
-Prox with_bound(const Vector& z, const Metric& W, Vector x, Vector v) {
-  Prox result;
-  result.error_bound = W.dual_norm(W.multiply(x - z) + v) + 4 * unit_roundoff * (W.norm(z) + W.norm(x));
-  result.x = std::move(x);
-  result.v = std::move(v);
-  result.method = "closed form";
-  return result;
-}
-
 Function dual_quadratic(const Matrix& Q, const Vector& c, double constant);
 
 class Quadratic : public Atom {
@@ -81,11 +63,10 @@ class Quadratic : public Atom {
   }
   /// 0 = W(x - z) + Qx + c, refined once.
   Prox prox(const Vector& z, const Metric& W) const override {
-    const Eigen::LLT<Matrix> sum(gram_of(W) + Q_);
+    const Eigen::LLT<Matrix> sum(gram(W) + Q_);
     Vector x = sum.solve(W.multiply(z) - c_);
-    x += sum.solve(W.multiply(z - x) - Q_ * x - c_);
-    const Vector v = Q_ * x + c_;
-    return with_bound(z, W, std::move(x), v);
+    x -= sum.solve(stationarity(z, W, x, Q_ * x + c_));
+    return closed_form(z, W, x, Q_ * x + c_);
   }
 
  private:
@@ -139,16 +120,16 @@ class DualQuadratic : public Atom {
   /// (LᵀWL + I) t = LᵀW(z - c); x = c + Lt, refined once.
   Prox prox(const Vector& z, const Metric& W) const override {
     const Index r = L_.cols();
-    const Matrix W_L = gram_of(W) * L_;
+    const Matrix W_L = gram(W) * L_;
     const Eigen::LLT<Matrix> sum(L_.transpose() * W_L + Matrix::Identity(r, r));
     Vector t = sum.solve(W_L.transpose() * (z - c_));
-    t += sum.solve(W_L.transpose() * (z - c_ - L_ * t) - t);
+    t -= sum.solve(L_.transpose() * metric_difference(W, c_ + L_ * t, z) + t);
     const Vector x = c_ + L_ * t;
     // u with Qu = x - c; along the null space any part will do, and the force there is the normal's.
-    const Vector force = W.multiply(z - x);
+    const Vector force = metric_difference(W, z, x);
     const Vector v = of_Q_.basis * (of_Q_.values.cwiseSqrt().cwiseInverse().asDiagonal() * t) +
                      of_Q_.null * (of_Q_.null.transpose() * force);
-    return with_bound(z, W, x, v);
+    return closed_form(z, W, x, v);
   }
 
  private:

@@ -23,9 +23,9 @@ class SpectralBall : public ConvexSet {
  public:
   SpectralBall(double radius, Index rows) : radius_(radius), rows_(rows) {}
   Index dimension() const override { return 0; }
-  void require_size(Index n) const override {
+  void require_size(Index n, const std::string& name) const override {
     if (n % rows_ != 0)
-      throw InvalidInput("nuclear_norm(rows): " + std::to_string(n) + " entries are no matrix of " +
+      throw InvalidInput(name + "(rows): " + std::to_string(n) + " entries are no matrix of " +
                          std::to_string(rows_) + " rows; give a divisor");
   }
   Call call() const override { return named("spectral_ball", "radius"); }

@@ -74,7 +74,7 @@ void Table::check_joint(Index i) const {
            ", it is not convex; change a c0");
   if (!(bend >= -joint_tolerance * slope_size))
     refuse("the slope falls by ", -bend, " from piece ", i, " to ", i + 1, " at x = ", x,
-           ", it is not convex");
+           ", it is not convex; let slopes increase");
 }
 
 void Table::check() {

@@ -30,8 +30,16 @@ std::vector<Example> examples() {
     if (entry.kind == convex::EntryKind::operation) continue;
     for (std::string_view text : entry.examples) {
       const Call call = cli::parse_call(text, "example");
-      const Index n = cli::number_of_entries(call);
-      made.push_back({std::string(text), n, convex::make_function(call, Space{Metric::identity(n)})});
+      const auto make = [&](Index n) {
+        const Function f = convex::make_function(call, Space{Metric::identity(n)});
+        made.push_back({std::string(text) + " on " + std::to_string(n), n, f});
+        return f.dimension() == 0;
+      };
+      const bool any_size = make(cli::number_of_entries(call));
+      for (Index n : {1, 2, 6, 9}) try {
+          if (any_size) make(n);
+        } catch (const convex::InvalidInput&) {  // no square, no group, …
+        }
     }
   }
   return made;
@@ -67,8 +75,8 @@ std::vector<Metric> simple_metrics(Index n) {
   return {Metric::identity(n), Metric::identity(n).scaled(0.3), Metric::diagonal(weights(n))};
 }
 
-/// Sizes that rounding in a prox is relative to; beside data of size 1 nothing is smaller than 1e-20.
-double size(const Metric& W, const Vector& z, const Vector& x) { return W.norm(z) + W.norm(x) + 1e-20; }
+/// Sizes that rounding in a prox is relative to; beside data of size 1 nothing counts below 1e-14.
+double size(const Metric& W, const Vector& z, const Vector& x) { return W.norm(z) + W.norm(x) + 1e-14; }
 
 }  // namespace
 
