@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cli/commands.hpp"
+#include "cli/cone_report.hpp"
 #include "cli/decomposition_report.hpp"
 #include "cli/each_file.hpp"
 #include "cli/solve_report.hpp"
@@ -26,6 +27,12 @@ Answer solve_file(const std::string& file, const Options& options) {
     const SplitPoint split = split_point(*decomposition, problem.solve, options);
     return {exit_code(split.split.status),
             options.json ? split_json(split, file) + "\n" : heading(problem.title, file) + split_text(split)};
+  }
+  if (const auto* cone = std::get_if<ConeProblem>(&problem.content)) {
+    require_cone_settings(problem.solve, options);
+    const SolvedCone solved = solve_cone(*cone);
+    return {Exit::solved,
+            options.json ? cone_json(solved, file) + "\n" : heading(problem.title, file) + cone_text(solved)};
   }
   return solve_scene(make_scene(std::move(problem), file, options), options);
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/problem_file/toml_document.hpp"
+#include "convex/exact/fraction.hpp"
 #include "convex/vector.hpp"
 
 namespace cli {
@@ -17,5 +18,11 @@ convex::Vector read_vector(const TomlValue& value, const std::string& where);
 /// "one per coordinate (z has 3)".
 convex::RowMatrix read_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                               const std::string& why);
+
+/// The same at their exact values: "1/3" is a third, 0.1 the double nearest to it. A string beyond all
+/// doubles, or nearer to 0 than all but 0, is refused.
+convex::ExactVector read_exact_vector(const TomlValue& value, const std::string& where);
+convex::ExactRows read_exact_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
+                                    const std::string& why);
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "convex/cones/exact_metric.hpp"
 #include "convex/functions/call.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "mechanics/lagrangian_text.hpp"
@@ -29,6 +30,17 @@ struct DecompositionProblem {
   convex::Call f;
 };
 
+/// `[cone]`: a polyhedral cone in n dimensions, and a point to split between it and its polar in the metric
+/// W.
+struct ConeProblem {
+  bool by_halfspaces = false;
+  convex::ExactRows rows;     ///< generators, or half-spaces a·x <= 0
+  convex::ExactRows two_way;  ///< lines, or equations
+  convex::Index n = 0;
+  std::optional<convex::ExactVector> z;
+  convex::ExactMetric W;
+};
+
 /// `contact_tolerance` by constraint.
 struct NamedTolerance {
   std::string constraint;
@@ -49,7 +61,7 @@ struct SolveSettings {
 /// A problem file as plain data.
 struct Problem {
   std::string title;
-  std::variant<SystemProblem, ProjectionProblem, DecompositionProblem> content;
+  std::variant<SystemProblem, ProjectionProblem, DecompositionProblem, ConeProblem> content;
   SolveSettings solve;
 };
 

@@ -24,8 +24,8 @@ const TomlEntry& content_table(const TomlValue& document) {
   }
   if (found == nullptr)
     throw InvalidInput(
-        "no problem here; give a table [system] (a mechanism), [projection] (numbers) or [decomposition] (a "
-        "convex function)",
+        "no problem here; give a table [system] (a mechanism), [projection] (numbers), [decomposition] (a "
+        "convex function) or [cone] (a polyhedral cone)",
         convex::Place{1, 1});
   return *found;
 }
@@ -54,10 +54,7 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   } else if (content.key == "decomposition") {
     problem.content = read_decomposition(content.value, directory);
   } else {
-    throw InvalidInput(
-        "[" + content.key +
-            "] is not available yet; this version solves [system], [projection] and [decomposition]",
-        content.place);
+    problem.content = read_cone(content.value, directory);
   }
   return problem;
 }

@@ -14,6 +14,9 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
 /// `[decomposition]`; a matrix file is looked for in `directory`.
 DecompositionProblem read_decomposition(const TomlValue& table, const std::string& directory);
 
+/// `[cone]`; a matrix file of the metric is looked for in `directory`.
+ConeProblem read_cone(const TomlValue& table, const std::string& directory);
+
 /// `[solve]`.
 SolveSettings read_solve_settings(const TomlValue& table);
 

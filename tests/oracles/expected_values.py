@@ -19,6 +19,7 @@ import mpmath
 import sympy
 
 from closed_forms import CLOSED_FORMS
+from cone_values import expected_cone
 from lagrange_equations import equations
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -326,7 +327,8 @@ def main():
             continue
         data = tomllib.loads(path.read_text(), parse_float=Decimal)
         target = ROOT / "tests" / "cases" / f"{path.stem}.expected.json"
-        target.write_text(json.dumps(expected(path.stem, data), indent=1) + "\n")
+        values = expected_cone(data["cone"]) if "cone" in data else expected(path.stem, data)
+        target.write_text(json.dumps(values, indent=1) + "\n")
         print(target.relative_to(ROOT))
 
 
