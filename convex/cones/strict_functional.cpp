@@ -1,6 +1,7 @@
 #include "convex/cones/strict_functional.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/fraction.hpp"
@@ -13,7 +14,20 @@ bool is_strict(const IntegerVector& y, const IntegerRows& rows) {
   return std::all_of(rows.begin(), rows.end(), [&](const IntegerVector& g) { return dot(y, g).sign() > 0; });
 }
 
-/// The unit vectors and their opposites, then the sum of the rows.
+/// v with entries of at most `size`, in about its direction.
+IntegerVector coarse(const IntegerVector& v, double size) {
+  double largest = 0;
+  for (const Integer& entry : v) largest = std::max(largest, std::abs(nearest_quotient(entry, 1)));
+  IntegerVector rounded;
+  for (const Integer& entry : v) {
+    const double ratio = size * (nearest_quotient(entry, 1) / largest);
+    rounded.push_back(std::isfinite(ratio) ? std::llround(ratio) : 0);
+  }
+  return rounded;
+}
+
+/// The unit vectors and their opposites, then the sum of the rows, ever less rounded. Small numbers make the
+/// section's coordinates short.
 IntegerVector simple_functional(const IntegerRows& rows, std::size_t r) {
   IntegerVector sum(r, 0);
   for (const IntegerVector& g : rows)
@@ -23,6 +37,8 @@ IntegerVector simple_functional(const IntegerRows& rows, std::size_t r) {
     unit[i] = sum[i].sign();
     if (is_strict(unit, rows)) return unit;
   }
+  for (double size : {1.0, 2.0, 4.0, 16.0, 256.0})
+    if (IntegerVector y = coarse(sum, size); is_strict(y, rows)) return y;
   make_primitive(sum);
   return is_strict(sum, rows) ? sum : IntegerVector{};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/invariant.hpp"
@@ -60,22 +61,24 @@ std::vector<Simplex> touch_and_check(const IntegerRows& rays, const IntegerRows&
   return touching;
 }
 
-void check_ridges(const std::vector<Simplex>& simplices) {
-  std::vector<Simplex> ridges;
+/// The ridges are strings of indices: short ones are held in place.
+template <class Text>
+bool every_ridge_is_in_two(const std::vector<Simplex>& simplices) {
+  std::vector<Text> ridges;
   ridges.reserve(simplices.size() * simplices.front().size());
-  for (const Simplex& simplex : simplices)
+  for (const Simplex& simplex : simplices) {
+    Text corners;
+    for (std::size_t k : simplex) corners.push_back(static_cast<typename Text::value_type>(k));
     for (std::size_t left_out = 0; left_out < simplex.size(); ++left_out) {
-      Simplex ridge;
-      ridge.reserve(simplex.size());
-      for (std::size_t i = 0; i < simplex.size(); ++i)
-        if (i != left_out) ridge.push_back(simplex[i]);
-      ridges.push_back(std::move(ridge));
+      ridges.push_back(corners);
+      ridges.back().erase(left_out, 1);
     }
+  }
   std::sort(ridges.begin(), ridges.end());
-  bool in_two = ridges.size() % 2 == 0;
-  for (std::size_t i = 0; in_two && i < ridges.size(); i += 2)
-    in_two = ridges[i] == ridges[i + 1] && (i + 2 == ridges.size() || ridges[i + 2] != ridges[i]);
-  invariant(in_two, "every ridge lies in exactly two facets");
+  if (ridges.size() % 2 != 0) return false;
+  for (std::size_t i = 0; i < ridges.size(); i += 2)
+    if (ridges[i] != ridges[i + 1] || (i + 2 < ridges.size() && ridges[i + 2] == ridges[i])) return false;
+  return true;
 }
 
 /// Whether the point is in the cone of the simplex: each plane through the other corners and a vector off the
@@ -104,7 +107,9 @@ Facets verified_facets(const IntegerRows& rays, std::size_t r, const std::vector
   Facets facets;
   for (const auto& [normal, members] : planes) facets.normals.push_back(normal);
   facets.touching = touch_and_check(rays, facets.normals, r);
-  check_ridges(simplices);
+  invariant(rays.size() <= 0x10000 ? every_ridge_is_in_two<std::u16string>(simplices)
+                                   : every_ridge_is_in_two<std::u32string>(simplices),
+            "every ridge lies in exactly two facets");
   const auto plane = std::min_element(planes.begin(), planes.end(), [](const auto& a, const auto& b) {
     return a.second.size() < b.second.size();
   });

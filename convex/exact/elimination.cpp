@@ -40,6 +40,7 @@ bool extend(Echelon& space, const IntegerVector& v) {
   if (leading->sign() < 0)
     for (Integer& entry : rest) entry = -entry;
   for (IntegerVector& row : space.rows) {
+    if (row[pivot].is_zero()) continue;
     clear_pivot(row, rest, pivot);
     make_primitive(row);
   }
@@ -77,7 +78,7 @@ Echelon annihilator(const Echelon& space) {
 }
 
 IntegerVector common_normal(const std::vector<const IntegerVector*>& rows, std::size_t r) {
-  IntegerVector normal = minors_fit_words(rows) ? normal_in_words(rows, r) : normal_in_integers(rows, r);
+  IntegerVector normal = normal_by_minors(rows, r);
   make_primitive(normal);
   return normal;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace convex {
@@ -9,9 +10,15 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-bool vanishes(Wide a) { return a == 0; }
+template <class Word>
+bool vanishes(Word a) {
+  return a == 0;
+}
 bool vanishes(const Integer& a) { return a.is_zero(); }
-Wide quotient(Wide a, Wide b) { return a / b; }
+template <class Word>
+Word quotient(Word a, Word b) {
+  return a / b;
+}
 Integer quotient(const Integer& a, const Integer& b) { return exact_quotient(a, b); }
 
 /// Fraction-free elimination (Bareiss 1968) with exchanges of columns, then back substitution by Cramer's
@@ -43,34 +50,43 @@ std::vector<Number> normal_of(std::vector<Number> a, std::size_t r) {
   return normal;
 }
 
-}  // namespace
-
-bool minors_fit_words(const std::vector<const IntegerVector*>& rows) {
-  constexpr double most_bits = 60, most_entries = 64;
+/// Hadamard's bound on the minors of the rows, in bits; infinite when an entry is longer than a word.
+double minor_bits(const std::vector<const IntegerVector*>& rows) {
   double bits = 0;
   for (const IntegerVector* row : rows) {
     double squared = 0;
     for (const Integer& entry : *row) {
-      if (!entry.fits_word()) return false;
+      if (!entry.fits_word()) return std::numeric_limits<double>::infinity();
       squared += static_cast<double>(entry.word()) * static_cast<double>(entry.word());
     }
     bits += 0.5 * std::log2(std::max(1.0, squared));
-    if (static_cast<double>(row->size()) > most_entries) return false;
   }
-  return bits < most_bits;
+  return bits;
 }
 
+/// How long minors may be so that a word of so many bits holds any sum of r products of two; a little less,
+/// for the rounding of the bound, and so that the minors themselves fit 64 bits.
+double most_bits(double word, std::size_t r) {
+  return std::min(0.5 * (word - std::log2(static_cast<double>(r + 1))) - 0.5, 62.0);
+}
+
+template <class Word>
 IntegerVector normal_in_words(const std::vector<const IntegerVector*>& rows, std::size_t r) {
-  std::vector<Wide> a;
+  std::vector<Word> a;
   a.reserve(rows.size() * r);
   for (const IntegerVector* row : rows)
     for (const Integer& entry : *row) a.push_back(entry.word());
   IntegerVector normal;
-  for (Wide entry : normal_of(std::move(a), r)) normal.emplace_back(static_cast<std::int64_t>(entry));
+  for (Word entry : normal_of(std::move(a), r)) normal.emplace_back(static_cast<std::int64_t>(entry));
   return normal;
 }
 
-IntegerVector normal_in_integers(const std::vector<const IntegerVector*>& rows, std::size_t r) {
+}  // namespace
+
+IntegerVector normal_by_minors(const std::vector<const IntegerVector*>& rows, std::size_t r) {
+  const double bits = minor_bits(rows);
+  if (bits < most_bits(63, r)) return normal_in_words<std::int64_t>(rows, r);
+  if (bits < most_bits(127, r)) return normal_in_words<Wide>(rows, r);
   std::vector<Integer> a;
   a.reserve(rows.size() * r);
   for (const IntegerVector* row : rows) a.insert(a.end(), row->begin(), row->end());

@@ -4,13 +4,8 @@
 
 namespace convex {
 
-/// Whether every minor of the rows is below 2^60 by Hadamard's bound: then 128 bits hold every product that
-/// fraction-free elimination forms.
-bool minors_fit_words(const std::vector<const IntegerVector*>& rows);
-
-/// A vector of minors at right angles to r - 1 rows of r entries; empty when they are dependent. In words of
-/// 128 bits (rows that `minors_fit_words`), and in integers of any size.
-IntegerVector normal_in_words(const std::vector<const IntegerVector*>& rows, std::size_t r);
-IntegerVector normal_in_integers(const std::vector<const IntegerVector*>& rows, std::size_t r);
+/// A vector of minors at right angles to r - 1 rows of r entries; empty when they are dependent. Computed in
+/// words of 64 or 128 bits where Hadamard's bound on the minors shows that they hold every number.
+IntegerVector normal_by_minors(const std::vector<const IntegerVector*>& rows, std::size_t r);
 
 }  // namespace convex

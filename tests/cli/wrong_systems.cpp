@@ -109,5 +109,5 @@ TEST_CASE("a file holds one problem, and it must hold one") {
   expect_refusal({"title = \"nothing\"\n", "1:1", {"[system]", "[projection]"}});
   expect_refusal({two_rows({{7, "[state]\nt = 0"}}), "7:1", {"[state]"}});
   expect_refusal({"[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2\"\n", "1:1", {"[state]"}});
-  expect_refusal({"[cone]\nz = [1]\n", "1:2", {"not available yet"}});
+  expect_refusal({"[cone]\nz = [1]\n", "1:1", {"generators", "halfspaces"}});
 }
