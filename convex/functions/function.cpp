@@ -4,6 +4,7 @@
 #include <string>
 
 #include "convex/functions/node.hpp"
+#include "convex/operations/operations.hpp"
 
 namespace convex {
 namespace {
@@ -46,8 +47,7 @@ Prox Function::prox(const Vector& z, const Metric& W) const {
 Function Function::conjugate() const { return node_->conjugate(); }
 
 Function Function::conjugate(const Metric& W) const {
-  if (W.kind() == MetricKind::identity) return conjugate();
-  throw InvalidInput(call().name + ": no conjugate in this product yet; give the identity");
+  return in_product(conjugate(), W);
 }
 
 std::optional<Vector> Function::subgradient(const Vector& x) const {

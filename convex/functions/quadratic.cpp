@@ -10,6 +10,8 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/functions/parameter.hpp"
+#include "convex/linear_quadratic/functions.hpp"
+#include "convex/linear_quadratic/operations.hpp"
 
 namespace convex {
 namespace {
@@ -37,6 +39,10 @@ Spectrum spectrum(const Matrix& Q) {
   return {eigen.eigenvectors().rightCols(rank), eigen.eigenvectors().leftCols(n - rank), values.tail(rank)};
 }
 
+LinearQuadratic form(const Matrix& Q, const Vector& c, double constant) {
+  return linear_quadratic::raise(linear_quadratic::quadratic(Q, c), constant);
+}
+
 Function dual_quadratic(const Matrix& Q, const Vector& c, double constant);
 
 class Quadratic : public Atom {
@@ -53,6 +59,7 @@ class Quadratic : public Atom {
   }
   double value(const Vector& x) const override { return x.dot(0.5 * (Q_ * x) + c_) + constant_; }
   Function conjugate() const override { return dual_quadratic(Q_, c_, constant_); }
+  std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(Q_, c_, constant_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return Q_ * x + c_; }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d)).x;
@@ -105,6 +112,9 @@ class DualQuadratic : public Atom {
     return 0.5 * (L_.transpose() * solve(from)).dot(L_.transpose() * solve(from)) - constant_;
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
+  std::optional<LinearQuadratic> linear_quadratic(Index) const override {
+    return linear_quadratic::conjugate(form(Q_, c_, constant_));
+  }
   std::optional<Vector> subgradient(const Vector& v) const override {
     if (std::isinf(value(v))) return std::nullopt;
     return solve(v - c_);

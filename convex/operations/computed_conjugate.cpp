@@ -1,0 +1,64 @@
+#include "convex/composite/composite_prox.hpp"
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+class ComputedConjugate : public Operation {
+ public:
+  explicit ComputedConjugate(Function f) : f_(std::move(f)) {}
+  Index dimension() const override { return f_.dimension(); }
+  void require_size(Index n) const override { f_.node().require_size(n); }
+  Facts facts() const override {
+    const Facts f = f_.facts();
+    return {.indicator = f.support,
+            .cone = f.cone,
+            .support = f.indicator,
+            .separable = f.separable,
+            .piecewise_quadratic = f.piecewise_quadratic};
+  }
+  Call call() const override { return {"conjugate", {argument(f_.call())}}; }
+  Function conjugate() const override { return f_; }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = f_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::conjugate(*form);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = f_.node().graph(n);
+    if (!form) return std::nullopt;
+    return convex::conjugate(*form);
+  }
+
+ protected:
+  /// The covector of f at its point is the point of f*, and the other way round.
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const Prox part = f_.prox(W.multiply(z), inverse(W));
+    if (part.x.size() == 0) return part;
+    Prox whole = moved(part, part.v, part.x, part.error_bound, z, W);
+    whole.method = "Moreau's identity, " + part.method;
+    return whole;
+  }
+
+ private:
+  Function f_;
+};
+
+}  // namespace
+
+std::optional<Function> primal_of(const Function& h) {
+  if (const auto* node = dynamic_cast<const ComputedConjugate*>(&h.node())) return node->conjugate();
+  return std::nullopt;
+}
+
+Function computed_conjugate(const Function& f) {
+  if (const auto primal = primal_of(f)) return *primal;
+  return Function(std::make_shared<ComputedConjugate>(f));
+}
+
+}  // namespace convex

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/linear_quadratic.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+class Distance : public Operation {
+ public:
+  Distance(Set set, double weight) : set_(std::move(set)), weight_(weight) {}
+
+  Index dimension() const override { return set_.indicator.dimension(); }
+  void require_size(Index n) const override { set_.indicator.node().require_size(n); }
+  Facts facts() const override {
+    return {.support = set_.indicator.facts().cone,
+            .separable = dimension() == 1,
+            .piecewise_quadratic = dimension() == 1 && set_.indicator.facts().piecewise_quadratic,
+            .finite = true};
+  }
+  Call call() const override { return {"distance", {argument(set_.call), argument("weight", weight_)}}; }
+  double value(const Vector& x) const override { return weight_ * (x - nearest(x).x).norm(); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return slope(x - nearest(x).x, x); }
+  /// The norm and the set convolve: the conjugate is the support function of the set on the dual ball.
+  Function conjugate() const override {
+    const Function terms[] = {set_.indicator.conjugate(), ball()};
+    return proper_sum(terms);
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    if (!facts().piecewise_quadratic) return std::nullopt;
+    return inf_convolution(named("norm1", {argument("weight", weight_)}, n), set_.indicator)
+        .node()
+        .linear_quadratic(n);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto norm = named("norm2", {argument("weight", weight_)}, n).node().graph(n);
+    const auto set = set_.indicator.node().graph(n);
+    if (!norm || !set) return std::nullopt;
+    return convex::inf_convolution(*set, *norm);
+  }
+
+ protected:
+  /// In the metric k I the point goes weight/k towards the set, and stops there (Beck 2017, Lemma 6.43).
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const bool diagonal = W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+    const double k = W.diagonal()[0];
+    if (!diagonal || !(W.diagonal().array() == k).all()) return std::nullopt;
+    const Prox part = nearest(z);
+    if (part.x.size() == 0) return part;
+    const Vector away = z - part.x;
+    const double reach = weight_ / k, length = away.norm();
+    if (length <= reach) return moved(part, part.x, k * away, std::sqrt(k) * part.error_bound, z, W);
+    const Vector v = (weight_ / length) * away;
+    return moved(part, z - v / k, v, std::sqrt(k) * part.error_bound, z, W);
+  }
+
+ private:
+  Prox nearest(const Vector& x) const { return set_.indicator.prox(x, Metric::identity(x.size())); }
+  /// weight times the unit vector away from the set, 0 when the distance is rounding.
+  Vector slope(const Vector& away, const Vector& x) const {
+    const double length = away.norm();
+    if (!(length > membership_tolerance * x.norm())) return Vector::Zero(x.size());
+    return (weight_ / length) * away;
+  }
+  Function ball() const {
+    const Call set{"ball2", {argument("radius", weight_)}};
+    return named("indicator", {argument(set)}, std::max<Index>(dimension(), 1));
+  }
+
+  Set set_;
+  double weight_;
+};
+
+}  // namespace
+
+Function distance(const Set& set, double weight) {
+  require_positive(weight, "distance", "weight");
+  return Function(std::make_shared<Distance>(set, weight));
+}
+
+}  // namespace convex

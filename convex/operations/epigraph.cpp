@@ -1,0 +1,165 @@
+#include <cmath>
+#include <limits>
+
+#include "convex/composite/composite_prox.hpp"
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/linear_quadratic.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+/// The epigraph of a function and its perspective: each other's conjugates, through f* and a change of sign.
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// (v, r) -> h(v, -r) on n + 1 entries.
+Function with_last_reversed(const Function& h, Index n) {
+  Vector signs = Vector::Ones(n + 1);
+  signs[n] = -1;
+  return precompose(h, signs.asDiagonal(), Vector::Zero(n + 1));
+}
+
+/// Rows of f's program in (x, s, w): G (x, w) >= h s. The last entry of x is s, or t for the epigraph.
+LinearQuadratic lifted(const LinearQuadratic& f, bool perspective) {
+  const Index n = f.n, k = f.auxiliaries();
+  Assembly form(n + 1, k);
+  const auto place = [&](Index j) { return j < n ? j : j + 1; };
+  std::vector<bool> equation(static_cast<std::size_t>(f.rows()), false);
+  for (Index a : f.two_sided) equation[static_cast<std::size_t>(a)] = true;
+  for (Index a = 0; a < f.rows(); ++a) {
+    const double bound = perspective ? 0 : f.h[a];
+    equation[static_cast<std::size_t>(a)] ? form.equation(bound) : form.row(bound);
+    for (SparseRows::InnerIterator entry(f.G, a); entry; ++entry)
+      form.entry(place(entry.col()), entry.value());
+    if (perspective && f.h[a] != 0) form.entry(n, -f.h[a]);
+  }
+  if (perspective) {  // c·(x, w) + constant s, s >= 0
+    for (Index j = 0; j < f.variables(); ++j) form.cost(place(j), f.c[j]);
+    form.cost(n, f.constant);
+    form.row(0);
+    form.entry(n, 1);
+  } else {  // t - c·(x, w) >= constant
+    form.row(f.constant);
+    for (Index j = 0; j < f.variables(); ++j)
+      if (f.c[j] != 0) form.entry(place(j), -f.c[j]);
+    form.entry(n, 1);
+  }
+  return form.finish();
+}
+
+/// The part common to both: a function of (x, s) made of f.
+class Lifted : public Operation {
+ public:
+  explicit Lifted(Function f) : f_(std::move(f)) {
+    const Index n = f_.dimension();
+    const auto form = f_.node().linear_quadratic(n == 0 ? 2 : n);
+    polyhedral_ = form && form->polyhedral();
+  }
+  Index dimension() const override { return f_.dimension() == 0 ? 0 : f_.dimension() + 1; }
+  void require_size(Index n) const override {
+    if (n < 2) throw InvalidInput(call().name + ": one entry; give one more than the function takes");
+    f_.node().require_size(n - 1);
+  }
+
+ protected:
+  std::optional<LinearQuadratic> lifted_program(Index n, bool perspective) const {
+    if (!polyhedral_) return std::nullopt;
+    return lifted(*f_.node().linear_quadratic(n - 1), perspective);
+  }
+  std::optional<GraphForm> part_graph(Index n) const { return f_.node().graph(n - 1); }
+  const Function f_;
+  bool polyhedral_ = false;
+};
+
+class Epigraph : public Lifted {
+ public:
+  using Lifted::Lifted;
+  Facts facts() const override {
+    const Facts f = f_.facts();
+    return {.indicator = true,
+            .cone = f.support || f.cone,
+            .support = f.support || f.cone,
+            .piecewise_quadratic = polyhedral_};
+  }
+  Call call() const override { return {"indicator", {argument(Call{"epigraph", {argument(f_.call())}})}}; }
+  double value(const Vector& x) const override {
+    const Index n = x.size() - 1;
+    const double height = value_near(f_, x.head(n), x.norm());
+    const double scale = std::abs(height) + x.norm();
+    if (height == infinity) return infinity;
+    if (height - x[n] <= membership_tolerance * scale) return 0;
+    // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
+    const Prox nearest = prox(x, Metric::identity(x.size()));
+    return nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm()
+               ? 0
+               : infinity;
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (value(x) > 0) return std::nullopt;
+    return Vector::Zero(x.size());
+  }
+  /// sup v·x + r t over t >= f(x) is the perspective of f* at (v, -r).
+  Function conjugate() const override {
+    if (f_.dimension() == 0) return computed_conjugate(self());
+    return with_last_reversed(perspective(f_.conjugate()), f_.dimension());
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, false); }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = part_graph(n);
+    if (!form) return std::nullopt;
+    return convex::epigraph(*form);
+  }
+};
+
+class Perspective : public Lifted {
+ public:
+  using Lifted::Lifted;
+  Facts facts() const override {
+    const Facts f = f_.facts();
+    return {.indicator = f.cone, .cone = f.cone, .support = true, .piecewise_quadratic = polyhedral_};
+  }
+  Call call() const override { return {"perspective", {argument(f_.call())}}; }
+  double value(const Vector& x) const override {
+    const Index n = x.size() - 1;
+    const double s = x[n];
+    const double size = x.norm();
+    if (s < -membership_tolerance * size) return infinity;
+    if (s > membership_tolerance * membership_tolerance * size) {
+      const double inside = s * value_near(f_, x.head(n) / s, size / s);
+      if (std::isfinite(inside)) return inside;
+      if (s > membership_tolerance * size) return inside;
+    }
+    Vector closed = x;
+    closed[n] = 0;
+    return Operation::value(closed);
+  }
+  Function conjugate() const override {
+    if (f_.dimension() == 0) return computed_conjugate(self());
+    return with_last_reversed(epigraph(f_.conjugate()), f_.dimension());
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, true); }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = part_graph(n);
+    if (!form) return std::nullopt;
+    return convex::perspective(*form);
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const Index n = x.size() - 1;
+    if (!(x[n] > 0)) return Operation::subgradient(x);
+    const Vector inside = x.head(n) / x[n];
+    const std::optional<Vector> v = f_.subgradient(inside);
+    if (!v) return std::nullopt;
+    Vector whole(n + 1);
+    whole << *v, f_(inside) - v->dot(inside);
+    return whole;
+  }
+};
+
+}  // namespace
+
+Function perspective(const Function& f) { return Function(std::make_shared<Perspective>(f)); }
+
+Function epigraph(const Function& f) { return Function(std::make_shared<Epigraph>(f)); }
+
+}  // namespace convex

@@ -1,0 +1,114 @@
+#include <cmath>
+#include <limits>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+#include "convex/operations/quadratic_term.hpp"
+
+namespace convex {
+namespace {
+
+class InfConvolution : public Operation {
+ public:
+  InfConvolution(Function f, Function g)
+      : f_(std::move(f)), g_(std::move(g)), n_(common_dimension(std::vector{f_, g_}, "inf_convolution")) {}
+
+  Index dimension() const override { return n_; }
+  void require_size(Index n) const override {
+    f_.node().require_size(n);
+    g_.node().require_size(n);
+  }
+  Facts facts() const override {
+    const Facts f = f_.facts(), g = g_.facts();
+    return {.indicator = f.indicator && g.indicator,
+            .cone = f.cone && g.cone,
+            .support = f.support && g.support,
+            .separable = f.separable && g.separable,
+            .piecewise_quadratic = f.piecewise_quadratic && g.piecewise_quadratic,
+            .finite = f.finite || g.finite};
+  }
+  Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
+  double value(const Vector& x) const override {
+    if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
+    return Operation::value(x);
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).v;
+    return Operation::subgradient(x);
+  }
+  Function conjugate() const override {
+    const Function terms[] = {f_.conjugate(), g_.conjugate()};
+    return proper_sum(terms);
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto forms = programs(std::vector{f_, g_}, n);
+    if (!forms) return std::nullopt;
+    return linear_quadratic::inf_convolution((*forms)[0], (*forms)[1]);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto f = f_.node().graph(n), g = g_.node().graph(n);
+    if (!f || !g) return std::nullopt;
+    return convex::inf_convolution(*f, *g);
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const bool diagonal = W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+    if (facts().piecewise_quadratic && !diagonal) return std::nullopt;
+    if (const auto split = smoothing(z.size())) return smoothed_prox(split->first, split->second, z, W);
+    return std::nullopt;
+  }
+
+ private:
+  /// The other function and the kernel, when one of the two is a definite quadratic.
+  std::optional<std::pair<Function, Kernel>> smoothing(Index n) const {
+    for (const auto& [f, g] : {std::pair{f_, g_}, std::pair{g_, f_}})
+      if (const auto q = quadratic_term(g, n))
+        if (auto kernel = kernel_of(*q)) return std::pair{f, *std::move(kernel)};
+    return std::nullopt;
+  }
+
+  Function f_, g_;
+  Index n_;
+};
+
+/// f □ (c·x + d) = c·x + d - f*(c), when g is affine.
+std::optional<Function> with_affine(const Function& f, const Function& g, Index n) {
+  const auto q = quadratic_term(g, n);
+  const std::optional<double> mu = q ? multiple_of_identity(q->Q) : std::nullopt;
+  if (!mu || *mu != 0) return std::nullopt;
+  const double conjugate = f.conjugate()(q->c);
+  if (!std::isfinite(conjugate))
+    throw InvalidInput(
+        "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common "
+        "point");
+  return function_of({q->Q, q->c, q->constant - conjugate});
+}
+
+}  // namespace
+
+Function proper_inf_convolution(const Function& f, const Function& g) {
+  return Function(std::make_shared<InfConvolution>(f, g));
+}
+
+Function inf_convolution(const Function& f, const Function& g, Index n) {
+  const Function parts[] = {f, g};
+  if (const Index own = common_dimension(parts, "inf_convolution"); own != 0) n = own;
+  if (n != 0) {
+    if (auto affine = with_affine(f, g, n)) return *affine;
+    if (auto affine = with_affine(g, f, n)) return *affine;
+    const Function conjugates[] = {f.conjugate(), g.conjugate()};
+    if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
+        require_proper(proper_sum(conjugates), n, "inf_convolution");
+      } catch (const InvalidInput&) {
+        throw InvalidInput(
+            "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common "
+            "point");
+      }
+  }
+  return proper_inf_convolution(f, g);
+}
+
+}  // namespace convex

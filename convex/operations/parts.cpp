@@ -1,0 +1,51 @@
+#include "convex/operations/parts.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "convex/functions/node.hpp"
+
+namespace convex {
+
+std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> parts, Index n) {
+  std::vector<LinearQuadratic> forms;
+  if (!all_of(parts, &Facts::piecewise_quadratic)) return std::nullopt;
+  for (const Function& f : parts) {
+    auto form = f.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    forms.push_back(*std::move(form));
+  }
+  return forms;
+}
+
+std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n) {
+  std::vector<GraphForm> forms;
+  for (const Function& f : parts) {
+    auto form = f.node().graph(n);
+    if (!form) return std::nullopt;
+    forms.push_back(*std::move(form));
+  }
+  return forms;
+}
+
+bool all_of(std::span<const Function> parts, bool Facts::*fact) {
+  return std::all_of(parts.begin(), parts.end(), [&](const Function& f) { return f.facts().*fact; });
+}
+
+Index common_dimension(std::span<const Function> parts, const char* where) {
+  Index n = 0;
+  for (const Function& f : parts) {
+    const Index own = f.dimension();
+    if (own != 0 && n != 0 && own != n)
+      throw InvalidInput(std::string(where) + ": its functions take " + std::to_string(n) + " and " +
+                         std::to_string(own) + " entries; give functions of one size");
+    if (own != 0) n = own;
+  }
+  return n;
+}
+
+bool domains_may_miss(std::span<const Function> parts) {
+  return std::count_if(parts.begin(), parts.end(), [](const Function& f) { return !f.facts().finite; }) > 1;
+}
+
+}  // namespace convex

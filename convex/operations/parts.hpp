@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "convex/composite/graph_form.hpp"
+#include "convex/functions/function.hpp"
+#include "convex/linear_quadratic/linear_quadratic.hpp"
+
+/// The parts of an operation, all together.
+namespace convex {
+
+/// The parts on n entries as programs, when all are.
+std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> parts, Index n);
+
+/// The parts on n entries as graph forms, when all are.
+std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n);
+
+/// Does the fact hold for all parts?
+bool all_of(std::span<const Function> parts, bool Facts::*fact);
+
+/// The one number of entries that all of these take, 0 when any will do. Throws InvalidInput "where: …".
+Index common_dimension(std::span<const Function> parts, const char* where);
+
+/// Is some part not finite, and another one too? Then their domains need not meet.
+bool domains_may_miss(std::span<const Function> parts);
+
+}  // namespace convex

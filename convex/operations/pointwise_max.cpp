@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+/// The maximum of piecewise linear-quadratic functions, when it is one: all with the same quadratic part.
+std::optional<LinearQuadratic> program(const std::vector<Function>& parts, Index n) {
+  const auto forms = programs(parts, n);
+  if (!forms) return std::nullopt;
+  try {
+    return linear_quadratic::pointwise_max(*forms);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+class PointwiseMax : public Operation {
+ public:
+  explicit PointwiseMax(std::vector<Function> parts)
+      : parts_(std::move(parts)), n_(common_dimension(parts_, "pointwise_max")) {
+    // For functions of any number of entries two of them show whether the quadratic parts agree.
+    piecewise_ = program(parts_, n_ == 0 ? 2 : n_).has_value();
+  }
+
+  Index dimension() const override { return n_; }
+  void require_size(Index n) const override {
+    for (const Function& f : parts_) f.node().require_size(n);
+  }
+  Facts facts() const override {
+    const auto all = [&](bool Facts::*fact) { return all_of(parts_, fact); };
+    return {.indicator = all(&Facts::indicator),
+            .cone = all(&Facts::cone),
+            .support = all(&Facts::support),
+            .piecewise_quadratic = piecewise_,
+            .finite = all(&Facts::finite)};
+  }
+  Call call() const override {
+    Call made{"pointwise_max", {}, {}};
+    for (const Function& f : parts_) made.arguments.push_back(argument(f.call()));
+    return made;
+  }
+  double value(const Vector& x) const override {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const Function& f : parts_) largest = std::max(largest, f(x));
+    return largest;
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const double largest = value(x);
+    if (!std::isfinite(largest)) return std::nullopt;
+    for (const Function& f : parts_)
+      if (f(x) == largest)
+        if (std::optional<Vector> v = f.subgradient(x)) return v;
+    return std::nullopt;
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    if (!piecewise_) return std::nullopt;
+    return program(parts_, n);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto forms = graphs(parts_, n);
+    if (!forms) return std::nullopt;
+    return convex::pointwise_max(*forms);
+  }
+
+ private:
+  std::vector<Function> parts_;
+  Index n_;
+  bool piecewise_ = false;
+};
+
+}  // namespace
+
+Function pointwise_max(std::span<const Function> parts, Index n) {
+  if (parts.empty()) throw InvalidInput("pointwise_max: no functions; give at least one");
+  if (parts.size() == 1) return parts[0];
+  if (const Index own = common_dimension(parts, "pointwise_max"); own != 0) n = own;
+  if (n != 0 && domains_may_miss(parts)) require_proper(proper_sum(parts), n, "pointwise_max");
+  return Function(std::make_shared<PointwiseMax>(std::vector<Function>(parts.begin(), parts.end())));
+}
+
+}  // namespace convex

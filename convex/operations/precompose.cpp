@@ -1,0 +1,200 @@
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <cmath>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+bool is_diagonal_kind(const Metric& W) {
+  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+}
+
+/// x -> f(Ax + b).
+class Precompose : public Operation {
+ public:
+  Precompose(Function f, Matrix A, Vector b) : f_(std::move(f)), A_(std::move(A)), b_(std::move(b)) {}
+  const Function& part() const { return f_; }
+  const Matrix& A() const { return A_; }
+  const Vector& b() const { return b_; }
+
+  Index dimension() const override { return A_.cols(); }
+  Facts facts() const override {
+    const Facts f = f_.facts();
+    const bool linear = b_.isZero(0);
+    return {.indicator = f.indicator,
+            .cone = f.cone && linear,
+            .support = f.support && linear,
+            .piecewise_quadratic = f.piecewise_quadratic,
+            .smooth = f.smooth,
+            .finite = f.finite};
+  }
+  Call call() const override {
+    Call made{"precompose", {argument(f_.call()), argument("A", A_)}, {}};
+    made.arguments.push_back(argument("b", b_));
+    return made;
+  }
+  double value(const Vector& x) const override {
+    return value_near(f_, A_ * x + b_, (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const std::optional<Vector> v = f_.subgradient(A_ * x + b_);
+    if (!v) return std::nullopt;
+    return A_.transpose() * *v;
+  }
+  Function conjugate() const override;
+  std::optional<LinearQuadratic> linear_quadratic(Index) const override {
+    const auto form = f_.node().linear_quadratic(A_.rows());
+    if (!form) return std::nullopt;
+    return linear_quadratic::precompose(*form, A_.sparseView(), b_);
+  }
+  std::optional<GraphForm> graph(Index) const override {
+    const auto form = f_.node().graph(A_.rows());
+    if (!form) return std::nullopt;
+    return convex::precompose(*form, A_.sparseView(), b_);
+  }
+
+ protected:
+  /// ½||x - z||_W² is least over Ax + b = u at x = z + W⁻¹Aᵀ S (u - Az - b), S = (A W⁻¹Aᵀ)⁻¹, where it is
+  /// ½||u - Az - b||_S²; and S(Az + b - u) is the covector of f at u.
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const auto image = image_metric(W, A_);
+    if (!image) return std::nullopt;
+    if (f_.facts().piecewise_quadratic && !is_diagonal_kind(image->metric)) return std::nullopt;
+    const Metric& S = image->metric;
+    const Prox part = f_.prox(A_ * z + b_, S);
+    if (part.x.size() == 0) return part;
+    Vector x = z - image->lift * part.v;
+    // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.
+    for (int pass = 0; pass < 2; ++pass) x += image->lift * S.multiply(part.x - A_ * x - b_);
+    Prox whole = moved(part, x, A_.transpose() * part.v, part.error_bound, z, W);
+    whole.method += is_diagonal_kind(S) ? " after a semi-orthogonal map" : " in the metric of an image";
+    return whole;
+  }
+
+ private:
+  Function f_;
+  Matrix A_;
+  Vector b_;
+};
+
+/// (f(A· + b))*(v) = min {f*(w) - b·w : Aᵀw = v} (Rockafellar 1970, Theorem 16.3); with independent rows w =
+/// (A Aᵀ)⁻¹Av alone can do, for the v in the range of Aᵀ.
+Function Precompose::conjugate() const {
+  const Index m = A_.rows(), n = A_.cols();
+  const auto image = image_metric(Metric::identity(n), A_);
+  if (!image) return computed_conjugate(self());
+  Function g = f_.conjugate();
+  if (!b_.isZero(0)) g = tilt(g, -b_);
+  Matrix back(m, n);
+  if (m == n) {
+    back = Eigen::PartialPivLU<Matrix>(A_.transpose()).inverse();
+    return precompose(g, back, Vector::Zero(m));
+  }
+  if (is_diagonal_kind(image->metric))
+    back = image->metric.diagonal().asDiagonal() * A_;
+  else
+    back = Eigen::HouseholderQR<Matrix>(A_.transpose()).solve(Matrix::Identity(n, n));
+  const Matrix orthogonal =
+      Eigen::HouseholderQR<Matrix>(A_.transpose()).householderQ() * Matrix::Identity(n, n);
+  const Matrix outside = orthogonal.rightCols(n - m).transpose();
+  const Function in_range =
+      named("affine", {argument("A", outside), argument("b", Vector::Zero(n - m).eval())}, n);
+  const Function terms[] = {precompose(g, back, Vector::Zero(m)), in_range};
+  return proper_sum(terms);
+}
+
+/// x -> h(Mx), M definite: one to one, and metrics stay what they are.
+class InProduct : public Operation {
+ public:
+  InProduct(Function h, Metric M) : h_(std::move(h)), M_(std::move(M)) {}
+
+  Index dimension() const override { return M_.dimension(); }
+  Facts facts() const override {
+    Facts facts = h_.facts();
+    facts.separable = facts.separable && is_diagonal_kind(M_);
+    return facts;
+  }
+  Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
+  double value(const Vector& x) const override {
+    return value_near(h_, M_.multiply(x), (gram(M_).cwiseAbs() * x.cwiseAbs()).norm());
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const std::optional<Vector> v = h_.subgradient(M_.multiply(x));
+    if (!v) return std::nullopt;
+    return M_.multiply(*v);
+  }
+  Function conjugate() const override { return in_product(h_.conjugate(), inverse(M_)); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = h_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = h_.node().graph(n);
+    if (!form) return std::nullopt;
+    return convex::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
+  }
+
+ protected:
+  /// With u = Mx the metric is M⁻¹WM⁻¹, the inverse of M W⁻¹M.
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const Metric C = congruence(M_, W);
+    if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C
+      const auto factor = ratio(M_, W);
+      const Vector force = factor ? Vector(z / *factor) : M_.solve(W.multiply(z));
+      Prox part = f->prox(force, C);
+      if (part.x.size() == 0) return part;
+      part.method = "Moreau's identity, " + part.method;
+      return moved(part, M_.solve(part.v), M_.multiply(part.x), part.error_bound, z, W);
+    }
+    const Metric S = inverse(C);
+    if (facts().piecewise_quadratic && !is_diagonal_kind(S)) return std::nullopt;
+    const Prox part = h_.prox(M_.multiply(z), S);
+    if (part.x.size() == 0) return part;
+    return moved(part, M_.solve(part.x), M_.multiply(part.v), part.error_bound, z, W);
+  }
+
+ private:
+  Function h_;
+  Metric M_;
+};
+
+}  // namespace
+
+Function precompose(const Function& f, const Matrix& A, const Vector& b) {
+  const auto refuse = [](const std::string& what) { throw InvalidInput("precompose" + what); };
+  if (A.rows() == 0 || A.cols() == 0) refuse("(A): no entries; give at least one row and column");
+  if (!A.allFinite()) refuse("(A): an entry is not finite; give finite numbers");
+  if (f.dimension() != 0 && A.rows() != f.dimension())
+    refuse("(A): " + std::to_string(A.rows()) + " rows, the function takes " + std::to_string(f.dimension()) +
+           " entries; give as many");
+  f.node().require_size(A.rows());
+  if (b.size() != A.rows())
+    refuse("(b): " + std::to_string(b.size()) + " entries, A has " + std::to_string(A.rows()) +
+           " rows; give as many");
+  if (!b.allFinite()) refuse("(b): an entry is not finite; give finite numbers");
+  if (const auto* inner = dynamic_cast<const Precompose*>(&f.node()))
+    return precompose(inner->part(), inner->A() * A, inner->A() * b + inner->b());
+  const Index n = A.cols();
+  if (A.rows() == n && A.isIdentity(0) && f.dimension() != 0) return b.isZero(0) ? f : translate(f, -b);
+  const Function made(std::make_shared<Precompose>(f, A, b));
+  if (!f.facts().finite && !image_metric(Metric::identity(n), A)) require_proper(made, n, "precompose");
+  return made;
+}
+
+Function in_product(const Function& h, const Metric& M) {
+  if (h.dimension() != 0 && h.dimension() != M.dimension())
+    throw InvalidInput("conjugate: the metric has " + std::to_string(M.dimension()) +
+                       " rows, the function takes " + std::to_string(h.dimension()) +
+                       " entries; give one of the other's size");
+  if (M.kind() == MetricKind::identity) return h;
+  return Function(std::make_shared<InProduct>(h, M));
+}
+
+}  // namespace convex

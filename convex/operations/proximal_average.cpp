@@ -1,0 +1,118 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "convex/composite/composite_prox.hpp"
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+class ProximalAverage : public Operation {
+ public:
+  ProximalAverage(Function f, Function g, double t, double gamma, std::optional<Metric> M)
+      : f_(std::move(f)), g_(std::move(g)), t_(t), gamma_(gamma), M_(std::move(M)) {
+    n_ = M_ ? M_->dimension() : common_dimension(std::vector{f_, g_}, "proximal_average");
+  }
+
+  Index dimension() const override { return n_; }
+  void require_size(Index n) const override {
+    f_.node().require_size(n);
+    g_.node().require_size(n);
+  }
+  Facts facts() const override {
+    const Facts f = f_.facts(), g = g_.facts();
+    return {.separable = f.separable && g.separable && !M_,
+            .piecewise_quadratic = f.piecewise_quadratic && g.piecewise_quadratic,
+            .smooth = f.finite && g.finite && (f.smooth || g.smooth),
+            .finite = f.finite && g.finite};
+  }
+  /// In the plain product whatever that of the space, by x = F⁻ᵀ(Fᵀx), M = F Fᵀ: nested in `precompose` it is
+  /// plain.
+  Call call() const override {
+    if (!M_)
+      return {"proximal_average",
+              {argument(f_.call()), argument(g_.call()), argument("weight", t_), argument("gamma", gamma_)}};
+    const Matrix F = gram(*M_).llt().matrixL();
+    const Matrix back = F.transpose().triangularView<Eigen::Upper>().solve(Matrix::Identity(n_, n_));
+    const auto inside = [&](const Function& f) {
+      return Call{"precompose", {argument(f.call()), argument("A", back)}};
+    };
+    const Call average{
+        "proximal_average",
+        {argument(inside(f_)), argument(inside(g_)), argument("weight", t_), argument("gamma", gamma_)}};
+    return {"precompose", {argument(average), argument("A", Matrix(F.transpose()))}};
+  }
+  Function conjugate() const override {
+    if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);
+    return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_, inverse(*M_));
+  }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto forms = programs(std::vector{f_, g_}, n);
+    if (!forms) return std::nullopt;
+    return linear_quadratic::proximal_average((*forms)[0], (*forms)[1], t_, gamma_, product(n));
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto f = f_.node().graph(n), g = g_.node().graph(n);
+    if (!f || !g) return std::nullopt;
+    return convex::proximal_average(*f, *g, t_, gamma_, product(n));
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    // gamma W = factor M, factor 1: the prox of the average is the average of the proxes.
+    const auto factor = ratio(W, product(z.size()));
+    const double distance = factor ? std::abs(*factor * gamma_ - 1) : 1;
+    if (!(distance <= equal_steps)) return std::nullopt;
+    const Prox p = f_.prox(z, W), q = g_.prox(z, W);
+    if (p.x.size() == 0) return p;
+    if (q.x.size() == 0) return q;
+    Prox part = p;
+    part.route = std::max(p.route, q.route);
+    if (p.status == Status::solved) part.status = q.status;
+    if (p.method != q.method) part.method += ", " + q.method;
+    part.method = "mean of proxes, " + part.method;
+    return moved(part, t_ * p.x + (1 - t_) * q.x, t_ * p.v + (1 - t_) * q.v,
+                 t_ * p.error_bound + (1 - t_) * q.error_bound, z, W);
+  }
+
+ private:
+  /// The metrics W and M/gamma are one when they differ by the rounding of 1/gamma.
+  static constexpr double equal_steps = 4 * unit_roundoff;
+  Metric product(Index n) const { return M_ ? *M_ : Metric::identity(n); }
+
+  Function f_, g_;
+  double t_, gamma_;
+  std::optional<Metric> M_;  // none: the plain one
+  Index n_ = 0;
+};
+
+Function average(const Function& f, const Function& g, double t, double gamma, std::optional<Metric> M) {
+  if (!(t > 0 && t < 1))
+    throw InvalidInput("proximal_average(weight): not between 0 and 1; give a weight inside (0, 1)");
+  require_positive(gamma, "proximal_average", "gamma");
+  for (const Function& part : {f, g})
+    if (M && part.dimension() != 0 && part.dimension() != M->dimension())
+      throw InvalidInput("proximal_average: a function takes " + std::to_string(part.dimension()) +
+                         " entries, the metric has " + std::to_string(M->dimension()) +
+                         " rows; give one of the other's size");
+  return Function(std::make_shared<ProximalAverage>(f, g, t, gamma, std::move(M)));
+}
+
+}  // namespace
+
+Function proximal_average(const Function& f, const Function& g, double t, double gamma) {
+  return average(f, g, t, gamma, std::nullopt);
+}
+
+Function proximal_average(const Function& f, const Function& g, double t, double gamma, const Metric& M) {
+  if (M.kind() == MetricKind::identity) return average(f, g, t, gamma, std::nullopt);
+  return average(f, g, t, gamma, M);
+}
+
+}  // namespace convex

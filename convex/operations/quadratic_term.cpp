@@ -1,0 +1,80 @@
+#include "convex/operations/quadratic_term.hpp"
+
+#include <cmath>
+
+#include "convex/invalid_input.hpp"
+#include "convex/linear_quadratic/linear_quadratic.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+
+namespace convex {
+namespace {
+
+/// A matrix with more than one entry in so many is stored in full.
+constexpr Index dense_above = 4;
+
+}  // namespace
+
+std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n) {
+  const Facts facts = f.facts();
+  if (!facts.smooth || !facts.finite || !facts.piecewise_quadratic) return std::nullopt;
+  const auto form = f.node().linear_quadratic(n);
+  if (!form || form->auxiliaries() != 0 || form->rows() != 0) return std::nullopt;
+  return QuadraticTerm{form->H, form->c, form->constant};
+}
+
+std::optional<double> multiple_of_identity(const SparseMatrix& Q) {
+  const double mu = Q.rows() == 0 ? 0 : Q.coeff(0, 0);
+  Index on_diagonal = 0;
+  for (Index j = 0; j < Q.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator entry(Q, j); entry; ++entry) {
+      if (entry.row() != j && entry.value() != 0) return std::nullopt;
+      if (entry.row() != j) continue;
+      if (entry.value() != mu) return std::nullopt;
+      ++on_diagonal;
+    }
+  if (mu != 0 && on_diagonal != Q.rows()) return std::nullopt;
+  return mu;
+}
+
+Function function_of(const QuadraticTerm& q) {
+  const Index n = q.c.size();
+  const auto mu = multiple_of_identity(q.Q);
+  const auto linear = [&] { return named("linear", {argument("c", q.c)}, n); };
+  if (mu && *mu == 0) return raised(linear(), q.constant);
+  if (mu && q.c.isZero(0)) return raised(named("squared_norm2", {argument("weight", *mu)}, n), q.constant);
+  const Function f = named("quadratic", {argument("Q", Matrix(q.Q)), argument("c", q.c)}, n);
+  return raised(f, q.constant);
+}
+
+std::optional<Kernel> kernel_of(const QuadraticTerm& q) {
+  try {
+    const bool full = q.Q.nonZeros() > q.Q.size() / dense_above;
+    return Kernel{full && q.Q.rows() > 1 ? Metric::dense(Matrix(q.Q)) : Metric::sparse(q.Q), q.c, q.constant};
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
+  const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q);
+  if (part.x.size() != x.size())
+    throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
+  const Vector b = x - part.x;
+  const Vector force = q.Q.multiply(b);
+  return {part.x, force + q.c, f(part.x) + 0.5 * b.dot(force) + q.c.dot(b) + q.constant};
+}
+
+Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {
+  const Metric P = parallel_sum(W, q.Q);
+  const Prox part = f.prox(q.c.isZero(0) ? z : Vector(z + q.Q.solve(q.c)), P);
+  if (part.x.size() == 0) return part;
+  const Vector& a = part.x;
+  const Vector b = plus(W, q.Q).solve(W.multiply(z - a) - q.c);
+  // An error of a in the parallel sum is one of a + b in W at most as large: b follows a as its best answer.
+  Prox whole = moved(part, a + b, part.v, part.error_bound, z, W);
+  whole.method += " in the parallel sum of two metrics";
+  return whole;
+}
+
+}  // namespace convex

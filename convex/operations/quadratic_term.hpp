@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/functions/function.hpp"
+
+/// Quadratic functions among the terms of a sum or an inf-convolution, and what they do to the other terms.
+namespace convex {
+
+/// ½ x·Qx + c·x + constant on n entries, Q: n×n symmetric positive semidefinite.
+struct QuadraticTerm {
+  SparseMatrix Q;
+  Vector c;
+  double constant = 0;
+};
+
+/// f on n entries as a quadratic term, when it is one.
+std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n);
+
+/// mu when Q = mu I, mu >= 0.
+std::optional<double> multiple_of_identity(const SparseMatrix& Q);
+
+/// The quadratic term as a function of the catalogue.
+Function function_of(const QuadraticTerm& q);
+
+/// q(b) = ½||b||_Q² + c·b + constant with Q definite: the kernel of a smoothing f □ q.
+struct Kernel {
+  Metric Q;
+  Vector c;
+  double constant = 0;
+};
+
+/// None when Q is not positive definite to working precision.
+std::optional<Kernel> kernel_of(const QuadraticTerm& q);
+
+/// The w that attains (f □ q)(x) = min over w of f(w) + q(x - w), and the subgradient there, which is
+/// Q(x - w) + c.
+struct Smoothed {
+  Vector w;
+  Vector v;
+  double value = 0;
+};
+Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
+
+/// prox^W z of f □ q. With z = a + b + W⁻¹v, v in ∂f(a), v = Qb + c: a is the prox of f at z + Q⁻¹c in the
+/// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c).
+Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W);
+
+}  // namespace convex

@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+/// alpha f(x / rho): one node for both, as each conjugates into the other.
+class Scale : public Operation {
+ public:
+  Scale(Function f, double alpha, double rho) : f_(std::move(f)), alpha_(alpha), rho_(rho) {}
+  const Function& part() const { return f_; }
+  double alpha() const { return alpha_; }
+  double rho() const { return rho_; }
+
+  Index dimension() const override { return f_.dimension(); }
+  void require_size(Index n) const override { f_.node().require_size(n); }
+  Facts facts() const override { return f_.facts(); }
+  Call call() const override {
+    Call made = f_.call();
+    if (rho_ != 1) made = Call{"dilate", {argument(std::move(made)), argument("rho", rho_)}};
+    if (alpha_ != 1) made = Call{"scale", {argument(std::move(made)), argument("alpha", alpha_)}};
+    return made;
+  }
+  double value(const Vector& x) const override { return alpha_ * f_(x / rho_); }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    std::optional<Vector> v = f_.subgradient(x / rho_);
+    if (v) *v *= alpha_ / rho_;
+    return v;
+  }
+  /// (alpha f(·/rho))* = alpha f*(· rho/alpha).
+  Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = f_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::scale(linear_quadratic::dilate(*form, rho_), alpha_);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = f_.node().graph(n);
+    if (!form) return std::nullopt;
+    SparseMatrix shrink(n, n);
+    shrink.setIdentity();
+    return convex::scale(convex::precompose(*form, shrink / rho_, Vector::Zero(n)), alpha_);
+  }
+
+ protected:
+  /// x = rho s: ½||x - z||_W² + alpha f(x/rho) is alpha times ½||s - z/rho||² in rho² W / alpha, plus f(s).
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const Prox part = f_.prox(z / rho_, times(rho_ * rho_ / alpha_, W));
+    if (part.x.size() == 0) return part;
+    Prox whole =
+        moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W);
+    whole.duality_gap *= alpha_;
+    return whole;
+  }
+
+ private:
+  Function f_;
+  double alpha_;
+  double rho_;
+};
+
+Function scaled(const Function& f, double alpha, double rho) {
+  const Facts facts = f.facts();
+  if (facts.indicator) alpha = 1;
+  if (facts.support && rho > 0) {  // positively homogeneous
+    alpha /= rho;
+    rho = 1;
+    if (facts.indicator) alpha = 1;
+  }
+  if (!(alpha > 0) || !std::isfinite(alpha) || !std::isfinite(rho) || rho == 0)
+    throw InvalidInput(
+        "scale: the factors of nested operations leave the range of doubles; give milder ones");
+  if (alpha == 1 && rho == 1) return f;
+  return Function(std::make_shared<Scale>(f, alpha, rho));
+}
+
+}  // namespace
+
+Function scale(const Function& f, double alpha) {
+  require_positive(alpha, "scale", "alpha");
+  if (const auto* inner = dynamic_cast<const Scale*>(&f.node()))
+    return scaled(inner->part(), alpha * inner->alpha(), inner->rho());
+  return scaled(f, alpha, 1);
+}
+
+Function dilate(const Function& f, double rho) {
+  if (rho == 0 || !std::isfinite(rho))
+    throw InvalidInput("dilate(rho): zero or not finite; give a finite number that is not 0");
+  if (const auto* inner = dynamic_cast<const Scale*>(&f.node()))
+    return scaled(inner->part(), inner->alpha(), rho * inner->rho());
+  return scaled(f, 1, rho);
+}
+
+}  // namespace convex

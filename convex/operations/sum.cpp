@@ -1,0 +1,165 @@
+#include "convex/operations/sum.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <typeinfo>
+
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+/// A residual of so many roundings is not worth a second pass.
+constexpr double roundings_left = 16;
+
+bool is_diagonal_kind(const Metric& W) {
+  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+}
+
+}  // namespace
+
+SplitSum split(std::span<const Function> parts, Index n) {
+  SplitSum sorted;
+  for (const Function& f : parts) {
+    const auto q = quadratic_term(f, n);
+    if (!q) {
+      sorted.rest.push_back(f);
+    } else if (!sorted.quadratic) {
+      sorted.quadratic = q;
+    } else {
+      sorted.quadratic->Q += q->Q;
+      sorted.quadratic->c += q->c;
+      sorted.quadratic->constant += q->constant;
+    }
+  }
+  return sorted;
+}
+
+Facts Sum::facts() const {
+  const bool indicators = all_of(parts_, &Facts::indicator);
+  return {.indicator = indicators,
+          .cone = all_of(parts_, &Facts::cone),
+          .support = all_of(parts_, &Facts::support),
+          .separable = all_of(parts_, &Facts::separable),
+          .piecewise_quadratic = all_of(parts_, &Facts::piecewise_quadratic),
+          .smooth = all_of(parts_, &Facts::smooth),
+          .finite = all_of(parts_, &Facts::finite)};
+}
+
+Call Sum::call() const {
+  Call made{"sum", {}, {}};
+  for (const Function& f : parts_) made.arguments.push_back(argument(f.call()));
+  return made;
+}
+
+double Sum::value(const Vector& x) const {
+  double total = 0;
+  for (const Function& f : parts_) total += f(x);
+  return total;
+}
+
+std::optional<Vector> Sum::subgradient(const Vector& x) const {
+  Vector total = Vector::Zero(x.size());
+  for (const Function& f : parts_) {
+    const std::optional<Vector> v = f.subgradient(x);
+    if (!v) return std::nullopt;
+    total += *v;
+  }
+  return total;
+}
+
+std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
+  const auto forms = programs(parts_, n);
+  if (!forms) return std::nullopt;
+  return linear_quadratic::sum(*forms);
+}
+
+std::optional<GraphForm> Sum::graph(Index n) const {
+  const auto forms = graphs(parts_, n);
+  if (!forms) return std::nullopt;
+  return convex::sum(*forms);
+}
+
+std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
+  const SplitSum sorted = split(parts_, z.size());
+  if (!sorted.quadratic) return std::nullopt;
+  const auto& [Q, c, constant] = *sorted.quadratic;
+  const Metric V = plus(W, Q);
+  const Vector y = V.solve(W.multiply(z) - c);
+  if (sorted.rest.empty()) {
+    const auto residual = [&](const Vector& x) -> Vector { return W.multiply(x - z) + Q * x + c; };
+    const Vector x = y - V.solve(residual(y));
+    return moved({.x = x, .v = {}, .method = "linear equations"}, x, Q * x + c, 0, z, W);
+  }
+  // A program takes the quadratic as it is, without a rounded point in a rounded metric.
+  if (facts().piecewise_quadratic && !is_diagonal_kind(V)) return std::nullopt;
+  const Function rest = sorted.rest.size() == 1 ? sorted.rest[0] : proper_sum(sorted.rest);
+  const auto from = [&](const Vector& point) {
+    const Prox part = rest.prox(point, V);
+    if (part.x.size() == 0) return part;
+    return moved(part, part.x, part.v + Q * part.x + c, part.error_bound, z, W);
+  };
+  Prox first = from(y);
+  if (first.x.size() == 0) return first;
+  // What rounding left of 0 = W(x - z) + Qx + c + v shows how far y was off.
+  const Vector residual = W.multiply(first.x - z) + first.v;
+  const double size = W.norm(z) + W.norm(first.x);
+  if (!(W.dual_norm(residual) > roundings_left * unit_roundoff * size)) return first;
+  Prox second = from(y - V.solve(residual));
+  return second.x.size() > 0 && second.error_bound < first.error_bound ? second : first;
+}
+
+Function Sum::conjugate() const {
+  // Quadratic terms of functions on any number of entries are multiples of the unit matrix: two entries show.
+  const Index n = dimension();
+  const SplitSum sorted = split(parts_, n == 0 ? 2 : n);
+  std::vector<Function> rest;
+  for (const Function& f : sorted.rest) rest.push_back(f.conjugate());
+  if (!sorted.quadratic)
+    return std::accumulate(rest.begin() + 1, rest.end(), rest[0], proper_inf_convolution);
+  const QuadraticTerm& q = *sorted.quadratic;
+  const std::optional<double> mu = multiple_of_identity(q.Q);
+  if (n == 0 && (!mu || !q.c.isZero(0))) return Operation::conjugate();
+  if (rest.empty()) {
+    if (n == 0) return computed_conjugate(self());
+    return raised(function_of({q.Q, q.c, 0}).conjugate(), -q.constant);
+  }
+  Function g = std::accumulate(rest.begin() + 1, rest.end(), rest[0], proper_inf_convolution);
+  if (mu && *mu != 0) g = envelope(g, *mu);
+  if (!mu) g = proper_inf_convolution(g, function_of({q.Q, Vector::Zero(n), 0}).conjugate());
+  if (!q.c.isZero(0)) g = translate(g, q.c);
+  return raised(g, -q.constant);
+}
+
+Function proper_sum(std::span<const Function> terms) {
+  std::vector<Function> parts;
+  for (const Function& f : terms) {
+    const auto* inner = dynamic_cast<const Sum*>(&f.node());
+    if (inner && typeid(*inner) == typeid(Sum))
+      parts.insert(parts.end(), inner->parts().begin(), inner->parts().end());
+    else
+      parts.push_back(f);
+  }
+  if (parts.size() == 1) return parts[0];
+  return Function(std::make_shared<Sum>(std::move(parts)));
+}
+
+Function sum(std::span<const Function> terms, Index n) {
+  if (terms.empty()) throw InvalidInput("sum: no functions; give at least one");
+  if (const Index own = common_dimension(terms, "sum"); own != 0) n = own;
+  const Function made = proper_sum(terms);
+  if (n != 0 && domains_may_miss(terms)) require_proper(made, n, "sum");
+  return made;
+}
+
+Function raised(const Function& f, double constant) {
+  if (constant == 0) return f;
+  const Function terms[] = {f,
+                            named("constant", {argument("c", constant)}, std::max<Index>(f.dimension(), 1))};
+  return proper_sum(terms);
+}
+
+}  // namespace convex

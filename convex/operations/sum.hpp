@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/operations/operation.hpp"
+#include "convex/operations/quadratic_term.hpp"
+
+namespace convex {
+
+/// f_1 + f_2 + …, at least one; see `sum` in operations.hpp.
+class Sum : public Operation {
+ public:
+  explicit Sum(std::vector<Function> parts) : parts_(std::move(parts)), n_(common_dimension(parts_, "sum")) {}
+  const std::vector<Function>& parts() const { return parts_; }
+
+  Index dimension() const override { return n_; }
+  void require_size(Index n) const override {
+    for (const Function& f : parts_) f.node().require_size(n);
+  }
+  Facts facts() const override;
+  Call call() const override;
+  double value(const Vector& x) const override;
+  std::optional<Vector> subgradient(const Vector& x) const override;
+  /// f* + … by the parts: quadratic terms smooth, linear ones translate, the rest convolves.
+  Function conjugate() const override;
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override;
+  std::optional<GraphForm> graph(Index n) const override;
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override;
+
+ private:
+  std::vector<Function> parts_;
+  Index n_;
+};
+
+/// The terms on n entries, all quadratic ones in one.
+struct SplitSum {
+  std::optional<QuadraticTerm> quadratic;
+  std::vector<Function> rest;
+};
+SplitSum split(std::span<const Function> parts, Index n);
+
+}  // namespace convex

@@ -1,0 +1,64 @@
+#include "convex/composite/affine_atoms.hpp"
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+class Tilt : public Operation {
+ public:
+  Tilt(Function f, Vector c) : f_(std::move(f)), c_(std::move(c)) {}
+  const Function& part() const { return f_; }
+  const Vector& c() const { return c_; }
+
+  Index dimension() const override { return c_.size(); }
+  Facts facts() const override {
+    Facts facts = f_.facts();
+    facts.indicator = facts.cone = false;
+    return facts;
+  }
+  Call call() const override { return {"tilt", {argument(f_.call()), argument("c", c_)}}; }
+  double value(const Vector& x) const override { return f_(x) + c_.dot(x); }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    std::optional<Vector> v = f_.subgradient(x);
+    if (v) *v += c_;
+    return v;
+  }
+  Function conjugate() const override { return translate(f_.conjugate(), c_); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = f_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::tilt(*form, c_);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = f_.node().graph(n);
+    if (!form) return std::nullopt;
+    const GraphForm forms[] = {*form, graph_of(linear_atom(c_), n)};
+    return convex::sum(forms);
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const Vector shift = W.solve(c_);
+    const Prox part = f_.prox(z - shift, W);
+    if (part.x.size() == 0) return part;
+    return moved(part, part.x, part.v + c_, part.error_bound + unit_roundoff * W.norm(z - shift), z, W);
+  }
+
+ private:
+  Function f_;
+  Vector c_;
+};
+
+}  // namespace
+
+Function tilt(const Function& f, const Vector& c) {
+  require_fit(f, c, "tilt", "c");
+  if (const auto* inner = dynamic_cast<const Tilt*>(&f.node())) return tilt(inner->part(), inner->c() + c);
+  if (c.isZero(0) && f.dimension() != 0) return f;
+  return Function(std::make_shared<Tilt>(f, c));
+}
+
+}  // namespace convex

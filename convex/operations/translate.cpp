@@ -1,0 +1,61 @@
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+class Translate : public Operation {
+ public:
+  Translate(Function f, Vector by) : f_(std::move(f)), by_(std::move(by)) {}
+  const Function& part() const { return f_; }
+  const Vector& by() const { return by_; }
+
+  Index dimension() const override { return by_.size(); }
+  Facts facts() const override {
+    Facts facts = f_.facts();
+    facts.cone = facts.support = false;
+    return facts;
+  }
+  Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
+  double value(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
+  Function conjugate() const override { return tilt(f_.conjugate(), by_); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = f_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::translate(*form, by_);
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = f_.node().graph(n);
+    if (!form) return std::nullopt;
+    SparseMatrix identity(n, n);
+    identity.setIdentity();
+    return convex::precompose(*form, identity, -by_);
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const Prox part = f_.prox(z - by_, W);
+    if (part.x.size() == 0) return part;
+    const double rounding = unit_roundoff * (W.norm(z - by_) + W.norm(part.x + by_));
+    return moved(part, part.x + by_, part.v, part.error_bound + rounding, z, W);
+  }
+
+ private:
+  Function f_;
+  Vector by_;
+};
+
+}  // namespace
+
+Function translate(const Function& f, const Vector& by) {
+  require_fit(f, by, "translate", "by");
+  if (const auto* inner = dynamic_cast<const Translate*>(&f.node()))
+    return translate(inner->part(), inner->by() + by);
+  if (by.isZero(0) && f.dimension() != 0) return f;
+  return Function(std::make_shared<Translate>(f, by));
+}
+
+}  // namespace convex
