@@ -107,7 +107,10 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     // To first order what the miss r costs; with it the sum is a lower bound of the value.
     add(y.dot(r));
     slope += term.M.transpose() * y;
-    const double around = (term.M.cwiseAbs() * whole.cwiseAbs() + term.b.cwiseAbs()).norm();
+    // An argument near 0 carries the rounding of the w that it is the end of.
+    const double argument = (term.M.cwiseAbs() * whole.cwiseAbs() + term.b.cwiseAbs()).norm();
+    const double around =
+        argument + (term.M.nonZeros() > 0 ? term.M.coeffs().abs().maxCoeff() * whole.norm() : 0);
     if (around > 0) outside = std::max(outside, r.norm() / around);
   }
   if (solution.infeasible || outside > membership_tolerance) {
