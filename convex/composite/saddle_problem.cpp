@@ -111,7 +111,7 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
     for (Index c = 0; c < term.M.outerSize(); ++c)
       for (SparseMatrix::InnerIterator entry(term.M, c); entry; ++entry)
         if (entry.value() != 0) entries.emplace_back(problem.m + entry.row(), c, entry.value());
-    SaddleTerm added{term.f.get(), term.scale, problem.m, rows, term.M, term.f->facts().separable};
+    SaddleTerm added{term.f, term.scale, problem.m, rows, term.M, term.f->facts().separable};
     added.M.prune([](Index, Index, double value) { return value != 0; });
     problem.terms.push_back(std::move(added));
     shifts.push_back(&term.b);

@@ -9,7 +9,7 @@ namespace convex {
 
 /// A term scale · f(M ξ + b) of a saddle problem: its rows in the stacked M.
 struct SaddleTerm {
-  const Atom* f = nullptr;
+  std::shared_ptr<const Atom> f;
   double scale = 1;
   Index first = 0, rows = 0;
   SparseMatrix M;

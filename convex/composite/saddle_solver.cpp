@@ -18,9 +18,10 @@ constexpr double first_ridge = 1e-2, smallest_ridge = 1e-10;  ///< of the proxim
 constexpr double rounding_level = 1e-15, near_rounding = 1e-13;
 constexpr Index patience = 4;  ///< outer steps without progress before the end
 /// The domains are apart when they stay this part of the sizes of x and u from each other and Mᵀ makes little
-/// of the separating normal. A support point comes from projecting a point so far out: its truncation, one
-/// over it, and its rounding are both well below `separated`.
-constexpr double separated = 1e-5, separating = 1e-2, far_out = 1e7, stiff = 0x1p120;
+/// of the separating normal. A support point comes from projecting a point far out: its truncation, one over
+/// the distance, and its rounding are both well below `separated`; a point nearby shows the functions whose
+/// domain has no end but which overflow.
+constexpr double separated = 1e-5, separating = 1e-2, nearby = 4, far_out = 1e7, stiff = 0x1p120;
 /// D is enlarged when multipliers exceed it by this factor.
 constexpr double unbalanced = 16;
 
@@ -31,13 +32,17 @@ bool separates(const SaddleProblem& problem, const MultiplierStep& step, const V
   const Vector normal = D.cwiseProduct(step.gap).normalized();
   const SparseMatrix magnitude = problem.M.cwiseAbs();
   const Vector image = problem.M * step.point.xi + problem.b;
-  const double around =
-      step.point.u.norm() + problem.b.norm() + (magnitude * step.point.xi.cwiseAbs()).norm();
+  const double around = step.point.u.norm() + problem.b.norm() + problem.z.norm() +
+                        (magnitude * step.point.xi.cwiseAbs()).norm();
   if (!(step.gap.norm() > separated * around)) return false;
-  const Vector reach = prox_of_terms(problem, step.point.u + far_out * around * normal, stiff * D);
-  const double apart = normal.dot(image - reach), reached = normal.cwiseAbs().dot(reach.cwiseAbs());
-  return apart > separated * (around + reached) &&
-         (problem.M.transpose() * normal).norm() * step.point.xi.norm() <= separating * apart;
+  if (!((problem.M.transpose() * normal).norm() * step.point.xi.norm() <= separating * separated * around))
+    return false;
+  for (double out : {nearby, far_out}) {
+    const Vector reach = prox_of_terms(problem, step.point.u + out * around * normal, stiff * D);
+    const double reached = normal.cwiseAbs().dot(reach.cwiseAbs());
+    if (!(normal.dot(image - reach) > separated * (around + reached))) return false;
+  }
+  return true;
 }
 
 /// ||x||_W + ||z||_W; when there is no x, the sizes of u and y.
@@ -66,14 +71,13 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
     const double gap = step.gap.norm();
     apart = gap > 0.9 * last_gap ? apart + 1 : 0;
     last_gap = gap;
-    if (apart >= 2 && separates(problem, step, D)) {
+    if (apart >= 2 && !problem.all_pinned && separates(problem, step, D)) {
       solution.infeasible = true;
       return;
     }
     const SaddlePoint polished = newton_polish(problem, step.point);
     centre = step.point;
     keep(polished);
-    keep(centre);
     if (polished.residual <= 0.5 * before) centre = polished;
     if (best.residual > 0.5 * before) {
       if (best.residual <= near_rounding * solution_size(problem, best)) break;

@@ -29,6 +29,10 @@ class SetIndicator : public Atom {
     return Vector::Zero(x.size());
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->project(z, d); }
+  /// The prox of the support function, which is D(z - x) by Moreau's identity.
+  std::optional<Vector> prox_covector(const Vector&, const Vector& z, const Vector& d) const override {
+    return S_->support_prox(d.cwiseProduct(z), d.cwiseInverse());
+  }
   std::optional<Prox> prox_general(const Vector& z, const Metric& W) const override {
     return S_->project_general(z, W);
   }
@@ -77,6 +81,8 @@ class SetSupport : public Atom {
   std::shared_ptr<const ConvexSet> S_;
 };
 
+constexpr double roundings_of_a_difference = 8;
+
 class ConeSet : public ConvexSet {
  public:
   explicit ConeSet(Cone K) : K_(std::move(K)) {}
@@ -102,8 +108,11 @@ class ConeSet : public ConvexSet {
     return Vector::Zero(v.size());
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return K_.project_polar && d.maxCoeff() == d.minCoeff() ? K_.project_polar(z)
-                                                            : ConvexSet::support_prox(z, d);
+    if (K_.project_polar && d.maxCoeff() == d.minCoeff()) return K_.project_polar(z);
+    const Vector polar = ConvexSet::support_prox(z, d);
+    // A difference that is all rounding is 0: relative to itself it would be far outside.
+    const bool rounding = polar.stableNorm() <= roundings_of_a_difference * unit_roundoff * z.stableNorm();
+    return rounding ? Vector::Zero(z.size()) : polar;
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     if (!K_.form) return std::nullopt;

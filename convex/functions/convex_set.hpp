@@ -40,7 +40,7 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   virtual double support(const Vector& v) const = 0;
   /// One s in S with s·v = support(v); none when there is none.
   virtual std::optional<Vector> maximiser(const Vector& v) const = 0;
-  /// prox of the support function; z - D⁻¹ project(Dz, D⁻¹) unless the set knows a formula with less
+  /// The prox of the support function; z - D⁻¹ project(Dz, D⁻¹) unless the set knows a formula with less
   /// cancellation.
   virtual Vector support_prox(const Vector& z, const Vector& d) const;
 

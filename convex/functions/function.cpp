@@ -23,6 +23,19 @@ void check(const Function& f, const Vector& x, const char* what) {
                          " is not finite; give numbers");
 }
 
+/// A result that is nothing but the rounding of z lies on no side of a set whose boundary passes 0; where 0
+/// itself is in the domain, it is the answer, and the bound says what was left out.
+void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Prox& found) {
+  constexpr double roundings = 64 * unit_roundoff;
+  const double length = W.norm(found.x);
+  const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
+  if (!(length > 0 && length <= std::max(rounding, found.error_bound))) return;
+  const double here = f.value(found.x), at_zero = f.value(Vector::Zero(z.size()));
+  if (!std::isfinite(at_zero) || at_zero > here) return;
+  found.x.setZero();
+  found.error_bound += length;
+}
+
 }  // namespace
 
 Index Function::dimension() const { return node_->dimension(); }
@@ -41,14 +54,14 @@ Prox Function::prox(const Vector& z, const Metric& W) const {
   if (W.dimension() != z.size())
     throw InvalidInput(call().name + ": z has " + std::to_string(z.size()) + " entries, the metric " +
                        std::to_string(W.dimension()) + " rows; give one of the other's size");
-  return node_->prox(z, W);
+  Prox found = node_->prox(z, W);
+  settle_at_zero(*node_, z, W, found);
+  return found;
 }
 
 Function Function::conjugate() const { return node_->conjugate(); }
 
-Function Function::conjugate(const Metric& W) const {
-  return in_product(conjugate(), W);
-}
+Function Function::conjugate(const Metric& W) const { return in_product(conjugate(), W); }
 
 std::optional<Vector> Function::subgradient(const Vector& x) const {
   check(*this, x, "x");

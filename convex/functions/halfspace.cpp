@@ -34,7 +34,8 @@ class Slab : public ConvexSet {
 
   Vector project(const Vector& z, const Vector& d) const override {
     const Vector normal = a_.cwiseQuotient(d);
-    return z - multiplier(z, normal) * normal;
+    const Vector x = z - multiplier(z, normal) * normal;
+    return x - multiplier(x, normal) * normal;  // what the rounding of a far z left
   }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
     const Matrix identity = Matrix::Identity(z.size(), z.size());
@@ -51,6 +52,10 @@ class Slab : public ConvexSet {
     const auto weight = weight_of(v);
     if (!weight) return std::nullopt;
     return *weight != 0 || two_sided_ || b_ < 0 ? Vector(b_ * a_) : Vector::Zero(a_.size());
+  }
+  /// w b + ½ Σ d_i (w a_i - z_i)² is least at the w with w a·Da = a·Dz - b.
+  Vector support_prox(const Vector& z, const Vector& d) const override {
+    return multiplier(d.cwiseProduct(z), d.cwiseProduct(a_)) * a_;
   }
   std::optional<Prox> project_general(const Vector& z, const Metric& W) const override {
     const Vector normal = W.solve(a_);  // a is a covector; W makes it a direction

@@ -139,7 +139,11 @@ class DualQuadratic : public Atom {
     const Vector force = metric_difference(W, z, x);
     const Vector v = of_Q_.basis * (of_Q_.values.cwiseSqrt().cwiseInverse().asDiagonal() * t) +
                      of_Q_.null * (of_Q_.null.transpose() * force);
-    return closed_form(z, W, x, v);
+    Prox along_range = closed_form(z, W, x, v);
+    if (of_Q_.null.cols() > 0) return along_range;
+    // Where c and Lt cancel, the difference to z may not.
+    Prox from_z = closed_form(z, W, z - W.solve(v), v);
+    return from_z.error_bound < along_range.error_bound ? from_z : along_range;
   }
 
  private:

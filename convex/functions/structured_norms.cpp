@@ -19,8 +19,10 @@ namespace {
 class DualBall : public ConvexSet {
  public:
   bool bounded() const override { return true; }
+  /// Once more from a far z, whose rounding would leave x outside.
   Vector project(const Vector& z, const Vector& d) const override {
-    return z - support_prox(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
+    const Vector x = project_once(z, d);
+    return z.stableNorm() > far * (x.stableNorm() + scale()) ? project_once(x, d) : x;
   }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();
@@ -28,6 +30,12 @@ class DualBall : public ConvexSet {
     return Matrix::Identity(z.size(), z.size()) - inverse.asDiagonal() * J * d.asDiagonal();
   }
   virtual Matrix norm_jacobian(const Vector& z, const Vector& d) const = 0;
+
+ private:
+  static constexpr double far = 1e3;  ///< three of sixteen digits may go
+  Vector project_once(const Vector& z, const Vector& d) const {
+    return z - support_prox(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
+  }
 };
 
 /// {|x_1 + … + x_i| <= bound for i < n, = 0 for i = n} = {Dᵀu : |u_i| <= bound}, D the differences.

@@ -25,9 +25,53 @@ struct Item {
   double slope;
 };
 
+/// The level without a cap: any set S of terms gives (Σ_S slope point - total)/Σ_S slope <= level, so what
+/// lies below that can be dropped, again and again (Michelot 1986). Points are measured from the largest.
+double uncapped_level(const Vector& point, const Vector& slope, double total) {
+  Index highest = 0;
+  const double top = point.maxCoeff(&highest);
+  const auto n = static_cast<std::size_t>(point.size());
+  std::vector<double> below(n), weight(n);
+  double bound = -total / slope[highest], moment = 0, weights = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto k = static_cast<Index>(i);
+    const double b = point[k] - top;
+    const bool above = b > bound;  // a coin's toss, so no branch
+    below[count] = b;
+    weight[count] = slope[k];
+    count += above;
+    moment += above ? slope[k] * b : 0;
+    weights += above ? slope[k] : 0;
+    constexpr std::size_t block = 256;  // terms between two divisions
+    if (i % block == block - 1 && count > 0) bound = std::max(bound, (moment - total) / weights);
+  }
+  for (std::size_t last = n + 1; count > 0 && count < last;) {
+    bound = std::max(bound, (moment - total) / weights);
+    last = count;
+    count = 0;
+    moment = weights = 0;
+    for (std::size_t i = 0; i < last; ++i) {
+      const double b = below[i], w = weight[i];
+      const bool above = b > bound;
+      below[count] = b;
+      weight[count] = w;
+      count += above;
+      moment += above ? w * b : 0;
+      weights += above ? w : 0;
+    }
+  }
+  if (count == 0) return top + bound;  // total is so small that its share underflows
+  Sum exact;
+  exact += -total;
+  for (std::size_t i = 0; i < count; ++i) exact += weight[i] * below[i];
+  return top + exact.rounded() / weights;
+}
+
 }  // namespace
 
 double water_level(const Vector& point, const Vector& slope, double cap, double total) {
+  if (!(cap < std::numeric_limits<double>::infinity())) return uncapped_level(point, slope, total);
   std::vector<Item> open;
   open.reserve(static_cast<std::size_t>(point.size()));
   for (Index i = 0; i < point.size(); ++i) open.push_back({point[i] - cap / slope[i], point[i], slope[i]});
@@ -39,7 +83,7 @@ double water_level(const Vector& point, const Vector& slope, double cap, double 
   std::uint32_t draw = 1;  // any deterministic sequence that no data is likely to follow
   const auto at = [&](double level) {
     Sum height;
-    height += static_cast<double>(capped > 0 ? capped : 0) * (capped > 0 ? cap : 0);
+    height += static_cast<double>(capped) * cap;
     height += linear.rounded();
     height += slopes * (base - level);
     for (const Item& item : open)
@@ -69,7 +113,7 @@ double water_level(const Vector& point, const Vector& slope, double cap, double 
     open.erase(std::remove_if(open.begin(), open.end(), decided), open.end());
   }
   if (!(slopes > 0)) return hi < std::numeric_limits<double>::infinity() ? hi : lo;
-  const double missing = linear.rounded() + static_cast<double>(capped) * (capped > 0 ? cap : 0) - total;
+  const double missing = linear.rounded() + static_cast<double>(capped) * cap - total;
   return std::clamp(base + missing / slopes, lo, hi);
 }
 

@@ -96,6 +96,7 @@ SoftVariables soft_variables(const LinearQuadratic& f, const Metric& W) {
     const bool soft = !(diagonal[j] > 0) || !definite;
     is_soft[static_cast<std::size_t>(j)] = soft;
     (soft ? found.any : found.mixed) = true;
+    if (diagonal[j] > 0) found.mixed = true;
   }
   if (!found.any) return found;
   const Vector length = definite_lengths(f, W, diagonal, is_soft);

@@ -13,7 +13,7 @@ struct SoftVariables {
   /// small part of it then gains many digits.
   Vector curvature;
   bool any = false;
-  /// Whether there are definite variables too; without them only the ratio of curvatures matters.
+  /// Whether there is any other curvature; without it only the ratio of curvatures matters.
   bool mixed = false;
 };
 

@@ -65,6 +65,7 @@ class ProximalPoint {
         least_(soft_.mixed ? least_softness : least_pure_softness),
         problem_{W, Vector(), constraint_rows(f.G), f.h, f.two_sided},
         z_norm_(W.norm(z)) {
+    if (f.n == 0) measure_bounds();
     if (soft_.any && !soft_.mixed) scale_linear_program();
     point_.xi = Vector::Zero(f.variables());
   }
@@ -91,23 +92,39 @@ class ProximalPoint {
       }
     }
     --point_.rounds;
+    point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
     point_.error_bound = infinity;
     return judged();
   }
 
  private:
-  /// Without definite variables: the curvature at which the costs move a variable by its natural size.
-  void scale_linear_program() {
-    double size = 0;
+  void measure_bounds() {
     for (Index a = 0; a < f_.rows(); ++a) {
       const double length = f_.G.row(a).norm();
-      if (length > 0) size = std::max(size, std::abs(f_.h[a]) / length);
+      if (length > 0) bounds_ = std::max(bounds_, std::abs(f_.h[a]) / length);
     }
-    const double cost = f_.c.norm();
-    soft_.curvature *= (cost > 0 ? cost : 1) / (size > 0 ? size : 1) / soft_.curvature.maxCoeff();
   }
 
-  void soften() { problem_.A = curvature_metric(f_, W_, softness_ * soft_.curvature); }
+  /// Without definite variables: the curvature at which the costs move a variable by its natural size.
+  void scale_linear_program() {
+    const double cost = f_.c.norm();
+    soft_.curvature *= (cost > 0 ? cost : 1) / (bounds_ > 0 ? bounds_ : 1) / soft_.curvature.maxCoeff();
+  }
+
+  void soften() {
+    while (true) {
+      try {
+        problem_.A = curvature_metric(f_, W_, softness_ * soft_.curvature);
+        return;
+      } catch (const InvalidInput&) {  // as a sum of rounded numbers it is not definite: hold faster
+        if (!soft_.any || softness_ > 1)
+          throw InvalidInput(
+              "piecewise linear-quadratic function: H is not positive semidefinite; give H >= 0");
+        softness_ /= softness_step;
+        least_ = softness_;
+      }
+    }
+  }
 
   /// The nearest-point problem around the present point: its linear term is Aξ - (gradient at ξ), so that A
   /// enters by differences only.
@@ -144,7 +161,9 @@ class ProximalPoint {
       // What a defect may do to x, and that relative to x, or to the costs when there is no x.
       transfer += off / stiffness;
       forces_ = std::max(forces_, terms[j] / stiffness);
-      motion_ratio = std::max(motion_ratio, off / (f_.n > 0 ? stiffness * scale : f_.c.norm()));
+      const double natural =
+          f_.n > 0 ? stiffness * (scale + forces_) : f_.c.norm() + soft_.curvature[j] * bounds_;
+      motion_ratio = std::max(motion_ratio, off / natural);
     }
     const bool second = point_.rounds > 1;
     const double gain = second && last_move > 0 ? move_ / last_move : second ? 0 : 1;
@@ -183,13 +202,15 @@ class ProximalPoint {
 
   /// Sharpens a settled point with its rows held.
   ProgramPoint finished(const Solution& solution) {
-    if ((soft_.any || !f_.polyhedral()) && f_.n > 0 && !rough_) {
+    point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
+    if ((soft_.any || !f_.polyhedral()) && !rough_) {
       const PolishedPoint better = polish(f_, W_, z_, problem_, solution.basis, point_.xi, point_.lambda);
       const double moved = better.converged ? W_.norm((better.xi - point_.xi).head(f_.n)) : infinity;
       // A polished point far from the settled one rests on other rows than the best.
-      if (moved <= point_.error_bound + still * forces_) {
+      if (better.converged && moved <= point_.error_bound + still * forces_) {
         point_.xi = better.xi;
         point_.lambda = better.lambda;
+        point_.v = better.v;
         point_.error_bound = better.missing + (solution.error_bound - solution.rounding);
       }
     }
@@ -213,6 +234,7 @@ class ProximalPoint {
   double softness_, least_;
   NearestPointProblem problem_;
   double z_norm_, move_ = 0;
+  double bounds_ = 0;  // the size of the variables that the rows ask for, when there is no x
   double forces_ = 0;  // the terms of stationarity in the units of x: its rounding is relative to them too
   double round_scale_ = 0;
   bool rough_ = false, idle_ = false;

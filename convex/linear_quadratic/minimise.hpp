@@ -15,6 +15,7 @@ struct ProgramPoint {
   Defect defect = Defect::none;
   Vector xi;                ///< n + k; its auxiliary part need not be unique
   Vector lambda;            ///< multipliers of the rows, >= 0 on one-sided ones: m
+  Vector v;                 ///< (Hξ + c - Gᵀlambda)_x, a subgradient of f at x: n
   Vector ray;               ///< when unbounded below: Gd >= 0, Hd = 0, c·d < 0, d zero on x
   double error_bound = 0;   ///< an estimate of ||x - x*||_W
   double defect_ratio = 0;  ///< stationarity in the auxiliary variables, relative to its terms

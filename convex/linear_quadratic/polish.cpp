@@ -17,12 +17,35 @@ constexpr int most_corrections = 30;
 /// Corrections that shrink less than this are no longer worth their while.
 constexpr double slowest_gain = 0.25;
 
-/// Corrections end when x moves by less than this part of ||z||_W + ||x||_W: its rounding is then all that is
-/// left.
-constexpr double enough = 0x1p-70;
+/// Corrections end when x moves by less than this part of ||z||_W + ||x||_W, near the end of twice the
+/// precision, so that zeros among the multipliers show; and where they no longer shrink, the second will do.
+constexpr double enough = 0x1p-92, will_do = 0x1p-60;
+
+/// An entry of the subgradient below this part of its terms cannot be told from 0.
+constexpr double v_noise = 0x1p-64;
 
 /// Negative multipliers up to this part of the largest change are rounding about 0.
 constexpr double sign_noise = 1e-10;
+
+/// An entry no larger than its last correction is 0 to the last digit that can be told.
+void silence(DoubleDoubleVector& x, const Vector& correction) {
+  for (Index i = 0; i < x.size(); ++i)
+    if (std::abs(x.hi[i]) <= 2 * std::abs(correction[i])) x.hi[i] = x.lo[i] = 0;
+}
+
+/// (Hξ + c - Gᵀlambda)_x before rounding; an entry that cannot be told from 0 is 0.
+Vector subgradient(const LinearQuadratic& f, const Set& set, const DoubleDoubleVector& xi,
+                   const DoubleDoubleVector& lambda) {
+  DoubleDoubleVector sum = slope(f, xi);
+  Vector multipliers = Vector::Zero(f.rows());
+  for (Index k = 0; k < set.size(); ++k) {
+    const Index a = set.rows()[static_cast<std::size_t>(k)];
+    set.problem().U.add_multiple(a, {-lambda.hi[k], -lambda.lo[k]}, sum);
+    multipliers[a] = lambda.hi[k];
+  }
+  const Vector v = sum.value().head(f.n), terms = defect_terms(f, xi.hi, multipliers).head(f.n);
+  return (v.array().abs() <= v_noise * terms.array()).select(0, v);
+}
 
 }  // namespace
 
@@ -39,8 +62,9 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   DoubleDoubleVector xi(start), lambda(held);
   for (Index k = 0; k < held; ++k) lambda.hi[k] = multipliers[set.rows()[static_cast<std::size_t>(k)]];
   Set::Column dw, dlambda, r2(held);
-  const double scale = W.norm(z) + W.norm(start.head(f.n));
+  const double scale = f.n > 0 ? W.norm(z) + W.norm(start.head(f.n)) : round.A.norm(start);
   double last = std::numeric_limits<double>::infinity(), gain = 1;
+  Vector dxi, dmultipliers;
   for (int step = 0; step < most_corrections; ++step) {
     DoubleDoubleVector balance = gradient(f, W, z, xi);
     for (Index k = 0; k < held; ++k)
@@ -48,16 +72,18 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
     for (Index k = 0; k < held; ++k)
       r2[k] = -slack(round, set.rows()[static_cast<std::size_t>(k)], xi).value();
     set.correct(round.A.whiten(-balance.value()), r2, dw, dlambda);
-    const Vector dxi = round.A.unwhiten(dw);
-    const double size = round.A.norm(dxi), x_size = W.norm(dxi.head(f.n));
+    const Vector step_xi = round.A.unwhiten(dw);
+    const double size = dw.norm(), x_size = f.n > 0 ? W.norm(step_xi.head(f.n)) : size;
     gain = size / last;
     if (step > 0 && !(gain <= slowest_gain)) {
-      found.converged = last <= enough * round.A.norm(xi.hi);
+      found.converged = last <= will_do * round.A.norm(xi.hi);
       found.missing = last;
       break;
     }
+    dxi = step_xi;
+    dmultipliers = dlambda;
     xi.add(dxi);
-    lambda.add(dlambda);
+    lambda.add(dmultipliers);
     found.missing = step > 0 ? x_size * gain : x_size;
     last = size;
     found.converged = step > 0 && found.missing <= enough * scale;
@@ -65,7 +91,10 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   }
   found.converged = found.converged || last == 0;
   if (!found.converged) return found;
+  silence(xi, dxi);
+  silence(lambda, dmultipliers);
   found.xi = xi.hi;
+  found.v = subgradient(f, set, xi, lambda);
   found.missing += W.norm(xi.lo.head(f.n));
   found.lambda = Vector::Zero(f.rows());
   double largest = 0;

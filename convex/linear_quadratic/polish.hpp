@@ -12,7 +12,9 @@ namespace convex {
 struct PolishedPoint {
   bool converged = false;
   Vector xi, lambda;   ///< rounded once: n + k; m
+  Vector v;            ///< the subgradient of f at x that they give: n
   double missing = 0;  ///< an estimate of ||x - x*||_W, x* the exact point of these rows, rounding included
+                       ///< (of ξ when n = 0)
 };
 
 /// Solves Hξ + c + W(x - z) = G_Bᵀlambda, G_B ξ = h_B for independent rows B, starting from (xi, lambda), by

@@ -24,7 +24,7 @@ Prox prox(const LinearQuadratic& f, const Vector& z, const Metric& W) {
     return found;
   }
   found.x = point.xi.head(f.n);
-  found.v = subgradient_of_multipliers(f, point.xi, point.lambda);
+  found.v = point.v;
   found.error_bound = point.error_bound;
   found.duality_gap = std::abs(complementarity(f, point.xi, point.lambda));
   found.method = f.auxiliaries() > 0 ? "active set on the epigraph" : "active set";

@@ -9,12 +9,6 @@ void add_product(const SparseMatrix& A, const DoubleDoubleVector& x, DoubleDoubl
       add_multiple(1, &it.value(), x[j], &sum.hi[it.row()], &sum.lo[it.row()]);
 }
 
-DoubleDoubleVector slope(const LinearQuadratic& f, const DoubleDoubleVector& xi) {
-  DoubleDoubleVector sum(f.c);
-  add_product(f.H, xi, sum);
-  return sum;
-}
-
 void subtract_multipliers(const LinearQuadratic& f, const Vector& lambda, DoubleDoubleVector& sum) {
   for (Index a = 0; a < f.rows(); ++a) {
     if (lambda[a] == 0) continue;  // a row that takes no part
@@ -40,6 +34,12 @@ void add_product(const Metric& A, const DoubleDoubleVector& x, DoubleDoubleVecto
       add_product(A.sparse_gram(), x, sum);
       return;
   }
+}
+
+DoubleDoubleVector slope(const LinearQuadratic& f, const DoubleDoubleVector& xi) {
+  DoubleDoubleVector sum(f.c);
+  add_product(f.H, xi, sum);
+  return sum;
 }
 
 DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z,

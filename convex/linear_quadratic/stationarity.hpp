@@ -9,6 +9,9 @@ namespace convex {
 /// sum += A x in twice the working precision.
 void add_product(const Metric& A, const DoubleDoubleVector& x, DoubleDoubleVector& sum);
 
+/// Hξ + c in twice the working precision: n + k.
+DoubleDoubleVector slope(const LinearQuadratic& f, const DoubleDoubleVector& xi);
+
 /// Hξ + c + W(x - z), W acting on the first n entries, in twice the working precision: n + k.
 DoubleDoubleVector gradient(const LinearQuadratic& f, const Metric& W, const Vector& z,
                             const DoubleDoubleVector& xi);

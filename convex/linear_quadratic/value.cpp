@@ -92,7 +92,9 @@ double value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
   const Vector defect = stationarity_defect(f, Metric::identity(0), Vector(0), point.xi, point.lambda);
   const double gap =
       std::abs(complementarity(f, point.xi, point.lambda)) + defect.cwiseAbs().dot(point.xi.cwiseAbs());
-  const double largest = f.c.cwiseAbs().maxCoeff() * point.xi.cwiseAbs().maxCoeff();
+  const double size = point.xi.cwiseAbs().maxCoeff(),
+               bend = f.H.coeffs().size() > 0 ? f.H.coeffs().abs().maxCoeff() : 0;
+  const double largest = (f.c.cwiseAbs().maxCoeff() + bend * size) * size;
   const double terms = largest + defect_terms(f, point.xi, point.lambda).dot(point.xi.cwiseAbs()) +
                        f.h.cwiseAbs().dot(point.lambda.cwiseAbs());
   return terms > 0 ? gap / terms : 0;
@@ -104,7 +106,9 @@ std::optional<Evaluation> over(const LinearQuadratic& f, const Vector& x, bool w
   Evaluation found;
   if (cut.worst > membership_tolerance) return std::nullopt;
   const ProgramPoint point = minimise(cut.program, Metric::identity(0), Vector(0));
-  if (point.defect == Defect::empty_domain) return std::nullopt;
+  // Rows that contradict each other by rounding alone prove nothing: the nearest point of the domain will
+  // tell.
+  if (point.defect == Defect::empty_domain || point.status == Status::gave_up) return std::nullopt;
   if (point.defect == Defect::unbounded_below) {
     found.value = -infinity;
     return found;

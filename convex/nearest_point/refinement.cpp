@@ -21,6 +21,10 @@ constexpr int most_corrections = 40;
 /// far: the first is then the last.
 constexpr double certain_contraction = 0x1p-44;
 
+/// An entry that the first correction takes to this part of the correction is 0 as far as it can tell; with
+/// `certain_contraction` that is far below `enough`.
+constexpr double cancelled = 0x1p-24;
+
 /// An entry no larger than what may be missing in it is rounding noise about zero.
 template <class Noise>
 void silence_noise(DoubleDoubleVector& x, Noise noise) {
@@ -61,9 +65,13 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     point.lambda.add(step);
     if (k == 0 && point.contraction <= certain_contraction && point.last > 0) {
       const double missing = 4 * point.remaining() * problem.A.factor_condition();
-      silence_noise(point.q, [&](Index i) { return missing / std::sqrt(problem.A.diagonal()[i]); });
+      silence_noise(point.q, [&](Index i) {
+        return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
+      });
       const double inverse_norm = set.factor().inverse_norm();
-      silence_noise(point.lambda, [&](Index) { return missing * inverse_norm; });
+      silence_noise(point.lambda, [&](Index k_th) {
+        return std::max(missing * inverse_norm, cancelled * std::abs(step[k_th]));
+      });
       return point;
     }
     if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;

@@ -8,7 +8,7 @@
 namespace convex {
 
 /// f*(y) = sup_x xy - f(x): the rows of the curve swapped, so conjugate(conjugate(f)) is f, byte for byte.
-PiecewiseQuadratic conjugate(const PiecewiseQuadratic& f);
+PiecewiseQuadratic conjugate(PiecewiseQuadratic f);
 
 /// inf_u f(u) + (x - u)²/(2 gamma), gamma > 0 (Moreau 1965): the shear x -> x + gamma y of the curve.
 PiecewiseQuadratic envelope(const PiecewiseQuadratic& f, double gamma);

@@ -33,6 +33,10 @@ class PiecewiseQuadratic {
   const std::vector<Segment>& segments() const { return segments_; }
   const std::vector<Corner>& corners() const { return corners_; }
 
+  /// The rows themselves, of a function that is no longer wanted.
+  std::vector<Segment> take_segments() && { return std::move(segments_); }
+  std::vector<Corner> take_corners() && { return std::move(corners_); }
+
   /// f(x), +inf outside the domain, in O(log n).
   double operator()(double x) const;
 

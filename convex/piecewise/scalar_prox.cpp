@@ -1,6 +1,8 @@
 #include "convex/piecewise/scalar_prox.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 #include "convex/invariant.hpp"
 
@@ -11,11 +13,18 @@ namespace {
 /// the curve even as rounded.
 double beyond(const Corner& corner, double z, double d) { return d * (z - corner.x) - corner.y; }
 
-/// How many corners z has passed.
+/// How many corners z has passed: a binary search without branches to mispredict.
 std::size_t passed(const PiecewiseQuadratic& f, double z, double d) {
-  const auto found = std::partition_point(f.corners().begin(), f.corners().end(),
-                                          [&](const Corner& corner) { return beyond(corner, z, d) >= 0; });
-  return static_cast<std::size_t>(found - f.corners().begin());
+  const Corner* first = f.corners().data();
+  std::size_t count = f.corners().size();
+  if (count == 0) return 0;
+  while (count > 1) {
+    const std::size_t half = count / 2;
+    first += half * static_cast<std::size_t>(beyond(first[half - 1], z, d) >= 0);
+    count -= half;
+  }
+  return static_cast<std::size_t>(first - f.corners().data()) +
+         static_cast<std::size_t>(beyond(*first, z, d) >= 0);
 }
 
 /// x where y = d (z - x) meets the line. Flat lines apart: z - y/d is z itself where y = 0.
@@ -49,11 +58,19 @@ std::size_t passed_from(const PiecewiseQuadratic& f, double z, double d, std::si
   return passed(f, z, d);
 }
 
+/// first where the condition holds, else second, in bits: a loop over it vectorises, while a conditional
+/// expression may become a jump.
+double select(bool condition, double first, double second) {
+  const auto mask = -static_cast<std::uint64_t>(condition);
+  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(first) & mask) |
+                               (std::bit_cast<std::uint64_t>(second) & ~mask));
+}
+
 /// Entries go through the pieces in blocks that stay in the first-level cache.
 constexpr Index block = 512;
 /// Up to this many corners every entry goes through every piece without a branch, which is faster than a
 /// search.
-constexpr std::size_t few_corners = 6;
+constexpr std::size_t few_corners = 24;
 
 template <class Weight>
 void through_all_pieces(const PiecewiseQuadratic& f, Index n, const double* __restrict z, Weight d,
@@ -62,6 +79,7 @@ void through_all_pieces(const PiecewiseQuadratic& f, Index n, const double* __re
   const auto& corners = f.corners();
   for (std::size_t k = 0; k < f.segments().size(); ++k) {
     const Segment line = f.segments()[k];
+    if (k > 0 && line.run == 0) continue;  // the piece before it ends there
     const Corner start = k > 0 ? corners[k - 1] : Corner{-infinity, -infinity};
     const double low = start.x, high = k < corners.size() ? corners[k].x : infinity;
     const auto each = [&](auto point) {
@@ -70,7 +88,7 @@ void through_all_pieces(const PiecewiseQuadratic& f, Index n, const double* __re
       else
         for (Index i = 0; i < n; ++i) {
           const double here = std::min(std::max(point(i), low), high);
-          x[i] = beyond(start, z[i], d(i)) >= 0 ? here : x[i];
+          x[i] = select(beyond(start, z[i], d(i)) >= 0, here, x[i]);
         }
     };
     if (line.rise == 0 && line.y == 0)

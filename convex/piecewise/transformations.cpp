@@ -38,9 +38,9 @@ PiecewiseQuadratic reflected(const PiecewiseQuadratic& f) {
 
 }  // namespace
 
-PiecewiseQuadratic conjugate(const PiecewiseQuadratic& f) {
-  std::vector<Segment> segments(f.segments());
-  std::vector<Corner> corners(f.corners());
+PiecewiseQuadratic conjugate(PiecewiseQuadratic f) {
+  std::vector<Segment> segments = std::move(f).take_segments();
+  std::vector<Corner> corners = std::move(f).take_corners();
   for (Segment& line : segments) line = conjugate(line);
   for (Corner& corner : corners) std::swap(corner.x, corner.y);
   return PiecewiseQuadratic(std::move(segments), std::move(corners), "conjugate");

@@ -1,0 +1,191 @@
+#include "convex/laws/conjugate_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/laws/worst_check.hpp"
+
+namespace convex {
+namespace {
+
+/// Roundings of a value of f or g, relative to the terms it is compared with.
+constexpr double value_roundings = 64 * unit_roundoff;
+
+/// y = prox_g z beside x = prox_f z, with what an error in them does to the values.
+struct Decomposed {
+  Split x, y;
+  double inner = 0, size = 0, slack = 0;
+};
+
+Decomposed decomposed(const ConjugatePair& pair, const Vector& z, const Metric& W) {
+  Decomposed d{split(pair.f, z, W), split(pair.g, z, W)};
+  d.inner = W.inner(d.x.x, d.y.x);
+  d.size = std::abs(d.x.f_x) + std::abs(d.y.f_x) + W.norm(d.x.x) * W.norm(d.y.x);
+  d.slack = value_roundings * d.size * spectrum(W).condition() + d.x.bound * W.norm(d.y.x) +
+            d.y.bound * W.norm(d.x.x) + variation(pair.f, d.x.x, d.x.bound) +
+            variation(pair.g, d.y.x, d.y.bound);
+  return d;
+}
+
+/// e_g(z) = g(y) + ½||z - y||².
+double envelope(const Decomposed& d, const Metric& W) {
+  const Vector rest = d.y.z - d.y.x;
+  return d.y.f_x + W.inner(rest, rest) / 2;
+}
+
+/// Whether the two proxes came by different routes: what is derived from the other by Moreau's identity is
+/// not.
+bool different_routes(const Prox& x, const Prox& y) {
+  constexpr std::string_view derived = "Moreau";
+  return x.method.find(derived) == std::string::npos && y.method.find(derived) == std::string::npos;
+}
+
+Check uniqueness(const ConjugatePair& pair, const Decomposed& at, const Metric& W,
+                 const std::vector<Vector>& others) {
+  WorstCheck worst("no other split of z satisfies conjugacy");
+  for (const Vector& other : others)
+    for (double step : {1.0, 1e-3}) {
+      const Vector d = step * (other - at.x.z);
+      const double f = pair.f.value(at.x.x + d), g = pair.g.value(at.y.x - d);
+      if (!std::isfinite(f) || !std::isfinite(g)) continue;
+      const double gap = f + g - W.inner(at.x.x + d, at.y.x - d), least = W.inner(d, d);
+      const double bound = at.slack +
+                           value_roundings * (std::abs(f) + std::abs(g) + std::abs(f + g - gap) + least) *
+                               spectrum(W).condition() +
+                           (at.x.bound + at.y.bound) * W.norm(d);
+      worst.take(std::max(0.0, least - gap), bound);
+    }
+  return worst.check();
+}
+
+Check fenchel(const ConjugatePair& pair, const Metric& W, const std::vector<Vector>& others) {
+  WorstCheck worst("Fenchel's inequality f(u) + g(w) >= (u|w)");
+  std::vector<Vector> us, ws;
+  for (const Vector& other : others) {
+    us.push_back(pair.f.prox(other, W).x);
+    ws.push_back(pair.g.prox(other, W).x);
+    us.push_back(other);
+    ws.push_back(other);
+  }
+  for (const Vector& u : us)
+    for (const Vector& w : ws) {
+      const double f = pair.f.value(u), g = pair.g.value(w);
+      if (!std::isfinite(f) || !std::isfinite(g)) continue;
+      const double inner = W.inner(u, w);
+      // A point within the membership tolerance counts as one of the domain.
+      const double bound =
+          (value_roundings * spectrum(W).condition() + pair.f.membership + pair.g.membership) *
+          (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w));
+      worst.take(std::max(0.0, inner - f - g), bound);
+    }
+  return worst.check();
+}
+
+Check envelope_gradient(const ConjugatePair& pair, const Decomposed& at, const Metric& W,
+                        const std::vector<Vector>& others) {
+  WorstCheck worst("x is the gradient at z of the envelope of g");
+  const double e = envelope(at, W);
+  for (const Vector& other : others) {
+    const Vector h = (other - at.x.z) / 8;
+    const Decomposed moved = decomposed(pair, at.x.z + h, W);
+    const double rise = envelope(moved, W) - e;
+    const double low = W.inner(at.x.x, h), high = W.inner(moved.x.x, h);
+    const double bound = at.slack + moved.slack +
+                         value_roundings * spectrum(W).condition() * (std::abs(e) + std::abs(rise)) +
+                         (at.x.bound + moved.x.bound) * W.norm(h) + at.y.bound * W.norm(at.x.x) +
+                         moved.y.bound * W.norm(moved.x.x);
+    worst.take(std::max({0.0, low - rise, rise - high}), bound);
+  }
+  return worst.check();
+}
+
+}  // namespace
+
+std::vector<Check> conjugate_laws(const ConjugatePair& pair, const Trial& trial,
+                                  const std::vector<Vector>& others, std::vector<std::string>& no_evidence) {
+  const Metric& W = trial.W;
+  const Vector& z = trial.z;
+  const Decomposed at = decomposed(pair, z, W);
+  std::vector<Check> checks;
+  checks.push_back(check_that("g is finite at y = prox_g z", std::isfinite(at.y.f_x) ? 0 : 1, 0));
+  if (!std::isfinite(at.x.f_x) || !std::isfinite(at.y.f_x)) return checks;
+
+  const Prox x = pair.f.prox(z, W), y = pair.g.prox(z, W);
+  if (different_routes(x, y))
+    checks.push_back(check_that("z = x + y by two routes", W.norm(z - x.x - y.x), at.x.bound + at.y.bound));
+  else
+    no_evidence.push_back("z = x + y (" + trial.metric_name + " metric): x by " + x.method + ", y by " +
+                          y.method + "; one route proves nothing");
+  checks.push_back(
+      check_that("conjugacy f(x) + g(y) = (x|y)", std::abs(at.x.f_x + at.y.f_x - at.inner), at.slack));
+  checks.push_back(fenchel(pair, W, others));
+  checks.push_back(uniqueness(pair, at, W, others));
+  checks.push_back(envelope_gradient(pair, at, W, others));
+  const Vector rest = z - at.x.x;
+  const double envelopes = at.x.f_x + W.inner(rest, rest) / 2 + envelope(at, W), half = W.inner(z, z) / 2;
+  checks.push_back(check_that("the envelopes of f and g add up to ||z||²/2", std::abs(envelopes - half),
+                              2 * at.slack + value_roundings * spectrum(W).condition() * half +
+                                  (at.x.bound + at.y.bound) * W.norm(z)));
+  if (pair.cone) {
+    checks.push_back(check_that("x and y are orthogonal", std::abs(at.inner), at.slack));
+    const Split twice = split(pair.f, 2 * z, W);
+    checks.push_back(
+        check_that("prox_f(2z) = 2 prox_f z", W.norm(twice.x - 2 * at.x.x), twice.bound + 2 * at.x.bound));
+  }
+  return checks;
+}
+
+ConjugatePair conjugate_pair(const Function& f, const Metric& W) {
+  const auto subject = [](const Function& function) {
+    return Subject{[function](const Vector& x) { return function(x); },
+                   [function](const Vector& z, const Metric& V) { return function.prox(z, V); },
+                   function.facts().finite ? 0 : membership_tolerance};
+  };
+  return {subject(f), subject(f.conjugate(W)), f.facts().cone};
+}
+
+std::vector<Check> function_laws(const Function& f, const Trial& trial, const std::vector<Vector>& others) {
+  const Metric& W = trial.W;
+  const ConjugatePair pair = conjugate_pair(f, W);
+  const Split at = split(pair.f, trial.z, W);
+  std::vector<Check> checks;
+  if (!std::isfinite(at.f_x)) return checks;
+
+  const Function twice = f.conjugate().conjugate();
+  const Prox again = twice.prox(trial.z, W);
+  const double change = variation(pair.f, at.x, at.bound + again.error_bound);
+  checks.push_back(
+      check_that("f** = f", std::abs(twice(at.x) - at.f_x), value_roundings * std::abs(at.f_x) + change));
+  checks.push_back(check_that("prox of f** = prox of f", W.norm(again.x - at.x),
+                              again.error_bound + at.bound + rounding_bound(W, trial.z, again.x)));
+
+  Matrix inverse(trial.z.size(), trial.z.size());
+  for (Index i = 0; i < trial.z.size(); ++i) inverse.col(i) = W.solve(Vector::Unit(trial.z.size(), i));
+  const Metric dual = Metric::dense((inverse + inverse.transpose()) / 2);
+  const Vector covector = W.multiply(trial.z);
+  const Prox plain = f.conjugate().prox(covector, dual);
+  checks.push_back(check_that(
+      "z = prox_f z + W^-1 prox of the plain conjugate at Wz in W^-1",
+      W.dual_norm(covector - W.multiply(at.x) - plain.x),
+      at.bound + plain.error_bound + 2 * rounding_bound(W, trial.z, at.x) * spectrum(W).condition()));
+
+  if (const std::optional<Vector> v = f.subgradient(at.x)) {
+    WorstCheck given("the subgradient that f gives at x is one");
+    for (const Vector& other : others)
+      for (const Vector& u : {other, pair.f.prox(other, W).x}) {
+        const double f_u = f(u);
+        if (!std::isfinite(f_u)) continue;
+        const double bound =
+            value_roundings * (std::abs(f_u) + std::abs(at.f_x) + v->cwiseAbs().dot((u - at.x).cwiseAbs())) +
+            pair.f.membership * v->norm() * (u.norm() + at.x.norm()) + variation(pair.f, at.x, at.bound) +
+            variation(pair.f, u, unit_roundoff * u.norm());
+        given.take(std::max(0.0, at.f_x + v->dot(u - at.x) - f_u), bound);
+      }
+    checks.push_back(given.check());
+  }
+  checks.push_back(
+      check_that("W(z - x) counts as a subgradient at x", f.is_subgradient(at.v, at.x) ? 0 : 1, 0));
+  return checks;
+}
+
+}  // namespace convex
