@@ -8,6 +8,9 @@ namespace {
 /// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_W.
 constexpr double roundings_of_a_formula = 4;
 
+/// What refinement in twice the working precision leaves of ||z||_W where 0 is meant.
+constexpr double rounding_of_rounding = 0x1p-96;
+
 }  // namespace
 
 Vector stationarity(const Vector& z, const Metric& W, const Vector& x, const Vector& v) {
@@ -19,7 +22,7 @@ Vector stationarity(const Vector& z, const Metric& W, const Vector& x, const Vec
 Prox without_rounding_at_zero(Prox prox, const Facts& facts, const Vector& z, const Metric& W) {
   if (!(facts.cone || facts.support) || prox.x.size() != z.size()) return prox;
   const double size = W.norm(prox.x);
-  if (size == 0 || !(size <= unit_roundoff * unit_roundoff * W.norm(z))) return prox;
+  if (size == 0 || !(size <= rounding_of_rounding * W.norm(z))) return prox;
   prox.x.setZero();
   prox.error_bound += size;
   return prox;

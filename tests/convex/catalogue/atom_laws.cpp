@@ -155,6 +155,26 @@ TEST_CASE("a subgradient is one by the inequality and by the prox") {
     }
 }
 
+TEST_CASE("a function and its conjugate are written so that they read back as the same functions") {
+  for (const auto& [text, n, f] : examples()) {
+    const Function g = f.conjugate();
+    for (const Function& written : {f, g, g.conjugate()}) {
+      const std::string again = convex::to_text(written.call());
+      CAPTURE(text);
+      CAPTURE(again);
+      const Function read = convex::make_function(cli::parse_call(again, "call"), Space{Metric::identity(n)});
+      for (const Vector& x : points(n, 7)) {
+        CAPTURE(x.transpose());
+        const double first = written(x), second = read(x);
+        if (std::isfinite(first))
+          CHECK(std::abs(first - second) <= 1e-13 * (std::abs(first) + x.norm()));
+        else
+          CHECK(first == second);
+      }
+    }
+  }
+}
+
 TEST_CASE("the derivative of a prox is that of its differences where it is smooth") {
   for (const auto& [text, n, f] : examples()) {
     const auto* atom = dynamic_cast<const convex::Atom*>(&f.node());
