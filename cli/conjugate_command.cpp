@@ -70,7 +70,7 @@ std::string conjugate_text(const ConjugateQuestion& question, const convex::Func
   text += fmt::format(
       "where g(y) = sup over x of {} - f(x){}\n", plain ? "x·y" : "x·Wy",
       question.f.dimension() == 0 && plain ? "" : fmt::format(", with {} entries", question.W.dimension()));
-  text += text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
+  text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
   if (question.y) {
     std::string entries;
     for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);

@@ -49,7 +49,6 @@ class DualActiveSet {
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
     for (int round = 0; round < most_rounds; ++round) {
-      // A settled start has been looked at in doubles already.
       if ((round > 0 || !settled_) && !descend(limit)) return infeasible();
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
@@ -115,10 +114,9 @@ class DualActiveSet {
       double lowest = 0;
       for (Index k = 0; k < set_.size(); ++k) {
         const double push = set_.lambda()[k] * set_.factor().length(k);
-        if (set_.one_sided(k) && push < lowest && push < -multiplier_noise(k)) {
-          lowest = push;
-          worst = k;
-        }
+        if (!set_.one_sided(k) || !(push < std::min(lowest, -multiplier_noise(k)))) continue;
+        lowest = push;
+        worst = k;
       }
       if (worst < 0) break;
       set_.remove(worst);
@@ -280,10 +278,9 @@ class DualActiveSet {
     double lowest = 0;
     for (Index k = 0; k < set_.size(); ++k) {
       const double push = refined.lambda.hi[k] * set_.factor().length(k);
-      if (set_.one_sided(k) && refined.lambda.hi[k] < -reach && push < lowest) {
-        lowest = push;
-        worst = k;
-      }
+      if (!set_.one_sided(k) || !(refined.lambda.hi[k] < -reach) || !(push < lowest)) continue;
+      lowest = push;
+      worst = k;
     }
     if (worst < 0) return false;
     set_.remove(worst);

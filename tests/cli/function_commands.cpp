@@ -40,7 +40,7 @@ TEST_CASE("a conjugate needs no number of entries where the data tell it") {
 
 TEST_CASE("wrong expressions are told from wrong points and wrong metrics, with a caret under the place") {
   const std::vector<WrongArguments> table{
-      {{"prox", "norm3()", "--at", "[1]"}, "f:1:1: ", {"norm3", "norm2", "\n  norm3()\n  ^\n"}},
+      {{"prox", "norm3()", "--at", "[1]"}, "f:1:1: ", {"norm3", "did you mean", "\n  norm3()\n  ^\n"}},
       {{"prox", "indicator(ball2(-1))", "--at", "[1]"}, "f:1:11: ", {"\n            ^\n"}},
       {{"prox", "indicator(ball2)", "--at", "[1]"}, "f:1:11: ", {"ball2()"}},
       {{"prox", "norm2()", "--at", "[1,"}, "--at:1:1: ", {"no ] closes"}},
