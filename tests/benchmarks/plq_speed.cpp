@@ -1,5 +1,5 @@
 // Time of the algebra of piecewise linear-quadratic functions by the number of pieces, and of their prox by
-// the entry beside a plain copy of the vector.
+// the entry beside a plain copy of the vector; of the Legendre transform by the grid point.
 //   plq_speed [--smoke]
 // Pieces are random, half of the joints kinks. Prints the median processor time of repeated runs; an
 // operation is linear in the pieces when ns/piece stays level down its column but for what leaves the caches.
@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "convex/grid/legendre_transform.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/pieces.hpp"
@@ -131,6 +132,30 @@ void prox(Index n, int repetitions) {
   if (kept == 0) std::printf("nothing\n");
 }
 
+void grids(const std::vector<std::vector<Index>>& shapes, int repetitions) {
+  std::printf("\nLegendre transform and envelope on grids: ms (ns/point)\n");
+  double kept = 0;
+  for (const std::vector<Index>& shape : shapes) {
+    std::vector<Vector> axes, slopes;
+    std::string name;
+    Index count = 1;
+    for (Index n : shape) {
+      axes.push_back(Vector::LinSpaced(n, -2, 2));
+      slopes.push_back(Vector::LinSpaced(n, -3, 3));
+      name += (name.empty() ? "" : " x ") + std::to_string(n);
+      count *= n;
+    }
+    const convex::GridFunction f =
+        convex::sample([](const Vector& x) { return std::cos(3 * x.sum()) + x.squaredNorm(); }, axes);
+    const double conjugate = seconds([&] { kept += convex::conjugate(f, slopes).values[0]; }, repetitions);
+    const double envelope = seconds([&] { kept += convex::envelope(f, 0.5, axes).values[0]; }, repetitions);
+    const double per_point = 1e9 / static_cast<double>(count);
+    std::printf("%-20s%12.3f (%4.0f)%12.3f (%4.0f)\n", name.c_str(), conjugate * 1e3, conjugate * per_point,
+                envelope * 1e3, envelope * per_point);
+  }
+  if (kept == 0) std::printf("nothing\n");
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -138,5 +163,9 @@ int main(int count, char** arguments) {
   algebra(smoke ? std::vector<Index>{100} : std::vector<Index>{1000, 10000, 100000, 1000000}, smoke ? 1 : 11);
   for (Index n : smoke ? std::vector<Index>{1000} : std::vector<Index>{1000, 1000000})
     prox(n, smoke ? 1 : 21);
+  if (smoke)
+    grids({{100}}, 1);
+  else
+    grids({{1000}, {10000}, {100000}, {1000000}, {100, 100}, {1000, 1000}, {20, 20, 20}, {100, 100, 100}}, 5);
   return 0;
 }
