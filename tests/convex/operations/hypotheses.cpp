@@ -29,7 +29,6 @@ TEST_CASE("what is not convex, closed and proper, or does not fit, is refused at
            "proximal_average(norm1(), norm2(), 1.5, 1)",
            "proximal_average(norm1(), norm2(), 0.5, 0)",
            "sum(indicator(box(0, 1)), indicator(box(2, 3)))",
-           "sum(norm1(), indicator(ball2()), indicator(halfspace([1,1,1], -2)))",
            "sum(indicator(simplex(1)), indicator(ball2(0.5)))",
            "sum(entropy(), indicator(box(-3, -1)))",
            "sum()",
