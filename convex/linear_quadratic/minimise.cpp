@@ -33,8 +33,9 @@ constexpr double still = 16 * unit_roundoff;
 /// what it does to x is seen from round to round and enters the error bound.
 constexpr double stagnant_defect = 1e-9;
 
-/// Where z and x are 0, an error is as good as none at this part of the size of the auxiliary variables.
-constexpr double silence = 0x1p-70;
+/// Where z and x are 0, an error is as good as none below the first part of the terms of stationarity; the
+/// second is what corrections then aim at a small part of.
+constexpr double silence = 0x1p-70, less = 0x1p-20;
 
 /// A round whose error estimate is above this part of its scale does not count.
 constexpr double rough = 1e-9;
@@ -144,6 +145,7 @@ class ProximalPoint {
   bool settled(const Solution& solution) {
     const Vector move = (solution.q - point_.xi).head(f_.n);
     const double last_move = move_, last_ratio = point_.defect_ratio;
+    const bool frozen = point_.rounds > 1 && solution.q == point_.xi && softness_ <= least_;
     move_ = W_.norm(move);
     point_.xi = solution.q;
     point_.lambda = solution.lambda;
@@ -173,7 +175,10 @@ class ProximalPoint {
     if (second) point_.error_bound += gain < 0.5 ? move_ * gain / (1 - gain) : move_;
 
     if (rough_) return !harden();
-    if (!soft_.any && f_.polyhedral()) return true;
+    if (!soft_.any && f_.polyhedral()) {  // the round was the program itself
+      point_.error_bound = solution.error_bound;
+      return true;
+    }
     if (!second) return false;
     const bool at_rest = move_ <= still * (scale + forces_), stuck = gain > 0.5 && move_ <= accurate * scale;
     const bool slow = point_.defect_ratio > softness_step * last_ratio;
@@ -181,7 +186,7 @@ class ProximalPoint {
     idle_ = (at_rest || (stuck && softness_ <= least_)) && slow && motion_ratio <= still;
     if (idle_ || ((at_rest || stuck) && (point_.defect_ratio <= still || stagnant))) return true;
     if (slow) shrink();
-    return false;
+    return frozen;
   }
 
   void shrink() {
@@ -204,13 +209,19 @@ class ProximalPoint {
   ProgramPoint finished(const Solution& solution) {
     point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
     if ((soft_.any || !f_.polyhedral()) && !rough_) {
-      const PolishedPoint better = polish(f_, W_, z_, problem_, solution.basis, point_.xi, point_.lambda);
+      const double scale = f_.n > 0 ? z_norm_ + W_.norm(point_.xi.head(f_.n)) + less * forces_
+                                    : problem_.A.norm(point_.xi) + less * round_scale_;
+      const PolishedPoint better =
+          polish(f_, W_, z_, problem_, solution.basis, point_.xi, point_.lambda, scale);
       const double moved = better.converged ? W_.norm((better.xi - point_.xi).head(f_.n)) : infinity;
       // A polished point far from the settled one rests on other rows than the best.
-      if (better.converged && moved <= point_.error_bound + still * forces_) {
+      const double near =
+          4 * point_.error_bound + still * (z_norm_ + W_.norm(point_.xi.head(f_.n)) + forces_);
+      if (better.converged && moved <= near) {
         point_.xi = better.xi;
         point_.lambda = better.lambda;
         point_.v = better.v;
+        point_.defect_ratio = 0;
         point_.error_bound = better.missing + (solution.error_bound - solution.rounding);
       }
     }
@@ -219,8 +230,7 @@ class ProximalPoint {
 
   ProgramPoint judged() {
     const double scale = z_norm_ + W_.norm(point_.xi.head(f_.n));
-    const bool exact =
-        point_.error_bound <= std::max({accurate * scale, still * forces_, silence * round_scale_});
+    const bool exact = point_.error_bound <= std::max(accurate * scale, silence * forces_);
     // Without x only the value counts, which its own duality gap judges.
     const bool balanced = point_.defect_ratio <= stagnant_defect || idle_;
     point_.status = (exact || f_.n == 0) && balanced && !rough_ ? Status::solved : Status::inaccurate;

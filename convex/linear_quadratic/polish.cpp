@@ -51,7 +51,7 @@ Vector subgradient(const LinearQuadratic& f, const Set& set, const DoubleDoubleV
 
 PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
                      const NearestPointProblem& round, const std::vector<Index>& rows, const Vector& start,
-                     const Vector& multipliers) {
+                     const Vector& multipliers, double scale) {
   Set set(round);
   Matrix whitened = whitened_rows(round, rows);
   set.append_block(rows, whitened, 0);
@@ -62,8 +62,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   DoubleDoubleVector xi(start), lambda(held);
   for (Index k = 0; k < held; ++k) lambda.hi[k] = multipliers[set.rows()[static_cast<std::size_t>(k)]];
   Set::Column dw, dlambda, r2(held);
-  const double scale = f.n > 0 ? W.norm(z) + W.norm(start.head(f.n)) : round.A.norm(start);
-  double last = std::numeric_limits<double>::infinity(), gain = 1;
+  double last = std::numeric_limits<double>::infinity(), last_x = 0, gain = 1;
   Vector dxi, dmultipliers;
   for (int step = 0; step < most_corrections; ++step) {
     DoubleDoubleVector balance = gradient(f, W, z, xi);
@@ -76,8 +75,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
     const double size = dw.norm(), x_size = f.n > 0 ? W.norm(step_xi.head(f.n)) : size;
     gain = size / last;
     if (step > 0 && !(gain <= slowest_gain)) {
-      found.converged = last <= will_do * round.A.norm(xi.hi);
-      found.missing = last;
+      found.missing = f.n > 0 ? last_x : last;
       break;
     }
     dxi = step_xi;
@@ -86,10 +84,11 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
     lambda.add(dmultipliers);
     found.missing = step > 0 ? x_size * gain : x_size;
     last = size;
+    last_x = x_size;
     found.converged = step > 0 && found.missing <= enough * scale;
     if (found.converged || size == 0) break;
   }
-  found.converged = found.converged || last == 0;
+  found.converged = found.converged || last == 0 || found.missing <= will_do * scale;
   if (!found.converged) return found;
   silence(xi, dxi);
   silence(lambda, dmultipliers);

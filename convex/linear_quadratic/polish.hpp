@@ -20,9 +20,11 @@ struct PolishedPoint {
 /// Solves Hξ + c + W(x - z) = G_Bᵀlambda, G_B ξ = h_B for independent rows B, starting from (xi, lambda), by
 /// corrections with the factor of `round`, the same rows under H + W + softness: residuals are those of the
 /// data in twice the working precision, and each correction leaves about the part that softness has in the
-/// curvature. Not converged when corrections do not shrink or a multiplier changes its sign beyond rounding.
+/// curvature (Wilkinson 1963, the factor being that of a neighbour). scale: what corrections of x, or of ξ
+/// when n = 0, are to become small against. Not converged when they do not, or when a multiplier changes its
+/// sign beyond rounding.
 PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
                      const NearestPointProblem& round, const std::vector<Index>& rows, const Vector& xi,
-                     const Vector& lambda);
+                     const Vector& lambda, double scale);
 
 }  // namespace convex

@@ -121,6 +121,39 @@ TEST_CASE("the envelope of a proximal average is the average of the envelopes") 
   }
 }
 
+TEST_CASE("whatever operations make of two functions, its prox and its conjugate's add up to the point") {
+  std::mt19937 generator(26);
+  const Index n = 2;
+  const Metric I = Metric::identity(n);
+  const std::vector<samples::Named> all = samples::catalogue(n);
+  int proper = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (int operation = 0; operation < 6; ++operation) {
+      const auto& [name, g] = all[(i * 7 + static_cast<std::size_t>(operation) * 11 + 3) % all.size()];
+      const LinearQuadratic& f = all[i].f;
+      const LinearQuadratic both[] = {f, g};
+      const LinearQuadratic made[] = {lq::sum(both),
+                                      lq::inf_convolution(f, g),
+                                      lq::envelope(lq::conjugate(f), 2, I),
+                                      lq::proximal_average(f, lq::conjugate(g), 0.75, 0.5, I),
+                                      lq::conjugate(lq::inf_convolution(f, lq::dilate(g, -2))),
+                                      lq::inf_convolution(lq::envelope(f, 1, I), g)};
+      CAPTURE(all[i].name);
+      CAPTURE(name);
+      CAPTURE(operation);
+      const LinearQuadratic& h = made[operation];
+      if (properness(h) != convex::Defect::none) continue;
+      ++proper;
+      const Metric W = samples::random_metric(generator, n, 1e3);
+      const Vector z = samples::tied_point(generator, n, 1);
+      const Prox x = prox(h, z, W), y = prox(lq::conjugate(h, W), z, W);
+      CHECK(x.status == Status::solved);
+      CHECK(y.status == Status::solved);
+      CHECK(W.norm(x.x + y.x - z) <= 1e-13 * W.norm(z));
+    }
+  CHECK(proper > 120);
+}
+
 TEST_CASE("pieces take the value of their own polynomial, and +inf where they say so") {
   Vector breaks(3);
   breaks << -1, 0, 2;
