@@ -1,6 +1,9 @@
 #include "convex/composite/affine_atoms.hpp"
 
+#include <Eigen/Cholesky>
 #include <limits>
+
+#include "convex/functions/quadratic.hpp"
 
 namespace convex {
 namespace {
@@ -17,20 +20,56 @@ Argument nested(Call call) { return std::make_shared<const Call>(std::move(call)
 
 class LinearAtom final : public Atom {
  public:
-  explicit LinearAtom(Vector a) : slope(std::move(a)) {}
-  Index dimension() const override { return slope.size(); }
+  explicit LinearAtom(Vector slope) : slope_(std::move(slope)) {}
+  Index dimension() const override { return slope_.size(); }
   Facts facts() const override {
     return {.support = true, .separable = true, .piecewise_quadratic = true, .smooth = true, .finite = true};
   }
-  Call call() const override { return call_of("linear", slope); }
-  double value(const Vector& x) const override { return slope.dot(x); }
-  Function conjugate() const override { return Function(point_atom(slope)); }
-  std::optional<Vector> subgradient(const Vector&) const override { return slope; }
-  Vector prox_diagonal(const Vector& z, const Vector& d) const override { return z - slope.cwiseQuotient(d); }
+  Call call() const override { return call_of("linear", slope_); }
+  double value(const Vector& x) const override { return slope_.dot(x); }
+  Function conjugate() const override { return Function(point_atom(slope_)); }
+  std::optional<Vector> subgradient(const Vector&) const override { return slope_; }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return z - slope_.cwiseQuotient(d);
+  }
   Matrix prox_jacobian(const Vector& z, const Vector&) const override {
     return Matrix::Identity(z.size(), z.size());
   }
-  const Vector slope;
+  std::optional<QuadraticForm> quadratic_form(Index n) const override {
+    return QuadraticForm{SparseMatrix(n, n), slope_, 0};
+  }
+
+ private:
+  Vector slope_;
+};
+
+class FormAtom final : public Atom {
+ public:
+  explicit FormAtom(QuadraticForm form) : form_(std::move(form)) {}
+  Index dimension() const override { return form_.c.size(); }
+  Facts facts() const override { return {.piecewise_quadratic = true, .smooth = true, .finite = true}; }
+  Call call() const override { return dense().node().call(); }
+  double value(const Vector& x) const override {
+    return x.dot(0.5 * (form_.Q * x) + form_.c) + form_.constant;
+  }
+  Function conjugate() const override { return dense().conjugate(); }
+  std::optional<Vector> subgradient(const Vector& x) const override { return Vector(form_.Q * x + form_.c); }
+  Vector prox_diagonal(const Vector& z, const Vector& d) const override {
+    return sum(d).solve(d.cwiseProduct(z) - form_.c);
+  }
+  Matrix prox_jacobian(const Vector&, const Vector& d) const override {
+    return sum(d).solve(Matrix(d.asDiagonal()));
+  }
+  std::optional<QuadraticForm> quadratic_form(Index) const override { return form_; }
+
+ private:
+  Function dense() const { return quadratic(Matrix(form_.Q), form_.c, form_.constant); }
+  Eigen::LLT<Matrix> sum(const Vector& d) const {
+    Matrix Q(form_.Q);
+    Q.diagonal() += d;
+    return Eigen::LLT<Matrix>(Q);
+  }
+  QuadraticForm form_;
 };
 
 class HalfSquareAtom final : public Atom {
@@ -48,6 +87,11 @@ class HalfSquareAtom final : public Atom {
   }
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
     return (d.array() / (1 + d.array())).matrix().asDiagonal();
+  }
+  std::optional<QuadraticForm> quadratic_form(Index n) const override {
+    SparseMatrix identity(n, n);
+    identity.setIdentity();
+    return QuadraticForm{identity, Vector::Zero(n), 0};
   }
 };
 
@@ -115,15 +159,11 @@ class OrthantAtom final : public Atom {
 }  // namespace
 
 std::shared_ptr<const Atom> linear_atom(const Vector& a) { return std::make_shared<const LinearAtom>(a); }
+std::shared_ptr<const Atom> quadratic_atom(QuadraticForm form) {
+  return std::make_shared<const FormAtom>(std::move(form));
+}
 std::shared_ptr<const Atom> half_square_atom() { return std::make_shared<const HalfSquareAtom>(); }
 std::shared_ptr<const Atom> point_atom(const Vector& p) { return std::make_shared<const PointAtom>(p); }
 std::shared_ptr<const Atom> orthant_atom() { return std::make_shared<const OrthantAtom>(1.0); }
-
-const Vector* slope_of(const Atom& f) {
-  const auto* linear = dynamic_cast<const LinearAtom*>(&f);
-  return linear ? &linear->slope : nullptr;
-}
-
-bool is_half_square(const Atom& f) { return dynamic_cast<const HalfSquareAtom*>(&f) != nullptr; }
 
 }  // namespace convex

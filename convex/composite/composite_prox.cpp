@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
 

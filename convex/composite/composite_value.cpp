@@ -1,7 +1,6 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
@@ -94,13 +93,16 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   whole << x, point.xi;
   Vector slope = Vector::Zero(f.n + f.k);
   std::size_t j = 0;
+  bool indicator = true;
   for (const GraphTerm& term : f.terms) {
-    if (slope_of(*term.f) || is_half_square(*term.f)) {
-      const Vector at = term.M * whole + term.b;
-      add(term.scale * term.f->value(at));
-      slope += term.scale * (term.M.transpose() * *term.f->subgradient(at));
+    if (const auto form = term.f->quadratic_form(term.M.rows())) {
+      indicator = false;
+      const Vector at = term.M * whole + term.b, image = form->Q * at;
+      add(term.scale * (0.5 * at.dot(image) + form->c.dot(at) + form->constant));
+      slope += term.scale * (term.M.transpose() * Vector(image + form->c));
       continue;
     }
+    indicator = indicator && term.f->facts().indicator;
     const SaddleTerm& in = problem.terms[j++];
     const Vector r = point.r.segment(in.first, in.rows), y = point.y.segment(in.first, in.rows);
     add(term.scale * term.f->value(point.u.segment(in.first, in.rows)));
@@ -120,6 +122,11 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     return found;
   }
   found.w = point.xi;
+  if (indicator) {
+    found.value = f.constant;
+    found.v = Vector::Zero(f.n);
+    return found;
+  }
   found.v = slope.head(f.n);
   found.error_bound = saddle_error(problem, point).of_value + 8 * unit_roundoff * size;
   const double energy = point.u.dot(point.D.cwiseProduct(point.u));

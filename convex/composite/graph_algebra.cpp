@@ -1,7 +1,5 @@
 #include "convex/composite/graph_algebra.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/graph_placement.hpp"
 #include "convex/composite/metric_difference.hpp"
@@ -12,19 +10,13 @@ namespace {
 
 SparseMatrix identity(Index n) { return selection(0, n, n); }
 
-/// An F with FᵀF = Q, by L D Lᵀ of Q with pivots; rows of no weight are left out.
-SparseMatrix root_of(const Matrix& Q) {
-  const Eigen::LDLT<Matrix> factor(Q);
-  const Vector d = factor.vectorD().cwiseMax(0.0);
-  Matrix F = factor.transpositionsP().transpose() * Matrix(factor.matrixL());
-  F = (F * d.cwiseSqrt().asDiagonal()).transpose().eval();
-  std::vector<Index> rows;
-  for (Index i = 0; i < d.size(); ++i)
-    if (d[i] > 0) rows.push_back(i);
-  Matrix kept(static_cast<Index>(rows.size()), Q.cols());
-  for (std::size_t i = 0; i < rows.size(); ++i) kept.row(static_cast<Index>(i)) = F.row(rows[i]);
-  return kept.sparseView();
+/// ½ Mξ·Q Mξ as a term.
+GraphTerm quadratic_term(const SparseMatrix& M, const SparseMatrix& Q, double scale) {
+  const Vector zero = Vector::Zero(Q.rows());
+  return {quadratic_atom({Q, zero, 0}), scale, M, zero};
 }
+
+SparseMatrix sparse_gram(const Metric& W) { return gram(W).sparseView(); }
 
 }  // namespace
 
@@ -64,10 +56,7 @@ GraphForm precompose(const GraphForm& f, const SparseMatrix& A, const Vector& b)
 
 GraphForm add_quadratic(GraphForm f, const Matrix& Q, const Vector& c, double constant) {
   const SparseMatrix x_part = selection(0, f.n, f.n + f.k);
-  if (!Q.isZero(0)) {
-    const SparseMatrix F = root_of(Q);
-    f.terms.push_back({half_square_atom(), 1, SparseMatrix(F * x_part), Vector::Zero(F.rows())});
-  }
+  if (!Q.isZero(0)) f.terms.push_back(quadratic_term(x_part, Q.sparseView(), 1));
   if (!c.isZero(0)) f.terms.push_back(linear_term(x_part, c));
   f.constant += constant;
   return f;
@@ -101,7 +90,8 @@ GraphForm inf_convolution(const GraphForm& f, const GraphForm& g) {
 }
 
 GraphForm envelope(const GraphForm& f, const Metric& W) {
-  return inf_convolution(add_quadratic(GraphForm{f.n, 0, {}, 0}, gram(W), Vector::Zero(f.n), 0), f);
+  const GraphForm square{f.n, 0, {quadratic_term(identity(f.n), sparse_gram(W), 1)}, 0};
+  return inf_convolution(square, f);
 }
 
 GraphForm proximal_average(const GraphForm& f, const GraphForm& g, double lambda, double gamma,
@@ -115,9 +105,8 @@ GraphForm proximal_average(const GraphForm& f, const GraphForm& g, double lambda
   const SparseMatrix p = (x - (1 - lambda) * w) / lambda;
   add_terms(average, scale(f, lambda), placed(columns, p, 2 * n, f.k), Vector::Zero(n));
   add_terms(average, scale(g, 1 - lambda), placed(columns, w, 2 * n + f.k, g.k), Vector::Zero(n));
-  const SparseMatrix F = root_of(gram(W));
-  average.terms.push_back({half_square_atom(), (1 - lambda) / (lambda * gamma), SparseMatrix(F * (x - w)),
-                           Vector::Zero(F.rows())});
+  average.terms.push_back(
+      quadratic_term(SparseMatrix(x - w), sparse_gram(W), (1 - lambda) / (lambda * gamma)));
   return average;
 }
 

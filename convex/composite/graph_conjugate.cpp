@@ -24,9 +24,9 @@ GraphForm conjugate(const GraphForm& f) {
   const GraphTerm* eliminated = nullptr;
   Index size = 0;
   for (const GraphTerm& term : f.terms) {
-    if (const Vector* slope = slope_of(*term.f)) {
-      shift += term.scale * (term.M.transpose() * *slope);
-      constant -= term.scale * slope->dot(term.b);
+    if (const auto linear = linear_form(*term.f, term.M.rows())) {
+      shift += term.scale * (term.M.transpose() * linear->c);
+      constant -= term.scale * (linear->c.dot(term.b) + linear->constant);
     } else if (!eliminated && is_x(term.M, f.n)) {
       eliminated = &term;
     } else {

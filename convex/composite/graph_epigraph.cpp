@@ -39,7 +39,7 @@ Vector appended(const Vector& b, double last) {
 GraphForm epigraph(const GraphForm& f) {
   std::vector<const GraphTerm*> heights;  // terms with a height of their own
   for (const GraphTerm& term : f.terms)
-    if (!slope_of(*term.f) && !term.f->facts().indicator) heights.push_back(&term);
+    if (!linear_form(*term.f, term.M.rows()) && !term.f->facts().indicator) heights.push_back(&term);
   const Index n = f.n + 1, own = std::max<Index>(1, static_cast<Index>(heights.size())) - 1;
   const Index columns = n + f.k + own;
   // ξ = (x, t, w, heights of all such terms but the first).
@@ -50,9 +50,9 @@ GraphForm epigraph(const GraphForm& f) {
   double rest_shift = -f.constant;
   for (const GraphTerm& term : f.terms) {
     const SparseMatrix M = term.M * place;
-    if (const Vector* slope = slope_of(*term.f)) {
-      rest = SparseMatrix(rest - term.scale * row_of(*slope, M));
-      rest_shift -= term.scale * slope->dot(term.b);
+    if (const auto linear = linear_form(*term.f, term.M.rows())) {
+      rest = SparseMatrix(rest - term.scale * row_of(linear->c, M));
+      rest_shift -= term.scale * (linear->c.dot(term.b) + linear->constant);
     } else if (term.f->facts().indicator) {
       set.terms.push_back({term.f, 1, M, term.b});
     }
@@ -97,8 +97,8 @@ GraphForm perspective(const GraphForm& f) {
   bool bounded = false;
   for (const GraphTerm& term : f.terms) {
     const SparseMatrix M = SparseMatrix(term.M * place) + SparseMatrix(term.b.sparseView()) * s;
-    if (const Vector* a = slope_of(*term.f)) {
-      slope = SparseMatrix(slope + term.scale * row_of(*a, M));
+    if (const auto linear = linear_form(*term.f, term.M.rows())) {
+      slope = SparseMatrix(slope + term.scale * (row_of(linear->c, M) + linear->constant * s));
       continue;
     }
     bounded = true;

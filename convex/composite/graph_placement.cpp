@@ -30,6 +30,12 @@ void add_terms(GraphForm& sum, const GraphForm& f, const SparseMatrix& place, co
   sum.constant += f.constant;
 }
 
+std::optional<QuadraticForm> linear_form(const Atom& f, Index n) {
+  std::optional<QuadraticForm> form = f.quadratic_form(n);
+  if (form && form->Q.nonZeros() > 0) form.reset();
+  return form;
+}
+
 GraphTerm linear_term(const SparseMatrix& M, const Vector& a) {
   return {linear_atom(a), 1, M, Vector::Zero(a.size())};
 }

@@ -14,6 +14,9 @@ SparseMatrix selection(Index first, Index rows, Index columns, double factor = 1
 /// Adds the terms of f at place · ξ + (b, 0), and its constant, to `sum`.
 void add_terms(GraphForm& sum, const GraphForm& f, const SparseMatrix& place, const Vector& b);
 
+/// a and constant when f is a·u + constant on Rⁿ.
+std::optional<QuadraticForm> linear_form(const Atom& f, Index n);
+
 /// a·Mξ as a term.
 GraphTerm linear_term(const SparseMatrix& M, const Vector& a);
 

@@ -15,7 +15,7 @@ constexpr double settled = 1e-13;
 /// What the estimated errors of y and w are multiplied by to be safe, at rounding level and far from it; and
 /// that of x, at rounding level, where it may be much smaller than monotonicity shows: where the terms' own
 /// curvature, and not W, holds x.
-constexpr double safety = 2, far_safety = 20, own_safety = 10;
+constexpr double safety = 2, far_safety = 20, own_safety = 4;
 
 /// Bounds on the absolute values of what rounding does to a point's parts.
 struct Rounding {

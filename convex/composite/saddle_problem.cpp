@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "convex/composite/affine_atoms.hpp"
-
 namespace convex {
 namespace {
 
@@ -97,17 +95,15 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<const Vector*> shifts;
   for (const GraphTerm& term : f.terms) {
-    if (const Vector* slope = slope_of(*term.f)) {
-      problem.c += term.scale * (term.M.transpose() * *slope);
-      continue;
-    }
-    if (is_half_square(*term.f)) {
-      if (problem.Q.size() == 0) problem.Q = Matrix::Zero(size, size);
-      problem.Q += term.scale * Matrix(term.M.transpose() * term.M);
-      problem.c += term.scale * (term.M.transpose() * term.b);
-      continue;
-    }
     const Index rows = term.M.rows();
+    if (const auto form = term.f->quadratic_form(rows)) {
+      problem.c += term.scale * (term.M.transpose() * Vector(form->Q * term.b + form->c));
+      if (form->Q.nonZeros() == 0) continue;
+      if (problem.Q.size() == 0) problem.Q = Matrix::Zero(size, size);
+      const SparseMatrix image = form->Q * term.M;
+      problem.Q += term.scale * Matrix(term.M.transpose() * image);
+      continue;
+    }
     for (Index c = 0; c < term.M.outerSize(); ++c)
       for (SparseMatrix::InnerIterator entry(term.M, c); entry; ++entry)
         if (entry.value() != 0) entries.emplace_back(problem.m + entry.row(), c, entry.value());

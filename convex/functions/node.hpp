@@ -30,6 +30,13 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual std::optional<GraphForm> graph(Index n) const;
 };
 
+/// ½ u·Qu + c·u + constant on Rⁿ. Q: n×n, symmetric positive semidefinite.
+struct QuadraticForm {
+  SparseMatrix Q;
+  Vector c;
+  double constant = 0;
+};
+
 /// A function whose prox in the identity metric, and in a diagonal one when it is separable, has a formula;
 /// in any other metric its prox is found through `linear_quadratic` when there is one, else by the semismooth
 /// Newton method on its graph form.
@@ -48,6 +55,9 @@ class Atom : public FunctionNode {
   /// An element of the generalised Jacobian (Clarke 1983) of z -> prox_diagonal(z, d) at z: n×n,
   /// with D·J symmetric positive semidefinite.
   virtual Matrix prox_jacobian(const Vector& z, const Vector& d) const = 0;
+
+  /// f on Rⁿ where it is quadratic or linear: sums of atoms then need no prox of it.
+  virtual std::optional<QuadraticForm> quadratic_form(Index) const { return std::nullopt; }
 
   Prox prox(const Vector& z, const Metric& W) const override;
   std::optional<GraphForm> graph(Index n) const override;

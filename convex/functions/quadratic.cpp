@@ -68,6 +68,9 @@ class Quadratic : public Atom {
     const Matrix D = d.asDiagonal();
     return (Q_ + D).llt().solve(D);
   }
+  std::optional<QuadraticForm> quadratic_form(Index) const override {
+    return QuadraticForm{Q_.sparseView(), c_, constant_};
+  }
   /// 0 = W(x - z) + Qx + c, refined once.
   Prox prox(const Vector& z, const Metric& W) const override {
     const Eigen::LLT<Matrix> sum(gram(W) + Q_);

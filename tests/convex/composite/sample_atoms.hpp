@@ -114,7 +114,7 @@ class Exponential final : public Sample {
   Facts facts() const override { return {.separable = true, .smooth = true, .finite = true}; }
   double conjugate_value(const Vector& v) const override {
     double sum = 0;
-    for (double a : v) sum += a > 0 ? a * std::log(a) - a : a < 0 ? infinity : 0;
+    for (double a : v) sum += a > 0 ? a * std::log(a) - a : indicator(-a, v.norm());
     return sum;
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
