@@ -153,6 +153,19 @@ TEST_CASE("in one dimension it is the conjugate of the interpolant, as the piece
   for (Index i = 0; i < slopes.size(); ++i) CHECK(g(i) == exact(slopes[i]));
 }
 
+TEST_CASE("samples that bend by less than the rounding of a slope keep their hull") {
+  const double steep = 0x1p50;
+  Vector x(8), f(8), slopes(8);
+  for (Index i = 0; i < 8; ++i) {
+    const double j = static_cast<double>(i);
+    x[i] = j;
+    f[i] = steep * j + j * j;
+    slopes[i] = steep + 2 * j;
+  }
+  const GridFunction g = convex::conjugate(GridFunction{{x}, f}, {slopes});
+  for (Index i = 0; i < 8; ++i) CHECK(g(i) == static_cast<double>(i * i));
+}
+
 TEST_CASE("known conjugates are met within the stated error, from below") {
   const Vector axis = Vector::LinSpaced(401, -4, 4), slopes = Vector::LinSpaced(21, -1, 1);
   const double step = 0.02;

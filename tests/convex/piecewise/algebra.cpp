@@ -178,6 +178,7 @@ TEST_CASE("conjugation turns inf-convolution into sum, envelope into square, sca
       CHECK(close(convex::tilt(a.f, c)(x), a.f(x) + c * x, 10));
       CHECK(close(convex::add_square(a.f, c)(x), a.f(x) + c / 2 * x * x, 10));
       CHECK(close(convex::add_constant(a.f, c)(x), a.f(x) + c, 10));
+      CHECK(close(convex::conjugate(convex::add_constant(a.f, c))(x), g(x) - c, 10));
       if (std::isfinite(a.f(x)) && std::isfinite(dilated(rho * x)))
         CHECK(close(dilated(rho * x), a.f(x), 10));
     }
@@ -238,6 +239,13 @@ TEST_CASE("a translation by 1e8 and the way back cost no digits of the function"
   CHECK(oracles::same_bytes(convex::translate(far, -1e8), f));
   const PiecewiseQuadratic sum = convex::sum(far, piecewise::linear(1));
   CHECK(sum(1e8 + 2) == f(2) + 1e8 + 2);
+  // Nor does a partner whose coefficients are those at 0.
+  const PiecewiseQuadratic near = convex::translate(piecewise::quadratic(2), 1e8 - 1);
+  const Pieces left_of_all{Eigen::Matrix<double, 1, 1>(1),
+                           (convex::Matrix(2, 3) << 1, -1, 0, 0, 0, -0.5).finished()};
+  const PiecewiseQuadratic flat = convex::piecewise_quadratic(left_of_all.breaks, left_of_all.coefficients);
+  CHECK(convex::sum(near, flat)(1e8 + 0.5) == 1.75);
+  CHECK(convex::sum(flat, near)(1e8 + 0.5) == 1.75);
 }
 
 TEST_CASE("the minimum and its points") {

@@ -93,6 +93,13 @@ TEST_CASE("a joint that holds to rounding is accepted, and each piece keeps its 
   CHECK_NOTHROW(convex::piecewise_quadratic(breaks({1.0 / 3}), twelve_digits));
 }
 
+TEST_CASE("the sign of a zero makes no difference") {
+  const PiecewiseQuadratic f =
+      convex::piecewise_quadratic(breaks({-0.0}), rows({{-0.0, -0.0, -0.0}, {1, -0.0, -0.0}}));
+  CHECK(oracles::same_bytes(f, convex::piecewise_quadratic(breaks({0}), rows({{0, 0, 0}, {1, 0, 0}}))));
+  CHECK(oracles::same_bytes(convex::dilate(convex::dilate(f, -2), -0.5), f));
+}
+
 TEST_CASE("what is not convex, closed and proper is refused, and the message names the piece") {
   struct Wrong {
     Vector breaks;
@@ -106,6 +113,7 @@ TEST_CASE("what is not convex, closed and proper is refused, and the message nam
       {breaks({0}), rows({{0, 0, 0}, {0, 0, 1e-6}}), "differ by"},
       {breaks({1}), rows({{0, 1, 0}, {0, 1, 1e-6}}), "differ by"},
       {breaks({0}), rows({{0, 1, 0}, {0, -1, 0}}), "the slope falls by 2 from piece 0 to 1"},
+      {breaks({1}), rows({{0, 1, 0}, {0, 1 - 1e-6, 1e-6}}), "the slope falls by"},
       {breaks({0, 1}), rows({{0, 0, 0}, {infinity, 0, 0}, {0, 0, 0}}), "piece 1 is +inf between"},
       {breaks({0}), rows({{infinity, 0, 0}, {infinity, 0, 0}}), "improper"},
       {breaks({0}), rows({{infinity, 1, 0}, {0, 0, 0}}), "piece 0 is +inf; write it"},
