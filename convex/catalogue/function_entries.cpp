@@ -164,7 +164,8 @@ std::vector<CatalogueEntry> function_entries() {
        closed,
        iterative,
        {"entropy()"},
-       [](const Arguments&) { return entropy(); }},
+       [](const Arguments&) { return entropy(); },
+       "orthant()"},
       {"binary_entropy",
        EntryKind::function,
        {},
@@ -174,7 +175,8 @@ std::vector<CatalogueEntry> function_entries() {
        closed,
        iterative,
        {"binary_entropy()"},
-       [](const Arguments&) { return binary_entropy(); }},
+       [](const Arguments&) { return binary_entropy(); },
+       "box(0, 1)"},
       {"kullback_leibler",
        EntryKind::function,
        {{"reference", vector, "1"}},
@@ -187,7 +189,8 @@ std::vector<CatalogueEntry> function_entries() {
        [](const Arguments& a) {
          return a.is_vector("reference") ? kullback_leibler(a.vector("reference"))
                                          : kullback_leibler(a.number("reference"));
-       }},
+       },
+       "orthant(), with x_i = 0 where r_i = 0"},
       {"log_barrier",
        EntryKind::function,
        {},
@@ -197,7 +200,8 @@ std::vector<CatalogueEntry> function_entries() {
        closed,
        iterative,
        {"log_barrier()"},
-       [](const Arguments&) { return log_barrier(); }},
+       [](const Arguments&) { return log_barrier(); },
+       "x_i > 0"},
       {"logistic",
        EntryKind::function,
        {},
@@ -249,7 +253,8 @@ std::vector<CatalogueEntry> function_entries() {
        closed,
        iterative,
        {"inverse_power(1)", "inverse_power(2)", "inverse_power(0.5)"},
-       [](const Arguments& a) { return inverse_power(a.number("q")); }},
+       [](const Arguments& a) { return inverse_power(a.number("q")); },
+       "x_i > 0"},
       {"negative_power",
        EntryKind::function,
        {{"r", number, "0.5"}},
@@ -259,7 +264,8 @@ std::vector<CatalogueEntry> function_entries() {
        closed,
        iterative,
        {"negative_power(0.5)", "negative_power(0.8)"},
-       [](const Arguments& a) { return negative_power(a.number("r")); }}};
+       [](const Arguments& a) { return negative_power(a.number("r")); },
+       "orthant()"}};
   for (CatalogueEntry& entry : norm_entries()) entries.push_back(std::move(entry));
   return entries;
 }

@@ -113,7 +113,8 @@ std::vector<CatalogueEntry> norm_entries() {
        iterative,
        iterative,
        {"neg_log_det()"},
-       [](const Arguments&) { return neg_log_det(); }},
+       [](const Arguments&) { return neg_log_det(); },
+       "positive definite matrices"},
   };
 }
 

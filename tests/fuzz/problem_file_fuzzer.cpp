@@ -3,6 +3,8 @@
 #include <string>
 
 #include "cli/problem_file/problem.hpp"
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/decomposition.hpp"
 #include "mechanics/contacts.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"
@@ -13,7 +15,7 @@
 namespace {
 
 /// Larger problems are right to be slow; they only cost the fuzzer its speed.
-constexpr convex::Index most_coordinates = 60, most_contacts = 60;
+constexpr convex::Index most_coordinates = 60, most_contacts = 60, most_entries = 12;
 constexpr std::size_t most_digits_of_a_bound = 3;
 
 /// A family, or a sum, of a thousand members or more.
@@ -46,10 +48,17 @@ void solve(const cli::SystemProblem& text) {
   solve(gauss.problem);
 }
 
+void solve(const cli::DecompositionProblem& problem) {
+  if (problem.z.size() > most_entries) return;
+  const convex::Function f = convex::make_function(problem.f, {problem.W});
+  convex::decompose(f, problem.z, problem.W);
+}
+
 void run(const std::string& text) {
   const cli::Problem problem = cli::read_problem(text, "/nowhere");
   if (const auto* system = std::get_if<cli::SystemProblem>(&problem.content)) solve(*system);
   if (const auto* numbers = std::get_if<cli::ProjectionProblem>(&problem.content)) solve(numbers->problem);
+  if (const auto* split = std::get_if<cli::DecompositionProblem>(&problem.content)) solve(*split);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST_CASE("every problem of the library has the answer of an independent derivat
     std::ifstream file(MOREAU_SOURCE "/tests/cases/" + name + ".expected.json");
     REQUIRE(file.good());
     const json expected = json::parse(file);
-    if (expected.value("kind", "") == "cone") continue;  // tests/cli/cones.cpp
+    if (expected.contains("kind")) continue;  // no mechanics: tests/cli
     const cli::Scene scene = cli::read_scene(MOREAU_SOURCE "/docs/problems/" + name + ".toml", {});
     const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
     const cli::SolvedScene solved = cli::solved_scene(scene, solution, 0);

@@ -20,6 +20,7 @@ import sympy
 
 from closed_forms import CLOSED_FORMS
 from cone_values import expected_cone
+from decomposition_values import expected_decomposition
 from lagrange_equations import equations
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -327,7 +328,12 @@ def main():
             continue
         data = tomllib.loads(path.read_text(), parse_float=Decimal)
         target = ROOT / "tests" / "cases" / f"{path.stem}.expected.json"
-        values = expected_cone(data["cone"]) if "cone" in data else expected(path.stem, data)
+        if "cone" in data:
+            values = expected_cone(data["cone"])
+        elif "decomposition" in data:
+            values = expected_decomposition(path.stem, data["decomposition"])
+        else:
+            values = expected(path.stem, data)
         target.write_text(json.dumps(values, indent=1) + "\n")
         print(target.relative_to(ROOT))
 
