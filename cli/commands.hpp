@@ -7,6 +7,9 @@ namespace cli {
 /// `moreau solve FILE…`: solves each problem file.
 Exit solve_command(const Options&);
 
+/// `moreau check FILE…`: puts each problem's answer to the laws that it must obey.
+Exit check_command(const Options&);
+
 /// `moreau derive FILE…`: A, z, U, s of a system at its state.
 Exit derive_command(const Options&);
 

@@ -66,10 +66,8 @@ SplitPoint split_point(const DecompositionProblem& problem, const SolveSettings&
   return made;
 }
 
-std::string split_json(const SplitPoint& solved, const std::string& file) {
+void write_split(JsonWriter& json, const SplitPoint& solved, const std::string& file) {
   const convex::Decomposition& split = solved.split;
-  JsonWriter json;
-  json.begin_object();
   if (!file.empty()) json.key("file").value(file);
   json.key("kind").value("decomposition").key("status").value(name(split.status));
   json.key("x").numbers(split.x.x).key("y").numbers(split.y.x);
@@ -78,8 +76,14 @@ std::string split_json(const SplitPoint& solved, const std::string& file) {
   json.key("route").begin_object().key("x").value(how(split.x)).key("y").value(how(split.y)).end_object();
   json.key("certificate").begin_object().key("level").value("estimate");
   json.key("error_bound").value(split.error_bound).end_object();
-  json.key("seconds").value(solved.seconds).end_object();
-  return json.text();
+  json.key("seconds").value(solved.seconds);
+}
+
+std::string split_json(const SplitPoint& solved, const std::string& file) {
+  JsonWriter json;
+  json.begin_object();
+  write_split(json, solved, file);
+  return json.end_object().text();
 }
 
 std::string split_text(const SplitPoint& solved) {

@@ -8,6 +8,8 @@
 
 namespace cli {
 
+class JsonWriter;
+
 /// A point split in two, as its reports need it.
 struct SplitPoint {
   const DecompositionProblem& problem;
@@ -21,8 +23,11 @@ void require_applicable(const SolveSettings&, const Options&);
 /// Builds f in the metric of the problem and splits z. Throws InvalidInput with the place in f's text.
 SplitPoint split_point(const DecompositionProblem&, const SolveSettings&, const Options&);
 
-/// The JSON object of docs/problem-files.md, one line without its end. `file` is "" for a split that comes
-/// from the command line.
+/// The keys of docs/problem-files.md, into the object that is open. `file` is "" for a split that comes from
+/// the command line.
+void write_split(JsonWriter&, const SplitPoint&, const std::string& file);
+
+/// The object, one line without its end.
 std::string split_json(const SplitPoint&, const std::string& file);
 
 /// The readable result below a heading.

@@ -19,7 +19,7 @@ using cli::Options;
 constexpr const char* version = "moreau " MOREAU_VERSION;
 
 /// Commands of the contract that a later version brings.
-constexpr std::array planned{"check", "simulate", "chart", "stress", "gallery"};
+constexpr std::array planned{"simulate", "chart", "stress", "gallery"};
 
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
@@ -104,6 +104,13 @@ int main(int argc, char** argv) {
   solve->add_flag("--ranges", options.ranges,
                   "ranges of multipliers that are not unique, also beyond 1000 contacts");
   solve->callback([&] { chosen = cli::solve_command; });
+
+  CLI::App* check = app.add_subcommand(
+      "check", "the decomposition theorem, numerically: laws that the answer must obey, each with its bound");
+  add_files(*check, options);
+  add_accuracy(*check, options);
+  add_common(*check, options);
+  check->callback([&] { chosen = cli::check_command; });
 
   CLI::App* derive = app.add_subcommand("derive", "A, z, U, s of a system at its state");
   add_files(*derive, options);

@@ -12,8 +12,11 @@ class WorstCheck {
   explicit WorstCheck(std::string name) : worst_{check_that(std::move(name), 0, 0)} {}
   void take(double value, double bound) {
     if (!worst_.passed) return;
-    const Check check = check_that(worst_.name, value, bound);
-    if (!check.passed || excess(check) > excess(worst_)) worst_ = check;
+    Check check = check_that(worst_.name, value, bound);
+    const bool nearer =
+        none_yet_ || excess(check) > excess(worst_) || (!(worst_.value > 0) && check.bound < worst_.bound);
+    if (!check.passed || nearer) worst_ = std::move(check);
+    none_yet_ = false;
   }
   const Check& check() const { return worst_; }
 
@@ -23,6 +26,7 @@ class WorstCheck {
     return c.value > 0 ? std::numeric_limits<double>::infinity() : 0;
   }
   Check worst_;
+  bool none_yet_ = true;
 };
 
 }  // namespace convex

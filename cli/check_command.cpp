@@ -1,0 +1,57 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/checks_report.hpp"
+#include "cli/commands.hpp"
+#include "cli/decomposition_report.hpp"
+#include "cli/each_file.hpp"
+#include "cli/json_writer.hpp"
+#include "cli/scene.hpp"
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/laws/laws.hpp"
+
+namespace cli {
+namespace {
+
+/// An object of a solve with the checks behind its own keys.
+template <class WriteSolve>
+std::string with_checks(const convex::LawReport& report, const WriteSolve& write_solve) {
+  JsonWriter json;
+  json.begin_object();
+  write_solve(json);
+  write_checks(json, report);
+  return json.end_object().text() + "\n";
+}
+
+Answer check_decomposition(const DecompositionProblem& problem, const Problem& file_content,
+                           const std::string& file, const Options& options) {
+  require_applicable(file_content.solve, options);
+  const SplitPoint split = split_point(problem, file_content.solve, options);
+  const convex::Function f = convex::make_function(problem.f, {problem.W});
+  const convex::LawReport report = convex::laws(f, {problem.z}, {{"given", problem.W}});
+  return {exit_code(report, split.split.status),
+          options.json ? with_checks(report, [&](JsonWriter& json) { write_split(json, split, file); })
+                       : heading(file_content.title, file) + split_text(split) + "\n" + checks_text(report)};
+}
+
+Answer check_file(const std::string& file, const Options& options) {
+  const Problem problem = read_problem_file(file);
+  if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content))
+    return check_decomposition(*decomposition, problem, file, options);
+  throw convex::InvalidInput("only [decomposition] can be checked yet; give a file with one");
+}
+
+}  // namespace
+
+Exit check_command(const Options& options) {
+  bool first = true;
+  return for_each_file(options, [&](const std::string& file) {
+    const Answer answer = check_file(file, options);
+    if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
+    first = false;
+    return answer.exit;
+  });
+}
+
+}  // namespace cli
