@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "cli/catalogue_report.hpp"
+#include "convex/catalogue/references.hpp"
 
 namespace cli {
 namespace {
@@ -24,6 +25,9 @@ What may stand in `f` of a `[decomposition]` ([problem-files.md](problem-files.m
   inside `precompose` the identity.
 - A matrix as an argument of a set of matrices or a spectral function is stacked by columns.
 - A value is +inf outside the domain; a point within 1e-9 of the scale of itself and of the data belongs to it.
+
+Facts are those that hold whatever the arguments are; a call with particular ones can have more. `moreau functions NAME` tells
+more of one entry, with examples.
 
 How a prox is found, in the identity metric, a diagonal one, and any other:
 
@@ -81,12 +85,19 @@ std::string section(const std::vector<CatalogueLine>& lines, EntryKind kind, con
   return text;
 }
 
+std::string reference_list() {
+  std::string text = "\n## References\n\n";
+  for (const convex::Reference& work : convex::references())
+    text += fmt::format("- {}: {}.\n", work.name, escaped(work.text));
+  return text;
+}
+
 }  // namespace
 
 std::string catalogue_markdown(const std::vector<CatalogueLine>& lines) {
   return introduction + section(lines, EntryKind::set, "Sets") +
          section(lines, EntryKind::function, "Functions") +
-         section(lines, EntryKind::operation, "Operations");
+         section(lines, EntryKind::operation, "Operations") + reference_list();
 }
 
 }  // namespace cli

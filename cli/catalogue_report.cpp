@@ -7,6 +7,7 @@
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "cli/json_writer.hpp"
+#include "convex/catalogue/references.hpp"
 
 namespace cli {
 namespace {
@@ -27,6 +28,16 @@ std::string prox_text(const CatalogueEntry& entry) {
     return std::string(entry.in_identity);
   return fmt::format("identity: {}; diagonal: {}; general: {}", entry.in_identity, entry.in_diagonal,
                      entry.in_general);
+}
+
+convex::Facts shared_facts(const convex::Facts& f, const convex::Facts& g) {
+  return {f.indicator && g.indicator,
+          f.cone && g.cone,
+          f.support && g.support,
+          f.separable && g.separable,
+          f.piecewise_quadratic && g.piecewise_quadratic,
+          f.smooth && g.smooth,
+          f.finite && g.finite};
 }
 
 }  // namespace
@@ -87,9 +98,13 @@ std::vector<std::string> fact_words(const convex::Facts& facts) {
 }
 
 CatalogueLine catalogue_line(const CatalogueEntry& entry) {
-  const convex::Call call = parse_call(entry.examples.front(), entry.name);
-  const convex::Metric product = convex::Metric::identity(number_of_entries(call));
-  return {&entry, convex::make_function(call, {product}).facts()};
+  convex::Facts shared{true, true, true, true, true, true, true};
+  for (const std::string_view example : entry.examples) {
+    const convex::Call call = parse_call(example, entry.name);
+    const convex::Metric product = convex::Metric::identity(number_of_entries(call));
+    shared = shared_facts(shared, convex::make_function(call, {product}).facts());
+  }
+  return {&entry, shared};
 }
 
 std::vector<CatalogueLine> catalogue_lines() {
@@ -129,6 +144,8 @@ std::string catalogue_details(const CatalogueLine& line) {
   if (const std::vector<std::string> words = fact_words(line.facts); !words.empty())
     text += fmt::format("{:<12}{}\n", "facts", joined(words, ", "));
   text += fmt::format("{:<12}{}\n{:<12}{}\n", "prox", prox_text(entry), "source", entry.source);
+  for (const convex::Reference& work : convex::references_of(entry.source))
+    text += fmt::format("{:<12}{}: {}\n", "", work.name, work.text);
   for (const std::string_view example : entry.examples) text += fmt::format("{:<12}{}\n", "example", example);
   return text;
 }

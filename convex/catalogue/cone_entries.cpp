@@ -12,7 +12,7 @@ std::vector<CatalogueEntry> cone_entries() {
        EntryKind::set,
        {},
        "|(x_1, ..., x_(n-1))|_2 <= x_n",
-       "Lorentz; Bauschke and Combettes 2017, exercise 29.11",
+       "Bauschke and Combettes 2017, exercise 29.11",
        closed,
        iterative,
        iterative,

@@ -9,7 +9,7 @@ namespace convex {
 /// Σ x log x, x >= 0. Conjugate: Σ e^(v-1).
 Function entropy();
 /// Σ x log(x/r) - x + r, x >= 0; r: the reference, >= 0, one for all entries or one each (r = 0: x = 0).
-/// Conjugate: Σ r (e^v - 1) (Kullback and Leibler 1951; Combettes and Pesquet 2007).
+/// Conjugate: Σ r (e^v - 1) (Kullback and Leibler 1951; Chaux et al. 2007).
 Function kullback_leibler(double reference = 1);
 Function kullback_leibler(const Vector& reference);
 /// Σ e^x. Conjugate: Σ v log v - v.

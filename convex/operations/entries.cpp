@@ -207,7 +207,7 @@ std::vector<CatalogueEntry> operation_entries() {
        operation,
        {{"f", function}, {"A", matrix}, {"b", vector, "0"}},
        "f(A x + b)",
-       "Rockafellar 1970, Theorem 16.3; Combettes and Pesquet 2007, Lemma 2.4",
+       "Rockafellar 1970, Theorem 16.3; Combettes and Pesquet 2007, Proposition 11",
        in_other_metric,
        in_other_metric,
        in_other_metric,

@@ -42,7 +42,7 @@ Function envelope(const Function& f, double gamma, const Metric& M);
 
 /// x -> f(Ax + b); throws InvalidInput when Ax + b never meets the domain of f. A: m×n; b: m. When the rows
 /// of A are independent, the prox is W⁻¹Aᵀ away from that of f at Az + b in (A W⁻¹Aᵀ)⁻¹, which is diagonal
-/// when A W⁻¹Aᵀ is (nu I: Combettes and Pesquet 2007, Lemma 2.4). The conjugate is a rule when they are
+/// when A W⁻¹Aᵀ is (nu I: Combettes and Pesquet 2007, Proposition 11). The conjugate is a rule when they are
 /// independent, else computed.
 Function precompose(const Function& f, const Matrix& A, const Vector& b);
 

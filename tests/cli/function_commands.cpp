@@ -1,7 +1,13 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/catalogue/references.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -98,4 +104,41 @@ TEST_CASE("the functions are listed with the name first, and the same names as J
     CHECK(Json::parse(run({"functions", name, "--json"}).out).at("functions") == Json::array({function}));
   }
   CHECK(at == text.size());
+}
+
+TEST_CASE("the page of functions is what the catalogue says today") {
+  std::ifstream page(MOREAU_SOURCE "/docs/functions.md");
+  const std::string written{std::istreambuf_iterator<char>(page), {}};
+  const Outcome made = run({"functions", "--markdown"});
+  CHECK(made.code == 0);
+  const auto [in_page, in_made] =
+      std::mismatch(written.begin(), written.end(), made.out.begin(), made.out.end());
+  INFO("made anew with: moreau functions --markdown > docs/functions.md; the first line that differs: ",
+       std::string(in_made, std::find(in_made, made.out.end(), '\n')));
+  CHECK(in_page == written.end());
+  CHECK(in_made == made.out.end());
+}
+
+TEST_CASE("every source of the catalogue is in the list of references, and the list has nothing else") {
+  std::set<std::string_view> cited;
+  for (const convex::CatalogueEntry& entry : convex::catalogue()) {
+    CAPTURE(entry.name);
+    CHECK_FALSE(entry.source.empty());
+    for (const convex::Reference& work : convex::references_of(entry.source)) cited.insert(work.name);
+  }
+  for (const convex::Reference& work : convex::references()) {
+    CAPTURE(work.name);
+    CHECK(cited.count(work.name) == 1);
+  }
+  CHECK(std::ranges::is_sorted(convex::references(), {}, &convex::Reference::name));
+  CHECK_THROWS_AS(convex::references_of("Nobody 1900"), convex::InvalidInput);
+}
+
+TEST_CASE("a fact that the list tells holds for every example of its entry") {
+  const auto facts = [](const std::string& name) {
+    return Json::parse(run({"functions", name, "--json"}).out).at("functions").at(0).at("facts");
+  };
+  CHECK(facts("power") == Json{"separable", "finite"});
+  CHECK(facts("epigraph") == Json{"indicator"});
+  CHECK(facts("box") == Json{"indicator", "separable", "piecewise linear-quadratic"});
 }
