@@ -1,15 +1,19 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 
 #include "cli/checks_report.hpp"
 #include "cli/commands.hpp"
+#include "cli/cone_report.hpp"
 #include "cli/decomposition_report.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
-#include "cli/scene.hpp"
+#include "cli/solve_report.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/laws/cone_laws.hpp"
 #include "convex/laws/laws.hpp"
+#include "mechanics/gauss_laws.hpp"
 
 namespace cli {
 namespace {
@@ -35,11 +39,36 @@ Answer check_decomposition(const DecompositionProblem& problem, const Problem& f
                        : heading(file_content.title, file) + split_text(split) + "\n" + checks_text(report)};
 }
 
+Answer check_cone(const ConeProblem& problem, const Problem& file_content, const std::string& file,
+                  const Options& options) {
+  require_cone_settings(file_content.solve, options);
+  const SolvedCone solved = solve_cone(problem);
+  const convex::LawReport report =
+      solved.split ? convex::cone_laws(solved.cone, solved.polar, problem.W, *problem.z, *solved.split)
+                   : convex::cone_laws(solved.cone, solved.polar, problem.W);
+  return {exit_code(report, convex::Status::solved),
+          options.json ? with_checks(report, [&](JsonWriter& json) { write_cone(json, solved, file); })
+                       : heading(file_content.title, file) + cone_text(solved) + "\n" + checks_text(report)};
+}
+
+Answer check_scene(const Scene& scene, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const SolvedScene solved = solved_scene(scene, solution, seconds);
+  const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);
+  return {exit_code(report, solution.primal.status),
+          options.json ? with_checks(report, [&](JsonWriter& json) { write_solved(json, solved); })
+                       : solve_text(solved) + "\n" + checks_text(report)};
+}
+
 Answer check_file(const std::string& file, const Options& options) {
-  const Problem problem = read_problem_file(file);
+  Problem problem = read_problem_file(file);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content))
     return check_decomposition(*decomposition, problem, file, options);
-  throw convex::InvalidInput("only [decomposition] can be checked yet; give a file with one");
+  if (const auto* cone = std::get_if<ConeProblem>(&problem.content))
+    return check_cone(*cone, problem, file, options);
+  return check_scene(make_scene(std::move(problem), file, options), options);
 }
 
 }  // namespace

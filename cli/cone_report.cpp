@@ -139,9 +139,8 @@ SolvedCone solve_cone(const ConeProblem& problem) {
   return solved;
 }
 
-std::string cone_json(const SolvedCone& solved, const std::string& file) {
-  JsonWriter json;
-  json.begin_object().key("file").value(file).key("kind").value("cone").key("status").value("solved");
+void write_cone(JsonWriter& json, const SolvedCone& solved, const std::string& file) {
+  json.key("file").value(file).key("kind").value("cone").key("status").value("solved");
   write_descriptions(json, solved.cone);
   json.key("polar").begin_object();
   write_descriptions(json, solved.polar);
@@ -155,8 +154,14 @@ std::string cone_json(const SolvedCone& solved, const std::string& file) {
     write_face(json, "face", solved.split->face);
     write_face(json, "polar_face", solved.split->polar_face);
   }
-  json.key("seconds").value(solved.seconds).end_object();
-  return json.text();
+  json.key("seconds").value(solved.seconds);
+}
+
+std::string cone_json(const SolvedCone& solved, const std::string& file) {
+  JsonWriter json;
+  json.begin_object();
+  write_cone(json, solved, file);
+  return json.end_object().text();
 }
 
 std::string cone_text(const SolvedCone& solved) {

@@ -10,6 +10,8 @@
 
 namespace cli {
 
+class JsonWriter;
+
 /// A cone by both descriptions with its polar, and the point split between them.
 struct SolvedCone {
   const ConeProblem& problem;
@@ -23,7 +25,10 @@ void require_cone_settings(const SolveSettings&, const Options&);
 
 SolvedCone solve_cone(const ConeProblem&);
 
-/// The JSON object of docs/problem-files.md, one line without its end.
+/// The keys of docs/problem-files.md, into the object that is open.
+void write_cone(JsonWriter&, const SolvedCone&, const std::string& file);
+
+/// The object, one line without its end.
 std::string cone_json(const SolvedCone&, const std::string& file);
 
 /// The readable result below a heading.

@@ -112,9 +112,8 @@ void write_answer(JsonWriter& json, const SolvedScene& solved) {
 
 }  // namespace
 
-std::string solve_json(const SolvedScene& solved) {
-  JsonWriter json;
-  json.begin_object().key("file").value(solved.scene.file).key("kind").value(solved.scene.kind);
+void write_solved(JsonWriter& json, const SolvedScene& solved) {
+  json.key("file").value(solved.scene.file).key("kind").value(solved.scene.kind);
   json.key("status")
       .value(name(solved.solution.primal.status))
       .key("method")
@@ -124,8 +123,14 @@ std::string solve_json(const SolvedScene& solved) {
                                solved.scene.over_constraints(solved.solution.primal.farkas));
   else if (solved.has_answer())
     write_answer(json, solved);
-  json.key("seconds").value(solved.seconds).end_object();
-  return json.text();
+  json.key("seconds").value(solved.seconds);
+}
+
+std::string solve_json(const SolvedScene& solved) {
+  JsonWriter json;
+  json.begin_object();
+  write_solved(json, solved);
+  return json.end_object().text();
 }
 
 }  // namespace cli

@@ -7,6 +7,8 @@
 
 namespace cli {
 
+class JsonWriter;
+
 /// Whether a constraint persists, opens, or is not in K.
 enum class ConstraintState { persists, opens, inactive };
 
@@ -28,7 +30,10 @@ SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double s
 
 const char* name(ConstraintState);
 
-/// The JSON object of docs/problem-files.md, one line without its end.
+/// The keys of docs/problem-files.md, into the object that is open.
+void write_solved(JsonWriter&, const SolvedScene&);
+
+/// The object, one line without its end.
 std::string solve_json(const SolvedScene&);
 
 /// The readable result.

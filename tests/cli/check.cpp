@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -50,6 +51,66 @@ TEST_CASE("check adds to the object of solve the laws of the decomposition, each
       CHECK(names.find(law) != std::string::npos);
     }
   }
+}
+
+TEST_CASE("check tries the split of a cone with its polar, in fractions: every bound is zero") {
+  for (const char* name : {"cone_friction_pyramid.toml", "cone_isotonic.toml", "cone_hidden_line.toml"}) {
+    const Json checks = checked(folder_of_problems + name)["checks"];
+    for (const Json& check : checks) CHECK(check["bound"] == 0);
+    for (const char* law : {"(x|y) = 0", "polar of the polar", "is a facet", "z = x + y"}) {
+      CAPTURE(law);
+      CHECK(checks.dump().find(law) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("check finds the reaction of contacts from the dual and compares it with the one of the motion") {
+  for (const char* name :
+       {"table_off_centre.toml", "delassus_drops_too_much.toml", "slider_crank_tilted.toml",
+        "projection_two_sided.toml", "projection_redundant.toml"}) {
+    const std::string names = checked(folder_of_problems + name)["checks"].dump();
+    for (const char* law : {"from the dual by section 5's cone", "two-sided reaction", "lambda_a (u_a.q''",
+                            "as small a G", "conjugacy"}) {
+      CAPTURE(law);
+      CHECK(names.find(law) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("where the contacts contradict each other as equations the dual is a least distance") {
+  const Folder folder;
+  // q <= 1 and q >= 0 pull apart as equations; z pushes on the first.
+  const std::string file =
+      folder.write("apart.toml", "[projection]\nA = [[2]]\nz = [5]\nU = [[-1], [1]]\ns = [-1, 0]\n");
+  const Json found = checked(file);
+  CHECK(found["reaction_from_dual"].is_null());
+  CHECK(found["checks"].dump().find("from the dual by least distance") != std::string::npos);
+}
+
+TEST_CASE("without contacts the laws hold for the free motion") {
+  const Folder folder;
+  checked(folder.write("free.toml", "[projection]\nA = [[2]]\nz = [5]\nU = []\ns = []\n"));
+}
+
+TEST_CASE("an infeasible problem exits one with its witness checked") {
+  const Outcome outcome = run({"check", "--json", folder_of_problems + "jammed_seesaw.toml"});
+  CHECK(outcome.code == 1);
+  const Json found = Json::parse(outcome.out);
+  CHECK(found["status"] == "infeasible");
+  CHECK(found["checks"].size() == 3);
+  for (const Json& check : found["checks"]) CHECK(check["passed"] == true);
+}
+
+TEST_CASE("of several checked files the largest exit code counts, and each has its object") {
+  const Folder folder;
+  const std::string wrong = folder.write("wrong.toml", "[cone]\n"),
+                    solved = folder_of_problems + "cone_isotonic.toml",
+                    infeasible = folder_of_problems + "squeezed_pistons.toml";
+  CHECK(run({"check", "--quiet", solved, solved}).code == 0);
+  CHECK(run({"check", "--quiet", infeasible, solved}).code == 1);
+  const Outcome outcome = run({"check", "--json", solved, wrong, infeasible});
+  CHECK(outcome.code == 2);
+  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 3);
 }
 
 TEST_CASE("the readable check has one line a law behind the result") {

@@ -1,0 +1,273 @@
+#include "mechanics/gauss_laws.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "convex/laws/worst_check.hpp"
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/residuals.hpp"
+#include "mechanics/units.hpp"
+
+namespace mechanics {
+namespace {
+
+using convex::check_that;
+using convex::LawReport;
+using convex::Matrix;
+using convex::unit_roundoff;
+using convex::WorstCheck;
+
+/// Roundings of a sum, relative to the sum of its absolute terms; a sum of n terms has about sqrt(n) times as
+/// much (Higham and Mary 2019).
+constexpr double roundings = 16 * unit_roundoff;
+
+/// The dual is not asked for beyond so many numbers in the whitened rows: it takes dense algebra on them.
+constexpr Index most_dual_numbers = 1'000'000;
+
+/// A solution with the scales that its laws are judged by.
+struct Judged {
+  const convex::NearestPointProblem& problem;
+  const GaussSolution& solution;
+  Vector slack;   ///< Uq'' - s, rounded once: m
+  Vector length;  ///< ||u_a||_(A⁻¹): m, 0 where no law needs it
+  Vector row;     ///< what the error bound and rounding allow u_a·q'' - s_a: m
+  double size;    ///< ||q''||_A + ||z||_(A⁻¹)
+  std::vector<bool> two_sided;
+  const Vector& q() const { return solution.primal.q; }
+  const Vector& lambda() const { return solution.multipliers.least_norm; }
+  bool is_two_sided(Index a) const { return two_sided[static_cast<std::size_t>(a)]; }
+  double error() const { return solution.primal.error_bound; }
+  double steps() const { return static_cast<double>(problem.dimension() + problem.rows()); }
+};
+
+Judged judged(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
+  const Index m = problem.rows();
+  Judged j{problem, solution, Vector(m), {}, Vector(m), 0, std::vector<bool>(static_cast<std::size_t>(m))};
+  for (Index a : problem.two_sided) j.two_sided[static_cast<std::size_t>(a)] = true;
+  const convex::DoubleDoubleVector point(j.q());
+  std::vector<Index> matter;
+  for (Index a = 0; a < m; ++a) {
+    j.slack[a] = convex::slack(problem, a, point).value();
+    if (j.slack[a] <= 0 || j.is_two_sided(a) || j.lambda()[a] != 0) matter.push_back(a);
+  }
+  j.length = convex::dual_lengths(problem, matter);
+  const Vector magnitude = j.q().cwiseAbs();
+  for (Index a = 0; a < m; ++a)
+    j.row[a] =
+        j.length[a] * j.error() + roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude));
+  j.size = problem.A.norm(j.q()) + problem.A.dual_norm(problem.z);
+  return j;
+}
+
+/// 1 / the smallest singular value of the rows that the answer rests on, whitened and of length 1: what their
+/// near-dependence makes of an error in s.
+double condition_of_basis(const Judged& j) {
+  const std::vector<Index>& basis = j.solution.primal.basis;
+  if (basis.empty()) return 1;
+  Matrix V(j.problem.dimension(), static_cast<Index>(basis.size()));
+  for (std::size_t k = 0; k < basis.size(); ++k) j.problem.U.copy_row(basis[k], V.col(static_cast<Index>(k)));
+  j.problem.A.whiten_in_place(V);
+  V.colwise().normalize();
+  const double smallest = Eigen::BDCSVD<Matrix>(V).singularValues().minCoeff();
+  return 1 / std::max(smallest, unit_roundoff);
+}
+
+void feasibility_laws(const Judged& j, LawReport& report) {
+  WorstCheck kept("u_a.q'' >= s_a on the contacts: x is in C"), signs("lambda_a >= 0"),
+      complementary("lambda_a (u_a.q'' - s_a) = 0");
+  const double largest = j.lambda().size() > 0 ? j.lambda().cwiseAbs().maxCoeff() : 0;
+  for (Index a = 0; a < j.problem.rows(); ++a) {
+    const double violation = j.is_two_sided(a) ? std::abs(j.slack[a]) : std::max(0.0, -j.slack[a]);
+    if (violation > 0 || j.length[a] > 0) kept.take(violation, j.row[a]);
+    if (!j.is_two_sided(a)) signs.take(std::max(0.0, -j.lambda()[a]), roundings * largest);
+    if (std::abs(j.lambda()[a]) > 0)
+      complementary.take(std::abs(j.lambda()[a] * j.slack[a]), std::abs(j.lambda()[a]) * j.row[a]);
+  }
+  report.checks.push_back(kept.check());
+  report.checks.push_back(signs.check());
+  report.checks.push_back(complementary.check());
+}
+
+/// What solving with A and forming its products may leave, in the norm of forces.
+double force_rounding(const Judged& j) {
+  double loads = 0;
+  for (Index a = 0; a < j.problem.rows(); ++a) loads += std::abs(j.lambda()[a]) * j.length[a];
+  return roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * (j.size + loads);
+}
+
+void balance_law(const Judged& j, LawReport& report) {
+  std::vector<Index> rows;
+  for (Index a = 0; a < j.problem.rows(); ++a)
+    if (std::abs(j.lambda()[a]) > 0) rows.push_back(a);
+  convex::DoubleDoubleVector lambda(static_cast<Index>(rows.size()));
+  double loads = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    lambda.hi[static_cast<Index>(k)] = j.lambda()[rows[k]];
+    loads += std::abs(j.lambda()[rows[k]]) * j.length[rows[k]];
+  }
+  const Vector rest =
+      convex::stationarity_residual(j.problem, convex::DoubleDoubleVector(j.q()), rows, lambda);
+  report.checks.push_back(check_that("A q'' = z + sum of lambda_a u_a", j.problem.A.dual_norm(rest),
+                                     j.error() + roundings * (j.size + loads)));
+}
+
+/// The reaction from the dual alone, with what made it.
+struct DualRoute {
+  std::optional<ReactionFromDual> found;
+  const char* how;
+};
+
+DualRoute dual_route(const Judged& j) {
+  if (j.solution.from_dual) return {j.solution.from_dual, "section 5's cone"};
+  const Index numbers = j.problem.dimension() * j.problem.rows();
+  if (numbers <= most_dual_numbers && j.solution.hypothesis.two_sided.consistent)
+    if (auto found = reaction_from_dual(j.problem, j.solution.hypothesis.two_sided, j.solution.primal))
+      return {std::move(found), "section 5's cone"};
+  if (numbers <= most_dual_numbers)
+    return {reaction_by_least_distance(j.problem, j.solution.primal), "least distance"};
+  return {std::nullopt, ""};
+}
+
+void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report) {
+  if (!dual.found) {
+    report.no_evidence.emplace_back(
+        "z = x + y: the dual route did not reach y, and y from the primal would prove nothing");
+    return;
+  }
+  const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
+  // The dual's cone stands at x_0: what x_0 misses of the contacts moves y.
+  double missed = 0;
+  const TwoSided& two_sided = j.solution.hypothesis.two_sided;
+  double size = j.size;
+  if (two_sided.consistent) {
+    const Vector rest = j.problem.U.times(two_sided.acceleration) - j.problem.s;
+    for (Index a = 0; a < rest.size(); ++a)
+      if (j.length[a] > 0) missed = std::max(missed, std::abs(rest[a]) / j.length[a]);
+    size += j.problem.A.norm(two_sided.acceleration);
+  }
+  const double bound =
+      j.error() + force_rounding(j) +
+      condition_of_basis(j) * (std::sqrt(j.steps()) * missed +
+                               roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size);
+  report.checks.push_back(
+      check_that(std::string("z = x + y, x = A q'' from the primal, y = -R from the dual by ") + dual.how,
+                 j.problem.A.dual_norm(j.problem.z - x - y), bound));
+}
+
+void nearest_reaction_law(const Judged& j, LawReport& report) {
+  const TwoSided& two_sided = j.solution.hypothesis.two_sided;
+  if (!two_sided.consistent) return;
+  // With R_0 = A q_0 - z, a force R + t u_a is farther from R_0 than R is when t (R_0 - R|u_a) <= t² |u_a|²/2
+  // for all small t: u_a·(q_0 - q'') <= 0, and = 0 where R may lose some of u_a.
+  WorstCheck nearest("no other force of the contacts is as near to the two-sided reaction");
+  const Vector apart = j.problem.U.times(two_sided.acceleration - j.q());
+  const Vector magnitude = two_sided.acceleration.cwiseAbs() + j.q().cwiseAbs();
+  for (Index a = 0; a < j.problem.rows(); ++a) {
+    const bool both_ways = j.is_two_sided(a) || j.lambda()[a] > 0;
+    if (both_ways || apart[a] > 0) {
+      const double bound =
+          2 * j.row[a] + roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() *
+                             (j.problem.U.absolute_dot(a, magnitude) +
+                              j.length[a] * (j.size + j.problem.A.norm(two_sided.acceleration)));
+      nearest.take(both_ways ? std::abs(apart[a]) : apart[a], bound);
+    }
+  }
+  report.checks.push_back(nearest.check());
+}
+
+void conjugacy_law(const Judged& j, LawReport& report) {
+  const double power = j.solution.reaction.dot(j.q()), support = j.lambda().dot(j.problem.s);
+  const double terms = j.solution.reaction.cwiseAbs().dot(j.q().cwiseAbs()) +
+                       j.lambda().cwiseAbs().dot(j.problem.s.cwiseAbs() + j.row);
+  const double bound = roundings * std::sqrt(j.steps()) * terms + j.lambda().cwiseAbs().dot(j.row) +
+                       (j.error() + force_rounding(j)) * j.size;
+  report.checks.push_back(
+      check_that("conjugacy f(x) + g(y) = (x|y): R.q'' = lambda.s", std::abs(power - support), bound));
+}
+
+/// Other accelerations that the contacts allow: those that other forces would have made.
+std::vector<Vector> rivals(const Judged& j, const GaussOptions& options) {
+  std::vector<Vector> found;
+  if (j.solution.hypothesis.two_sided.consistent)
+    found.push_back(j.solution.hypothesis.two_sided.acceleration);
+  std::mt19937 generator(1966);
+  std::normal_distribution<double> normal;
+  convex::NearestPointProblem other = j.problem;
+  for (int k = 0; k < 3; ++k) {
+    Vector push(j.q().size());
+    for (double& entry : push) entry = normal(generator);
+    const double size = j.problem.A.dual_norm(push);
+    other.z = j.problem.z + push * ((j.size > 0 ? j.size : 1) / size);
+    const convex::Solution moved = options.method->solve(other, options.accuracy);
+    if (moved.status == convex::Status::solved) found.push_back(moved.q);
+  }
+  return found;
+}
+
+void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& report) {
+  WorstCheck least("no other acceleration that the contacts allow has as small a G");
+  const Vector gradient = j.problem.A.multiply(j.q()) - j.problem.z;
+  const double rounding = force_rounding(j);
+  for (const Vector& rival : rivals(j, options))
+    for (double step : {1.0, 1e-3}) {
+      const Vector d = step * (rival - j.q());
+      // G(q'' + d) - G(q'') - ½||d||² = (A q'' - z)·d.
+      const double size = j.problem.A.norm(rival) + j.size;
+      const double bound = (j.error() + rounding) * (j.problem.A.norm(d) + j.size) +
+                           roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size * j.size;
+      least.take(std::max(0.0, -gradient.dot(d)), bound);
+    }
+  report.checks.push_back(least.check());
+}
+
+LawReport farkas_laws(const convex::NearestPointProblem& problem, const Vector& w) {
+  LawReport report;
+  constexpr double tolerance = 1e-12;  // what the contract promises of the weights
+  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  double wrong_sign = 0;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!two_sided[static_cast<std::size_t>(a)]) wrong_sign = std::max(wrong_sign, -w[a]);
+  report.checks.push_back(check_that("the Farkas weights w are >= 0", wrong_sign, 0));
+  Vector terms = Vector::Zero(problem.dimension());
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (std::abs(w[a]) > 0) terms += std::abs(w[a]) * problem.U.row(a).cwiseAbs();
+  report.checks.push_back(check_that("w.U = 0: the accelerations cancel",
+                                     problem.U.transpose_times(w).cwiseAbs().maxCoeff(),
+                                     tolerance * terms.maxCoeff()));
+  report.checks.push_back(
+      check_that("w.s > 0: what is left is a contradiction", w.dot(problem.s) > 0 ? 0 : 1, 0));
+  return report;
+}
+
+LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const GaussSolution& solution,
+                            const GaussOptions& options) {
+  LawReport report;
+  if (solution.primal.status == convex::Status::infeasible)
+    return farkas_laws(problem, solution.primal.farkas);
+  if (solution.multipliers.least_norm.size() != problem.rows()) return report;
+  const Judged j = judged(problem, solution);
+  feasibility_laws(j, report);
+  balance_law(j, report);
+  decomposition_law(j, dual_route(j), report);
+  nearest_reaction_law(j, report);
+  conjugacy_law(j, report);
+  uniqueness_law(j, options, report);
+  return report;
+}
+
+}  // namespace
+
+LawReport gauss_laws(const convex::NearestPointProblem& problem, const GaussSolution& solution,
+                     const GaussOptions& options) {
+  const Units units = fit_units(problem);
+  if (units.ordinary() || solution.primal.status == convex::Status::infeasible)
+    return laws_as_it_stands(problem, solution, options);
+  // Squares of extreme numbers are not doubles: the laws are tried where they are.
+  const convex::NearestPointProblem fit = in_units(problem, units);
+  return laws_as_it_stands(fit, solve(fit, options), options);
+}
+
+}  // namespace mechanics
