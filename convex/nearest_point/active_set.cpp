@@ -43,13 +43,13 @@ class DualActiveSet {
   }
 
   Solution run(const std::vector<Index>& guess) {
-    if (!hold_two_sided()) return infeasible();
+    if (!hold_two_sided()) return infeasible_answer(set_, farkas_, steps_);
     start_by_blocks(guess);
     const Index limit =
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
     for (int round = 0; round < most_rounds; ++round) {
-      if ((round > 0 || !settled_) && !descend(limit)) return infeasible();
+      if ((round > 0 || !settled_) && !descend(limit)) return infeasible_answer(set_, farkas_, steps_);
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
       if (refined.contraction < 1)
@@ -57,7 +57,7 @@ class DualActiveSet {
       if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
-      if (outcome == Outcome::infeasible) return infeasible();
+      if (outcome == Outcome::infeasible) return infeasible_answer(set_, farkas_, steps_);
       if (outcome == Outcome::unchanged) return answer(refined, true);
     }
     return answer(refined, false);
@@ -227,6 +227,7 @@ class DualActiveSet {
         if (!(violation > 0)) {
           // Consistent with W to rounding: it holds as well as W does, and cannot be told from it.
           passed_[static_cast<std::size_t>(p)] = true;
+          flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, p, split_);
           return changed ? finish_change() : Outcome::unchanged;
         }
       }
@@ -268,6 +269,7 @@ class DualActiveSet {
   Outcome finish_change() {
     drop_until_dual_feasible();
     std::fill(passed_.begin(), passed_.end(), false);
+    flat_wedge_ = false;
     return Outcome::changed;
   }
 
@@ -319,11 +321,9 @@ class DualActiveSet {
     return Outcome::unchanged;
   }
 
-  Solution infeasible() const { return infeasible_answer(set_, farkas_, steps_); }
-
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
-    return judged_answer(set_, refined, slack_, row_scale_, finished, accuracy_, steps_);
+    return judged_answer(set_, refined, slack_, row_scale_, finished && !flat_wedge_, accuracy_, steps_);
   }
 
   const NearestPointProblem& problem_;
@@ -333,7 +333,9 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
-  bool settled_ = false;  // the rows of the start are right as far as doubles tell
+  // settled_: the rows of the start are right as far as doubles tell; flat_wedge_: some held row does not
+  // tell.
+  bool settled_ = false, flat_wedge_ = false;
   Index steps_ = 0;
   double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0;
 };

@@ -11,6 +11,9 @@ constexpr double gap_roundings = 16;
 /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
 constexpr double coefficient_noise = 64 * unit_roundoff;
 
+/// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
+constexpr double exact_dependence = 0x1p-90;
+
 }  // namespace
 
 template <int MaxSize>
@@ -39,6 +42,14 @@ double contradiction(const WorkingSet<MaxSize>& set, Index p,
 }
 
 template <int MaxSize>
+bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename WorkingSet<MaxSize>::Split& split) {
+  if (split.rest <= exact_dependence * split.magnitude) return false;
+  for (Index k = 0; k < set.size(); ++k)
+    if (set.one_sided(k) && split.coefficients[k] < 0 && !is_noise(set, k, split)) return true;
+  return false;
+}
+
+template <int MaxSize>
 Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
                              const typename WorkingSet<MaxSize>::Split& split, double sign) {
   Vector weights = Vector::Zero(set.problem().rows());
@@ -51,6 +62,7 @@ Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
 
 #define MOREAU_DEPENDENT_ROW(size)                                                                      \
   template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
+  template bool is_flat_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);          \
   template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
   template Vector contradiction_weights(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&, \
                                         double);

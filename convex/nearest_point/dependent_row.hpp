@@ -14,6 +14,11 @@ template <int MaxSize>
 double contradiction(const WorkingSet<MaxSize>& set, Index p,
                      const typename WorkingSet<MaxSize>::Split& split);
 
+/// Whether a row counts as dependent on W by rounding alone and is opposite to one-sided rows of W: as the
+/// numbers stand they leave a wedge, however flat, and its edge may be far from where W holds them.
+template <int MaxSize>
+bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split);
+
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 template <int MaxSize>
 Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,

@@ -46,6 +46,7 @@ void WorkingSet<MaxSize>::split(Index p, Split& into) {
   into.coefficients = into.c.head(size());
   factor_.solve_upper(into.coefficients);
   into.magnitude = into.length;
+  into.rest = into.rho;
   if (into.rho < doubtful_part * into.length) sharpen(p, into);
 }
 
@@ -67,6 +68,7 @@ void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
   }
   split.coefficients = r.hi;
   for (Index k = 0; k < size(); ++k) split.magnitude += std::abs(r.hi[k]) * factor_.length(k);
+  split.rest = split.rho;
   if (split.rho <= dependence_roundings * unit_roundoff * split.magnitude) split.rho = 0;
 }
 

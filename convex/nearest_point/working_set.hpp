@@ -47,6 +47,7 @@ class WorkingSet {
     Column c, coefficients, direction;
     double length = 0;     ///< |v_p|
     double rho = 0;        ///< |d|; 0 when the row is dependent within the rounding of the data
+    double rest = 0;       ///< |d| as twice the working precision has it
     double magnitude = 0;  ///< |v_p| + Σ |r_k| |v_k|: what rounding of the rows is relative to
   };
   void split(Index p, Split& into);
