@@ -22,6 +22,9 @@ Exit prox_command(const Options&);
 /// `moreau conjugate "f"`: the conjugate as an expression, its domain, its value.
 Exit conjugate_command(const Options&);
 
+/// `moreau gallery [FAMILY]`: the families of hard problems; an instance as a problem file.
+Exit gallery_command(const Options&);
+
 /// `moreau functions [NAME]`: the sets, functions and operations that a file can name.
 Exit functions_command(const Options&);
 

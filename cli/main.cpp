@@ -19,7 +19,7 @@ using cli::Options;
 constexpr const char* version = "moreau " MOREAU_VERSION;
 
 /// Commands of the contract that a later version brings.
-constexpr std::array planned{"simulate", "chart", "stress", "gallery"};
+constexpr std::array planned{"simulate", "chart", "stress"};
 
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
@@ -142,6 +142,23 @@ int main(int argc, char** argv) {
   CLI::App* methods = app.add_subcommand("methods", "the methods of solution that a file can name");
   add_common(*methods, options);
   methods->callback([&] { chosen = cli::methods_command; });
+
+  CLI::App* gallery = app.add_subcommand(
+      "gallery", "families of hard problems with known answers; writes one as a problem file");
+  gallery->add_option("FAMILY", options.family,
+                      "the family to take an instance of; without it, all are listed");
+  gallery->add_option("--difficulty", options.difficulty, "setting of the family's knob")->type_name("X");
+  gallery->add_option("--size", options.size, "coordinates, bodies, discs or points along a side")
+      ->type_name("N");
+  gallery->add_option("--seed", options.seed, "another seed gives another instance; default 1")
+      ->type_name("K");
+  gallery
+      ->add_option("--output", options.output,
+                   "file to write, such as F.toml (matrices of a sparse family go to F.A.mtx, F.U.mtx); "
+                   "default standard output")
+      ->type_name("FILE");
+  gallery->add_flag("--json", options.json, "the list as one JSON object");
+  gallery->callback([&] { chosen = cli::gallery_command; });
 
   for (const char* name : planned) {
     CLI::App* later = app.add_subcommand(name, "not available yet")->group("")->allow_extras();

@@ -21,6 +21,11 @@ struct Options {
   std::optional<std::string> at;        ///< a vector
   std::optional<std::string> metric;    ///< a matrix, or "diagonal [1, 2]"
   std::optional<std::string> function;  ///< of functions: the one to tell about
+  std::optional<std::string> family;    ///< of gallery
+  std::optional<double> difficulty;     ///< of gallery: the setting of the family's knob
+  std::optional<long> size;             ///< of gallery
+  unsigned seed = 1;                    ///< of gallery
+  std::optional<std::string> output;    ///< a file to write
   bool markdown = false;                ///< of functions: docs/functions.md
 };
 

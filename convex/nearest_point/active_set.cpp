@@ -333,9 +333,7 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
-  // settled_: the rows of the start are right as far as doubles tell; flat_wedge_: some held row does not
-  // tell.
-  bool settled_ = false, flat_wedge_ = false;
+  bool settled_ = false, flat_wedge_ = false;  // the start is right as far as doubles tell; a row is not
   Index steps_ = 0;
   double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0;
 };
