@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "mechanics/units.hpp"
 
@@ -56,6 +57,8 @@ GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, con
 }  // namespace
 
 GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+  if (const std::string reason = options.method->applies(problem); !reason.empty())
+    throw convex::InvalidInput("method \"" + std::string(options.method->name) + "\": " + reason);
   const Units units = fit_units(problem);
   if (units.ordinary()) return solve_as_it_stands(problem, options);
   GaussSolution found = solve_as_it_stands(in_units(problem, units), options);

@@ -7,17 +7,25 @@
 namespace convex {
 namespace {
 
+std::string always(const NearestPointProblem&) { return {}; }
+
 Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return active_set(problem, accuracy);
 }
 
 constexpr std::array table{
-    Method{"auto", "chooses by size and structure; today always active-set", solve_by_active_set},
-    Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
+    Method{"auto", "chooses by size and structure; today always active-set", MethodKind::direct, always,
            solve_by_active_set},
+    Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
+           MethodKind::direct, always, solve_by_active_set},
 };
 
 }  // namespace
+
+std::string_view name(MethodKind kind) {
+  constexpr std::array<std::string_view, 3> names{"direct", "iterative", "for comparison"};
+  return names[static_cast<std::size_t>(kind)];
+}
 
 std::span<const Method> methods() { return table; }
 

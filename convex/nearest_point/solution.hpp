@@ -39,7 +39,8 @@ struct Solution {
   double force_norm = 0;         ///< ||z||_(A⁻¹)
   std::vector<Index> basis;      ///< the independent active rows that the answer rests on
   Vector farkas;
-  Index steps = 0;  ///< rows taken in or dropped, one at a time or in blocks
+  Index steps = 0;        ///< of the method: rows taken in or dropped, pivots, iterations
+  bool polished = false;  ///< q solves the equations of the rows that an iteration showed to be active
 };
 
 }  // namespace convex

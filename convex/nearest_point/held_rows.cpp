@@ -1,0 +1,188 @@
+#include "convex/nearest_point/held_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/dependent_row.hpp"
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/refinement.hpp"
+
+namespace convex {
+namespace {
+
+/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
+constexpr double silence = 0x1p-95;
+
+class Polish {
+ public:
+  using Set = WorkingSet<Eigen::Dynamic>;
+  using Split = Set::Split;
+
+  Polish(const NearestPointProblem& problem, const Vector& row_scale)
+      : problem_(problem), row_scale_(row_scale), set_(problem) {
+    two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
+    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
+  }
+
+  std::optional<HeldRows> run(const Vector& q, const Vector& lambda, Index most_changes) {
+    for (Index p : problem_.two_sided) {
+      set_.split(p, split_);
+      if (split_.rho > 0 && set_.size() < set_.factor().capacity()) set_.append(p, split_, lambda[p]);
+    }
+    set_.fix();
+    for (Index p : active(q, lambda)) take_in(p, lambda[p]);
+    for (Index change = 0; change <= most_changes; ++change) {
+      set_.solve();
+      const RefinedPoint refined = refine(set_);
+      if (!(refined.contraction < 1) || !std::isfinite(refined.remaining())) return std::nullopt;
+      if (drop_negative(refined)) continue;
+      measure(refined);
+      if (admit_violated(refined)) continue;
+      return held(refined);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// One-sided rows that look active, the most loaded first.
+  std::vector<Index> active(const Vector& q, const Vector& lambda) const {
+    const Vector slack = problem_.U.times(q) - problem_.s;
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (!two_sided_[static_cast<std::size_t>(a)] && row_scale_[a] > 0 && lambda[a] > 0 &&
+          lambda[a] * row_scale_[a] > slack[a] / row_scale_[a])
+        rows.push_back(a);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](Index a, Index b) { return lambda[a] * row_scale_[a] > lambda[b] * row_scale_[b]; });
+    return rows;
+  }
+
+  /// Takes in row p with its multiplier; while it depends on W, the multiplier moves over to W, from which
+  /// the row that comes to 0 first is dropped.
+  void take_in(Index p, double multiplier) {
+    set_.split(p, split_);
+    while (!(split_.rho > 0) || set_.size() == set_.factor().capacity()) {
+      double step = multiplier;
+      Index blocking = -1;
+      for (Index k = 0; k < set_.size(); ++k) {
+        const double r = split_.coefficients[k];
+        if (!set_.one_sided(k) || r >= 0 || is_noise(set_, k, split_)) continue;
+        const double ratio = std::max(0.0, set_.lambda()[k]) / -r;
+        if (ratio < step) {
+          step = ratio;
+          blocking = k;
+        }
+      }
+      set_.lambda().head(set_.size()) += step * split_.coefficients.head(set_.size());
+      multiplier -= step;
+      if (blocking < 0) return;
+      set_.remove(blocking);
+      set_.split(p, split_);
+    }
+    set_.append(p, split_, multiplier);
+  }
+
+  bool drop_negative(const RefinedPoint& refined) {
+    const double noise = 4 * refined.remaining() * set_.factor().inverse_norm();
+    Index worst = -1;
+    double lowest = 0;
+    for (Index k = 0; k < set_.size(); ++k) {
+      const double push = refined.lambda.hi[k] * set_.factor().length(k);
+      if (!set_.one_sided(k) || !(refined.lambda.hi[k] < -noise) || !(push < lowest)) continue;
+      lowest = push;
+      worst = k;
+    }
+    if (worst >= 0) set_.remove(worst);
+    return worst >= 0;
+  }
+
+  /// Slacks at the refined point; those that cannot be told from 0 are 0.
+  void measure(const RefinedPoint& refined) {
+    const Vector size = refined.q.hi.cwiseAbs();
+    const double plain = 2 * static_cast<double>(problem_.dimension()) * unit_roundoff;
+    slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const double s = std::abs(problem_.s[a]);
+      if (set_.holds(a)) {
+        slack_[a] = 0;
+      } else if (std::abs(slack_[a]) <= plain * (s + problem_.U.absolute_dot(a, size))) {
+        slack_[a] = slack(problem_, a, refined.q).value();
+        const double noise =
+            silence * (s + row_scale_[a] * set_.scale()) + 2 * row_scale_[a] * refined.remaining();
+        if (std::abs(slack_[a]) <= noise) slack_[a] = 0;
+      }
+    }
+  }
+
+  /// Takes in the most violated row that W does not span.
+  bool admit_violated(const RefinedPoint& refined) {
+    std::vector<Index> rows;
+    contradiction_ = 0;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (slack_[a] < 0 || (two_sided_[static_cast<std::size_t>(a)] && slack_[a] != 0)) rows.push_back(a);
+    std::sort(rows.begin(), rows.end(),
+              [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
+    for (Index p : rows) {
+      set_.split(p, split_);
+      const bool spanned = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
+      if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
+        contradiction_ = std::max(contradiction_, std::abs(slack_[p]));
+        continue;
+      }
+      if (two_sided_[static_cast<std::size_t>(p)]) return true;  // contradictory: no point holds these
+      if (!spanned && -slack_[p] <= 2 * refined.remaining() * split_.length) continue;
+      for (Index k = 0; k < set_.size(); ++k)
+        set_.lambda()[k] = set_.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
+      exchange(p);
+      return true;
+    }
+    return false;
+  }
+
+  /// Takes in the violated row p; where W spans it, the row that blocks first goes.
+  void exchange(Index p) {
+    while (!(split_.rho > 0) || set_.size() == set_.factor().capacity()) {
+      double step = std::numeric_limits<double>::infinity();
+      Index blocking = -1;
+      for (Index k = 0; k < set_.size(); ++k) {
+        const double r = split_.coefficients[k];
+        if (!set_.one_sided(k) || r <= 0 || is_noise(set_, k, split_)) continue;
+        if (set_.lambda()[k] / r >= step) continue;
+        step = set_.lambda()[k] / r;
+        blocking = k;
+      }
+      if (blocking < 0) return;
+      set_.lambda().head(set_.size()) -= step * split_.coefficients.head(set_.size());
+      set_.remove(blocking);
+      set_.split(p, split_);
+    }
+    set_.append(p, split_, 0);
+  }
+
+  HeldRows held(const RefinedPoint& refined) const {
+    HeldRows found{set_.rows(), refined.q, Vector::Zero(problem_.rows()), slack_};
+    for (Index k = 0; k < set_.size(); ++k)
+      found.lambda[set_.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
+    found.remaining = refined.remaining();
+    found.inverse_norm = set_.factor().inverse_norm();
+    found.contradiction = contradiction_;
+    return found;
+  }
+
+  const NearestPointProblem& problem_;
+  const Vector& row_scale_;
+  Set set_;
+  Split split_;
+  std::vector<bool> two_sided_;
+  Vector slack_;
+  double contradiction_ = 0;
+};
+
+}  // namespace
+
+std::optional<HeldRows> hold_active_rows(const NearestPointProblem& problem, const Vector& q,
+                                         const Vector& lambda, const Vector& row_scale, Index most_changes) {
+  return Polish(problem, row_scale).run(q, lambda, most_changes);
+}
+
+}  // namespace convex

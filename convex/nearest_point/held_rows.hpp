@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/double_double.hpp"
+#include "convex/nearest_point/problem.hpp"
+
+namespace convex {
+
+/// The point at which the rows of a set W hold with equality, as in `RefinedPoint`, for the set that a given
+/// q and lambda show to be active.
+struct HeldRows {
+  std::vector<Index> rows;   ///< W; independent when n·m is small enough for a dense factor
+  DoubleDoubleVector q;      ///< n
+  Vector lambda;             ///< m; 0 off W. Negative ones on one-sided rows are smaller than `noise`
+  Vector slack;              ///< Uq - s: m; 0 on W and where refinement cannot tell it from 0
+  double remaining = 0;      ///< an estimate of ||q - q_W||_A, q_W the exact point of W
+  double inverse_norm = 0;   ///< an estimate of 1 / (smallest singular value of the whitened rows of W)
+  double contradiction = 0;  ///< what the worst row off W that W contradicts by rounding alone is violated by
+};
+
+/// Row a counts as active when lambda_a ||u_a|| > (u_a·q - s_a) / ||u_a||, both sides being lengths in the
+/// metric. Of dependent active rows a basis with multipliers >= 0 is taken (Carathéodory 1911). Rows whose
+/// multiplier turns out negative go, rows violated at the new point come in, no more than `most_changes` in
+/// all; nothing when that does not do, or when refinement does not converge. row_scale: ||u_a||_(D⁻¹), D the
+/// diagonal of A: m.
+std::optional<HeldRows> hold_active_rows(const NearestPointProblem&, const Vector& q, const Vector& lambda,
+                                         const Vector& row_scale, Index most_changes);
+
+}  // namespace convex
