@@ -57,6 +57,14 @@ Vector metric_difference(const Metric& W, const Vector& x, const Vector& z) {
   return sum.value();
 }
 
+Vector refined_solve(const Metric& W, const Vector& c) {
+  const Vector first = W.solve(c);
+  if (W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal) return first;
+  DoubleDoubleVector missing(-c);
+  add_metric_difference(W, first, Vector::Zero(c.size()), missing);
+  return first - W.solve(missing.value());
+}
+
 Matrix gram(const Metric& W) {
   if (W.kind() == MetricKind::dense) return W.dense_gram();
   if (W.kind() == MetricKind::sparse) return Matrix(W.sparse_gram());

@@ -12,6 +12,10 @@ void add_metric_difference(const Metric& W, const Vector& x, const Vector& z, Do
 /// W(x - z), rounded once.
 Vector metric_difference(const Metric& W, const Vector& x, const Vector& z);
 
+/// W⁻¹c, refined once by a residual in twice the working precision: right to rounding where the condition
+/// number leaves a few digits (Wilkinson 1963).
+Vector refined_solve(const Metric& W, const Vector& c);
+
 /// W as a full matrix.
 Matrix gram(const Metric& W);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/composite/composite_prox.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
@@ -54,7 +55,7 @@ Function Operation::conjugate() const { return computed_conjugate(self()); }
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W) {
   if (part.status == Status::infeasible || part.x.size() == 0) return part;
   const double rounding = roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x) + W.dual_norm(v));
-  part.error_bound = bound + W.dual_norm(W.multiply(x - z) + v) + rounding;
+  part.error_bound = bound + W.dual_norm(stationarity(z, W, x, v)) + rounding;
   part.x = std::move(x);
   part.v = std::move(v);
   return part;

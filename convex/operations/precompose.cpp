@@ -109,62 +109,6 @@ Function Precompose::conjugate() const {
   return proper_sum(terms);
 }
 
-/// x -> h(Mx), M definite: one to one, and metrics stay what they are.
-class InProduct : public Operation {
- public:
-  InProduct(Function h, Metric M) : h_(std::move(h)), M_(std::move(M)) {}
-
-  Index dimension() const override { return M_.dimension(); }
-  Facts facts() const override {
-    Facts facts = h_.facts();
-    facts.separable = facts.separable && is_diagonal_kind(M_);
-    return facts;
-  }
-  Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
-  double value(const Vector& x) const override {
-    return value_near(h_, M_.multiply(x), (gram(M_).cwiseAbs() * x.cwiseAbs()).norm());
-  }
-  std::optional<Vector> subgradient(const Vector& x) const override {
-    const std::optional<Vector> v = h_.subgradient(M_.multiply(x));
-    if (!v) return std::nullopt;
-    return M_.multiply(*v);
-  }
-  Function conjugate() const override { return in_product(h_.conjugate(), inverse(M_)); }
-  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
-    const auto form = h_.node().linear_quadratic(n);
-    if (!form) return std::nullopt;
-    return linear_quadratic::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
-  }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = h_.node().graph(n);
-    if (!form) return std::nullopt;
-    return convex::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
-  }
-
- protected:
-  /// With u = Mx the metric is M⁻¹WM⁻¹, the inverse of M W⁻¹M.
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    const Metric C = congruence(M_, W);
-    if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C
-      const auto factor = ratio(M_, W);
-      const Vector force = factor ? Vector(z / *factor) : M_.solve(W.multiply(z));
-      Prox part = f->prox(force, C);
-      if (part.x.size() == 0) return part;
-      part.method = "Moreau's identity, " + part.method;
-      return moved(part, M_.solve(part.v), M_.multiply(part.x), part.error_bound, z, W);
-    }
-    const Metric S = inverse(C);
-    if (facts().piecewise_quadratic && !is_diagonal_kind(S)) return std::nullopt;
-    const Prox part = h_.prox(M_.multiply(z), S);
-    if (part.x.size() == 0) return part;
-    return moved(part, M_.solve(part.x), M_.multiply(part.v), part.error_bound, z, W);
-  }
-
- private:
-  Function h_;
-  Metric M_;
-};
-
 }  // namespace
 
 Function precompose(const Function& f, const Matrix& A, const Vector& b) {
@@ -186,15 +130,6 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
   const Function made(std::make_shared<Precompose>(f, A, b));
   if (!f.facts().finite && !image_metric(Metric::identity(n), A)) require_proper(made, n, "precompose");
   return made;
-}
-
-Function in_product(const Function& h, const Metric& M) {
-  if (h.dimension() != 0 && h.dimension() != M.dimension())
-    throw InvalidInput("conjugate: the metric has " + std::to_string(M.dimension()) +
-                       " rows, the function takes " + std::to_string(h.dimension()) +
-                       " entries; give one of the other's size");
-  if (M.kind() == MetricKind::identity) return h;
-  return Function(std::make_shared<InProduct>(h, M));
 }
 
 }  // namespace convex

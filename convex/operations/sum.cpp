@@ -8,12 +8,10 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
-
-/// A residual of so many roundings is not worth a second pass.
-constexpr double roundings_left = 16;
 
 bool is_diagonal_kind(const Metric& W) {
   return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
@@ -102,14 +100,7 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
     if (part.x.size() == 0) return part;
     return moved(part, part.x, part.v + Q * part.x + c, part.error_bound, z, W);
   };
-  Prox first = from(y);
-  if (first.x.size() == 0) return first;
-  // What rounding left of 0 = W(x - z) + Qx + c + v shows how far y was off.
-  const Vector residual = W.multiply(first.x - z) + first.v;
-  const double size = W.norm(z) + W.norm(first.x);
-  if (!(W.dual_norm(residual) > roundings_left * unit_roundoff * size)) return first;
-  Prox second = from(y - V.solve(residual));
-  return second.x.size() > 0 && second.error_bound < first.error_bound ? second : first;
+  return reduced(y, z, W, from, [&](const Vector& r) { return V.solve(r); });
 }
 
 Function Sum::conjugate() const {

@@ -3,6 +3,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
@@ -41,10 +42,12 @@ class Tilt : public Operation {
 
  protected:
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    const Vector shift = W.solve(c_);
-    const Prox part = f_.prox(z - shift, W);
-    if (part.x.size() == 0) return part;
-    return moved(part, part.x, part.v + c_, part.error_bound + unit_roundoff * W.norm(z - shift), z, W);
+    const auto from = [&](const Vector& point) {
+      Prox part = f_.prox(point, W);
+      if (part.x.size() == 0) return part;
+      return moved(part, part.x, part.v + c_, part.error_bound, z, W);
+    };
+    return reduced(z - W.solve(c_), z, W, from, [&](const Vector& r) { return W.solve(r); });
   }
 
  private:

@@ -1,0 +1,95 @@
+#include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
+
+namespace convex {
+namespace {
+
+bool is_diagonal_kind(const Metric& W) {
+  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+}
+
+/// x -> h(Mx), M definite: one to one, and metrics stay what they are.
+class InProduct : public Operation {
+ public:
+  InProduct(Function h, Metric M) : h_(std::move(h)), M_(std::move(M)) {}
+
+  Index dimension() const override { return M_.dimension(); }
+  Facts facts() const override {
+    Facts facts = h_.facts();
+    facts.separable = facts.separable && is_diagonal_kind(M_);
+    return facts;
+  }
+  Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
+  double value(const Vector& x) const override {
+    return value_near(h_, image(x), (gram(M_).cwiseAbs() * x.cwiseAbs()).norm());
+  }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    const std::optional<Vector> v = h_.subgradient(image(x));
+    if (!v) return std::nullopt;
+    return image(*v);
+  }
+  Function conjugate() const override { return in_product(h_.conjugate(), inverse(M_)); }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    const auto form = h_.node().linear_quadratic(n);
+    if (!form) return std::nullopt;
+    return linear_quadratic::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
+  }
+  std::optional<GraphForm> graph(Index n) const override {
+    const auto form = h_.node().graph(n);
+    if (!form) return std::nullopt;
+    return convex::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
+  }
+
+ protected:
+  /// With u = Mx the metric is M⁻¹WM⁻¹, the inverse of C = M W⁻¹M. As matrices both are rounded; the
+  /// residual sees W and M as given, and corrects the point Mz by it.
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    const auto factor = ratio(M_, W);
+    const Metric C = factor ? times(*factor * *factor, W) : congruence(M_, W);
+    const auto into_point = [&](const Vector& force) -> Vector {  // M W⁻¹ force
+      return factor ? Vector(*factor * force) : image(refined_solve(W, force));
+    };
+    if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C, and to points C⁻¹u
+      const auto from = [&](const Vector& point) {
+        Prox part = f->prox(point, C);
+        if (part.x.size() == 0) return part;
+        part.method = "Moreau's identity, " + part.method;
+        return moved(part, refined_solve(M_, part.v), image(part.x), part.error_bound, z, W);
+      };
+      const Vector force = factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));
+      return reduced(force, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
+    }
+    const Metric S = inverse(C);
+    if (facts().piecewise_quadratic && !is_diagonal_kind(S)) return std::nullopt;
+    const auto from = [&](const Vector& point) {
+      Prox part = h_.prox(point, S);
+      if (part.x.size() == 0) return part;
+      return moved(part, refined_solve(M_, part.x), image(part.v), part.error_bound, z, W);
+    };
+    return reduced(image(z), z, W, from, into_point);
+  }
+
+ private:
+  Vector zero() const { return Vector::Zero(M_.dimension()); }
+  Vector image(const Vector& x) const { return metric_difference(M_, x, zero()); }
+
+  Function h_;
+  Metric M_;
+};
+
+}  // namespace
+
+Function in_product(const Function& h, const Metric& M) {
+  if (h.dimension() != 0 && h.dimension() != M.dimension())
+    throw InvalidInput("conjugate: the metric has " + std::to_string(M.dimension()) +
+                       " rows, the function takes " + std::to_string(h.dimension()) +
+                       " entries; give one of the other's size");
+  if (M.kind() == MetricKind::identity) return h;
+  return Function(std::make_shared<InProduct>(h, M));
+}
+
+}  // namespace convex

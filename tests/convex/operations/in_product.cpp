@@ -1,0 +1,34 @@
+#include <doctest/doctest.h>
+
+#include "convex/laws/trial.hpp"
+#include "convex/operations/operations.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+using convex::Metric;
+using convex::Prox;
+using convex::Vector;
+
+TEST_CASE(
+    "in a product of condition a million, the proxes of f and of its conjugate give z to twelve digits") {
+  for (const char* text :
+       {"ball2(2)", "norm2(0.5)", "second_order_cone()", "exponential_cone()", "power_cone(0.3)", "entropy()",
+        "group_norm(1, [2,1])", "tilt(norm2(), [1,-2,3])", "sum(norm2(), indicator(box(-1, 2)))",
+        "sum(norm2(), quadratic([[2,1,0],[1,2,0],[0,0,1]], [1,0,-1]))"}) {
+    CAPTURE(text);
+    const convex::Function f = samples::function(text, 3);
+    for (const convex::NamedMetric& metric : convex::trial_metrics(3)) {
+      CAPTURE(metric.name);
+      const Metric& W = metric.W;
+      const convex::Function g = f.conjugate(W);
+      for (const Vector& point : convex::trial_points(3))
+        for (const double size : {1e-3, 1.0}) {
+          const Vector z = size * point;
+          const Prox x = f.prox(z, W), y = g.prox(z, W);
+          const double scale = W.norm(z) + W.norm(x.x);
+          CHECK(W.norm(z - x.x - y.x) <= 1e-12 * scale);
+          CHECK(x.error_bound <= 1e-12 * scale);
+          CHECK(y.error_bound <= 1e-12 * scale);
+        }
+    }
+  }
+}
