@@ -27,6 +27,12 @@ Decomposed decomposed(const ConjugatePair& pair, const Vector& z, const Metric& 
   return d;
 }
 
+/// What f(u) + g(w) may miss: a point within the membership tolerance counts as one of the domain.
+double outside(const ConjugatePair& pair, const Vector& u, const Vector& w, double f, double g,
+               const Metric& W) {
+  return (pair.f.membership + pair.g.membership) * (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w));
+}
+
 /// e_g(z) = g(y) + ½||z - y||².
 double envelope(const Decomposed& d, const Metric& W) {
   const Vector rest = d.y.z - d.y.x;
@@ -52,6 +58,7 @@ Check uniqueness(const ConjugatePair& pair, const Decomposed& at, const Metric& 
       const double bound = at.slack +
                            value_roundings * (std::abs(f) + std::abs(g) + std::abs(f + g - gap) + least) *
                                spectrum(W).condition() +
+                           outside(pair, at.x.x + d, at.y.x - d, f, g, W) +
                            (at.x.bound + at.y.bound) * W.norm(d);
       worst.take(std::max(0.0, least - gap), bound);
     }
@@ -72,10 +79,9 @@ Check fenchel(const ConjugatePair& pair, const Metric& W, const std::vector<Vect
       const double f = pair.f.value(u), g = pair.g.value(w);
       if (!std::isfinite(f) || !std::isfinite(g)) continue;
       const double inner = W.inner(u, w);
-      // A point within the membership tolerance counts as one of the domain.
       const double bound =
-          (value_roundings * spectrum(W).condition() + pair.f.membership + pair.g.membership) *
-          (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w));
+          value_roundings * spectrum(W).condition() * (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w)) +
+          outside(pair, u, w, f, g, W);
       worst.take(std::max(0.0, inner - f - g), bound);
     }
   return worst.check();

@@ -64,7 +64,7 @@ class InProduct : public Operation {
       return reduced(force, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
     }
     const Metric S = inverse(C);
-    if (facts().piecewise_quadratic && !is_diagonal_kind(S)) return std::nullopt;
+    if (facts().piecewise_quadratic && !factor && !is_diagonal_kind(S)) return std::nullopt;
     const auto from = [&](const Vector& point) {
       Prox part = h_.prox(point, S);
       if (part.x.size() == 0) return part;

@@ -7,6 +7,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
@@ -67,12 +68,16 @@ class Precompose : public Operation {
     if (!image) return std::nullopt;
     if (f_.facts().piecewise_quadratic && !is_diagonal_kind(image->metric)) return std::nullopt;
     const Metric& S = image->metric;
-    const Prox part = f_.prox(A_ * z + b_, S);
-    if (part.x.size() == 0) return part;
-    Vector x = z - image->lift * part.v;
-    // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.
-    for (int pass = 0; pass < 2; ++pass) x += image->lift * S.multiply(part.x - A_ * x - b_);
-    Prox whole = moved(part, x, A_.transpose() * part.v, part.error_bound, z, W);
+    const auto from = [&](const Vector& point) {
+      Prox part = f_.prox(point, S);
+      if (part.x.size() == 0) return part;
+      Vector x = z - image->lift * part.v;
+      // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.
+      for (int pass = 0; pass < 2; ++pass) x += image->lift * S.multiply(part.x - A_ * x - b_);
+      return moved(part, x, A_.transpose() * part.v, part.error_bound, z, W);
+    };
+    const auto correction = [&](const Vector& r) -> Vector { return A_ * W.solve(r); };
+    Prox whole = reduced(A_ * z + b_, z, W, from, correction);
     whole.method += is_diagonal_kind(S) ? " after a semi-orthogonal map" : " in the metric of an image";
     return whole;
   }

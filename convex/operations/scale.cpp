@@ -5,6 +5,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
@@ -50,12 +51,14 @@ class Scale : public Operation {
  protected:
   /// x = rho s: ½||x - z||_W² + alpha f(x/rho) is alpha times ½||s - z/rho||² in rho² W / alpha, plus f(s).
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    const Prox part = f_.prox(z / rho_, times(rho_ * rho_ / alpha_, W));
-    if (part.x.size() == 0) return part;
-    Prox whole =
-        moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W);
-    whole.duality_gap *= alpha_;
-    return whole;
+    const Metric V = times(rho_ * rho_ / alpha_, W);
+    const auto from = [&](const Vector& point) {
+      Prox part = f_.prox(point, V);
+      if (part.x.size() == 0) return part;
+      part.duality_gap *= alpha_;
+      return moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W);
+    };
+    return reduced(z / rho_, z, W, from, [&](const Vector& r) { return W.solve(r) / rho_; });
   }
 
  private:

@@ -8,6 +8,10 @@
 namespace convex {
 namespace {
 
+bool is_diagonal_kind(const Metric& W) {
+  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+}
+
 class Tilt : public Operation {
  public:
   Tilt(Function f, Vector c) : f_(std::move(f)), c_(std::move(c)) {}
@@ -42,6 +46,8 @@ class Tilt : public Operation {
 
  protected:
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    // A program takes c as it is, without a rounded point.
+    if (f_.facts().piecewise_quadratic && !is_diagonal_kind(W)) return std::nullopt;
     const auto from = [&](const Vector& point) {
       Prox part = f_.prox(point, W);
       if (part.x.size() == 0) return part;
