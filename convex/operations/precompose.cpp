@@ -8,6 +8,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/sum.hpp"
 
 namespace convex {
 namespace {
@@ -88,6 +89,18 @@ class Precompose : public Operation {
   Vector b_;
 };
 
+/// The conjugate of a function that has it as a sum, and is its conjugate in turn: taken by rule once more,
+/// the rounding of both maps would remain between the two.
+class ConjugateSum : public Sum {
+ public:
+  ConjugateSum(std::vector<Function> parts, Function primal)
+      : Sum(std::move(parts)), primal_(std::move(primal)) {}
+  Function conjugate() const override { return primal_; }
+
+ private:
+  Function primal_;
+};
+
 /// (f(A· + b))*(v) = min {f*(w) - b·w : Aᵀw = v} (Rockafellar 1970, Theorem 16.3); with independent rows w =
 /// (A Aᵀ)⁻¹Av alone can do, for the v in the range of Aᵀ.
 Function Precompose::conjugate() const {
@@ -110,8 +123,8 @@ Function Precompose::conjugate() const {
   const Matrix outside = orthogonal.rightCols(n - m).transpose();
   const Function in_range =
       named("affine", {argument("A", outside), argument("b", Vector::Zero(n - m).eval())}, n);
-  const Function terms[] = {precompose(g, back, Vector::Zero(m)), in_range};
-  return proper_sum(terms);
+  std::vector<Function> terms{precompose(g, back, Vector::Zero(m)), in_range};
+  return Function(std::make_shared<ConjugateSum>(std::move(terms), self()));
 }
 
 }  // namespace
