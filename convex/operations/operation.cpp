@@ -95,7 +95,9 @@ void require_proper(const Function& f, Index n, const char* where) {
   if (f.facts().finite) return;
   if (const auto form = f.node().linear_quadratic(n)) {
     if (properness(*form) == Defect::empty_domain) refuse_empty();
-  } else if (const auto graph = f.node().graph(n)) {
+  } else if (auto graph = f.node().graph(n)) {
+    // Terms that are finite everywhere leave the domain as it is, and would only pull at the gap.
+    std::erase_if(graph->terms, [](const GraphTerm& term) { return term.f->facts().finite; });
     if (prox(*graph, Vector::Zero(n), Metric::identity(n)).status == Status::infeasible) refuse_empty();
   }
 }
