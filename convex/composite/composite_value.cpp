@@ -12,6 +12,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-12;  ///< of a value, relative to the sizes of what it is a sum of
 /// An error below this part of the squares of the sizes is nothing, even where the value is 0.
 constexpr double vanishing = 1e-20;
+/// A value of this part of them is what residuals at the end of twice the precision leave of 0.
+constexpr double rounding_of_rounding = 0x1p-92;
 /// A miss of a domain by this much is not slow convergence.
 constexpr double surely_outside = 1e3 * membership_tolerance;
 
@@ -130,6 +132,8 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   found.v = slope.head(f.n);
   found.error_bound = saddle_error(problem, point).of_value + 8 * unit_roundoff * size;
   const double energy = point.u.dot(point.D.cwiseProduct(point.u));
+  // What cannot be told from 0 is 0.
+  if (std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy)) found.value = 0;
   if (found.error_bound <= std::max(tolerance * size, vanishing * energy)) return found;
   found.status = Status::inaccurate;
   if (falls_without_end(f, x, point.xi, point.rho)) {

@@ -14,7 +14,8 @@ constexpr double vanishing = 1e-24;
 
 class EpigraphAtom final : public Atom {
  public:
-  EpigraphAtom(std::shared_ptr<const Atom> f, Index n, double side) : f_(std::move(f)), n_(n), side_(side) {}
+  EpigraphAtom(std::shared_ptr<const Atom> f, Index n, double unit)
+      : f_(std::move(f)), n_(n), unit_(std::abs(unit)), side_(unit > 0 ? 1 : -1) {}
   Index dimension() const override { return n_ + 1; }
   Facts facts() const override {
     const Facts of_f = f_->facts();
@@ -25,9 +26,9 @@ class EpigraphAtom final : public Atom {
       return {name, {{"", std::make_shared<const Call>(inner), std::nullopt}}, std::nullopt};
     };
     const Call epigraph = nested("indicator", nested("epigraph", f_->call()));
-    if (side_ > 0) return epigraph;
+    if (side_ * unit_ == 1) return epigraph;
     Vector diagonal = Vector::Ones(n_ + 1);
-    diagonal[n_] = -1;
+    diagonal[n_] = side_ * unit_;
     Call reflected = nested("precompose", epigraph);
     reflected.arguments.push_back({"", Matrix(diagonal.asDiagonal()), std::nullopt});
     return reflected;
@@ -38,7 +39,7 @@ class EpigraphAtom final : public Atom {
     return miss <= membership_tolerance * z.norm() ? 0 : std::numeric_limits<double>::infinity();
   }
   Function conjugate() const override {
-    return Function(perspective_atom(conjugate_atom(f_, n_), n_, -side_));
+    return Function(perspective_atom(conjugate_atom(f_, n_), n_, -side_ / unit_));
   }
   std::optional<Vector> subgradient(const Vector& z) const override {
     if (value(z) > 0) return std::nullopt;
@@ -50,7 +51,7 @@ class EpigraphAtom final : public Atom {
   Matrix prox_jacobian(const Vector& z, const Vector&) const override {
     if (inside(z)) return Matrix::Identity(n_ + 1, n_ + 1);
     const double mu = std::max(project(z).mu, smallest(z));
-    const Vector x = z.head(n_), inverse = Vector::Constant(n_, 1 / mu);
+    const Vector x = z.head(n_), inverse = Vector::Constant(n_, unit_ / mu);
     const Vector v = (x - f_->prox_diagonal(x, inverse)) / mu;
     const Matrix J = f_->prox_jacobian(x, inverse);
     const Vector Jv = J * v;
@@ -69,36 +70,36 @@ class EpigraphAtom final : public Atom {
     double mu = 0;
   };
 
-  bool inside(const Vector& z) const { return f_->value(z.head(n_)) <= side_ * z[n_]; }
+  bool inside(const Vector& z) const { return f_->value(z.head(n_)) <= unit_ * side_ * z[n_]; }
   static double smallest(const Vector& z) {
     return std::max(vanishing * z.norm(), std::numeric_limits<double>::min());
   }
 
   Projection project(const Vector& z) const {
     const Vector x = z.head(n_);
-    const double t = side_ * z[n_], above = f_->value(x) - t;
+    const double t = side_ * z[n_], above = f_->value(x) / unit_ - t;
     const auto excess = [&](double mu) -> ValueAndSlope {
-      const Vector inverse = Vector::Constant(n_, 1 / mu);
+      const Vector inverse = Vector::Constant(n_, unit_ / mu);
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Matrix J = f_->prox_jacobian(x, inverse);
-      return {t + mu - f_->value(point), 1 + std::max(0.0, v.dot(J * v))};
+      return {t + mu - f_->value(point) / unit_, 1 + std::max(0.0, v.dot(J * v))};
     };
     const double mu = monotone_root(excess, std::isfinite(above) ? above : z.norm() + 1, smallest(z));
     Projection found{Vector(n_ + 1), mu};
-    found.point << f_->prox_diagonal(x, Vector::Constant(n_, 1 / std::max(mu, smallest(z)))),
+    found.point << f_->prox_diagonal(x, Vector::Constant(n_, unit_ / std::max(mu, smallest(z)))),
         side_ * (t + mu);
     return found;
   }
 
   std::shared_ptr<const Atom> f_;
   Index n_;
-  double side_;
+  double unit_, side_;
 };
 
 }  // namespace
 
-std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double side) {
-  return std::make_shared<const EpigraphAtom>(std::move(f), n, side);
+std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double unit) {
+  return std::make_shared<const EpigraphAtom>(std::move(f), n, unit);
 }
 
 }  // namespace convex

@@ -26,10 +26,11 @@ GraphForm blocks(std::span<const GraphForm> f);
 GraphForm inf_convolution(const GraphForm& f, const GraphForm& g);
 /// inf over w of f(w) + ½||x - w||_W².
 GraphForm envelope(const GraphForm& f, const Metric& W);
-/// max_i f_i(x) = min {t : (x, t) in every epigraph}, by epigraphs of the atoms.
-GraphForm pointwise_max(std::span<const GraphForm> f);
-/// The indicator of {(x, t) : f(x) <= t}, n + 1 entries.
-GraphForm epigraph(const GraphForm& f);
+/// max_i f_i(x) = min {t : (x, t) in every epigraph}, by epigraphs of the atoms. `slope`: of the size of a
+/// subgradient where the form is used; heights are measured in it, so that x and t are of one size there.
+GraphForm pointwise_max(std::span<const GraphForm> f, double slope = 1);
+/// The indicator of {(x, t) : f(x) <= t}, n + 1 entries; slope as above.
+GraphForm epigraph(const GraphForm& f, double slope = 1);
 /// (x, s) -> s f(x/s) for s > 0, its closure at s = 0, +inf for s < 0: n + 1 entries, by perspectives of the
 /// atoms.
 GraphForm perspective(const GraphForm& f);

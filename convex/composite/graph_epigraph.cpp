@@ -36,7 +36,7 @@ Vector appended(const Vector& b, double last) {
 
 }  // namespace
 
-GraphForm epigraph(const GraphForm& f) {
+GraphForm epigraph(const GraphForm& f, double slope) {
   std::vector<const GraphTerm*> heights;  // terms with a height of their own
   for (const GraphTerm& term : f.terms)
     if (!linear_form(*term.f, term.M.rows()) && !term.f->facts().indicator) heights.push_back(&term);
@@ -60,31 +60,37 @@ GraphForm epigraph(const GraphForm& f) {
   for (std::size_t j = 1; j < heights.size(); ++j) {
     const GraphTerm& term = *heights[j];
     const SparseMatrix height = selection(n + f.k + static_cast<Index>(j) - 1, 1, columns);
-    set.terms.push_back({epigraph_atom(term.f, term.M.rows()), 1,
-                         stacked(SparseMatrix(term.M * place), height), appended(term.b, 0)});
+    const double unit = slope / term.scale;
+    set.terms.push_back({epigraph_atom(term.f, term.M.rows(), unit), 1,
+                         stacked(SparseMatrix(term.M * place), SparseMatrix(height / unit)),
+                         appended(term.b, 0)});
     rest = SparseMatrix(rest - term.scale * height);
   }
   if (heights.empty()) {
     set.terms.push_back({orthant_atom(), 1, rest, Vector::Constant(1, rest_shift)});
   } else {
     const GraphTerm& term = *heights[0];
-    set.terms.push_back({epigraph_atom(term.f, term.M.rows()), 1,
-                         stacked(SparseMatrix(term.M * place), SparseMatrix(rest / term.scale)),
-                         appended(term.b, rest_shift / term.scale)});
+    set.terms.push_back({epigraph_atom(term.f, term.M.rows(), slope / term.scale), 1,
+                         stacked(SparseMatrix(term.M * place), SparseMatrix(rest / slope)),
+                         appended(term.b, rest_shift / slope)});
   }
   return set;
 }
 
-GraphForm pointwise_max(std::span<const GraphForm> f) {
+GraphForm pointwise_max(std::span<const GraphForm> f, double slope) {
   invariant(!f.empty(), "a maximum of graph forms has a term");
   std::vector<GraphForm> sets;
-  for (const GraphForm& part : f) sets.push_back(epigraph(part));
+  for (const GraphForm& part : f) sets.push_back(epigraph(part, slope));
   GraphForm least = sum(sets);
   // t, the last entry of the sets, is the first auxiliary variable of the maximum.
   --least.n;
   ++least.k;
   const SparseMatrix t = selection(least.n, 1, least.n + least.k);
-  least.terms.push_back(linear_term(t, Vector::Ones(1)));
+  // Measured like the heights, it makes the equations of the conjugate of one size too.
+  Vector units = Vector::Ones(least.n + least.k);
+  units[least.n] = slope;
+  for (GraphTerm& term : least.terms) term.M = SparseMatrix(term.M * units.asDiagonal());
+  least.terms.push_back(linear_term(t, Vector::Constant(1, slope)));
   return least;
 }
 

@@ -25,9 +25,9 @@ class PerspectiveAtom final : public Atom {
       return {name, {{"", std::make_shared<const Call>(inner), std::nullopt}}, std::nullopt};
     };
     const Call perspective = nested("perspective", f_->call());
-    if (side_ > 0) return perspective;
+    if (side_ == 1) return perspective;
     Vector diagonal = Vector::Ones(n_ + 1);
-    diagonal[n_] = -1;
+    diagonal[n_] = side_;
     Call reflected = nested("precompose", perspective);
     reflected.arguments.push_back({"", Matrix(diagonal.asDiagonal()), std::nullopt});
     return reflected;
@@ -43,7 +43,9 @@ class PerspectiveAtom final : public Atom {
     const double limit = quotient(fine), before = quotient(coarse);
     return std::abs(limit - before) <= settled * (std::abs(limit) + length * settled) ? limit : infinity;
   }
-  Function conjugate() const override { return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -side_)); }
+  Function conjugate() const override {
+    return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -1 / side_));
+  }
   std::optional<Vector> subgradient(const Vector& z) const override {
     const double s = side_ * z[n_];
     if (!(s > 0)) return std::nullopt;
@@ -59,7 +61,7 @@ class PerspectiveAtom final : public Atom {
     if (mu <= 0) return Vector::Zero(n_ + 1);
     const Vector q = d[0] * z.head(n_);
     Vector point(n_ + 1);
-    point << mu / d[0] * at(q, mu), side_ * mu / d[0];
+    point << mu / d[0] * at(q, mu), mu / d[0] / side_;
     return point;
   }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
@@ -68,9 +70,9 @@ class PerspectiveAtom final : public Atom {
     const Vector q = d[0] * z.head(n_), p = at(q, mu);
     const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
     const Vector moved = p - J * p;
-    const double slope = 1 + std::max(0.0, p.dot(moved));
+    const double square = side_ * side_, slope = 1 + square * std::max(0.0, p.dot(moved));
     Matrix jacobian(n_ + 1, n_ + 1);
-    jacobian.topLeftCorner(n_, n_) = J + moved / slope * moved.transpose();
+    jacobian.topLeftCorner(n_, n_) = J + square / slope * moved * moved.transpose();
     jacobian.topRightCorner(n_, 1) = side_ / slope * moved;
     jacobian.bottomLeftCorner(1, n_) = side_ / slope * moved.transpose();
     jacobian(n_, n_) = 1 / slope;
@@ -84,11 +86,13 @@ class PerspectiveAtom final : public Atom {
   double root(const Vector& z, double d) const {
     const Vector q = d * z.head(n_);
     const double s = d * side_ * z[n_];
-    if (f_->conjugate().node().value(q) <= -s) return 0;
+    const double square = side_ * side_;
+    if (square * f_->conjugate().node().value(q) <= -s) return 0;
     const auto excess = [&](double mu) -> ValueAndSlope {
       const Vector p = at(q, mu);
       const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
-      return {f_->value(p) - p.dot(q - mu * p) + mu - s, 1 + std::max(0.0, p.dot(p - J * p))};
+      return {square * (f_->value(p) - p.dot(q - mu * p)) + mu - s,
+              1 + square * std::max(0.0, p.dot(p - J * p))};
     };
     const double size = d * z.norm();
     const double smallest = std::max(vanishing * size, std::numeric_limits<double>::min());

@@ -29,6 +29,13 @@ class ComputedConjugate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::conjugate(*form);
   }
+  double value(const Vector& v) const override {
+    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
+    const double slope = v.norm();
+    if (!parts || facts().piecewise_quadratic || !(slope > 0)) return Operation::value(v);
+    const auto form = parts->graph_at_slope(v.size(), slope);
+    return form ? evaluate(convex::conjugate(*form), v).value : Operation::value(v);
+  }
   std::optional<GraphForm> graph(Index n) const override {
     const auto form = f_.node().graph(n);
     if (!form) return std::nullopt;

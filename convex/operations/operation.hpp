@@ -16,6 +16,8 @@ class Operation : public FunctionNode {
   Prox prox(const Vector& z, const Metric& W) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
+  /// The graph form for use where subgradients are of the size of `slope` > 0.
+  virtual std::optional<GraphForm> graph_at_slope(Index n, double) const { return graph(n); }
 
  protected:
   /// The prox by formula from those of the parts; none when there is no formula in this metric.
