@@ -93,39 +93,36 @@ class GroupBall : public ConvexSet {
   std::vector<Index> sizes_;
 };
 
-void require_size(const char* maker, Index size) {
+void require_groups(const char* maker, Index size) {
   if (size < 1) throw InvalidInput(std::string(maker) + "(sizes): a group without entries; give 1 or more");
 }
 
-void require_sizes(const char* maker, const std::vector<Index>& sizes) {
+void require_groups(const char* maker, const std::vector<Index>& sizes) {
   if (sizes.empty()) throw InvalidInput(std::string(maker) + "(sizes): no groups; give at least one");
-  for (Index size : sizes) require_size(maker, size);
+  for (Index size : sizes) require_groups(maker, size);
+}
+
+/// `sizes`: one for all groups, or the size of each.
+template <class Sizes>
+std::shared_ptr<const ConvexSet> checked(const char* maker, const char* parameter, double radius,
+                                         const Sizes& sizes) {
+  require_nonnegative(maker, parameter, radius);
+  require_groups(maker, sizes);
+  return std::make_shared<GroupBall>(radius, sizes);
 }
 
 }  // namespace
 
-Set group_ball(double radius, Index size) {
-  require_nonnegative("group_ball", "radius", radius);
-  require_size("group_ball", size);
-  return set_of(std::make_shared<GroupBall>(radius, size));
-}
-
+Set group_ball(double radius, Index size) { return set_of(checked("group_ball", "radius", radius, size)); }
 Set group_ball(double radius, const std::vector<Index>& sizes) {
-  require_nonnegative("group_ball", "radius", radius);
-  require_sizes("group_ball", sizes);
-  return set_of(std::make_shared<GroupBall>(radius, sizes));
+  return set_of(checked("group_ball", "radius", radius, sizes));
 }
 
 Function group_norm(double weight, Index size) {
-  require_nonnegative("group_norm", "weight", weight);
-  require_size("group_norm", size);
-  return support_of(std::make_shared<GroupBall>(weight, size));
+  return support_of(checked("group_norm", "weight", weight, size));
 }
-
 Function group_norm(double weight, const std::vector<Index>& sizes) {
-  require_nonnegative("group_norm", "weight", weight);
-  require_sizes("group_norm", sizes);
-  return support_of(std::make_shared<GroupBall>(weight, sizes));
+  return support_of(checked("group_norm", "weight", weight, sizes));
 }
 
 }  // namespace convex

@@ -15,28 +15,6 @@ convex::Matrix gram(const convex::Metric& A) {
   return A.diagonal().asDiagonal() * convex::Matrix::Identity(n, n);
 }
 
-/// Row-reduces [M | b] in place; returns the pivot column of each nonzero row.
-std::vector<std::size_t> reduce(std::vector<RationalVector>& M, std::size_t columns) {
-  std::vector<std::size_t> pivots;
-  for (std::size_t c = 0; c < columns && pivots.size() < M.size(); ++c) {
-    std::size_t row = pivots.size();
-    while (row < M.size() && M[row][c] == 0) ++row;
-    if (row == M.size()) continue;
-    std::swap(M[row], M[pivots.size()]);
-    RationalVector& pivot = M[pivots.size()];
-    const Rational scale = pivot[c];
-    for (Rational& entry : pivot) entry /= scale;
-    for (std::size_t i = 0; i < M.size(); ++i) {
-      if (i == pivots.size() || M[i][c] == 0) continue;
-      const Rational factor = M[i][c];
-      for (std::size_t j = c; j < pivot.size(); ++j)
-        if (pivot[j] != 0) M[i][j] -= factor * pivot[j];
-    }
-    pivots.push_back(c);
-  }
-  return pivots;
-}
-
 }  // namespace
 
 RationalPoint solve_kkt(const convex::NearestPointProblem& problem, const std::vector<Index>& rows) {
@@ -55,7 +33,7 @@ RationalPoint solve_kkt(const convex::NearestPointProblem& problem, const std::v
     }
     M[n + r][n + k] = problem.s[rows[r]];
   }
-  const std::vector<std::size_t> pivots = reduce(M, n + k);
+  const std::vector<std::size_t> pivots = row_reduce(M, n + k);
   RationalPoint point{RationalVector(n), RationalVector(static_cast<std::size_t>(problem.rows()))};
   for (std::size_t row = 0; row < pivots.size(); ++row) {
     if (pivots[row] < n)

@@ -1,16 +1,9 @@
 #pragma once
 
-#include <gmpxx.h>
-
-#include <vector>
-
 #include "convex/nearest_point/problem.hpp"
+#include "tests/oracles/rational_elimination.hpp"
 
 namespace oracles {
-
-/// Numbers without rounding: a double is the fraction that it stands for.
-using Rational = mpq_class;
-using RationalVector = std::vector<Rational>;
 
 /// The solution of A q - U_Wᵀ lambda = z, U_W q = s_W in fractions, by Gaussian elimination; rows of W that
 /// depend on the others get multiplier 0. It shares nothing with the solver but the data.

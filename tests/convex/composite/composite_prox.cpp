@@ -14,11 +14,6 @@ using namespace samples;
 
 namespace {
 
-template <class Sampled, class... Arguments>
-GraphForm graph(Index n, Arguments... arguments) {
-  return convex::graph_of(std::make_shared<Sampled>(arguments...), n);
-}
-
 /// Metrics of all conditions and sizes, points of all sizes.
 template <class Body>
 void on_samples(Index smallest, const Body& body) {

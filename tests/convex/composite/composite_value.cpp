@@ -16,11 +16,6 @@ using namespace samples;
 
 namespace {
 
-template <class Sampled, class... Arguments>
-GraphForm graph(Index n, Arguments... arguments) {
-  return convex::graph_of(std::make_shared<Sampled>(arguments...), n);
-}
-
 GraphForm cube(double lower, double upper) {
   return graph<Box>(2, Vector(Vector::Constant(2, lower)), Vector(Vector::Constant(2, upper)));
 }

@@ -16,11 +16,6 @@ using namespace samples;
 
 namespace {
 
-template <class Sampled, class... Arguments>
-GraphForm graph(Index n, Arguments... arguments) {
-  return convex::graph_of(std::make_shared<Sampled>(arguments...), n);
-}
-
 GraphForm quadratic(const Matrix& Q, const Vector& c, double constant) {
   return convex::add_quadratic(GraphForm{c.size(), 0, {}, 0}, Q, c, constant);
 }

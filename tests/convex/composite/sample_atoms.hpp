@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "convex/composite/graph_algebra.hpp"
 #include "convex/functions/node.hpp"
 
 /// Atoms for tests of the engine, each written from its definition.
@@ -222,5 +223,11 @@ class LogBarrier final : public Sample {
     return (d.array() * x.array().square() / (d.array() * x.array().square() + 1)).matrix().asDiagonal();
   }
 };
+
+/// The program of one atom, made of these arguments, on n entries.
+template <class Sampled, class... Arguments>
+convex::GraphForm graph(Index n, Arguments... arguments) {
+  return convex::graph_of(std::make_shared<Sampled>(arguments...), n);
+}
 
 }  // namespace samples

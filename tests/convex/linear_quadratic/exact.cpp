@@ -25,22 +25,7 @@ namespace {
 /// Solves M u = r in fractions, unknowns without a pivot left at 0; none when it has no solution.
 std::optional<RationalVector> solve(std::vector<RationalVector> M) {
   const std::size_t columns = M.empty() ? 0 : M[0].size() - 1;
-  std::vector<std::size_t> pivots;
-  for (std::size_t c = 0; c < columns && pivots.size() < M.size(); ++c) {
-    std::size_t row = pivots.size();
-    while (row < M.size() && M[row][c] == 0) ++row;
-    if (row == M.size()) continue;
-    std::swap(M[row], M[pivots.size()]);
-    RationalVector& pivot = M[pivots.size()];
-    const Rational head = pivot[c];
-    for (Rational& entry : pivot) entry /= head;
-    for (std::size_t i = 0; i < M.size(); ++i) {
-      if (i == pivots.size() || M[i][c] == 0) continue;
-      const Rational factor = M[i][c];
-      for (std::size_t j = c; j <= columns; ++j) M[i][j] -= factor * pivot[j];
-    }
-    pivots.push_back(c);
-  }
+  const std::vector<std::size_t> pivots = oracles::row_reduce(M, columns);
   for (std::size_t i = pivots.size(); i < M.size(); ++i)
     if (M[i][columns] != 0) return std::nullopt;
   RationalVector u(columns);
