@@ -1,5 +1,5 @@
 // Time of each kernel beside a plain copy of the same vector.
-//   prox_speed [--smoke]
+//   prox_speed [--smoke] [NAME]...    names as they are printed; all when none is given
 // Prints ns per entry (the fastest of many runs taken in turn with the copy) and, in parentheses, how many
 // times the copy's time that is. Every run allocates its result, as the copy does.
 #include <algorithm>
@@ -104,12 +104,14 @@ double seconds(Work work, int calls) {
 
 int main(int argc, char** argv) {
   const bool smoke = argc > 1 && std::strcmp(argv[1], "--smoke") == 0;
+  const std::vector<std::string> names(argv + (smoke ? 2 : 1), argv + argc);
   const std::vector<Index> sizes =
       smoke ? std::vector<Index>{10, 100} : std::vector<Index>{1000, 10000, 100000, 1000000, 10000000};
   std::printf("%-24s", "ns per entry (x copy)");
   for (Index n : sizes) std::printf(" %16.0e", static_cast<double>(n));
   std::printf("\n");
   for (const Kernel& kernel : kernels()) {
+    if (!names.empty() && std::find(names.begin(), names.end(), kernel.name) == names.end()) continue;
     std::printf("%-24s", kernel.name.c_str());
     for (Index n : sizes) {
       std::mt19937_64 generator(1);
