@@ -3,6 +3,7 @@
 #include <array>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/automatic.hpp"
 
 namespace convex {
 namespace {
@@ -13,9 +14,13 @@ Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy&
   return active_set(problem, accuracy);
 }
 
+Solution solve_automatically(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return automatic(problem, accuracy);
+}
+
 constexpr std::array table{
-    Method{"auto", "chooses by size and structure; today always active-set", MethodKind::direct, always,
-           solve_by_active_set},
+    Method{"auto", "no more than the problem needs: islands, structure, dense or sparse (the default)",
+           MethodKind::direct, always, solve_automatically},
     Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
            MethodKind::direct, always, solve_by_active_set},
 };

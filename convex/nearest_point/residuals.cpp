@@ -8,6 +8,12 @@ namespace convex {
 
 Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   Vector length = Vector::Zero(problem.rows());
+  const MetricKind kind = problem.A.kind();
+  if (problem.U.is_sparse() && (kind == MetricKind::diagonal || kind == MetricKind::identity)) {
+    const Vector all = problem.U.lengths(problem.A.diagonal().cwiseInverse());
+    for (Index a : rows) length[a] = all[a];
+    return length;
+  }
   constexpr std::size_t width = 64;  // rows whitened at once
   for (std::size_t first = 0; first < rows.size(); first += width) {
     const std::size_t count = std::min(width, rows.size() - first);

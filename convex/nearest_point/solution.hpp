@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "convex/nearest_point/model.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {
@@ -15,6 +16,7 @@ struct Accuracy {
   double tolerance =
       1e-9;  ///< loosen it to accept a coarser bound on ||q - q*||_A; direct methods ignore it otherwise
   Index step_limit = 0;  ///< steps before a method gives up; 0 means its own, generous limit
+  bool reduce = true;  ///< false: `auto` solves the whole as it stands, without islands and special structure
 };
 
 /// The relative residuals of docs/problem-files.md, at the printed numbers.
@@ -41,6 +43,7 @@ struct Solution {
   Vector farkas;
   Index steps = 0;        ///< of the method: rows taken in or dropped, pivots, iterations
   bool polished = false;  ///< q solves the equations of the rows that an iteration showed to be active
+  Model model;            ///< what was solved; filled in by `auto`
 };
 
 }  // namespace convex

@@ -1,0 +1,154 @@
+#include "convex/nearest_point/automatic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/structure/assembly.hpp"
+#include "convex/nearest_point/structure/closed_form.hpp"
+#include "convex/nearest_point/structure/islands.hpp"
+#include "convex/nearest_point/structure/left_out.hpp"
+
+namespace convex {
+namespace {
+
+/// Whether it shows at a glance that all is one dense island.
+bool plainly_connected(const NearestPointProblem& problem) {
+  if (problem.A.kind() != MetricKind::dense || problem.U.is_sparse()) return false;
+  const Matrix& A = problem.A.dense_gram();
+  for (Index i = 0; i < A.rows(); ++i)
+    if (A(i, 0) == 0) return false;
+  return true;
+}
+
+/// Multiplications of the dense active set: the factor of A, the whitening of the rows held, their orthogonal
+/// factor.
+double dense_flops(const NearestPointProblem& problem, Index held) {
+  const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(held);
+  const double m = static_cast<double>(problem.rows());
+  switch (problem.A.kind()) {
+    case MetricKind::dense:
+      return n * n * n / 3 + n * n * k + 2 * n * k * k + n * m;
+    default:
+      return n * k + 2 * n * k * k + n * m;
+  }
+}
+
+Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
+                         const std::vector<Index>& guess) {
+  if (problem.rows() <= 1)
+    if (std::optional<Solution> found = closed_form(problem, accuracy)) {
+      const double n = static_cast<double>(problem.dimension());
+      const bool dense = problem.A.kind() == MetricKind::dense;
+      found->model.islands = {{found->method, problem.dimension(), problem.rows(), 0,
+                               dense ? n * n * n / 3 + 4 * n * n : 8 * n, dense ? n * n / 2 : n}};
+      found->method = "active-set";  // of which the formula is the case where the first step ends all
+      return *std::move(found);
+    }
+  Solution found = active_set(problem, accuracy, guess);
+  const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
+  found.model.islands = {{found.method, problem.dimension(), problem.rows(), 0,
+                          dense_flops(problem, static_cast<Index>(found.basis.size())),
+                          (problem.A.kind() == MetricKind::dense ? n * n / 2 : n) + n * k + k * k / 2}};
+  return found;
+}
+
+/// Rows of an island that the free motion keeps were never looked at again.
+void name_rows_kept_free(const NearestPointProblem& problem, Solution& solution) {
+  if (!solution.basis.empty() || solution.steps > 0 || solution.slack.size() != problem.rows()) return;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (solution.slack[a] > 0) solution.model.left_out.push_back({a, LeftOutBecause::free_motion_keeps});
+}
+
+/// One island: rows that 0 proves out of reach are taken out first.
+Solution solve_island(const NearestPointProblem& problem, const Accuracy& accuracy,
+                      const std::vector<Index>& guess) {
+  const std::vector<Index> out = rows_out_of_reach(problem);
+  if (out.empty()) {
+    Solution found = solve_connected(problem, accuracy, guess);
+    name_rows_kept_free(problem, found);
+    return found;
+  }
+  std::vector<Index> kept, place(static_cast<std::size_t>(problem.rows()), -1);
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!std::binary_search(out.begin(), out.end(), a)) {
+      place[static_cast<std::size_t>(a)] = static_cast<Index>(kept.size());
+      kept.push_back(a);
+    }
+  const NearestPointProblem part = with_rows(problem, kept);
+  std::vector<Index> part_guess;
+  for (Index a : guess)
+    if (place[static_cast<std::size_t>(a)] >= 0) part_guess.push_back(place[static_cast<std::size_t>(a)]);
+  Solution found = solve_connected(part, accuracy, part_guess);
+  name_rows_kept_free(part, found);
+  Assembly whole(problem);
+  std::vector<Index> all(static_cast<std::size_t>(problem.dimension()));
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
+  whole.add(std::move(found), all, kept);
+  for (Index a : out) whole.leave_out(a, LeftOutBecause::out_of_reach);
+  return whole.finish(accuracy);
+}
+
+std::vector<Index> restricted(const std::vector<Index>& guess, const std::vector<Index>& rows) {
+  std::vector<Index> part;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (std::find(guess.begin(), guess.end(), rows[k]) != guess.end()) part.push_back(static_cast<Index>(k));
+  return part;
+}
+
+Solution solve_islands(const NearestPointProblem& problem, const Islands& islands, const Accuracy& accuracy,
+                       const std::vector<Index>& guess) {
+  const IslandLists lists = list_islands(islands);
+  Assembly whole(problem);
+  std::vector<Index> place;
+  const auto solve = [&](const std::vector<Index>& coordinates, const std::vector<Index>& rows) {
+    const NearestPointProblem part = island_problem(problem, coordinates, rows, place);
+    Solution found = solve_island(part, accuracy, guess.empty() ? guess : restricted(guess, rows));
+    if (found.status != Status::infeasible && found.status != Status::gave_up)
+      whole.add(std::move(found), coordinates, rows);
+    else
+      whole.fail(std::move(found), rows);
+  };
+  std::vector<Index> untouched;  // coordinates that no row touches, through A or not, are solved at once
+  for (std::size_t k = 0; k < lists.rows.size(); ++k)
+    if (lists.rows[k].empty())
+      untouched.insert(untouched.end(), lists.coordinates[k].begin(), lists.coordinates[k].end());
+  std::sort(untouched.begin(), untouched.end());
+  for (std::size_t k = 0; k < lists.rows.size() && !whole.failed(); ++k)
+    if (!lists.rows[k].empty()) solve(lists.coordinates[k], lists.rows[k]);
+  if (!untouched.empty() && !whole.failed()) solve(untouched, {});
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (islands.of_row[static_cast<std::size_t>(a)] < 0) whole.leave_out(a, LeftOutBecause::no_gradient);
+  return whole.finish(accuracy);
+}
+
+/// Rows of zeros that no motion can satisfy: to be refused with their witness by the general method.
+bool has_contradiction(const NearestPointProblem& problem, const Islands& islands) {
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (islands.of_row[static_cast<std::size_t>(a)] < 0 &&
+        (problem.s[a] > 0 ||
+         (problem.s[a] < 0 && std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))))
+      return true;
+  return false;
+}
+
+}  // namespace
+
+Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
+                   const std::vector<Index>& guess) {
+  if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
+  if (plainly_connected(problem) || problem.dimension() == 0) {
+    validate(problem);
+    return solve_island(problem, accuracy, guess);
+  }
+  validate(problem);
+  const Islands islands = find_islands(problem);
+  if (has_contradiction(problem, islands)) return solve_connected(problem, accuracy, guess);
+  const bool whole = islands.count == 1 && std::find(islands.of_row.begin(), islands.of_row.end(),
+                                                     Index{-1}) == islands.of_row.end();
+  return whole ? solve_island(problem, accuracy, guess) : solve_islands(problem, islands, accuracy, guess);
+}
+
+}  // namespace convex
