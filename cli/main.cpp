@@ -103,6 +103,12 @@ int main(int argc, char** argv) {
   add_common(*solve, options);
   solve->add_flag("--ranges", options.ranges,
                   "ranges of multipliers that are not unique, also beyond 1000 contacts");
+  solve
+      ->add_option_function<std::string>(
+          "--model", [&](const std::string& model) { options.full_model = model == "full"; },
+          "reduced (default): no more than the scene needs; full: the whole at once, and what that costs")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"reduced", "full"}));
   solve->callback([&] { chosen = cli::solve_command; });
 
   CLI::App* check = app.add_subcommand(

@@ -18,6 +18,7 @@ constexpr const char* exact_method = "exact";
 mechanics::GaussOptions solve_options(const Options& options, const SolveSettings& settings) {
   mechanics::GaussOptions made;
   made.always_ranges = options.ranges;
+  made.accuracy.reduce = !options.full_model;
   made.accuracy.tolerance = options.tolerance.value_or(settings.tolerance.value_or(made.accuracy.tolerance));
   const bool from_file = !options.method && settings.method;
   const std::string name = options.method.value_or(settings.method.value_or(std::string(made.method->name)));

@@ -1,4 +1,5 @@
 #include "cli/json_writer.hpp"
+#include "cli/model_report.hpp"
 #include "cli/solve_report.hpp"
 
 namespace cli {
@@ -101,6 +102,7 @@ void write_answer(JsonWriter& json, const SolvedScene& solved) {
         .end_object();
   else
     json.null();
+  write_model(json, solved);
   json.key("certificate")
       .begin_object()
       .key("level")

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cli/model_report.hpp"
 #include "cli/solve_report.hpp"
 #include "cli/text_table.hpp"
 #include "cli/verdict_text.hpp"
@@ -64,25 +65,6 @@ std::string uniqueness_text(const SolvedScene& solved) {
                                 number_text(range.high)));
   }
   return text + "Each may be anywhere in its range: " + listed(parts) + ".\n";
-}
-
-std::string model_text(const SolvedScene& solved) {
-  std::vector<std::string> left_out;
-  for (std::size_t a = 0; a < solved.states.size(); ++a) {
-    if (solved.states[a] != ConstraintState::inactive) continue;
-    const double f = solved.scene.rates->f[static_cast<Index>(a)],
-                 df = solved.scene.rates->df[static_cast<Index>(a)];
-    const bool apart = f > solved.scene.contact_tolerance[static_cast<Index>(a)] *
-                               solved.scene.rates->f_scale[static_cast<Index>(a)];
-    left_out.push_back(
-        apart ? fmt::format("{} (apart, f = {})", solved.scene.constraints[a], number_text(f))
-              : fmt::format("{} (separating, df/dt = {})", solved.scene.constraints[a], number_text(df)));
-  }
-  const std::size_t n = solved.scene.coordinates.size(), m = solved.scene.contacts.size();
-  std::string text =
-      fmt::format("Modelled: {} coordinate{}, {} contact{}.", n, n == 1 ? "" : "s", m, m == 1 ? "" : "s");
-  if (!left_out.empty()) text += " Left out: " + listed(left_out) + ".";
-  return text + "\n";
 }
 
 std::string accuracy_text(const SolvedScene& solved) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "mechanics/units.hpp"
 
@@ -34,11 +35,23 @@ Vector reaction(const convex::NearestPointProblem& problem, const Vector& q, con
   return R;
 }
 
+Reduced reduced(const convex::NearestPointProblem& problem, const convex::Solution& whole,
+                convex::Accuracy accuracy) {
+  accuracy.reduce = true;
+  convex::Solution parts = convex::automatic(problem, accuracy);
+  Reduced found{std::move(parts.model), 0};
+  const double scale = std::max(whole.acceleration_norm, whole.force_norm);
+  if (parts.q.size() == whole.q.size() && scale > 0)
+    found.difference = problem.A.norm(parts.q - whole.q) / scale;
+  return found;
+}
+
 GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, const GaussOptions& options) {
   GaussSolution found;
   found.primal = options.method->solve(problem, options.accuracy);
   if (found.primal.status == convex::Status::infeasible || found.primal.q.size() != problem.dimension())
     return found;
+  if (!options.accuracy.reduce) found.reduced = reduced(problem, found.primal, options.accuracy);
   const double tolerance = zero_tolerance(options.accuracy);
   const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
   found.multipliers = convex::multipliers(problem, found.primal, tolerance, ranges);

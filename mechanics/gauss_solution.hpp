@@ -16,6 +16,13 @@ struct GaussOptions {
   bool always_ranges = false;  ///< give the ranges of the multipliers also beyond `most_ranges` contacts
 };
 
+/// What the reductions make of a problem that was solved without them, and how far the answers are apart:
+/// ||q'' - q''_reduced||_A over max(||q''||_A, ||z||_(A⁻¹)).
+struct Reduced {
+  convex::Model model;
+  double difference = 0;
+};
+
 /// The answer to Moreau's problem at a state: which contacts persist, with which acceleration and which
 /// reactions, and what the classical rules would have said.
 struct GaussSolution {
@@ -26,6 +33,7 @@ struct GaussSolution {
   double gauss = 0;                 ///< G = ½ q''·A q'' - z·q''
   Hypothesis hypothesis;
   std::optional<ReactionFromDual> from_dual;
+  std::optional<Reduced> reduced;  ///< when accuracy.reduce is off
 };
 
 /// The ranges of multipliers that are not unique cost two linear programs each; beyond so many contacts they
