@@ -69,6 +69,11 @@ class PerspectiveAtom final : public Atom {
     if (mu <= 0) return Matrix::Zero(n_ + 1, n_ + 1);
     const Vector q = d[0] * z.head(n_), p = at(q, mu);
     const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
+    if (mu <= smallest(d[0] * z.norm())) {  // the point stays on the wall s = 0
+      Matrix jacobian = Matrix::Zero(n_ + 1, n_ + 1);
+      jacobian.topLeftCorner(n_, n_) = J;
+      return jacobian;
+    }
     const Vector moved = p - J * p;
     const double square = side_ * side_, slope = 1 + square * std::max(0.0, p.dot(moved));
     Matrix jacobian(n_ + 1, n_ + 1);
@@ -82,6 +87,10 @@ class PerspectiveAtom final : public Atom {
  private:
   Vector at(const Vector& q, double mu) const { return f_->prox_diagonal(q / mu, Vector::Constant(n_, mu)); }
 
+  static double smallest(double size) {
+    return std::max(vanishing * size, std::numeric_limits<double>::min());
+  }
+
   /// The root mu; 0 where the prox is 0.
   double root(const Vector& z, double d) const {
     const Vector q = d * z.head(n_);
@@ -89,14 +98,15 @@ class PerspectiveAtom final : public Atom {
     const double square = side_ * side_;
     if (square * f_->conjugate().node().value(q) <= -s) return 0;
     const auto excess = [&](double mu) -> ValueAndSlope {
-      const Vector p = at(q, mu);
-      const Matrix J = f_->prox_jacobian(q / mu, Vector::Constant(n_, mu));
-      return {square * (f_->value(p) - p.dot(q - mu * p)) + mu - s,
-              1 + square * std::max(0.0, p.dot(p - J * p))};
+      const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
+      const Matrix J = f_->prox_jacobian(q / mu, step);
+      // Far out on a flat part the difference q - mu p is all rounding, where a formula is not.
+      const std::optional<Vector> own = f_->prox_covector(p, q / mu, step);
+      const Vector v = own ? *own : Vector(q - mu * p);
+      return {square * (f_->value(p) - p.dot(v)) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p))};
     };
     const double size = d * z.norm();
-    const double smallest = std::max(vanishing * size, std::numeric_limits<double>::min());
-    return std::max(monotone_root(excess, s > 0 ? s : size, smallest), smallest);
+    return std::max(monotone_root(excess, s > 0 ? s : size, smallest(size)), smallest(size));
   }
 
   std::shared_ptr<const Atom> f_;
