@@ -10,6 +10,9 @@ Exit solve_command(const Options&);
 /// `moreau check FILE…`: puts each problem's answer to the laws that it must obey.
 Exit check_command(const Options&);
 
+/// `moreau check --catalogue`: the laws over every set, function and operation of the language.
+Exit check_catalogue(const Options&);
+
 /// `moreau derive FILE…`: A, z, U, s of a system at its state.
 Exit derive_command(const Options&);
 

@@ -113,10 +113,15 @@ int main(int argc, char** argv) {
 
   CLI::App* check = app.add_subcommand(
       "check", "the decomposition theorem, numerically: laws that the answer must obey, each with its bound");
-  add_files(*check, options);
+  CLI::Option* checked_files = check->add_option("FILE", options.files, "problem files; - is standard input");
+  check->add_flag("--catalogue", options.catalogue, "every set, function and operation, in four metrics")
+      ->excludes(checked_files);
   add_accuracy(*check, options);
   add_common(*check, options);
-  check->callback([&] { chosen = cli::check_command; });
+  check->callback([&] {
+    if (options.files.empty() && !options.catalogue) throw CLI::RequiredError("FILE or --catalogue");
+    chosen = options.catalogue ? cli::check_catalogue : cli::check_command;
+  });
 
   CLI::App* derive = app.add_subcommand("derive", "A, z, U, s of a system at its state");
   add_files(*derive, options);

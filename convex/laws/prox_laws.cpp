@@ -99,7 +99,8 @@ std::vector<Check> prox_laws(const Subject& f, const Trial& trial, const std::ve
     neighbours.push_back(split(f, other, W));
     points.push_back(neighbours.back().x);
     points.push_back((at.x + neighbours.back().x) / 2);
-    for (double step : {1e-2, 1e-4, -1e-4}) points.push_back(at.x + step * (neighbours.back().x - at.x));
+    for (double step : {1e-2, 1e-4, -1e-4, 1e-6, -1e-6})
+      points.push_back(at.x + step * (neighbours.back().x - at.x));
     points.push_back(other);
   }
   checks.push_back(subgradient_law(f, at, W, points));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/checks_report.hpp"
+#include "cli/json_writer.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -111,6 +113,28 @@ TEST_CASE("of several checked files the largest exit code counts, and each has i
   const Outcome outcome = run({"check", "--json", solved, wrong, infeasible});
   CHECK(outcome.code == 2);
   CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 3);
+}
+
+TEST_CASE("a failed law decides the exit code, and is shown with its counterexample") {
+  convex::LawReport report;
+  report.checks = {convex::check_that("right", 1, 2), convex::check_that("wrong", 3, 2)};
+  report.checks.back().counterexample = "z = [1]";
+  for (const convex::Status status : {convex::Status::solved, convex::Status::inaccurate})
+    CHECK(cli::exit_code(report, status) == cli::Exit::no_solution);
+  CHECK(cli::checks_text(report).find("FAILED  wrong (3, bound 2) at z = [1]") != std::string::npos);
+  CHECK(cli::checks_text(report).find("1 of 2 laws FAILED") != std::string::npos);
+  cli::JsonWriter json;
+  json.begin_object();
+  cli::write_checks(json, report);
+  const Json checks = Json::parse(json.end_object().text())["checks"];
+  CHECK(checks[0]["passed"] == true);
+  CHECK(checks[1]["passed"] == false);
+  CHECK(checks[1]["counterexample"] == "z = [1]");
+  report.checks.pop_back();
+  CHECK(cli::exit_code(report, convex::Status::solved) == cli::Exit::solved);
+  CHECK(cli::exit_code(report, convex::Status::inaccurate) == cli::Exit::inaccurate);
+  report.checks.clear();  // nothing was tried
+  CHECK(cli::exit_code(report, convex::Status::solved) == cli::Exit::no_solution);
 }
 
 TEST_CASE("the readable check has one line a law behind the result") {
