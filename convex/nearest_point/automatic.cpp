@@ -7,9 +7,11 @@
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/structure/assembly.hpp"
+#include "convex/nearest_point/structure/chain.hpp"
 #include "convex/nearest_point/structure/closed_form.hpp"
 #include "convex/nearest_point/structure/islands.hpp"
 #include "convex/nearest_point/structure/left_out.hpp"
+#include "convex/nearest_point/structure/sparse_active_set.hpp"
 
 namespace convex {
 namespace {
@@ -36,6 +38,28 @@ double dense_flops(const NearestPointProblem& problem, Index held) {
   }
 }
 
+/// From here on the sparse method is faster than the dense one, when at most this part of A and U is there.
+constexpr Index sparse_size = 200;
+constexpr double sparse_part = 0.05;
+/// Up to here the dense method is affordable where the sparse one gives up.
+constexpr Index affordable_size = 3000;
+
+Index entries(const NearestPointProblem& problem) {
+  const Metric& A = problem.A;
+  const Index n = problem.dimension();
+  const Index of_A = A.kind() == MetricKind::dense    ? (A.dense_gram().array() != 0).count()
+                     : A.kind() == MetricKind::sparse ? A.sparse_gram().nonZeros()
+                                                      : n;
+  return of_A +
+         (problem.U.is_sparse() ? problem.U.sparse().nonZeros() : (problem.U.dense().array() != 0).count());
+}
+
+bool is_large_and_sparse(const NearestPointProblem& problem) {
+  const double n = static_cast<double>(problem.dimension()), m = static_cast<double>(problem.rows());
+  return problem.dimension() >= sparse_size &&
+         static_cast<double>(entries(problem)) <= sparse_part * n * (n + m);
+}
+
 Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
                          const std::vector<Index>& guess) {
   if (problem.rows() <= 1)
@@ -47,6 +71,12 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
       found->method = "active-set";  // of which the formula is the case where the first step ends all
       return *std::move(found);
     }
+  if (accuracy.reduce)
+    if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
+  if (is_large_and_sparse(problem)) {
+    Solution found = sparse_active_set(problem, accuracy, guess);
+    if (found.status != Status::gave_up || problem.dimension() > affordable_size) return found;
+  }
   Solution found = active_set(problem, accuracy, guess);
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
   found.model.islands = {{found.method, problem.dimension(), problem.rows(), 0,
@@ -144,6 +174,8 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
     return solve_island(problem, accuracy, guess);
   }
   validate(problem);
+  if (std::optional<Solution> chain = solve_chain(problem, accuracy))
+    if (problem.rows() > 1) return *std::move(chain);
   const Islands islands = find_islands(problem);
   if (has_contradiction(problem, islands)) return solve_connected(problem, accuracy, guess);
   const bool whole = islands.count == 1 && std::find(islands.of_row.begin(), islands.of_row.end(),

@@ -13,6 +13,14 @@ constexpr double combination_roundings = 16;
 /// A gap of so many roundings of the s it is made of is a rounded s, not a contradiction.
 constexpr double gap_roundings = 16;
 
+double largest_entry(const ConstraintRows& U, Index a) {
+  if (!U.is_sparse()) return U.dense().row(a).cwiseAbs().maxCoeff();
+  double largest = 0;
+  for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it)
+    largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
+
 }  // namespace
 
 bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, double reach) {
@@ -26,7 +34,7 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
     if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
     problem.U.add_multiple(a, {w[a], 0}, combination);
     gap = add(gap, two_product(w[a], problem.s[a]));
-    terms += std::abs(w[a]) * problem.U.row(a).cwiseAbs().maxCoeff();
+    terms += std::abs(w[a]) * largest_entry(problem.U, a);
     magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
   }
   const Vector rest = combination.value();

@@ -1,0 +1,94 @@
+#include "convex/nearest_point/structure/front_kernels.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "convex/kernels/clones.hpp"
+
+namespace convex {
+namespace {
+
+/// Columns eliminated at once.
+constexpr Index block = 4;
+
+/// c_i -= Σ_k a_k w_k for two columns c at once, four columns a.
+MOREAU_CLONES
+void subtract_four_from_two(Index n, double* __restrict c0, double* __restrict c1, const double* a0,
+                            const double* a1, const double* a2, const double* a3, const double* w0,
+                            const double* w1) {
+  const double p0 = w0[0], p1 = w0[1], p2 = w0[2], p3 = w0[3], r0 = w1[0], r1 = w1[1], r2 = w1[2], r3 = w1[3];
+  for (Index i = 0; i < n; ++i) {
+    const double x0 = a0[i], x1 = a1[i], x2 = a2[i], x3 = a3[i];
+    c0[i] -= (x0 * p0 + x1 * p1) + (x2 * p2 + x3 * p3);
+    c1[i] -= (x0 * r0 + x1 * r1) + (x2 * r2 + x3 * r3);
+  }
+}
+
+void subtract_one(Index n, double* __restrict c, const double* a, double w) {
+  for (Index i = 0; i < n; ++i) c[i] -= a[i] * w;
+}
+
+/// Columns first … first + count - 1 of L, times their pivots, at row i.
+void scaled_row(const double* panel, Index rows, Index first, Index count, Index i, double* w) {
+  for (Index k = 0; k < count; ++k) {
+    const double* column = panel + (first + k) * rows;
+    w[k] = column[i] * column[first + k];
+  }
+}
+
+/// Takes `count` factored columns off columns c = from … to - 1 of a lower triangle whose column c begins, at
+/// its diagonal, at target(c) and belongs to row offset + c of the panel.
+template <class Target>
+void subtract_columns(const double* panel, Index rows, Index first, Index count, Index from, Index to,
+                      Index offset, Target target) {
+  std::array<double, block> w0{}, w1{};
+  Index c = from;
+  for (; c < to; c += 2) {
+    const Index i = offset + c, n = rows - i;
+    scaled_row(panel, rows, first, count, i, w0.data());
+    const bool pair = c + 1 < to;
+    if (pair) scaled_row(panel, rows, first, count, i + 1, w1.data());
+    const double* a = panel + first * rows + i;
+    double *c0 = target(c), *c1 = pair ? target(c + 1) : nullptr;
+    if (count == block && pair) {
+      c0[0] -= (a[0] * w0[0] + a[rows] * w0[1]) + (a[2 * rows] * w0[2] + a[3 * rows] * w0[3]);
+      subtract_four_from_two(n - 1, c0 + 1, c1, a + 1, a + rows + 1, a + 2 * rows + 1, a + 3 * rows + 1,
+                             w0.data(), w1.data());
+    } else {
+      for (Index k = 0; k < count; ++k) {
+        subtract_one(n, c0, a + k * rows, w0[static_cast<std::size_t>(k)]);
+        if (pair) subtract_one(n - 1, c1, a + k * rows + 1, w1[static_cast<std::size_t>(k)]);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool factor_panel(double* panel, Index rows, Index columns) {
+  for (Index first = 0; first < columns; first += block) {
+    const Index count = std::min(block, columns - first);
+    for (Index k = first; k < first + count; ++k) {
+      double* column = panel + k * rows;
+      for (Index j = first; j < k; ++j) {
+        const double* done = panel + j * rows;
+        subtract_one(rows - k, column + k, done + k, done[k] * done[j]);
+      }
+      const double pivot = column[k];
+      if (!std::isfinite(pivot) || !(std::abs(pivot) > 0)) return false;
+      const double inverse = 1 / pivot;
+      for (Index i = k + 1; i < rows; ++i) column[i] *= inverse;
+    }
+    subtract_columns(panel, rows, first, count, first + count, columns, 0,
+                     [&](Index c) { return panel + c * rows + c; });
+  }
+  return true;
+}
+
+void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns) {
+  for (Index first = 0; first < columns; first += block)
+    subtract_columns(panel, rows, first, std::min(block, columns - first), 0, size, rows - size,
+                     [&](Index c) { return C + c * size + c; });
+}
+
+}  // namespace convex

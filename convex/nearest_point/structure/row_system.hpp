@@ -1,0 +1,38 @@
+#pragma once
+
+#include "convex/nearest_point/structure/balanced_problem.hpp"
+#include "convex/nearest_point/structure/sparse_factor.hpp"
+
+namespace convex {
+
+/// A + Uᵀ D U for weights D >= 0 that change, with one order for all. Rows with many entries would fill it:
+/// they stand beside it, as -1/D on the diagonal and u_a at the border, which keeps it quasi-definite.
+class RowSystem {
+ public:
+  explicit RowSystem(const BalancedProblem&);
+
+  /// False when the factorisation breaks down.
+  bool factor(const Vector& weight);
+  /// (A + Uᵀ D U)⁻¹ r.
+  Vector solve(const Vector& r) const;
+  const SparseFactor& factors() const { return factor_; }
+  Index factorisations() const { return factorisations_; }
+
+ private:
+  struct Pattern {
+    std::vector<SparseFactor::Place> places;
+    std::vector<double> of_A, of_rows, of_border;
+    std::vector<Index> first;  ///< of the products of each short row
+    std::vector<Index> long_rows, border_entries;
+  };
+  static Pattern pattern(const BalancedProblem&);
+  RowSystem(const BalancedProblem&, Pattern);
+
+  Index n_;
+  Pattern pattern_;
+  SparseFactor factor_;
+  std::vector<Index> slots_;
+  Index factorisations_ = 0;
+};
+
+}  // namespace convex

@@ -1,0 +1,250 @@
+#include "convex/nearest_point/structure/sparse_active_set.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/structure/interior_point_start.hpp"
+#include "convex/nearest_point/structure/sparse_refinement.hpp"
+
+namespace convex {
+namespace {
+
+constexpr std::string_view method = "sparse-active-set";
+
+/// What the start is asked for, scaled: mean of multiplier times slack. Each time the rows that it shows
+/// prove wrong it is taken closer by `closer`, at most `most_starts` times.
+constexpr double first_gap = 1e-9, closer = 1e-3;
+constexpr int most_starts = 4;
+
+/// The weight on the multipliers, and how it shrinks where it makes corrections slow.
+constexpr double first_delta = 1e-7, smaller = 1e-2;
+constexpr int most_deltas = 3;
+
+/// Exchanges of rows in a run that did not lower the number of wrong ones.
+constexpr int patience = 2;
+constexpr int most_exchanges = 30;
+
+/// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
+constexpr double data_roundings = 16;
+
+/// A multiplier or slack computed in twice the precision is 0 below this part of its terms.
+constexpr double silence = 0x1p-90;
+
+class SparseActiveSet {
+ public:
+  SparseActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
+      : problem_(problem), accuracy_(accuracy), scaled_(balanced_problem(problem)), system_(scaled_) {}
+
+  Solution run(const std::vector<Index>& guess) {
+    active_.assign(static_cast<std::size_t>(problem_.rows()), false);
+    if (!guess.empty()) {
+      for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
+      point_.q = DoubleDoubleVector(problem_.dimension());
+      point_.lambda = DoubleDoubleVector(problem_.rows());
+      if (exchange()) return answer();
+    }
+    InteriorPointStart start(scaled_, system_);
+    double gap = first_gap;
+    for (int k = 0; k < most_starts; ++k, gap *= closer) {
+      const InteriorPointStart::End end = start.approach(gap);
+      steps_ += start.steps();
+      if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
+        Solution refused = infeasible(start.lambda());
+        if (refused.status == Status::infeasible) return refused;
+      }
+      if (start.q().size() != problem_.dimension()) break;
+      for (const double part : {0.0, data_roundings * unit_roundoff}) {
+        silence_ = part;
+        take_over(start);
+        if (exchange()) return answer();
+      }
+      silence_ = 0;
+      if (end != InteriorPointStart::End::close) break;
+    }
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    solution.farkas = Vector::Zero(problem_.rows());
+    return solution;
+  }
+
+ private:
+  void take_over(const InteriorPointStart& start) {
+    point_.q = DoubleDoubleVector(Vector(start.q().cwiseProduct(scaled_.coordinate)));
+    point_.lambda = DoubleDoubleVector(problem_.rows());
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const bool active = start.looks_active(a);
+      active_[static_cast<std::size_t>(a)] = active;
+      if (active) point_.lambda.hi[a] = start.lambda()[a] * scaled_.multiplier[a];
+    }
+  }
+
+  bool one_sided(Index a) const { return !scaled_.two_sided[static_cast<std::size_t>(a)]; }
+
+  /// Refines on the active rows and exchanges those of the wrong sign until none is left; false when that
+  /// does not lead anywhere.
+  bool exchange() {
+    Index fewest = problem_.rows() + 1;
+    int idle = 0;
+    for (int k = 0; k < most_exchanges; ++k) {
+      rows_.clear();
+      for (Index a = 0; a < problem_.rows(); ++a)
+        if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);
+      double delta = first_delta;
+      bool refined = false;
+      for (int j = 0; j < most_deltas && !refined; ++j, delta *= smaller) {
+        delta_ = delta;
+        if (!refine_rows(problem_, scaled_, system_, rows_, delta, silence_, point_)) return false;
+        refined = point_.converged;
+      }
+      const Index wrong = judge();
+      if (wrong == 0) return refined;
+      // Rows that contradict each other by rounding have no right signs.
+      if (wrong >= fewest && serious_ == 0 && refined) return true;
+      if (wrong >= fewest && ++idle > patience) return false;
+      fewest = std::min(fewest, wrong);
+      ++steps_;
+    }
+    return false;
+  }
+
+  /// Corrects the active rows by the signs of the refined numbers; how many were wrong, of which `serious_`
+  /// by more than rounding of the data may do; `doubtful_` is by how much the others were, scaled.
+  Index judge() {
+    Index wrong = 0;
+    serious_ = 0;
+    doubtful_ = 0;
+    const Vector terms = point_.q.hi.cwiseAbs();
+    const double push = point_.lambda.hi.cwiseQuotient(scaled_.multiplier).cwiseAbs().maxCoeff();
+    const auto count = [&](double by, double size) {
+      ++wrong;
+      doubtful_ = std::max(doubtful_, by);
+      if (by > data_roundings * unit_roundoff * size) ++serious_;
+    };
+    const double left = 4 * point_.remaining();
+    const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
+    slack_ = Vector::Zero(problem_.rows());
+    for (Index a : rows_) {
+      const double lambda = point_.lambda.hi[a] / scaled_.multiplier[a];
+      if (std::abs(lambda) <= 4 * point_.last_lambda[a] + left) point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+      if (one_sided(a) && point_.lambda.hi[a] < 0) {
+        active_[static_cast<std::size_t>(a)] = false;
+        point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+        count(-lambda, push);
+      }
+    }
+    std::vector<bool> held(static_cast<std::size_t>(problem_.rows()), false);
+    for (Index a : rows_) held[static_cast<std::size_t>(a)] = true;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      if (held[static_cast<std::size_t>(a)]) continue;
+      slack_[a] = slack(problem_, a, point_.q).value();
+      const double over = slack_[a] / scaled_.bound[a];
+      if (std::abs(over) <= left + std::max(silence, 2 * silence_) * (size + std::abs(scaled_.s[a])))
+        slack_[a] = 0;
+      if (slack_[a] < 0) {
+        active_[static_cast<std::size_t>(a)] = true;
+        count(-over, std::abs(scaled_.s[a]) + problem_.U.absolute_dot(a, terms) / scaled_.bound[a]);
+      }
+    }
+    return wrong;
+  }
+
+  double size_of_q() const { return point_.q.hi.cwiseQuotient(scaled_.coordinate).cwiseAbs().maxCoeff(); }
+
+  Solution answer() {
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    const double unit =
+        scaled_.coordinate.size() > 0 ? scaled_.coordinate[0] * std::sqrt(problem_.A.diagonal()[0]) : 1;
+    for (Index i = 0; i < problem_.dimension(); ++i)
+      if (std::abs(point_.q.hi[i]) <= 2 * point_.remaining() * scaled_.coordinate[i])
+        point_.q.hi[i] = point_.q.lo[i] = 0;
+    solution.q = point_.q.hi;
+    solution.lambda = point_.lambda.hi;
+    solution.slack = slack_;
+    solution.basis = rows_;
+    solution.acceleration_norm = problem_.A.norm(solution.q);
+    solution.force_norm = problem_.A.dual_norm(problem_.z);
+    Vector length = Vector::Zero(problem_.rows());
+    solution.residuals =
+        residuals(problem_, solution.q, solution.lambda,
+                  KnownParts{std::move(length), slack_, {}, solution.acceleration_norm, solution.force_norm});
+    // ||lo||_A² <= (largest row sum of the scaled A) Σ a_ii lo_i².
+    Vector ones = Vector::Ones(problem_.dimension());
+    const double spread = (scaled_.A.cwiseAbs() * ones).maxCoeff();
+    solution.rounding = std::sqrt(spread * problem_.A.diagonal().dot(point_.q.lo.cwiseAbs2()));
+    // What contradictions of rounding leave undecided, as far as the slowest correction tells the least
+    // eigenvalue.
+    const double spread_of_units = scaled_.coordinate.maxCoeff() / scaled_.coordinate.minCoeff();
+    const double inverse_norm = 2 * spread_of_units / std::sqrt(delta_);
+    if (silence_ > 0) doubtful_ = std::max(doubtful_, silence_ * (1 + size_of_q()));
+    solution.error_bound =
+        2 * unit * point_.remaining() + solution.rounding +
+        unit * (point_.rest + doubtful_) * inverse_norm * std::sqrt(static_cast<double>(rows_.size() + 1));
+    const bool close =
+        solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
+    solution.status = close ? Status::solved : Status::inaccurate;
+    solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
+                               static_cast<double>(system_.factorisations()) * system_.factors().flops(),
+                               system_.factors().nonzeros()}};
+    return solution;
+  }
+
+  /// Multipliers that grow without bound point along a witness: its part in the null space of Uᵀ, on the rows
+  /// that grow.
+  Solution infeasible(const Vector& lambda) {
+    constexpr double growing = 1e-4, farthest = 1e3;
+    constexpr int most_projections = 20;
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    const double largest = lambda.cwiseAbs().maxCoeff();
+    std::vector<Index> rows;
+    Vector weight = Vector::Zero(problem_.rows()), w = Vector::Zero(problem_.rows());
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (std::abs(lambda[a]) > growing * largest) {
+        rows.push_back(a);
+        weight[a] = 1e6;  // A is then a small part of A + UᵀDU
+        w[a] = lambda[a] / largest * scaled_.multiplier[a];
+      }
+    if (!system_.factor(weight)) return solution;
+    for (int k = 0; k < most_projections; ++k) {
+      DoubleDoubleVector sum(problem_.dimension());
+      for (Index a : rows) problem_.U.add_multiple(a, {w[a], 0}, sum);
+      const Vector rest = sum.value().cwiseQuotient(scaled_.force);
+      const Vector along = scaled_.U * system_.solve(rest);
+      for (Index a : rows) w[a] -= weight[a] * along[a] * scaled_.multiplier[a];
+    }
+    for (Index a : rows)
+      if (one_sided(a)) w[a] = std::max(0.0, w[a]);
+    const double reach = farthest * problem_.A.dual_norm(problem_.z);
+    if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
+    solution.farkas = w / w.cwiseAbs().maxCoeff();
+    if (proves_infeasibility(problem_, solution.farkas, reach)) solution.status = Status::infeasible;
+    return solution;
+  }
+
+  const NearestPointProblem& problem_;
+  const Accuracy& accuracy_;
+  BalancedProblem scaled_;
+  RowSystem system_;
+  SparsePoint point_;
+  std::vector<bool> active_;
+  std::vector<Index> rows_;
+  Vector slack_;
+  Index steps_ = 0, serious_ = 0;
+  double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
+};
+
+}  // namespace
+
+Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
+                           const std::vector<Index>& guess) {
+  validate(problem);
+  return SparseActiveSet(problem, accuracy).run(guess);
+}
+
+}  // namespace convex
