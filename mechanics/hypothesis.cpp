@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/residuals.hpp"
 
 namespace mechanics {
@@ -27,6 +28,12 @@ NearestPointProblem held(const NearestPointProblem& problem, const std::vector<I
   return rows;
 }
 
+/// From this size on sparse factors are used where the data allow it.
+Solution held_solution(const NearestPointProblem& problem) {
+  constexpr Index large = 200;
+  return problem.dimension() >= large ? convex::automatic(problem) : convex::active_set(problem);
+}
+
 }  // namespace
 
 Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth, double tolerance) {
@@ -44,7 +51,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
     return found;
   }
   const NearestPointProblem classical = held(problem, all);
-  const Solution solution = convex::active_set(classical);
+  const Solution solution = held_solution(classical);
   if (!has_answer(solution)) return found;
 
   const convex::Multipliers set = convex::multipliers(classical, solution, tolerance, false);
@@ -65,7 +72,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
     (negative ? found.negative : kept).push_back(a);
   }
   if (found.accepted || !set.unique) return found;
-  const Solution dropped = convex::active_set(held(problem, kept));
+  const Solution dropped = held_solution(held(problem, kept));
   if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;
   found.drop_negative_is_right = has_answer(dropped) && same(dropped.q);
   return found;

@@ -75,7 +75,9 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
   if (is_large_and_sparse(problem)) {
     Solution found = sparse_active_set(problem, accuracy, guess);
-    if (found.status != Status::gave_up || problem.dimension() > affordable_size) return found;
+    if (found.status == Status::solved || found.status == Status::infeasible ||
+        problem.dimension() > affordable_size)
+      return found;
   }
   Solution found = active_set(problem, accuracy, guess);
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());

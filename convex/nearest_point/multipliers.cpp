@@ -5,10 +5,15 @@
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/multiplier_tableau.hpp"
 #include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/structure/sparse_multipliers.hpp"
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
 namespace {
+
+/// Beyond so many multiplications for a dense factor of the tight rows, sparse factors tell whether
+/// multipliers are unique; their ranges are then not found.
+constexpr double most_dense_work = 3e9;
 
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
   std::vector<bool> mark(static_cast<std::size_t>(count), false);
@@ -113,6 +118,20 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
   std::vector<Interval> ranges(static_cast<std::size_t>(problem.rows()));
   for (Index a = 0; a < problem.rows(); ++a)
     ranges[static_cast<std::size_t>(a)] = {solution.lambda[a], solution.lambda[a]};
+
+  const double tight_count = static_cast<double>(found.tight.size()),
+               n = static_cast<double>(problem.dimension());
+  if (n * tight_count * std::min(n, tight_count) > most_dense_work) {
+    std::vector<Index> loaded;
+    for (Index a : found.tight)
+      if (solution.lambda[a] != 0 || is_free[static_cast<std::size_t>(a)]) loaded.push_back(a);
+    found.unique = sparse_rows_are_independent(problem, loaded);
+    if (found.unique)
+      found.ranges = std::move(ranges);
+    else
+      least_norm_multipliers(problem, found.tight, found.least_norm);
+    return found;
+  }
 
   const bool all_in_basis = found.tight.size() == solution.basis.size();
   const Dependence rows = all_in_basis ? Dependence{} : dependence(problem, solution.basis, found.tight);

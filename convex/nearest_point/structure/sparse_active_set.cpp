@@ -6,6 +6,7 @@
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/structure/interior_point_start.hpp"
+#include "convex/nearest_point/structure/peeling.hpp"
 #include "convex/nearest_point/structure/sparse_refinement.hpp"
 
 namespace convex {
@@ -39,11 +40,13 @@ class SparseActiveSet {
 
   Solution run(const std::vector<Index>& guess) {
     active_.assign(static_cast<std::size_t>(problem_.rows()), false);
-    if (!guess.empty()) {
+    const bool all_two_sided = static_cast<Index>(problem_.two_sided.size()) == problem_.rows();
+    if (!guess.empty() || all_two_sided) {
       for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
       point_.q = DoubleDoubleVector(problem_.dimension());
       point_.lambda = DoubleDoubleVector(problem_.rows());
       if (exchange()) return answer();
+      if (all_two_sided) return infeasible(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
     }
     InteriorPointStart start(scaled_, system_);
     double gap = first_gap;
@@ -165,7 +168,8 @@ class SparseActiveSet {
     solution.q = point_.q.hi;
     solution.lambda = point_.lambda.hi;
     solution.slack = slack_;
-    solution.basis = rows_;
+    if (rows_left_by_peeling(problem_.U, rows_).empty())
+      solution.basis = rows_;  // else they may depend on each other
     solution.acceleration_norm = problem_.A.norm(solution.q);
     solution.force_norm = problem_.A.dual_norm(problem_.z);
     Vector length = Vector::Zero(problem_.rows());
