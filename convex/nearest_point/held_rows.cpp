@@ -13,6 +13,8 @@ namespace {
 /// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
 constexpr double silence = 0x1p-95;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 class Polish {
  public:
   using Set = WorkingSet<Eigen::Dynamic>;
@@ -24,7 +26,7 @@ class Polish {
     for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
   }
 
-  std::optional<HeldRows> run(const Vector& q, const Vector& lambda, Index most_changes) {
+  Holding run(const Vector& q, const Vector& lambda, Index most_changes) {
     for (Index p : problem_.two_sided) {
       set_.split(p, split_);
       if (split_.rho > 0 && set_.size() < set_.factor().capacity()) set_.append(p, split_, lambda[p]);
@@ -33,17 +35,26 @@ class Polish {
     for (Index p : active(q, lambda)) take_in(p, lambda[p]);
     for (Index change = 0; change <= most_changes; ++change) {
       set_.solve();
+      found_.hoffman = std::max(found_.hoffman, condition());
       const RefinedPoint refined = refine(set_);
-      if (!(refined.contraction < 1) || !std::isfinite(refined.remaining())) return std::nullopt;
+      if (!(refined.contraction < 1) || !std::isfinite(refined.remaining())) return found_;
       if (drop_negative(refined)) continue;
       measure(refined);
       if (admit_violated(refined)) continue;
-      return held(refined);
+      if (found_.farkas.size() == 0) found_.held = held(refined);
+      return found_;
     }
-    return std::nullopt;
+    return found_;
   }
 
  private:
+  /// The longest row of W over its smallest singular value.
+  double condition() const {
+    double longest = 0;
+    for (Index k = 0; k < set_.size(); ++k) longest = std::max(longest, set_.factor().length(k));
+    return longest * set_.factor().inverse_norm();
+  }
+
   /// One-sided rows that look active, the most loaded first.
   std::vector<Index> active(const Vector& q, const Vector& lambda) const {
     const Vector slack = problem_.U.times(q) - problem_.s;
@@ -73,6 +84,8 @@ class Polish {
           blocking = k;
         }
       }
+      // What depends on W to rounding only may meet it anywhere.
+      if (is_flat_wedge(set_, p, split_)) found_.hoffman = infinity;
       set_.lambda().head(set_.size()) += step * split_.coefficients.head(set_.size());
       multiplier -= step;
       if (blocking < 0) return;
@@ -126,23 +139,30 @@ class Polish {
       set_.split(p, split_);
       const bool spanned = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
-        contradiction_ = std::max(contradiction_, std::abs(slack_[p]));
+        // Where rows that are flat to rounding meet, their edge may be far away.
+        contradiction_ =
+            is_flat_wedge(set_, p, split_) ? infinity : std::max(contradiction_, std::abs(slack_[p]));
+        found_.hoffman = std::max(found_.hoffman, contradiction_ < infinity ? 1 : infinity);
         continue;
       }
-      if (two_sided_[static_cast<std::size_t>(p)]) return true;  // contradictory: no point holds these
+      if (spanned && two_sided_[static_cast<std::size_t>(p)]) {
+        found_.farkas = contradiction_weights(set_, p, split_, slack_[p] < 0 ? 1 : -1);
+        return false;
+      }
+      if (two_sided_[static_cast<std::size_t>(p)]) continue;
       if (!spanned && -slack_[p] <= 2 * refined.remaining() * split_.length) continue;
       for (Index k = 0; k < set_.size(); ++k)
         set_.lambda()[k] = set_.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
-      exchange(p);
-      return true;
+      return exchange(p);
     }
     return false;
   }
 
-  /// Takes in the violated row p; where W spans it, the row that blocks first goes.
-  void exchange(Index p) {
+  /// Takes in the violated row p; where W spans it, the row that blocks first goes. False when none does:
+  /// then the rows contradict each other.
+  bool exchange(Index p) {
     while (!(split_.rho > 0) || set_.size() == set_.factor().capacity()) {
-      double step = std::numeric_limits<double>::infinity();
+      double step = infinity;
       Index blocking = -1;
       for (Index k = 0; k < set_.size(); ++k) {
         const double r = split_.coefficients[k];
@@ -151,12 +171,16 @@ class Polish {
         step = set_.lambda()[k] / r;
         blocking = k;
       }
-      if (blocking < 0) return;
+      if (blocking < 0) {
+        found_.farkas = contradiction_weights(set_, p, split_, 1);
+        return false;
+      }
       set_.lambda().head(set_.size()) -= step * split_.coefficients.head(set_.size());
       set_.remove(blocking);
       set_.split(p, split_);
     }
     set_.append(p, split_, 0);
+    return true;
   }
 
   HeldRows held(const RefinedPoint& refined) const {
@@ -176,12 +200,13 @@ class Polish {
   std::vector<bool> two_sided_;
   Vector slack_;
   double contradiction_ = 0;
+  Holding found_;
 };
 
 }  // namespace
 
-std::optional<HeldRows> hold_active_rows(const NearestPointProblem& problem, const Vector& q,
-                                         const Vector& lambda, const Vector& row_scale, Index most_changes) {
+Holding hold_active_rows(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                         const Vector& row_scale, Index most_changes) {
   return Polish(problem, row_scale).run(q, lambda, most_changes);
 }
 

@@ -19,12 +19,21 @@ struct HeldRows {
   double contradiction = 0;  ///< what the worst row off W that W contradicts by rounding alone is violated by
 };
 
+/// What came of holding the rows that look active.
+struct Holding {
+  std::optional<HeldRows> held;
+  Vector farkas;  ///< m, or empty: weights of rows that turned out to contradict each other; not verified
+  /// An estimate of the constant of Hoffman (1952): how far a motion is at most from one that satisfies the
+  /// rows at hand, for one unit of violation (in lengths of rows). Infinite where rows are flat to rounding.
+  double hoffman = 1;
+};
+
 /// Row a counts as active when lambda_a ||u_a|| > (u_a·q - s_a) / ||u_a||, both sides being lengths in the
 /// metric. Of dependent active rows a basis with multipliers >= 0 is taken (Carathéodory 1911). Rows whose
 /// multiplier turns out negative go, rows violated at the new point come in, no more than `most_changes` in
-/// all; nothing when that does not do, or when refinement does not converge. row_scale: ||u_a||_(D⁻¹), D the
-/// diagonal of A: m.
-std::optional<HeldRows> hold_active_rows(const NearestPointProblem&, const Vector& q, const Vector& lambda,
-                                         const Vector& row_scale, Index most_changes);
+/// all; nothing is held when that does not do, or when refinement does not converge. row_scale:
+/// ||u_a||_(D⁻¹), D the diagonal of A: m.
+Holding hold_active_rows(const NearestPointProblem&, const Vector& q, const Vector& lambda,
+                         const Vector& row_scale, Index most_changes);
 
 }  // namespace convex

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/nearest_point/dependent_row.hpp"
 #include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/farkas_circuit.hpp"
 #include "convex/nearest_point/held_rows.hpp"
@@ -17,15 +18,29 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// As in the active-set method: weights must exclude motions of up to so many times the scale of the problem.
 constexpr double farthest = 1e3;
 
-/// The multipliers of the solution are taken to be at most so many times the largest at hand, rows at their
-/// lengths.
-constexpr double multiplier_margin = 10;
+/// The distance to a motion that satisfies the rows is taken so many times what the rows at hand say.
+constexpr double distance_margin = 4;
 
 /// Up to so many numbers, a factor is dense.
 constexpr double most_dense_numbers = 4e6;
 
 /// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open.
 Index most_changes(Index held) { return std::min<Index>(8, 1 + held / 8); }
+
+/// Weights of two-sided rows that contradict each other.
+std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& problem) {
+  if (problem.two_sided.empty() || !is_dense_size(problem)) return std::nullopt;
+  WorkingSet<Eigen::Dynamic> set(problem);
+  WorkingSet<Eigen::Dynamic>::Split split;
+  for (Index p : problem.two_sided) {
+    set.split(p, split);
+    if (split.rho > 0 && set.size() < set.factor().capacity())
+      set.append(p, split, 0);
+    else if (const double gap = contradiction(set, p, split); std::abs(gap) > 0)
+      return contradiction_weights(set, p, split, gap > 0 ? 1 : -1);
+  }
+  return std::nullopt;
+}
 
 class Judge {
  public:
@@ -49,20 +64,24 @@ class Judge {
       lambda = Vector::Zero(problem_.rows());
     }
     Solution raw = measured(q, lambda, problem_.U.times(q) - problem_.s);
-    raw.error_bound = bound_of_gap(q, lambda);
     const Index loaded = (lambda.array() != 0).count();
-    const std::optional<HeldRows> held =
-        is_dense_size(problem_) ? hold_active_rows(problem_, q, lambda, row_scale_, most_changes(loaded))
-                                : std::nullopt;
-    if (!held) return with_status(raw);
-    const double error_of_held = bound_of_held(*held);
-    raw.error_bound =
-        std::min(raw.error_bound, error_of_held + problem_.A.norm((q - held->q.hi) - held->q.lo));
+    const Holding holding = is_dense_size(problem_)
+                                ? hold_active_rows(problem_, q, lambda, row_scale_, most_changes(loaded))
+                                : Holding{};
+    if (std::optional<Solution> proved = infeasible(holding.farkas); proved && candidate_.may_polish)
+      return *proved;
+    if (!holding.held) {
+      raw.error_bound = bound_of_gap(q, lambda, holding.hoffman);
+      return with_status(raw);
+    }
+    const HeldRows& held = *holding.held;
+    const double error_of_held = bound_of_held(held);
+    raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
     if (!candidate_.may_polish) return with_status(raw);
-    Solution polished = measured(held->q.hi, signed_right(held->lambda), held->slack);
-    polished.rounding = rounding_norm(held->q.lo);
+    Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
+    polished.rounding = rounding_norm(held.q.lo);
     polished.error_bound = error_of_held + polished.rounding;
-    polished.basis = held->rows;
+    polished.basis = held.rows;
     polished.polished = true;
     return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
   }
@@ -124,32 +143,32 @@ class Judge {
     return solution;
   }
 
-  /// ||q - q*||_A <= ||r|| + root(gap), for q and lambda as they are.
-  double bound_of_gap(const Vector& q, const Vector& lambda) const {
+  /// The bound from the candidate alone: h + (||r|| + h) + root(gap), h the distance to a motion that
+  /// satisfies the rows.
+  double bound_of_gap(const Vector& q, const Vector& lambda, double hoffman) const {
     const DoubleDoubleVector point(q);
     std::vector<Index> loaded;
-    double largest = std::max(problem_.A.norm(q), force_norm_);
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (lambda[a] != 0) {
-        loaded.push_back(a);
-        largest = std::max(largest, std::abs(lambda[a]) * row_scale_[a]);
-      }
+      if (lambda[a] != 0) loaded.push_back(a);
     DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
     for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
     const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, loaded, weights));
+    const double push = problem_.A.dual_norm(problem_.U.transpose_times(lambda));
     const Vector plain = problem_.U.times(q) - problem_.s;
-    double gap = 0;
+    double gap = 0, violation = 0;
     for (Index a = 0; a < problem_.rows(); ++a) {
-      if (plain[a] > 0 && lambda[a] == 0 && !two_sided_[static_cast<std::size_t>(a)]) continue;
+      const bool is_two_sided = two_sided_[static_cast<std::size_t>(a)];
+      if (plain[a] > 0 && lambda[a] == 0 && !is_two_sided) continue;
       const double rest = slack(problem_, a, point).value();
-      if (rest > 0 && !two_sided_[static_cast<std::size_t>(a)]) {
+      if (rest > 0 && !is_two_sided) {
         gap += lambda[a] * rest;
       } else if (rest != 0) {
         if (!(row_scale_[a] > 0)) return infinity;
-        gap += (multiplier_margin * largest / row_scale_[a] + std::abs(lambda[a])) * std::abs(rest);
+        violation += rest / row_scale_[a] * (rest / row_scale_[a]);
       }
     }
-    return 0.5 * (off + std::sqrt(off * off + 4 * gap));
+    const double far = violation > 0 ? distance_margin * hoffman * std::sqrt(violation) : 0;
+    return 2 * far + off + std::sqrt(gap + push * far);
   }
 
   double bound_of_held(const HeldRows& held) const {
@@ -193,6 +212,10 @@ std::optional<Solution> without_a_method(const NearestPointProblem& problem, std
     if (length[a] > 0 || !(problem.s[a] > 0 || (is_two_sided && problem.s[a] < 0))) continue;
     candidate.farkas = Vector::Zero(m);
     candidate.farkas[a] = problem.s[a] > 0 ? 1 : -1;
+    return judged(problem, candidate, accuracy);
+  }
+  if (const std::optional<Vector> weights = contradictory_two_sided_rows(problem)) {
+    candidate.farkas = *weights;
     return judged(problem, candidate, accuracy);
   }
   if (length.size() > 0 && length.maxCoeff() > 0) return std::nullopt;

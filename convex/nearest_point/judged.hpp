@@ -20,13 +20,16 @@ struct Candidate {
 };
 
 /// Judges a candidate; all methods but active-set, which judges itself by the same measures, end here.
-/// Residuals are those of `residuals`. The bound on ||q - q*||_A, q* the solution, is the smaller one of two.
+/// Residuals are those of `residuals`. The bound on ||q - q*||_A, q* the solution, is the second one of
+/// these, or the first where no rows can be held.
 ///
-/// From the candidate alone: with r = Aq - z - Uᵀlambda, lambda >= 0, slack w = Uq - s and e = q - q*,
-///   ||e||² = e·r + (lambda - lambda*)·(w - w*) <= ||e|| ||r||_(A⁻¹) + lambda·w - lambda*·w,
-/// since lambda*·w* = 0 <= lambda·w*. Hence ||e|| <= ||r|| + root(gap), where gap sums lambda_a w_a over w_a
-/// > 0 and lambda*_a |w_a| over violated rows, lambda* being taken ten times the largest at hand. A root: it
-/// proves half of the digits.
+/// From the candidate alone: for any p with Up >= s, lambda >= 0, r = Ap - z - Uᵀlambda, w = Up - s and e = p
+/// - q*,
+///   ||e||² = e·r + (lambda - lambda*)·(w - w*) <= ||e|| ||r||_(A⁻¹) + lambda·w,
+/// since lambda*·w* = 0 <= lambda·w* and lambda*·w >= 0. Hence ||e|| <= ||r|| + root(lambda·w). Where q
+/// violates rows, p is some motion that does not, at a distance h that is estimated from the violation and
+/// the condition of the rows at hand (Hoffman 1952); all terms move by at most h, lambda·w by ||Uᵀlambda|| h.
+/// A root: it proves half of the digits.
 ///
 /// From the rows held: the point p of the active rows (`hold_active_rows`), refined in twice the working
 /// precision, meets all conditions exactly but for what refinement left, multipliers negative by rounding,
@@ -46,5 +49,8 @@ std::optional<Solution> without_a_method(const NearestPointProblem&, std::string
 
 /// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and judge go by sparse factors.
 bool is_dense_size(const NearestPointProblem&);
+
+/// Up to so many rows, methods that work on a matrix of rows by rows are affordable.
+inline constexpr Index most_dense_rows = 3000;
 
 }  // namespace convex

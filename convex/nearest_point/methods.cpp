@@ -4,11 +4,38 @@
 
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/judged.hpp"
+#include "convex/nearest_point/methods/accelerated_gradient.hpp"
+#include "convex/nearest_point/methods/admm.hpp"
+#include "convex/nearest_point/methods/block_pivoting.hpp"
+#include "convex/nearest_point/methods/drop_negative.hpp"
+#include "convex/nearest_point/methods/enumerate.hpp"
+#include "convex/nearest_point/methods/interior_point.hpp"
+#include "convex/nearest_point/methods/lemke.hpp"
+#include "convex/nearest_point/methods/nnls.hpp"
+#include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
+#include "convex/nearest_point/methods/proximal_point.hpp"
+#include "convex/nearest_point/methods/semismooth_newton.hpp"
 
 namespace convex {
 namespace {
 
 std::string always(const NearestPointProblem&) { return {}; }
+
+/// Methods on dense whitened rows or a tableau of the rows.
+std::string when_dense(const NearestPointProblem& problem) {
+  if (is_dense_size(problem) && problem.rows() <= most_dense_rows) return {};
+  return "works with dense factors, which " + std::to_string(problem.dimension()) + " coordinates and " +
+         std::to_string(problem.rows()) + " rows are too many for; take a sparse method";
+}
+
+std::string when_few_rows(const NearestPointProblem& problem) {
+  const Index rows = problem.rows() - static_cast<Index>(problem.two_sided.size());
+  if (rows <= most_enumerated_rows) return when_dense(problem);
+  return "tries all sets of rows, which " + std::to_string(rows) +
+         " one-sided rows are too many for (at most " + std::to_string(most_enumerated_rows) +
+         "); take another method";
+}
 
 Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return active_set(problem, accuracy);
@@ -18,11 +45,32 @@ Solution solve_automatically(const NearestPointProblem& problem, const Accuracy&
   return automatic(problem, accuracy);
 }
 
+using enum MethodKind;
+
 constexpr std::array table{
     Method{"auto", "no more than the problem needs: islands, structure, dense or sparse (the default)",
-           MethodKind::direct, always, solve_automatically},
+           direct, always, solve_automatically},
     Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
-           MethodKind::direct, always, solve_by_active_set},
+           direct, always, solve_by_active_set},
+    Method{"nnls", "nonnegative least squares of Lawson and Hanson, on the cone or homogenised", direct,
+           when_dense, nnls},
+    Method{"lemke", "complementary pivoting of Lemke, lexicographic", direct, when_dense, lemke},
+    Method{"block-pivoting", "principal pivoting by blocks, one row at a time where blocks fail", direct,
+           when_dense, block_pivoting},
+    Method{"enumerate", "all sets of active rows, for up to 20 rows", direct, when_few_rows, enumerate},
+    Method{"semismooth-newton", "primal-dual active set on regularised equations, dense or sparse", iterative,
+           always, semismooth_newton},
+    Method{"proximal-point", "augmented Lagrangians minimised by Newton steps, dense or sparse", iterative,
+           always, proximal_point},
+    Method{"interior-point", "Mehrotra's predictor and corrector, regularised, dense or sparse", iterative,
+           always, interior_point},
+    Method{"admm", "alternating directions with over-relaxation, dense or sparse", iterative, always, admm},
+    Method{"accelerated-gradient", "projected gradient of the dual, accelerated and restarted", iterative,
+           always, accelerated_gradient},
+    Method{"projected-gauss-seidel", "one multiplier after the other, over-relaxed", iterative, when_dense,
+           projected_gauss_seidel},
+    Method{"drop-negative", "rejected rule, for comparison: holds all rows, drops negative multipliers once",
+           for_comparison, when_dense, drop_negative},
 };
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include "convex/nearest_point/methods/accelerated_gradient.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/iteration.hpp"
+#include "convex/nearest_point/scaled_problem.hpp"
+#include "convex/nearest_point/working_set.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double most_work = 2e10;
+constexpr Index most_steps = 1000000;
+
+/// Steps of the power method, and by how much its estimate of the largest eigenvalue is raised.
+constexpr int power_steps = 30;
+constexpr double margin = 1.05;
+
+/// The operator y -> F⁻¹Uᵀy and its transpose.
+class Whitening {
+ public:
+  explicit Whitening(const NearestPointProblem& problem) : problem_(problem), dense_(is_dense_size(problem)) {
+    if (!dense_) return;
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem.rows(); ++a) rows.push_back(a);
+    V_ = whitened_rows(problem, rows);
+  }
+  Vector times(const Vector& y) const {
+    return dense_ ? Vector(V_ * y) : problem_.A.whiten(problem_.U.transpose_times(y));
+  }
+  Vector transpose_times(const Vector& d) const {
+    return dense_ ? Vector(V_.transpose() * d) : problem_.U.times(problem_.A.unwhiten(d));
+  }
+
+ private:
+  const NearestPointProblem& problem_;
+  bool dense_;
+  Matrix V_;
+};
+
+double largest_eigenvalue(const Whitening& V, Index k) {
+  Vector x(k);
+  for (Index a = 0; a < k; ++a) x[a] = 1 + 0.5 * std::sin(static_cast<double>(a));
+  double found = 1;
+  for (int step = 0; step < power_steps; ++step) {
+    x /= x.norm();
+    x = V.transpose_times(V.times(x));
+    found = x.norm();
+    if (!(found > 0)) return 1;
+  }
+  return found;
+}
+
+}  // namespace
+
+Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  validate(problem);
+  if (const auto found = without_a_method(problem, "accelerated-gradient", accuracy)) return *found;
+  const ScaledProblem scaled(problem);
+  const NearestPointProblem& within = scaled.problem;
+  const Whitening V(within);
+  const Index k = within.rows();
+  const Vector b = within.s - within.U.times(within.A.solve(within.z));
+  double steepest = margin * largest_eigenvalue(V, k);
+  Vector y = Vector::Zero(k), ahead = y, before = y, Vy = V.times(y), Vahead = Vy;
+  double momentum = 1;
+  const double work = 4 * static_cast<double>(k) * static_cast<double>(within.dimension());
+  const Index limit =
+      std::min(most_steps, static_cast<Index>(most_work / (is_dense_size(problem) ? work : 1e5)) + 8);
+  return iterate(
+      problem, accuracy, limit,
+      [&](Index) {
+        const Vector gradient = V.transpose_times(Vahead) - b;
+        Vector next, Vnext;
+        // The step is short enough when the quadratic model about `ahead` lies above at `next`.
+        while (true) {
+          next = ahead - gradient / steepest;
+          for (Index a = 0; a < k; ++a)
+            if (!scaled.two_sided[static_cast<std::size_t>(a)]) next[a] = std::max(0.0, next[a]);
+          Vnext = V.times(next);
+          if ((Vnext - Vahead).squaredNorm() <= steepest * (next - ahead).squaredNorm() * (1 + 1e-12)) break;
+          steepest *= 1.5;
+        }
+        if ((ahead - next).dot(next - y) > 0) momentum = 1;
+        const double following = 0.5 * (1 + std::sqrt(1 + 4 * momentum * momentum));
+        const double push = (momentum - 1) / following;
+        ahead = next + push * (next - y);
+        Vahead = Vnext + push * (Vnext - Vy);
+        y = next;
+        Vy = Vnext;
+        momentum = following;
+        return false;
+      },
+      [&](Index) {
+        const Vector moved = y - before;
+        before = y;
+        return Candidate{.method = "accelerated-gradient",
+                         .q = {},
+                         .lambda = scaled.multipliers(y),
+                         .farkas = scaled.weights(moved)};
+      });
+}
+
+}  // namespace convex

@@ -1,0 +1,56 @@
+#include "convex/nearest_point/methods/drop_negative.hpp"
+
+#include <numeric>
+
+#include "convex/nearest_point/judged.hpp"
+#include "convex/nearest_point/refinement.hpp"
+
+namespace convex {
+namespace {
+
+/// A row this close to the span of others is taken to depend on them.
+constexpr double dependence = 1e-10;
+
+/// A multiplier is negative beyond this part of the largest one.
+constexpr double noise = 1e-12;
+
+struct Held {
+  Vector q, lambda;
+};
+
+/// All the rows given with equality, as far as they are independent.
+Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  WorkingSet<Eigen::Dynamic> set(problem);
+  Matrix whitened = whitened_rows(problem, rows);
+  set.append_block(rows, whitened, dependence);
+  set.solve();
+  const RefinedPoint refined = refine(set);
+  Held held{refined.q.hi, Vector::Zero(problem.rows())};
+  for (Index k = 0; k < set.size(); ++k)
+    held.lambda[set.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
+  return held;
+}
+
+}  // namespace
+
+Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  validate(problem);
+  if (const auto found = without_a_method(problem, "drop-negative", accuracy)) return *found;
+  std::vector<Index> rows(static_cast<std::size_t>(problem.rows()));
+  std::iota(rows.begin(), rows.end(), Index{0});
+  const Held first = hold(problem, rows);
+  const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
+  const double least = -noise * first.lambda.cwiseProduct(length).cwiseAbs().maxCoeff();
+  std::vector<Index> kept = problem.two_sided;
+  for (Index a : rows)
+    if (first.lambda[a] * length[a] >= least &&
+        !std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
+      kept.push_back(a);
+  const Held second = hold(problem, kept);
+  Candidate candidate{.method = "drop-negative", .q = second.q, .lambda = second.lambda, .farkas = {}};
+  candidate.steps = problem.rows() - static_cast<Index>(kept.size());
+  candidate.may_polish = false;
+  return judged(problem, candidate, accuracy);
+}
+
+}  // namespace convex

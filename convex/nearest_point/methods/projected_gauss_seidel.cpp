@@ -1,0 +1,48 @@
+#include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
+
+#include "convex/nearest_point/iteration.hpp"
+#include "convex/nearest_point/whitened_problem.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double relaxation = 1.3;
+
+/// Products that all sweeps together may cost.
+constexpr double most_work = 2e10;
+constexpr Index most_sweeps = 1000000;
+
+}  // namespace
+
+Solution projected_gauss_seidel(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  validate(problem);
+  if (const auto found = without_a_method(problem, "projected-gauss-seidel", accuracy)) return *found;
+  const WhitenedProblem white(problem);
+  const Index k = white.size();
+  Vector y = Vector::Zero(k), before = y, d = Vector::Zero(problem.dimension());
+  const double sweep = 4 * static_cast<double>(k) * static_cast<double>(problem.dimension());
+  const Index limit = std::min(most_sweeps, static_cast<Index>(most_work / sweep) + 8);
+  return iterate(
+      problem, accuracy, limit,
+      [&](Index) {
+        for (Index a = 0; a < k; ++a) {
+          double next = y[a] + relaxation * (white.b[a] - white.V.col(a).dot(d));
+          if (!white.is_free(a)) next = std::max(0.0, next);
+          if (next == y[a]) continue;
+          d += (next - y[a]) * white.V.col(a);
+          y[a] = next;
+        }
+        return false;
+      },
+      [&](Index) {
+        d.noalias() = white.V * y;  // what rounding has added up goes
+        const Vector moved = y - before;
+        before = y;
+        return Candidate{.method = "projected-gauss-seidel",
+                         .q = {},
+                         .lambda = white.multipliers(problem, y),
+                         .farkas = white.weights(problem, moved)};
+      });
+}
+
+}  // namespace convex
