@@ -35,7 +35,6 @@ class Polish {
     for (Index p : active(q, lambda)) take_in(p, lambda[p]);
     for (Index change = 0; change <= most_changes; ++change) {
       set_.solve();
-      found_.hoffman = std::max(found_.hoffman, condition());
       const RefinedPoint refined = refine(set_);
       if (!(refined.contraction < 1) || !std::isfinite(refined.remaining())) return found_;
       if (drop_negative(refined)) continue;
@@ -48,13 +47,6 @@ class Polish {
   }
 
  private:
-  /// The longest row of W over its smallest singular value.
-  double condition() const {
-    double longest = 0;
-    for (Index k = 0; k < set_.size(); ++k) longest = std::max(longest, set_.factor().length(k));
-    return longest * set_.factor().inverse_norm();
-  }
-
   /// One-sided rows that look active, the most loaded first.
   std::vector<Index> active(const Vector& q, const Vector& lambda) const {
     const Vector slack = problem_.U.times(q) - problem_.s;
@@ -84,8 +76,6 @@ class Polish {
           blocking = k;
         }
       }
-      // What depends on W to rounding only may meet it anywhere.
-      if (is_flat_wedge(set_, p, split_)) found_.hoffman = infinity;
       set_.lambda().head(set_.size()) += step * split_.coefficients.head(set_.size());
       multiplier -= step;
       if (blocking < 0) return;
@@ -142,7 +132,6 @@ class Polish {
         // Where rows that are flat to rounding meet, their edge may be far away.
         contradiction_ =
             is_flat_wedge(set_, p, split_) ? infinity : std::max(contradiction_, std::abs(slack_[p]));
-        found_.hoffman = std::max(found_.hoffman, contradiction_ < infinity ? 1 : infinity);
         continue;
       }
       if (spanned && two_sided_[static_cast<std::size_t>(p)]) {

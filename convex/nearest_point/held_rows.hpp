@@ -23,9 +23,6 @@ struct HeldRows {
 struct Holding {
   std::optional<HeldRows> held;
   Vector farkas;  ///< m, or empty: weights of rows that turned out to contradict each other; not verified
-  /// An estimate of the constant of Hoffman (1952): how far a motion is at most from one that satisfies the
-  /// rows at hand, for one unit of violation (in lengths of rows). Infinite where rows are flat to rounding.
-  double hoffman = 1;
 };
 
 /// Row a counts as active when lambda_a ||u_a|| > (u_a·q - s_a) / ||u_a||, both sides being lengths in the

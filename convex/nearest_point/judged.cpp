@@ -18,9 +18,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// As in the active-set method: weights must exclude motions of up to so many times the scale of the problem.
 constexpr double farthest = 1e3;
 
-/// The distance to a motion that satisfies the rows is taken so many times what the rows at hand say.
-constexpr double distance_margin = 4;
-
 /// Up to so many numbers, a factor is dense.
 constexpr double most_dense_numbers = 4e6;
 
@@ -71,7 +68,7 @@ class Judge {
     if (std::optional<Solution> proved = infeasible(holding.farkas); proved && candidate_.may_polish)
       return *proved;
     if (!holding.held) {
-      raw.error_bound = bound_of_gap(q, lambda, holding.hoffman);
+      raw.error_bound = bound_of_gap(q, lambda);
       return with_status(raw);
     }
     const HeldRows& held = *holding.held;
@@ -143,9 +140,8 @@ class Judge {
     return solution;
   }
 
-  /// The bound from the candidate alone: h + (||r|| + h) + root(gap), h the distance to a motion that
-  /// satisfies the rows.
-  double bound_of_gap(const Vector& q, const Vector& lambda, double hoffman) const {
+  /// The bound from the candidate alone; none where a row is violated.
+  double bound_of_gap(const Vector& q, const Vector& lambda) const {
     const DoubleDoubleVector point(q);
     std::vector<Index> loaded;
     for (Index a = 0; a < problem_.rows(); ++a)
@@ -153,22 +149,16 @@ class Judge {
     DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
     for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
     const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, loaded, weights));
-    const double push = problem_.A.dual_norm(problem_.U.transpose_times(lambda));
     const Vector plain = problem_.U.times(q) - problem_.s;
-    double gap = 0, violation = 0;
+    double gap = 0;
     for (Index a = 0; a < problem_.rows(); ++a) {
       const bool is_two_sided = two_sided_[static_cast<std::size_t>(a)];
       if (plain[a] > 0 && lambda[a] == 0 && !is_two_sided) continue;
       const double rest = slack(problem_, a, point).value();
-      if (rest > 0 && !is_two_sided) {
-        gap += lambda[a] * rest;
-      } else if (rest != 0) {
-        if (!(row_scale_[a] > 0)) return infinity;
-        violation += rest / row_scale_[a] * (rest / row_scale_[a]);
-      }
+      if (rest < 0 || (is_two_sided && rest != 0)) return infinity;
+      gap += lambda[a] * rest;
     }
-    const double far = violation > 0 ? distance_margin * hoffman * std::sqrt(violation) : 0;
-    return 2 * far + off + std::sqrt(gap + push * far);
+    return off + std::sqrt(gap);
   }
 
   double bound_of_held(const HeldRows& held) const {

@@ -23,13 +23,12 @@ struct Candidate {
 /// Residuals are those of `residuals`. The bound on ||q - q*||_A, q* the solution, is the second one of
 /// these, or the first where no rows can be held.
 ///
-/// From the candidate alone: for any p with Up >= s, lambda >= 0, r = Ap - z - Uᵀlambda, w = Up - s and e = p
-/// - q*,
+/// From the candidate alone, where q satisfies the rows: with r = Aq - z - Uᵀlambda, lambda >= 0, w = Uq - s,
+/// e = q - q*,
 ///   ||e||² = e·r + (lambda - lambda*)·(w - w*) <= ||e|| ||r||_(A⁻¹) + lambda·w,
-/// since lambda*·w* = 0 <= lambda·w* and lambda*·w >= 0. Hence ||e|| <= ||r|| + root(lambda·w). Where q
-/// violates rows, p is some motion that does not, at a distance h that is estimated from the violation and
-/// the condition of the rows at hand (Hoffman 1952); all terms move by at most h, lambda·w by ||Uᵀlambda|| h.
-/// A root: it proves half of the digits.
+/// since lambda*·w* = 0 <= lambda·w* and lambda*·w >= 0. Hence ||e|| <= ||r|| + root(lambda·w). A root: it
+/// proves half of the digits. Where q violates a row, however little, nothing is proved: there may be no
+/// solution.
 ///
 /// From the rows held: the point p of the active rows (`hold_active_rows`), refined in twice the working
 /// precision, meets all conditions exactly but for what refinement left, multipliers negative by rounding,

@@ -12,6 +12,9 @@ namespace {
 constexpr double most_work = 2e10;
 constexpr Index most_steps = 1000000;
 
+/// A step is tested for its length when it is longer than this part of the point.
+constexpr double shortest = 1e-7;
+
 /// Steps of the power method, and by how much its estimate of the largest eigenvalue is raised.
 constexpr int power_steps = 30;
 constexpr double margin = 1.05;
@@ -78,7 +81,10 @@ Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy
           for (Index a = 0; a < k; ++a)
             if (!scaled.two_sided[static_cast<std::size_t>(a)]) next[a] = std::max(0.0, next[a]);
           Vnext = V.times(next);
-          if ((Vnext - Vahead).squaredNorm() <= steepest * (next - ahead).squaredNorm() * (1 + 1e-12)) break;
+          const double moved = (next - ahead).norm();
+          // What rounding leaves of a short step tells nothing of the curvature.
+          if (!(moved > shortest * next.norm()) || (Vnext - Vahead).squaredNorm() <= steepest * moved * moved)
+            break;
           steepest *= 1.5;
         }
         if ((ahead - next).dot(next - y) > 0) momentum = 1;
