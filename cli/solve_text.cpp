@@ -81,10 +81,11 @@ std::string accuracy_text(const SolvedScene& solved) {
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
   const std::string accuracy =
       fmt::format("relative error of the acceleration at most about {:.1e}", relative);
-  text += primal.status == convex::Status::solved
-              ? fmt::format("Solved by {}: {}.\n", primal.method, accuracy)
-              : fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
-                            accuracy);
+  text +=
+      primal.status == convex::Status::solved
+          ? fmt::format("Solved by {}{}: {}.\n", primal.method, primal.polished ? ", polished" : "", accuracy)
+          : fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
+                        accuracy);
   return text;
 }
 
