@@ -16,6 +16,8 @@ bool is_diagonal_kind(const Metric& W) {
 class InProduct : public Operation {
  public:
   InProduct(Function h, Metric M) : h_(std::move(h)), M_(std::move(M)) {}
+  const Function& part() const { return h_; }
+  const Metric& map() const { return M_; }
 
   Index dimension() const override { return M_.dimension(); }
   Facts facts() const override {
@@ -32,7 +34,7 @@ class InProduct : public Operation {
     if (!v) return std::nullopt;
     return image(*v);
   }
-  Function conjugate() const override { return in_product(h_.conjugate(), inverse(M_)); }
+  Function conjugate() const override;
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = h_.node().linear_quadratic(n);
     if (!form) return std::nullopt;
@@ -81,6 +83,26 @@ class InProduct : public Operation {
   Metric M_;
 };
 
+/// The conjugate h*(M⁻¹·) of h(M·), which it keeps. A map that undoes M⁻¹ is then left out together with it:
+/// taken one after the other, as rounded, the two leave condition(M) roundings in the point, and in the
+/// membership tolerance, which is relative to the terms of each.
+class ConjugateInProduct : public InProduct {
+ public:
+  ConjugateInProduct(const Function& primal, const InProduct& of)
+      : InProduct(of.part().conjugate(), inverse(of.map())), primal_(primal), undone_by_(of.map()) {}
+  Function conjugate() const override { return primal_; }
+  /// The factor with M⁻¹V = factor, when there is one.
+  std::optional<double> product(const Metric& V) const { return ratio(V, undone_by_); }
+
+ private:
+  Function primal_;
+  Metric undone_by_;
+};
+
+Function InProduct::conjugate() const {
+  return Function(std::make_shared<ConjugateInProduct>(self(), *this));
+}
+
 }  // namespace
 
 Function in_product(const Function& h, const Metric& M) {
@@ -89,6 +111,9 @@ Function in_product(const Function& h, const Metric& M) {
                        " rows, the function takes " + std::to_string(h.dimension()) +
                        " entries; give one of the other's size");
   if (M.kind() == MetricKind::identity) return h;
+  if (const auto* inner = dynamic_cast<const ConjugateInProduct*>(&h.node()))
+    if (const auto factor = inner->product(M))
+      return in_product(inner->part(), times(*factor, Metric::identity(M.dimension())));
   return Function(std::make_shared<InProduct>(h, M));
 }
 

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "convex/laws/trial.hpp"
 #include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
@@ -29,6 +31,26 @@ TEST_CASE(
           CHECK(x.error_bound <= 1e-12 * scale);
           CHECK(y.error_bound <= 1e-12 * scale);
         }
+    }
+  }
+}
+
+TEST_CASE("the conjugate in a product of a support function in it is the indicator of the set as it was") {
+  // The condition of the product must not widen the tolerance by which a point counts as one of the set.
+  const char* set = "ball2(2, center=[1,0,-1])";
+  for (const convex::NamedMetric& metric : convex::trial_metrics(3)) {
+    CAPTURE(metric.name);
+    const Metric& W = metric.W;
+    const convex::Function support =
+        convex::in_product(samples::function(set, 3).conjugate(), W);  // sup of (s|x) over the set
+    const convex::Function inside = support.conjugate(W), twice = support.conjugate().conjugate();
+    for (Vector direction : convex::trial_points(3)) {
+      if (!(direction.norm() > 0)) continue;
+      direction /= direction.norm();
+      const Vector center{{1, 0, -1}};
+      CHECK(inside(center + 2 * direction) == 0);
+      CHECK(std::isinf(inside(center + (2 + 1e-6) * direction)));
+      CHECK(twice(direction) == support(direction));
     }
   }
 }
