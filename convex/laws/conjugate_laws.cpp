@@ -150,16 +150,16 @@ ConjugatePair conjugate_pair(const Function& f, const Metric& W) {
   return {subject(f), subject(f.conjugate(W)), f.facts().cone};
 }
 
-std::vector<Check> function_laws(const Function& f, const Trial& trial, const std::vector<Vector>& others) {
+std::vector<Check> function_laws(const Function& f, const Subject& subject, const Trial& trial,
+                                 const std::vector<Vector>& others) {
   const Metric& W = trial.W;
-  const ConjugatePair pair = conjugate_pair(f, W);
-  const Split at = split(pair.f, trial.z, W);
+  const Split at = split(subject, trial.z, W);
   std::vector<Check> checks;
   if (!std::isfinite(at.f_x)) return checks;
 
   const Function twice = f.conjugate().conjugate();
   const Prox again = twice.prox(trial.z, W);
-  const double change = variation(pair.f, at.x, at.bound + again.error_bound);
+  const double change = variation(subject, at.x, at.bound + again.error_bound);
   checks.push_back(
       check_that("f** = f", std::abs(twice(at.x) - at.f_x), value_roundings * std::abs(at.f_x) + change));
   checks.push_back(check_that("prox of f** = prox of f", W.norm(again.x - at.x),
@@ -178,13 +178,13 @@ std::vector<Check> function_laws(const Function& f, const Trial& trial, const st
   if (const std::optional<Vector> v = f.subgradient(at.x)) {
     WorstCheck given("the subgradient that f gives at x is one");
     for (const Vector& other : others)
-      for (const Vector& u : {other, pair.f.prox(other, W).x}) {
-        const double f_u = f(u);
+      for (const Vector& u : {other, subject.prox(other, W).x}) {
+        const double f_u = subject.value(u);
         if (!std::isfinite(f_u)) continue;
         const double bound =
             value_roundings * (std::abs(f_u) + std::abs(at.f_x) + v->cwiseAbs().dot((u - at.x).cwiseAbs())) +
-            pair.f.membership * v->norm() * (u.norm() + at.x.norm()) + variation(pair.f, at.x, at.bound) +
-            variation(pair.f, u, unit_roundoff * u.norm());
+            subject.membership * v->norm() * (u.norm() + at.x.norm()) + variation(subject, at.x, at.bound) +
+            variation(subject, u, unit_roundoff * u.norm());
         given.take(std::max(0.0, at.f_x + v->dot(u - at.x) - f_u), bound);
       }
     checks.push_back(given.check());

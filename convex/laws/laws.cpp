@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
+#include "convex/laws/remembered.hpp"
+
 namespace convex {
 namespace {
 
 using LawsAt =
     std::function<std::vector<Check>(const Trial&, const std::vector<Vector>&, std::vector<std::string>&)>;
+using LawsIn = std::function<LawsAt(const Metric&)>;
 
 std::string shown(const Vector& x) {
   std::string text = "[";
@@ -48,11 +51,12 @@ Vector smaller(const LawsAt& at, Trial trial, const std::vector<Vector>& others,
 /// A wrong function fails many laws; the counterexamples of so many are made smaller, which takes trials.
 constexpr int most_made_smaller = 3;
 
-LawReport tried(const LawsAt& at, const std::vector<Vector>& points, const std::vector<NamedMetric>& metrics,
-                const std::vector<Vector>& others) {
+LawReport tried(const LawsIn& laws_in, const std::vector<Vector>& points,
+                const std::vector<NamedMetric>& metrics, const std::vector<Vector>& others) {
   LawReport report;
   int failed = 0;
-  for (const NamedMetric& metric : metrics)
+  for (const NamedMetric& metric : metrics) {
+    const LawsAt at = laws_in(metric.W);
     for (const Vector& z : points) {
       const Trial trial{z, metric.W, metric.name};
       for (Check& check : at(trial, others, report.no_evidence)) {
@@ -70,6 +74,7 @@ LawReport tried(const LawsAt& at, const std::vector<Vector>& points, const std::
           *known = check;
       }
     }
+  }
   std::sort(report.no_evidence.begin(), report.no_evidence.end());
   report.no_evidence.erase(std::unique(report.no_evidence.begin(), report.no_evidence.end()),
                            report.no_evidence.end());
@@ -109,36 +114,48 @@ std::string LawReport::text() const {
   return text;
 }
 
-LawReport laws(const Subject& f, Index n) {
-  const auto at = [&](const Trial& trial, const std::vector<Vector>& others, std::vector<std::string>&) {
+LawReport laws(const Subject& given, Index n) {
+  const Subject f = remembered(given);
+  const LawsAt at = [&](const Trial& trial, const std::vector<Vector>& others, std::vector<std::string>&) {
     return prox_laws(f, trial, others);
   };
-  return tried(at, points_near_solutions(f, n), trial_metrics(n), companions(n));
+  return tried([&](const Metric&) { return at; }, points_near_solutions(f, n), trial_metrics(n),
+               companions(n));
 }
 
-LawReport laws(const Subject& f, const std::function<Subject(const Metric&)>& conjugate, Index n, bool cone) {
-  const auto at = [&](const Trial& trial, const std::vector<Vector>& others,
-                      std::vector<std::string>& no_evidence) {
-    std::vector<Check> checks = prox_laws(f, trial, others);
-    const ConjugatePair pair{f, conjugate(trial.W), cone};
-    for (Check& check : conjugate_laws(pair, trial, others, no_evidence)) checks.push_back(std::move(check));
-    return checks;
+LawReport laws(const Subject& given, const std::function<Subject(const Metric&)>& conjugate, Index n,
+               bool cone) {
+  const Subject f = remembered(given);
+  const auto laws_in = [&](const Metric& W) -> LawsAt {
+    const ConjugatePair pair{f, remembered(conjugate(W)), cone};
+    return
+        [pair](const Trial& trial, const std::vector<Vector>& others, std::vector<std::string>& no_evidence) {
+          std::vector<Check> checks = prox_laws(pair.f, trial, others);
+          for (Check& check : conjugate_laws(pair, trial, others, no_evidence))
+            checks.push_back(std::move(check));
+          return checks;
+        };
   };
-  return tried(at, points_near_solutions(f, n), trial_metrics(n), companions(n));
+  return tried(laws_in, points_near_solutions(f, n), trial_metrics(n), companions(n));
 }
 
 LawReport laws(const Function& f, const std::vector<Vector>& points,
                const std::vector<NamedMetric>& metrics) {
-  const auto at = [&](const Trial& trial, const std::vector<Vector>& others,
+  const auto laws_in = [&](const Metric& W) -> LawsAt {
+    ConjugatePair pair = conjugate_pair(f, W);
+    pair.f = remembered(pair.f);
+    pair.g = remembered(pair.g);
+    return [&f, pair](const Trial& trial, const std::vector<Vector>& others,
                       std::vector<std::string>& no_evidence) {
-    const ConjugatePair pair = conjugate_pair(f, trial.W);
-    std::vector<Check> checks = prox_laws(pair.f, trial, others);
-    for (Check& check : conjugate_laws(pair, trial, others, no_evidence)) checks.push_back(std::move(check));
-    for (Check& check : function_laws(f, trial, others)) checks.push_back(std::move(check));
-    return checks;
+      std::vector<Check> checks = prox_laws(pair.f, trial, others);
+      for (Check& check : conjugate_laws(pair, trial, others, no_evidence))
+        checks.push_back(std::move(check));
+      for (Check& check : function_laws(f, pair.f, trial, others)) checks.push_back(std::move(check));
+      return checks;
+    };
   };
   const Index n = points.empty() ? 0 : points.front().size();
-  return tried(at, points, metrics, companions(n));
+  return tried(laws_in, points, metrics, companions(n));
 }
 
 LawReport laws(const Function& f, Index n) {
