@@ -66,6 +66,19 @@ std::size_t failures(const std::vector<Tried>& all) {
       std::count_if(all.begin(), all.end(), [](const Tried& t) { return !t.report.all_passed(); }));
 }
 
+/// One line for each law that has no evidence: the metrics differ in nothing that matters here.
+std::vector<std::string> no_evidence(const convex::LawReport& report) {
+  const auto law = [](const std::string& line) { return line.substr(0, line.find(" (")); };
+  std::vector<std::string> lines;
+  const auto end = report.no_evidence.end();
+  for (auto first = report.no_evidence.begin(); first != end;) {
+    const auto next = std::find_if(first, end, [&](const auto& line) { return law(line) != law(*first); });
+    lines.push_back(*first + (next - first > 1 ? fmt::format("; so in {} metrics", next - first) : ""));
+    first = next;
+  }
+  return lines;
+}
+
 std::string text_of(const std::vector<Tried>& all, double seconds) {
   TextTable table({"", "value/bound", "of the law"});
   std::string failed, silent;
@@ -77,11 +90,8 @@ std::string text_of(const std::vector<Tried>& all, double seconds) {
       if (!c.passed)
         failed += fmt::format("FAILED  {}: {} ({:.2g}, bound {:.2g}) at {}\n", tried.text, c.name, c.value,
                               c.bound, c.counterexample);
-    // The metrics differ in nothing that matters here: one line tells all.
-    const std::vector<std::string>& none = tried.report.no_evidence;
-    if (!none.empty())
-      silent += fmt::format("no evidence  {}: {}{}\n", tried.text, none.front(),
-                            none.size() > 1 ? fmt::format("; so in {} metrics", none.size()) : "");
+    for (const std::string& line : no_evidence(tried.report))
+      silent += fmt::format("no evidence  {}: {}\n", tried.text, line);
   }
   const std::size_t wrong = failures(all);
   return table.text() + (silent.empty() ? "" : "\n" + silent) + (failed.empty() ? "" : "\n" + failed) +

@@ -37,7 +37,10 @@ void take(LawReport& into, const LawReport& more) {
     else if (known->passed && (!check.passed || check.value * known->bound > known->value * check.bound))
       *known = check;
   }
-  into.no_evidence.insert(into.no_evidence.end(), more.no_evidence.begin(), more.no_evidence.end());
+  std::vector<std::string>& none = into.no_evidence;
+  none.insert(none.end(), more.no_evidence.begin(), more.no_evidence.end());
+  std::sort(none.begin(), none.end());
+  none.erase(std::unique(none.begin(), none.end()), none.end());
 }
 
 }  // namespace

@@ -151,19 +151,24 @@ ConjugatePair conjugate_pair(const Function& f, const Metric& W) {
 }
 
 std::vector<Check> function_laws(const Function& f, const Subject& subject, const Trial& trial,
-                                 const std::vector<Vector>& others) {
+                                 const std::vector<Vector>& others, std::vector<std::string>& no_evidence) {
   const Metric& W = trial.W;
   const Split at = split(subject, trial.z, W);
   std::vector<Check> checks;
   if (!std::isfinite(at.f_x)) return checks;
 
   const Function twice = f.conjugate().conjugate();
-  const Prox again = twice.prox(trial.z, W);
-  const double change = variation(subject, at.x, at.bound + again.error_bound);
-  checks.push_back(
-      check_that("f** = f", std::abs(twice(at.x) - at.f_x), value_roundings * std::abs(at.f_x) + change));
-  checks.push_back(check_that("prox of f** = prox of f", W.norm(again.x - at.x),
-                              again.error_bound + at.bound + rounding_bound(W, trial.z, again.x)));
+  if (&twice.node() == &f.node()) {
+    no_evidence.push_back("f** = f (" + trial.metric_name +
+                          " metric): the conjugate keeps f and gives it back; f itself proves nothing");
+  } else {
+    const Prox again = twice.prox(trial.z, W);
+    const double change = variation(subject, at.x, at.bound + again.error_bound);
+    checks.push_back(
+        check_that("f** = f", std::abs(twice(at.x) - at.f_x), value_roundings * std::abs(at.f_x) + change));
+    checks.push_back(check_that("prox of f** = prox of f", W.norm(again.x - at.x),
+                                again.error_bound + at.bound + rounding_bound(W, trial.z, again.x)));
+  }
 
   Matrix inverse(trial.z.size(), trial.z.size());
   for (Index i = 0; i < trial.z.size(); ++i) inverse.col(i) = W.solve(Vector::Unit(trial.z.size(), i));

@@ -24,10 +24,11 @@ std::vector<Check> conjugate_laws(const ConjugatePair& pair, const Trial& trial,
 /// The pair of f and f.conjugate(W).
 ConjugatePair conjugate_pair(const Function& f, const Metric& W);
 
-/// What is tried of the function f alone: f** = f at prox points and in their proxes; a subgradient that f
-/// gives at x is one; W(z - x) counts as a subgradient at x; and the metric identity z = prox^W_f z + W⁻¹
-/// prox^(W⁻¹)_(f*)(W z) with the plain conjugate. `subject`: f, as in its pair.
+/// What is tried of the function f alone: f** = f at prox points and in their proxes, unless f** is no other
+/// object, which is said in `no_evidence`; a subgradient that f gives at x is one; W(z - x) counts as a
+/// subgradient at x; and the metric identity z = prox^W_f z + W⁻¹ prox^(W⁻¹)_(f*)(W z) with the plain
+/// conjugate. `subject`: f, as in its pair.
 std::vector<Check> function_laws(const Function& f, const Subject& subject, const Trial& trial,
-                                 const std::vector<Vector>& others);
+                                 const std::vector<Vector>& others, std::vector<std::string>& no_evidence);
 
 }  // namespace convex

@@ -150,7 +150,8 @@ LawReport laws(const Function& f, const std::vector<Vector>& points,
       std::vector<Check> checks = prox_laws(pair.f, trial, others);
       for (Check& check : conjugate_laws(pair, trial, others, no_evidence))
         checks.push_back(std::move(check));
-      for (Check& check : function_laws(f, pair.f, trial, others)) checks.push_back(std::move(check));
+      for (Check& check : function_laws(f, pair.f, trial, others, no_evidence))
+        checks.push_back(std::move(check));
       return checks;
     };
   };
