@@ -50,6 +50,8 @@ void require_applicable(const SolveSettings& settings, const Options& options) {
                            "\" does not apply to a decomposition: each function has its own way to its prox; "
                            "leave the method out",
                        from_file ? std::optional(settings.method_place) : std::nullopt);
+  if (options.certify)
+    throw InvalidInput("--certify proves answers to [system] and [projection] only; leave it out");
   if (settings.contact_tolerance || !settings.contact_tolerances.empty())
     throw InvalidInput("solve.contact_tolerance: goes with [system] only; take it out",
                        settings.contact_tolerance_place);

@@ -50,13 +50,6 @@ void add_accuracy(CLI::App& command, Options& options) {
                   "accept an error bound of X * max(1, ||q''||_A); default 1e-9")
       ->type_name("X")
       ->check(positive_number);
-  command.add_flag_callback(
-      "--certify",
-      [] {
-        throw CLI::ValidationError(
-            "--certify is not available yet; leave it out for an estimated error bound");
-      },
-      "a proved error bound (not available yet)");
 }
 
 void add_function(CLI::App& command, Options& options, bool needs_point) {
@@ -109,6 +102,9 @@ int main(int argc, char** argv) {
           "reduced (default): no more than the scene needs; full: the whole at once, and what that costs")
       ->type_name("NAME")
       ->check(CLI::IsMember({"reduced", "full"}));
+  solve->add_flag("--sensitivity", options.sensitivity,
+                  "with --json: derivatives by forces and bounds, and margins of the contacts");
+  solve->add_flag("--certify", options.certify, "a proved error bound; exit 3 without proof");
   solve->callback([&] { chosen = cli::solve_command; });
 
   CLI::App* check = app.add_subcommand(

@@ -17,8 +17,10 @@ struct Options {
   bool json = false;
   bool quiet = false;
   bool ranges = false;
-  bool full_model = false;              ///< solve without islands, special structure and leaving out
-  bool catalogue = false;               ///< of check: the whole language instead of files
+  bool full_model = false;  ///< solve without islands, special structure and leaving out
+  bool catalogue = false;   ///< of check: the whole language instead of files
+  bool sensitivity = false;
+  bool certify = false;                 ///< a proved error bound, or that there is no solution
   std::string expression;               ///< of prox and conjugate: a call of the language of functions
   std::optional<std::string> at;        ///< a vector
   std::optional<std::string> metric;    ///< a matrix, or "diagonal [1, 2]"

@@ -12,9 +12,6 @@ using convex::Index;
 using convex::InvalidInput;
 using convex::Vector;
 
-/// Methods that a later version brings; naming one is no slip of the finger.
-constexpr const char* exact_method = "exact";
-
 mechanics::GaussOptions solve_options(const Options& options, const SolveSettings& settings) {
   mechanics::GaussOptions made;
   made.always_ranges = options.ranges;
@@ -27,9 +24,7 @@ mechanics::GaussOptions solve_options(const Options& options, const SolveSetting
   std::string known;
   for (const convex::Method& method : convex::methods())
     known += (known.empty() ? "" : ", ") + std::string(method.name);
-  const std::string what =
-      name == exact_method ? "method \"exact\" is not available yet" : "unknown method \"" + name + "\"";
-  throw InvalidInput(what + "; the methods are " + known,
+  throw InvalidInput("unknown method \"" + name + "\"; the methods are " + known,
                      from_file ? std::optional(settings.method_place) : std::nullopt);
 }
 
@@ -65,7 +60,8 @@ Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
-  std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
+  const std::shared_ptr<const mechanics::LagrangianSystem> typed = mechanics::lagrangian_system(text.system);
+  std::shared_ptr<const mechanics::LagrangianSystem> system = typed;
   mechanics::State state = system->state(text.state);
   std::vector<std::string> constraints;
   std::vector<bool> two_sided;
@@ -77,6 +73,9 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
     Vector tolerance = contact_tolerances(settings, constraints);
     mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
+    auto from_text = [typed, written = text.state, present = gauss.contacts.present] {
+      return mechanics::exact_from_text(*typed, written, present);
+    };
     return {"",
             "",
             "system",
@@ -89,7 +88,9 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
             std::move(tolerance),
             std::move(system),
             std::move(state),
-            {}};
+            {},
+            {},
+            std::move(from_text)};
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(text.system.kinetic.begin));
   }
@@ -102,6 +103,7 @@ Scene projection_scene(ProjectionProblem numbers) {
   for (Index a = 0; a < m; ++a) constraints.push_back("c[" + std::to_string(a) + "]");
   std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
   for (Index a : numbers.problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  mechanics::ExactData exact{std::move(numbers.exact), numbers.are_doubles};
   std::vector<Index> contacts(static_cast<std::size_t>(m));
   std::iota(contacts.begin(), contacts.end(), Index{0});
   return {"",
@@ -116,7 +118,8 @@ Scene projection_scene(ProjectionProblem numbers) {
           Vector(),
           nullptr,
           {},
-          {}};
+          {},
+          std::move(exact)};
 }
 
 std::string directory_of(const std::string& file) {
@@ -156,6 +159,7 @@ Scene make_scene(Problem problem, const std::string& file, const Options& option
   scene.file = file;
   scene.title = problem.title;
   scene.solve = solve;
+  if (!scene.exact.make) scene.exact.make = [data = scene.problem] { return convex::exact_problem(data); };
   return scene;
 }
 

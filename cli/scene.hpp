@@ -7,6 +7,7 @@
 
 #include "cli/options.hpp"
 #include "cli/problem_file/problem.hpp"
+#include "mechanics/certified_solution.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"
 #include "mechanics/system.hpp"
@@ -27,6 +28,9 @@ struct Scene {
   std::shared_ptr<const mechanics::System> system;
   mechanics::State state;
   mechanics::GaussOptions solve;
+  mechanics::ExactData exact = {};  ///< the problem at its exact values
+  /// The problem of a mechanism straight from its text, where that is rational; may be empty.
+  std::function<std::optional<mechanics::ExactTextProblem>()> from_text = {};
 
   std::string contact_name(convex::Index row) const {
     return constraints[static_cast<std::size_t>(contacts[static_cast<std::size_t>(row)])];

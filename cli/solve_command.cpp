@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -14,10 +15,28 @@ namespace {
 
 Answer solve_scene(const Scene& scene, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
+  const bool by_fractions = scene.solve.method->name == "exact";
+  const bool proved = by_fractions || options.certify;
+  mechanics::CertifiedSolution found;
+  if (by_fractions)
+    found = mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
+  else if (options.certify)
+    found = mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
+  else
+    found.solution = mechanics::solve(scene.problem, scene.solve);
+  if (options.certify && scene.from_text)
+    if (const auto text = scene.from_text())
+      mechanics::prove_from_text(found, scene.problem, *text, scene.solve);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const SolvedScene solved = solved_scene(scene, solution, seconds);
-  return {exit_code(solution.primal.status), options.json ? solve_json(solved) + "\n" : solve_text(solved)};
+  SolvedScene solved = solved_scene(scene, found.solution, seconds);
+  solved.sensitivity = options.sensitivity;
+  if (proved) solved.certificate = found.certificate;
+  if (found.exact) solved.exact = &*found.exact;
+  if (found.text) solved.text = &*found.text;
+  Exit exit = exit_code(found.solution.primal.status);
+  if (options.certify && found.certificate.level == convex::ProofLevel::none)
+    exit = std::max(exit, Exit::inaccurate);
+  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved)};
 }
 
 Answer solve_file(const std::string& file, const Options& options) {

@@ -1,5 +1,7 @@
+#include "cli/exact_json.hpp"
 #include "cli/json_writer.hpp"
 #include "cli/model_report.hpp"
+#include "cli/sensitivity_json.hpp"
 #include "cli/solve_report.hpp"
 
 namespace cli {
@@ -103,13 +105,8 @@ void write_answer(JsonWriter& json, const SolvedScene& solved) {
   else
     json.null();
   write_model(json, solved);
-  json.key("certificate")
-      .begin_object()
-      .key("level")
-      .value("estimate")
-      .key("error_bound")
-      .value(solution.primal.error_bound)
-      .end_object();
+  write_certificate(json, solved);
+  write_exact(json, solved);
 }
 
 }  // namespace
@@ -121,10 +118,14 @@ void write_solved(JsonWriter& json, const SolvedScene& solved) {
       .key("method")
       .value(solved.solution.primal.method);
   if (solved.infeasible())
-    json.key("farkas").numbers(solved.scene.constraints,
-                               solved.scene.over_constraints(solved.solution.primal.farkas));
+    write_farkas(json, solved);
   else if (solved.has_answer())
     write_answer(json, solved);
+  if (solved.sensitivity && solved.has_answer()) write_sensitivity(json, solved);
+  if (solved.infeasible() && solved.certificate) {
+    write_certificate(json, solved);
+    write_exact(json, solved);
+  }
   json.key("seconds").value(solved.seconds);
 }
 

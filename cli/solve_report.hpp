@@ -19,6 +19,10 @@ struct SolvedScene {
   std::vector<ConstraintState> states;  ///< one per constraint
   convex::Vector second_rates;          ///< d²f_a/dt², one per constraint
   double seconds = 0;
+  bool sensitivity = false;                              ///< whether its report is wanted
+  std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for
+  const mechanics::ExactGaussSolution* exact = nullptr;  ///< when it was found in fractions
+  const mechanics::TextProof* text = nullptr;            ///< when it was proved from the text of a mechanism
 
   bool infeasible() const { return solution.primal.status == convex::Status::infeasible; }
   bool has_answer() const {

@@ -67,6 +67,23 @@ std::string uniqueness_text(const SolvedScene& solved) {
   return text + "Each may be anywhere in its range: " + listed(parts) + ".\n";
 }
 
+bool is_proved(const std::optional<convex::Certificate>& certificate) {
+  return certificate && certificate->level != convex::ProofLevel::none;
+}
+
+const char* proof_text(const std::optional<convex::Certificate>& certificate) {
+  if (!certificate) return "";
+  switch (certificate->level) {
+    case convex::ProofLevel::exact:
+      return ", proved in fractions";
+    case convex::ProofLevel::enclosure:
+      return ", proved with bounds on every rounding";
+    case convex::ProofLevel::none:
+      return "; NOT proved";
+  }
+  return "";
+}
+
 std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
   std::string text;
@@ -80,7 +97,8 @@ std::string accuracy_text(const SolvedScene& solved) {
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
   const std::string accuracy =
-      fmt::format("relative error of the acceleration at most about {:.1e}", relative);
+      fmt::format("relative error of the acceleration at most {}{:.1e}{}",
+                  is_proved(solved.certificate) ? "" : "about ", relative, proof_text(solved.certificate));
   text +=
       primal.status == convex::Status::solved
           ? fmt::format("Solved by {}{}: {}.\n", primal.method, primal.polished ? ", polished" : "", accuracy)
@@ -100,8 +118,8 @@ std::string infeasible_text(const SolvedScene& solved) {
   }
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
-      "left reads 0 >= {} (Farkas).\n",
-      listed(parts), number_text(sum));
+      "left reads 0 >= {} (Farkas).{}\n",
+      listed(parts), number_text(sum), is_proved(solved.certificate) ? " Proved in fractions." : "");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -7,7 +8,7 @@
 
 #include "convex/cones/exact_metric.hpp"
 #include "convex/functions/call.hpp"
-#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/proof/exact_problem.hpp"
 #include "mechanics/lagrangian_text.hpp"
 
 namespace cli {
@@ -21,6 +22,9 @@ struct SystemProblem {
 /// `[projection]`: the same problem from numbers.
 struct ProjectionProblem {
   convex::NearestPointProblem problem;
+  bool are_doubles = true;  ///< no number was written as anything but a double
+  std::function<convex::ExactProblem()> exact =
+      {};  ///< the numbers as written; none when they are the doubles
 };
 
 /// `[decomposition]`: a point to split into prox_f z and prox_g z, g the conjugate of f in the metric W.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <memory>
 
+#include "cli/problem_file/exact_projection.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/tables.hpp"
@@ -33,7 +35,8 @@ const TomlEntry& content_table(const TomlValue& document) {
 }  // namespace
 
 Problem read_problem(const std::string& text, const std::string& directory) {
-  const TomlValue document = parse_toml(text);
+  const auto kept = std::make_shared<const TomlValue>(parse_toml(text));
+  const TomlValue& document = *kept;
   require_known_keys(
       document, "", {"title", "system", "state", "projection", "decomposition", "cone", "solve", "simulate"});
   Problem problem;
@@ -50,7 +53,13 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   if (content.key == "system") {
     problem.content = read_system(document);
   } else if (content.key == "projection") {
-    problem.content = read_projection(content.value, directory);
+    ProjectionProblem projection = read_projection(content.value, directory);
+    projection.are_doubles = is_made_of_doubles(content.value);
+    if (!projection.are_doubles)
+      projection.exact = [kept, &table = content.value, rounded = projection.problem] {
+        return read_exact_projection(table, rounded);
+      };
+    problem.content = std::move(projection);
   } else if (content.key == "decomposition") {
     problem.content = read_decomposition(content.value, directory);
   } else {

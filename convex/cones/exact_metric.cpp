@@ -17,6 +17,8 @@ ExactMetric metric_of(IntegerRows gram, Integer denominator) {
   return {std::move(gram), std::move(denominator), std::move(*inverse)};
 }
 
+}  // namespace
+
 void require_symmetric(const ExactRows& W) {
   const std::size_t n = W.size();
   Matrix rounded(static_cast<Index>(n), static_cast<Index>(n));
@@ -35,8 +37,6 @@ void require_symmetric(const ExactRows& W) {
                            std::to_string(j) + "] and [" + std::to_string(j) + "][" + std::to_string(i) +
                            "] differ; give a symmetric matrix");
 }
-
-}  // namespace
 
 IntegerMatrix over_one_denominator(const ExactRows& rows) {
   IntegerMatrix M;

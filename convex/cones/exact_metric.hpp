@@ -15,6 +15,10 @@ struct ExactMetric {
   Index dimension() const { return static_cast<Index>(gram.size()); }
 };
 
+/// Throws InvalidInput when W is not square or not symmetric (entries may differ by rounding, as in
+/// Metric::dense).
+void require_symmetric(const ExactRows& W);
+
 ExactMetric identity_metric(Index n);
 
 /// W by its rows. Throws InvalidInput when it is not square, not symmetric (entries may differ by rounding,

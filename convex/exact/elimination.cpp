@@ -1,5 +1,7 @@
 #include "convex/exact/elimination.hpp"
 
+#include <gmp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +23,37 @@ void clear_pivot(IntegerVector& v, const IntegerVector& row, std::size_t pivot) 
 
 Integer dot(const IntegerVector& a, const IntegerVector& b) {
   Integer sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  std::size_t i = 0;
+  for (; i < a.size() && a[i].fits_word() && b[i].fits_word() && sum.fits_word(); ++i) sum += a[i] * b[i];
+  if (i == a.size()) return sum;
+  mpz_t total, words;
+  mpz_init(total);
+  mpz_init(words);
+  const auto add_product = [&](const Integer& x, const Integer& y) {
+    if (x.is_zero() || y.is_zero()) return;
+    if (!x.fits_word()) {
+      mpz_addmul(total, static_cast<mpz_srcptr>(x.gmp()), static_cast<mpz_srcptr>(y.gmp()));
+      return;
+    }
+    const auto magnitude =
+        x.word() < 0 ? -static_cast<unsigned long>(x.word()) : static_cast<unsigned long>(x.word());
+    if (y.fits_word()) mpz_set_si(words, y.word());
+    const mpz_srcptr other = y.fits_word() ? words : static_cast<mpz_srcptr>(y.gmp());
+    if (x.word() < 0)
+      mpz_submul_ui(total, other, magnitude);
+    else
+      mpz_addmul_ui(total, other, magnitude);
+  };
+  add_product(1, sum);
+  for (; i < a.size(); ++i) {
+    if (a[i].fits_word())
+      add_product(a[i], b[i]);
+    else
+      b[i].fits_word() ? add_product(b[i], a[i]) : add_product(a[i], b[i]);
+  }
+  sum = Integer::from_gmp(static_cast<mpz_srcptr>(total));
+  mpz_clear(total);
+  mpz_clear(words);
   return sum;
 }
 

@@ -82,6 +82,10 @@ Integer Integer::from_digits(const std::string& digits) {
   return made([&](mpz_t r) { mpz_set_str(r, digits.c_str() + (digits.starts_with('+') ? 1 : 0), 10); });
 }
 
+Integer Integer::from_gmp(const void* value) {
+  return made([&](mpz_t r) { mpz_set(r, static_cast<mpz_srcptr>(value)); });
+}
+
 int Integer::sign() const {
   if (big_ != nullptr) return mpz_sgn(static_cast<mpz_srcptr>(big_));
   return (small_ > 0) - (small_ < 0);

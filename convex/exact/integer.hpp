@@ -68,6 +68,10 @@ class Integer {
   /// The value when it fits 64 bits; used by the fast paths of exact linear algebra.
   bool fits_word() const { return big_ == nullptr; }
   std::int64_t word() const { return small_; }
+  /// GMP's integer (an mpz_srcptr) when it does not; code that works on long runs of them goes through it.
+  const void* gmp() const { return big_; }
+  /// A copy of GMP's integer (an mpz_srcptr).
+  static Integer from_gmp(const void* value);
 
  private:
   bool is_small(const Integer& other) const { return big_ == nullptr && other.big_ == nullptr; }

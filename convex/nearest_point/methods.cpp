@@ -16,6 +16,7 @@
 #include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
 #include "convex/nearest_point/methods/proximal_point.hpp"
 #include "convex/nearest_point/methods/semismooth_newton.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex {
 namespace {
@@ -71,6 +72,8 @@ constexpr std::array table{
            projected_gauss_seidel},
     Method{"drop-negative", "rejected rule, for comparison: holds all rows, drops negative multipliers once",
            for_comparison, when_dense, drop_negative},
+    Method{"exact", "the exact solution in fractions, by proof of the active set found in doubles", direct,
+           exact_applies, exact_method},
 };
 
 }  // namespace

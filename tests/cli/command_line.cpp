@@ -63,9 +63,7 @@ TEST_CASE("what the contract plans and the program has not exits two and says so
                                                     {"simulate", file, "--output", "F.csv"},
                                                     {"chart"},
                                                     {"stress"},
-                                                    {"chart", "--data"},
-                                                    {"solve", "--certify", file},
-                                                    {"solve", "--method", "exact", file}})
+                                                    {"chart", "--data"}})
     expect_wrong(arguments, {"not available yet"});
 }
 

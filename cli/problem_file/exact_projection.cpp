@@ -1,0 +1,90 @@
+#include "cli/problem_file/exact_projection.hpp"
+
+#include <algorithm>
+
+#include "cli/problem_file/numbers.hpp"
+
+namespace cli {
+namespace {
+
+using convex::ExactRows;
+using convex::Index;
+
+bool is_double(const TomlValue& value) {
+  if (value.kind == TomlValue::Kind::integer) {
+    constexpr double largest_exact = 0x1p53;
+    return std::abs(value.number) <= largest_exact;
+  }
+  if (value.is_string()) {
+    const auto exact = convex::read_fraction(value.text);
+    return exact && *exact == convex::fraction(convex::nearest_double(*exact));
+  }
+  return std::all_of(value.array.begin(), value.array.end(), is_double);
+}
+
+bool is_symmetric(const std::vector<TomlValue>& rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < i && j < rows[i].array.size(); ++j)
+      if (rows[i].array[j].number != rows[j].array[i].number) return false;
+  return true;
+}
+
+/// The doubles of U as they are.
+ExactRows rows_of(const convex::ConstraintRows& U) {
+  ExactRows rows;
+  for (Index a = 0; a < U.count(); ++a) rows.push_back(convex::exact_vector(U.row(a)));
+  return rows;
+}
+
+convex::Matrix gram(const convex::Metric& A) {
+  if (A.kind() == convex::MetricKind::dense) return A.dense_gram();
+  if (A.kind() == convex::MetricKind::sparse) return convex::Matrix(A.sparse_gram());
+  return A.diagonal().asDiagonal();
+}
+
+ExactRows diagonal_rows(const convex::ExactVector& d) {
+  ExactRows rows;
+  for (std::size_t i = 0; i < d.numerators.size(); ++i) {
+    std::vector<convex::Fraction> row(d.numerators.size());
+    row[i] = convex::entry(d, i);
+    rows.push_back(convex::exact_vector(row));
+  }
+  return rows;
+}
+
+ExactRows inertia(const TomlValue& value, const convex::Metric& rounded) {
+  if (value.kind != TomlValue::Kind::table) return read_exact_matrix(value, "A", rounded.dimension(), "");
+  if (const TomlValue* diagonal = value.find("diagonal"))
+    return diagonal_rows(read_exact_vector(*diagonal, "A.diagonal"));
+  return convex::exact_rows(gram(rounded));
+}
+
+}  // namespace
+
+bool is_made_of_doubles(const TomlValue& table) {
+  for (const char* key : {"A", "z", "U", "s"}) {
+    const TomlValue* value = table.find(key);
+    if (value != nullptr && value->kind == TomlValue::Kind::table) value = value->find("diagonal");
+    if (value != nullptr && !is_double(*value)) return false;
+  }
+  const TomlValue* A = table.find("A");
+  return A == nullptr || is_symmetric(A->array);
+}
+
+convex::ExactProblem read_exact_projection(const TomlValue& table,
+                                           const convex::NearestPointProblem& rounded) {
+  const TomlValue *A = table.find("A"), *U = table.find("U"), *s = table.find("s");
+  const bool rows_in_file = U != nullptr && U->kind == TomlValue::Kind::table;
+  try {
+    return convex::exact_problem(inertia(*A, rounded.A), read_exact_vector(*table.find("z"), "z"),
+                                 U == nullptr   ? ExactRows{}
+                                 : rows_in_file ? rows_of(rounded.U)
+                                                : read_exact_matrix(*U, "U", rounded.dimension(), ""),
+                                 s == nullptr ? convex::ExactVector{} : read_exact_vector(*s, "s"),
+                                 rounded.two_sided);
+  } catch (const convex::InvalidInput& error) {
+    throw convex::InvalidInput(error.what(), error.place().value_or(A->place));
+  }
+}
+
+}  // namespace cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <memory>
+
+#include "cli/problem_file/problem.hpp"
+#include "cli/problem_file/toml_document.hpp"
+
+namespace cli {
+
+/// Whether every number of a [projection] is the double that was read for it, and A is symmetric as written.
+bool is_made_of_doubles(const TomlValue& table);
+
+/// The numbers of a [projection] as written, where `rounded` has them as doubles; matrix files hold doubles.
+/// Throws InvalidInput with the place when A is not positive definite.
+convex::ExactProblem read_exact_projection(const TomlValue& table,
+                                           const convex::NearestPointProblem& rounded);
+
+}  // namespace cli

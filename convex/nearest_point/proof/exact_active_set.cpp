@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+
+#include "convex/exact/elimination.hpp"
+#include "convex/exact/integer_system.hpp"
+#include "convex/exact/modular.hpp"
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/proof/exact_solution.hpp"
+
+namespace convex {
+namespace {
+
+std::size_t at(Index a) { return static_cast<std::size_t>(a); }
+
+/// The problem with rows W held: its KKT system, and its point, q before the multipliers of W, all over one
+/// denominator.
+class HeldRows {
+ public:
+  HeldRows(const ExactProblem& problem, const std::vector<Index>& rows)
+      : problem_(problem), rows_(rows), system_(prepared()) {}
+
+  ExactVector point() const {
+    IntegerVector right = problem_.z;
+    for (Index a : rows_) right.push_back(problem_.s[at(a)]);
+    return system_.solve(right);
+  }
+
+  /// How the point moves with the multiplier of one more row p, and with it the multipliers of W.
+  ExactVector direction(const IntegerVector& row) const {
+    IntegerVector right = row;
+    right.resize(row.size() + rows_.size(), 0);
+    return system_.solve(right);
+  }
+
+ private:
+  IntegerSystem prepared() const {
+    const std::size_t n = problem_.z.size(), k = rows_.size();
+    IntegerRows M(n + k, IntegerVector(n + k, 0));
+    for (std::size_t i = 0; i < n; ++i) std::copy(problem_.A[i].begin(), problem_.A[i].end(), M[i].begin());
+    for (std::size_t r = 0; r < k; ++r)
+      for (std::size_t i = 0; i < n; ++i) {
+        M[n + r][i] = problem_.U[at(rows_[r])][i];
+        M[i][n + r] = -M[n + r][i];
+      }
+    auto system = IntegerSystem::prepared(M);
+    invariant(system.has_value(), "the KKT system of independent rows is regular modulo some large prime");
+    return *std::move(system);
+  }
+
+  const ExactProblem& problem_;
+  const std::vector<Index>& rows_;
+  IntegerSystem system_;
+};
+
+class ExactActiveSet {
+ public:
+  ExactActiveSet(const ExactProblem& problem, const std::vector<Index>& guess)
+      : problem_(problem), n_(problem.z.size()), two_sided_(problem.s.size(), false) {
+    for (Index a : problem.two_sided) two_sided_[at(a)] = true;
+    IntegerRows candidates;
+    for (Index a : guess) candidates.push_back(problem.U[at(a)]);
+    for (std::size_t k : independent_rows(candidates, n_)) rows_.push_back(guess[k]);
+    lengths_.resize(static_cast<Index>(problem.s.size()));
+    for (std::size_t a = 0; a < problem.s.size(); ++a)
+      lengths_[static_cast<Index>(a)] = std::sqrt(nearest_quotient(dot(problem.U[a], problem.U[a]), 1));
+  }
+
+  ExactSolution solve() {
+    drop_negative();
+    while (true) {
+      find_slacks();
+      const Index p = most_violated();
+      if (p < 0) return answer();
+      if (!take_in(p)) return solution_;
+      point_ = HeldRows(problem_, rows_).point();
+    }
+  }
+
+ private:
+  const Integer& multiplier(std::size_t k) const { return point_.numerators[n_ + k]; }
+
+  /// Drops one-sided rows until the others have multipliers >= 0: the dual method can start there.
+  void drop_negative() {
+    while (true) {
+      point_ = HeldRows(problem_, rows_).point();
+      std::vector<Index> kept;
+      for (std::size_t k = 0; k < rows_.size(); ++k)
+        if (two_sided_[at(rows_[k])] || multiplier(k).sign() >= 0) kept.push_back(rows_[k]);
+      if (kept.size() == rows_.size()) return;
+      solution_.steps += static_cast<Index>(rows_.size() - kept.size());
+      rows_ = std::move(kept);
+    }
+  }
+
+  void find_slacks() {
+    const IntegerVector q(point_.numerators.begin(),
+                          point_.numerators.begin() + static_cast<std::ptrdiff_t>(n_));
+    slack_.clear();
+    for (std::size_t a = 0; a < problem_.s.size(); ++a)
+      slack_.push_back(dot(problem_.U[a], q) - problem_.s[a] * point_.denominator);
+  }
+
+  Index most_violated() const {
+    Index worst = -1;
+    double most = 0;
+    for (std::size_t a = 0; a < slack_.size(); ++a) {
+      const int sign = slack_[a].sign();
+      if (sign == 0 || (sign > 0 && !two_sided_[a])) continue;
+      const double length = lengths_[static_cast<Index>(a)];
+      const double violation = std::abs(nearest_quotient(slack_[a], point_.denominator)) / length;
+      // The comparison need not be exact: any violated row will do.
+      if (worst < 0 || violation > most) {
+        worst = static_cast<Index>(a);
+        most = violation;
+      }
+    }
+    return worst;
+  }
+
+  /// Takes the violated row p in, dropping rows that block; false when rows contradict each other.
+  bool take_in(Index p) {
+    const int side = slack_[at(p)].sign() < 0 ? 1 : -1;  // a two-sided row may be violated from above
+    IntegerVector row = problem_.U[at(p)];
+    if (side < 0)
+      for (Integer& entry : row) entry = -entry;
+    while (true) {
+      const HeldRows held(problem_, rows_);
+      point_ = held.point();
+      const ExactVector direction = held.direction(row);
+      ++solution_.steps;
+      // Times common positive factors: t2 = gap / rise, t1 = multiplier / -change.
+      const IntegerVector q(point_.numerators.begin(),
+                            point_.numerators.begin() + static_cast<std::ptrdiff_t>(n_));
+      const IntegerVector d(direction.numerators.begin(),
+                            direction.numerators.begin() + static_cast<std::ptrdiff_t>(n_));
+      const Integer rise = dot(row, d);
+      const Integer s = side > 0 ? problem_.s[at(p)] : -problem_.s[at(p)];
+      const Integer gap = s * point_.denominator - dot(row, q);
+      std::ptrdiff_t blocking = -1;
+      Fraction first;
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const Integer& change = direction.numerators[n_ + k];
+        if (two_sided_[at(rows_[k])] || change.sign() >= 0) continue;
+        const Fraction step{multiplier(k), -change};
+        if (blocking >= 0 && !(step < first)) continue;
+        blocking = static_cast<std::ptrdiff_t>(k);
+        first = step;
+      }
+      if (rise.is_zero() && blocking < 0) {
+        contradict(p, side, direction);
+        return false;
+      }
+      if (rise.is_zero() || (blocking >= 0 && first < Fraction{gap, rise})) {
+        rows_.erase(rows_.begin() + blocking);
+        continue;
+      }
+      rows_.push_back(p);
+      return true;
+    }
+  }
+
+  /// side u_p + Σ change_k u_k = 0 with every change >= 0 on one-sided rows.
+  void contradict(Index p, int side, const ExactVector& direction) {
+    IntegerVector& w = solution_.farkas;
+    w.assign(problem_.s.size(), 0);
+    w[at(p)] = direction.denominator * problem_.row_unit[at(p)] * side;
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      w[at(rows_[k])] = direction.numerators[n_ + k] * problem_.row_unit[at(rows_[k])];
+    make_primitive(w);
+    solution_.status = Status::infeasible;
+    invariant(proves_infeasibility(problem_, w), "the weights of a contradiction are a Farkas witness");
+  }
+
+  ExactSolution answer() {
+    solution_.basis = rows_;
+    solution_.q = {
+        IntegerVector(point_.numerators.begin(), point_.numerators.begin() + static_cast<std::ptrdiff_t>(n_)),
+        point_.denominator};
+    solution_.lambda = {IntegerVector(problem_.s.size(), 0), point_.denominator * problem_.unit};
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      solution_.lambda.numerators[at(rows_[k])] = multiplier(k) * problem_.row_unit[at(rows_[k])];
+    for (std::size_t a = 0; a < slack_.size(); ++a)
+      solution_.slack.push_back(
+          slack_[a].is_zero() ? Fraction{} : Fraction{slack_[a], point_.denominator * problem_.row_unit[a]});
+    return solution_;
+  }
+
+  const ExactProblem& problem_;
+  std::size_t n_;
+  std::vector<bool> two_sided_;
+  Vector lengths_;
+  std::vector<Index> rows_;
+  ExactVector point_;
+  IntegerVector slack_;
+  ExactSolution solution_;
+};
+
+}  // namespace
+
+bool proves_infeasibility(const ExactProblem& problem, const IntegerVector& w) {
+  std::vector<bool> two_sided(problem.s.size(), false);
+  for (Index a : problem.two_sided) two_sided[at(a)] = true;
+  std::vector<Fraction> parts;  // weights of the integer rows
+  for (std::size_t a = 0; a < w.size(); ++a) {
+    if (w[a].sign() < 0 && !two_sided[a]) return false;
+    parts.push_back(lowest_terms({w[a], problem.row_unit[a]}));
+  }
+  const IntegerVector weights = exact_vector(parts).numerators;
+  IntegerVector column(w.size());
+  for (std::size_t i = 0; i < problem.z.size(); ++i) {
+    for (std::size_t a = 0; a < w.size(); ++a) column[a] = problem.U[a][i];
+    if (!dot(column, weights).is_zero()) return false;
+  }
+  return dot(problem.s, weights).sign() > 0;
+}
+
+ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess) {
+  return ExactActiveSet(problem, guess).solve();
+}
+
+std::vector<ExactVector> exact_expansions(const ExactProblem& problem, const std::vector<Index>& basis,
+                                          const std::vector<Index>& rows) {
+  std::vector<ExactVector> all;
+  if (rows.empty()) return all;
+  const HeldRows held(problem, basis);
+  const std::size_t n = problem.z.size();
+  for (Index p : rows) {
+    const ExactVector direction = held.direction(problem.U[at(p)]);
+    for (std::size_t i = 0; i < n; ++i)
+      invariant(direction.numerators[i].is_zero(), "a row depends on rows that span it modulo a large prime");
+    std::vector<Fraction> coefficients;
+    for (std::size_t k = 0; k < basis.size(); ++k)
+      coefficients.push_back(lowest_terms({-direction.numerators[n + k] * problem.row_unit[at(basis[k])],
+                                           direction.denominator * problem.row_unit[at(p)]}));
+    all.push_back(exact_vector(coefficients));
+  }
+  return all;
+}
+
+}  // namespace convex

@@ -1,0 +1,140 @@
+#include "convex/nearest_point/proof/exact_multipliers.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "convex/exact/modular.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/proof/exact_tableau.hpp"
+
+namespace convex {
+namespace {
+
+std::size_t at(Index a) { return static_cast<std::size_t>(a); }
+
+/// The row of N in lambda = start + N mu that belongs to a multiplier: -T_k· for a basic one, a unit for
+/// another.
+ExactVector null_row(const std::vector<ExactVector>& T, std::size_t basics, std::size_t name) {
+  std::vector<Fraction> row(T.size());
+  for (std::size_t p = 0; p < T.size(); ++p)
+    row[p] = name < basics ? -entry(T[p], name) : Fraction{p == name - basics ? 1 : 0, 1};
+  return exact_vector(row);
+}
+
+/// Doubles may be too coarse for the Gram matrix of long null vectors: then nothing is guessed.
+std::vector<Index> guess(const ExactProblem& problem) {
+  try {
+    return likely_active_rows(rounded(problem));
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+/// Least |start + N mu| with start + N mu >= 0 on one-sided rows.
+void least_norm(const std::vector<Index>& basic, const std::vector<Index>& dependent,
+                const std::vector<ExactVector>& T, const std::vector<bool>& is_free, ExactVector& lambda) {
+  const std::size_t k = basic.size(), d = dependent.size();
+  std::vector<Index> names = basic;
+  names.insert(names.end(), dependent.begin(), dependent.end());
+  ExactRows N, gram, signed_rows;
+  std::vector<Fraction> force(d), bound;
+  std::vector<Fraction> start(k + d);
+  for (std::size_t j = 0; j < k + d; ++j) {
+    N.push_back(null_row(T, k, j));
+    start[j] = j < k ? entry(lambda, at(names[j])) : Fraction{};
+    if (is_free[at(names[j])]) continue;
+    signed_rows.push_back(N.back());
+    bound.push_back(-start[j]);
+  }
+  for (std::size_t p = 0; p < d; ++p) {
+    std::vector<Fraction> row(d);
+    for (std::size_t q = 0; q < d; ++q) row[q] = dot(T[p], T[q]) + Fraction{p == q ? 1 : 0, 1};
+    gram.push_back(exact_vector(row));
+    for (std::size_t j = 0; j < k; ++j) force[p] = force[p] + entry(T[p], j) * start[j];
+  }
+  const ExactProblem problem = exact_problem(gram, exact_vector(force), signed_rows, exact_vector(bound), {});
+  const ExactSolution best = exact_active_set(problem, guess(problem));
+  std::vector<Fraction> all(lambda.numerators.size());
+  for (std::size_t j = 0; j < k + d; ++j) all[at(names[j])] = start[j] + lowest_terms(dot(N[j], best.q));
+  lambda = exact_vector(all);
+}
+
+/// The basis and those of the other tight rows that make it span them all.
+std::vector<Index> spanning(const ExactProblem& problem, std::vector<Index> basis,
+                            const std::vector<Index>& tight) {
+  IntegerRows rows;
+  std::vector<Index> order = basis;
+  for (Index a : tight)
+    if (std::find(basis.begin(), basis.end(), a) == basis.end()) order.push_back(a);
+  for (Index a : order) rows.push_back(problem.U[at(a)]);
+  std::vector<Index> chosen;
+  for (std::size_t k : independent_rows(rows, problem.z.size())) chosen.push_back(order[k]);
+  return chosen;
+}
+
+std::vector<std::vector<Fraction>> tableau(const std::vector<ExactVector>& T, std::size_t basics) {
+  std::vector<std::vector<Fraction>> rows(basics);
+  for (std::size_t k = 0; k < basics; ++k)
+    for (const ExactVector& column : T) rows[k].push_back(entry(column, k));
+  return rows;
+}
+
+}  // namespace
+
+ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolution& solution,
+                                   bool want_ranges) {
+  ExactMultipliers found;
+  found.least_norm = solution.lambda;
+  std::vector<bool> is_free(problem.s.size(), false), held(problem.s.size(), false);
+  for (Index a : problem.two_sided) is_free[at(a)] = true;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (sign(solution.slack[at(a)]) == 0) found.tight.push_back(a);
+  const std::vector<Index> basic = spanning(problem, solution.basis, found.tight);
+  for (Index a : basic) held[at(a)] = true;
+  std::vector<Index> dependent;
+  for (Index a : found.tight)
+    if (!held[at(a)]) dependent.push_back(a);
+  std::vector<ExactInterval> ranges;
+  for (std::size_t a = 0; a < problem.s.size(); ++a) {
+    const Fraction value = entry(solution.lambda, a);
+    ranges.push_back({value, value});
+  }
+  if (!dependent.empty()) {
+    const std::vector<ExactVector> T = exact_expansions(problem, basic, dependent);
+    std::vector<Fraction> value;
+    for (Index a : basic) value.push_back(entry(solution.lambda, at(a)));
+    ExactTableau all(basic, value, dependent, tableau(T, basic.size()), is_free);
+    // They are unique when every dependent row keeps its multiplier 0.
+    for (Index p : dependent) {
+      ranges[at(p)] = all.range(p);
+      const ExactInterval& range = ranges[at(p)];
+      if (!range.low || !range.high || !(*range.low == *range.high)) found.unique = false;
+      if (!found.unique && !want_ranges) break;
+    }
+    if (!found.unique) {
+      if (want_ranges)
+        for (Index a : basic) ranges[at(a)] = all.range(a);
+      least_norm(basic, dependent, T, is_free, found.least_norm);
+    }
+  }
+  if (want_ranges || found.unique) found.ranges = std::move(ranges);
+  return found;
+}
+
+Multipliers rounded(const ExactMultipliers& exact) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Multipliers found;
+  found.unique = exact.unique;
+  found.least_norm = nearest(exact.least_norm);
+  found.tight = exact.tight;
+  if (exact.ranges) {
+    found.ranges.emplace();
+    for (const ExactInterval& range : *exact.ranges)
+      found.ranges->push_back({range.low ? nearest_double(*range.low) : -infinity,
+                               range.high ? nearest_double(*range.high) : infinity});
+  }
+  return found;
+}
+
+}  // namespace convex

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/proof/exact_solution.hpp"
+
+namespace convex {
+
+/// [low, high]; none is infinite.
+struct ExactInterval {
+  std::optional<Fraction> low, high;
+};
+
+/// All multipliers of a solved problem, in fractions; as `Multipliers`, with no tolerance anywhere.
+struct ExactMultipliers {
+  bool unique = true;
+  ExactVector least_norm;  ///< m
+  std::optional<std::vector<ExactInterval>> ranges;
+  std::vector<Index> tight;  ///< rows with u_a·q = s_a, in order
+};
+
+/// `want_ranges`: two linear programs a multiplier in fractions, so leave it out for many rows.
+ExactMultipliers exact_multipliers(const ExactProblem&, const ExactSolution&, bool want_ranges);
+
+/// The nearest doubles.
+Multipliers rounded(const ExactMultipliers&);
+
+}  // namespace convex

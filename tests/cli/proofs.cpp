@@ -1,0 +1,74 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using Json = nlohmann::json;
+using tests::Folder;
+using tests::Outcome;
+using tests::run;
+
+namespace {
+
+/// Two coordinates held by two rows that meet at (1/3, 1/7), the second twice.
+constexpr const char* thirds = R"([projection]
+A = [["1/3", 0], [0, "1/7"]]
+z = [-1, -1]
+U = [[3, 0], [0, "0.7"], [0, 7]]
+s = [1, "0.1", 1]
+)";
+
+/// Rows that contradict each other by less than doubles can tell from rounding.
+constexpr const char* contradiction = R"([projection]
+A = [[1]]
+z = [0]
+U = [[3], [-1]]
+s = [1, "-0.33333333333333333333"]
+)";
+
+Json solved(const std::vector<std::string>& options, const char* bytes, int code) {
+  const Folder folder;
+  std::vector<std::string> arguments{"solve", "--json", folder.write("problem.toml", bytes)};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome outcome = run(arguments);
+  CHECK(outcome.code == code);
+  return Json::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("--method exact gives fractions of the numbers as written") {
+  const Json answer = solved({"--method", "exact"}, thirds, 0);
+  CHECK(answer.at("status") == "solved");
+  CHECK(answer.at("method") == "exact");
+  const Json& exact = answer.at("exact");
+  CHECK(exact.at("acceleration") == Json{{"q[0]", "1/3"}, {"q[1]", "1/7"}});
+  CHECK(exact.at("reaction") == Json{{"q[0]", "10/9"}, {"q[1]", "50/49"}});
+  // The second row and the third, ten times it, share the reaction; of least norm in proportion 1 : 10.
+  CHECK(exact.at("multipliers") == Json{{"c[0]", "10/27"}, {"c[1]", "500/34643"}, {"c[2]", "5000/34643"}});
+  CHECK(answer.at("multipliers_unique") == false);
+  CHECK(answer.at("certificate").at("level") == "exact");
+}
+
+TEST_CASE("--certify proves a bound, in doubles where signs are strict and else in fractions") {
+  const Json answer = solved({"--certify"}, thirds, 0);
+  CHECK(answer.at("certificate").at("level") == "exact");
+  CHECK(answer.at("certificate").at("error_bound").get<double>() < 1e-16);
+}
+
+TEST_CASE("a contradiction below rounding is proved with whole weights") {
+  for (const std::vector<std::string>& options :
+       {std::vector<std::string>{"--method", "exact"}, std::vector<std::string>{"--certify"}}) {
+    const Json answer = solved(options, contradiction, 1);
+    CHECK(answer.at("status") == "infeasible");
+    CHECK(answer.at("farkas") == Json{{"c[0]", 1}, {"c[1]", 3}});
+    CHECK(answer.at("exact").at("farkas") == Json{{"c[0]", "1"}, {"c[1]", "3"}});
+  }
+}
+
+TEST_CASE("--certify on a decomposition is refused") {
+  const Folder folder;
+  const std::string file = folder.write("d.toml", "[decomposition]\nz = [1]\nf = \"norm1()\"\n");
+  CHECK(run({"solve", "--certify", file}).code == 2);
+}
