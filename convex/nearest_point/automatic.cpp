@@ -11,6 +11,7 @@
 #include "convex/nearest_point/structure/closed_form.hpp"
 #include "convex/nearest_point/structure/islands.hpp"
 #include "convex/nearest_point/structure/left_out.hpp"
+#include "convex/nearest_point/structure/obstacle.hpp"
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
 
 namespace convex {
@@ -71,8 +72,10 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
       found->method = "active-set";  // of which the formula is the case where the first step ends all
       return *std::move(found);
     }
-  if (accuracy.reduce)
+  if (accuracy.reduce) {
     if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
+    if (std::optional<Solution> found = solve_obstacle(problem, accuracy)) return *std::move(found);
+  }
   if (is_large_and_sparse(problem)) {
     Solution found = sparse_active_set(problem, accuracy, guess);
     if (found.status == Status::solved || found.status == Status::infeasible ||
@@ -178,6 +181,7 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   validate(problem);
   if (std::optional<Solution> chain = solve_chain(problem, accuracy))
     if (problem.rows() > 1) return *std::move(chain);
+  if (std::optional<Solution> obstacle = solve_obstacle(problem, accuracy)) return *std::move(obstacle);
   const Islands islands = find_islands(problem);
   if (has_contradiction(problem, islands)) return solve_connected(problem, accuracy, guess);
   const bool whole = islands.count == 1 && std::find(islands.of_row.begin(), islands.of_row.end(),

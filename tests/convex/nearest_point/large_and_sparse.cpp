@@ -7,6 +7,7 @@
 #include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/structure/chain.hpp"
+#include "convex/nearest_point/structure/obstacle.hpp"
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
 #include "convex/nearest_point/structure/sparse_factor.hpp"
 
@@ -105,6 +106,40 @@ TEST_CASE("sparse families with a planted truth are solved to rounding") {
         CHECK(relative_error(instance, found) <= few_roundings);
       }
   }
+}
+
+TEST_CASE(
+    "an obstacle problem on a grid is solved by multigrid to rounding, and by the general method alike") {
+  const convex::GalleryFamily* family = convex::find_family("obstacle");
+  REQUIRE(family != nullptr);
+  for (double difficulty : family->ladder)
+    for (Index side : {8, 13, 32, 50}) {
+      CAPTURE(difficulty);
+      CAPTURE(side);
+      const GalleryInstance instance = convex::gallery_instance(*family, side, difficulty);
+      const std::optional<Solution> found = convex::solve_obstacle(instance.problem);
+      REQUIRE(found.has_value());
+      CHECK(found->status == Status::solved);
+      CHECK(relative_error(instance, *found) <= few_roundings);
+      CHECK((found->lambda - instance.multipliers).cwiseAbs().maxCoeff() <= few_roundings);
+      CHECK(convex::automatic(instance.problem).method == "obstacle");
+      convex::Accuracy full;
+      full.reduce = false;
+      if (side == 32)
+        CHECK(relative_error(instance, convex::automatic(instance.problem, full)) <= few_roundings);
+    }
+}
+
+TEST_CASE("a grid is told from what is nearly one") {
+  GalleryInstance instance = convex::gallery_instance(*convex::find_family("obstacle"), 10, 0.5);
+  convex::SparseMatrix A = instance.problem.A.sparse_gram();
+  A.coeffRef(37, 37) = 5;
+  instance.problem.A = Metric::sparse(A);
+  CHECK_FALSE(convex::solve_obstacle(instance.problem).has_value());
+  A.coeffRef(37, 37) = 4;
+  A.coeffRef(9, 10) = A.coeffRef(10, 9) = -1;  // from the end of a row to the next
+  instance.problem.A = Metric::sparse(A);
+  CHECK_FALSE(convex::solve_obstacle(instance.problem).has_value());
 }
 
 TEST_CASE("a sparse problem without a solution is refused with weights that prove it") {
