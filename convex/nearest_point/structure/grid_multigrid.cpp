@@ -94,9 +94,11 @@ void GridMultigrid::set_free(const Vector& free) {
 void GridMultigrid::cycle(std::size_t level) {
   const GridOperator& A = levels_[level];
   Vector &u = u_[level], &r = r_[level], &rest = rest_[level];
-  u.setZero();
+  // One step of Jacobi's method from 0.
+  u = (first_weight / A.d) * A.free.cwiseProduct(r);
   if (level + 1 == levels_.size()) {
-    for (int k = 0; k < coarsest_sweeps; ++k) {
+    relax(A, second_weight, r, rest, u);
+    for (int k = 1; k < coarsest_sweeps; ++k) {
       relax(A, first_weight, r, rest, u);
       relax(A, second_weight, r, rest, u);
     }
@@ -106,7 +108,6 @@ void GridMultigrid::cycle(std::size_t level) {
     }
     return;
   }
-  relax(A, first_weight, r, rest, u);
   relax(A, second_weight, r, rest, u);
   apply(A, u, rest);
   rest = A.free.cwiseProduct(r - rest);
@@ -130,7 +131,8 @@ double GridMultigrid::solve(const Vector& right, double part, Vector& u) {
     r_.front() = r;
     cycle(0);
     const double product = r.dot(u_.front());
-    p = k == 0 ? u_.front() : Vector(u_.front() + (product / previous) * p);
+    p *= k == 0 ? 0 : product / previous;
+    p += u_.front();
     apply(A, p, Ap);
     const double curvature = p.dot(Ap);
     if (!(curvature > 0) || !(product > 0)) break;

@@ -15,9 +15,9 @@ constexpr double none = -std::numeric_limits<double>::infinity();
 /// Active sets tried on one grid; residuals left to conjugate gradients while these are sought, and in a
 /// refinement.
 constexpr int most_sets = 60, most_refinements = 12;
-constexpr double rough = 1e-4, fine = 1e-6;
+constexpr double rough = 1e-3, fine = 1e-6;
 /// What may be missing at the end, relative to the scale.
-constexpr double enough = 0x1p-62;
+constexpr double enough = 0x1p-58;
 
 /// An obstacle problem on one grid, fields with frames.
 struct GridProblem {
