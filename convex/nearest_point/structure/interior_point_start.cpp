@@ -15,10 +15,14 @@ constexpr double first_regularisation = 1e-7;
 /// by.
 constexpr double nearly_consistent = 1e-2;
 
+/// Multipliers add up along a pile: they begin no smaller than this for each row that there is, in the scaled
+/// units.
+constexpr double load_of_a_row = 1e-4;
+
 /// A part of the way to the boundary.
 constexpr double short_of_boundary = 0.995;
 
-constexpr Index most_steps = 80;
+constexpr Index most_steps = 200;
 /// Steps shorter than this, so many in turn, lead nowhere.
 constexpr double short_step = 1e-3;
 constexpr int patience = 4;
@@ -74,7 +78,8 @@ void InteriorPointStart::make_interior() {
     lambda_size += lambda_[a] * lambda_[a];
   }
   const double slack_shift = std::max(-1.5 * lowest_slack, 0.1 * std::sqrt(slack_size / count) + 1e-3);
-  const double lambda_shift = std::max(-1.5 * lowest_lambda, 0.1 * std::sqrt(lambda_size / count) + 1e-3);
+  const double lambda_shift =
+      std::max(-1.5 * lowest_lambda, 0.1 * std::sqrt(lambda_size / count) + 1e-3 + load_of_a_row * count);
   for (Index a = 0; a < lambda_.size(); ++a) {
     if (!one_sided(a)) continue;
     slack_[a] += slack_shift;

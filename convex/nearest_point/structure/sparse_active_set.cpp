@@ -1,5 +1,6 @@
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/nearest_point/farkas.hpp"
@@ -25,7 +26,9 @@ constexpr int most_deltas = 3;
 
 /// Exchanges of rows in a run that did not lower the number of wrong ones.
 constexpr int patience = 2;
-constexpr int most_exchanges = 30;
+constexpr int most_exchanges = 60;
+/// After these, rows go one at a time, at most so often.
+constexpr int most_single = 20;
 
 /// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
 constexpr double data_roundings = 16;
@@ -106,7 +109,11 @@ class SparseActiveSet {
       if (wrong == 0) return refined;
       // Rows that contradict each other by rounding have no right signs.
       if (wrong >= fewest && serious_ == 0 && refined) return true;
-      if (wrong >= fewest && ++idle > patience) return false;
+      if (wrong >= fewest && ++idle > patience + most_single) return false;
+      if (idle > patience) {  // one row at a time, the last, which never returns to a set (Murty 1974)
+        for (std::size_t j = 0; j + 1 < wrong_.size(); ++j)
+          active_[static_cast<std::size_t>(wrong_[j])] = !active_[static_cast<std::size_t>(wrong_[j])];
+      }
       fewest = std::min(fewest, wrong);
       ++steps_;
     }
@@ -121,8 +128,10 @@ class SparseActiveSet {
     doubtful_ = 0;
     const Vector terms = point_.q.hi.cwiseAbs();
     const double push = point_.lambda.hi.cwiseQuotient(scaled_.multiplier).cwiseAbs().maxCoeff();
-    const auto count = [&](double by, double size) {
+    wrong_.clear();
+    const auto count = [&](Index a, double by, double size) {
       ++wrong;
+      wrong_.push_back(a);
       doubtful_ = std::max(doubtful_, by);
       if (by > data_roundings * unit_roundoff * size) ++serious_;
     };
@@ -135,7 +144,7 @@ class SparseActiveSet {
       if (one_sided(a) && point_.lambda.hi[a] < 0) {
         active_[static_cast<std::size_t>(a)] = false;
         point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
-        count(-lambda, push);
+        count(a, -lambda, push);
       }
     }
     std::vector<bool> held(static_cast<std::size_t>(problem_.rows()), false);
@@ -148,9 +157,10 @@ class SparseActiveSet {
         slack_[a] = 0;
       if (slack_[a] < 0) {
         active_[static_cast<std::size_t>(a)] = true;
-        count(-over, std::abs(scaled_.s[a]) + problem_.U.absolute_dot(a, terms) / scaled_.bound[a]);
+        count(a, -over, std::abs(scaled_.s[a]) + problem_.U.absolute_dot(a, terms) / scaled_.bound[a]);
       }
     }
+    std::sort(wrong_.begin(), wrong_.end());
     return wrong;
   }
 
@@ -185,9 +195,9 @@ class SparseActiveSet {
     const double spread_of_units = scaled_.coordinate.maxCoeff() / scaled_.coordinate.minCoeff();
     const double inverse_norm = 2 * spread_of_units / std::sqrt(delta_);
     if (silence_ > 0) doubtful_ = std::max(doubtful_, silence_ * (1 + size_of_q()));
-    solution.error_bound =
-        2 * unit * point_.remaining() + solution.rounding +
-        unit * (point_.rest + doubtful_) * inverse_norm * std::sqrt(static_cast<double>(rows_.size() + 1));
+    solution.error_bound = 2 * unit * point_.remaining() + solution.rounding +
+                           unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
+                               std::sqrt(static_cast<double>(rows_.size() + 1));
     const bool close =
         solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
     solution.status = close ? Status::solved : Status::inaccurate;
@@ -237,7 +247,7 @@ class SparseActiveSet {
   RowSystem system_;
   SparsePoint point_;
   std::vector<bool> active_;
-  std::vector<Index> rows_;
+  std::vector<Index> rows_, wrong_;
   Vector slack_;
   Index steps_ = 0, serious_ = 0;
   double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
