@@ -27,10 +27,12 @@ Decomposed decomposed(const ConjugatePair& pair, const Vector& z, const Metric& 
   return d;
 }
 
-/// What f(u) + g(w) may miss: a point within the membership tolerance counts as one of the domain.
-double outside(const ConjugatePair& pair, const Vector& u, const Vector& w, double f, double g,
-               const Metric& W) {
-  return (pair.f.membership + pair.g.membership) * (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w));
+/// What f(u) + g(w) may miss: each may be the value at a point of the domain that is as far away as its
+/// membership tolerance, relative to |u| and |w|, allows. There Fenchel's inequality holds, and a move e of u
+/// changes (u|w) by at most |e| |Ww|.
+double outside(const ConjugatePair& pair, const Vector& u, const Vector& w, const Metric& W) {
+  return pair.f.membership * u.norm() * W.multiply(w).norm() +
+         pair.g.membership * w.norm() * W.multiply(u).norm();
 }
 
 /// e_g(z) = g(y) + ½||z - y||².
@@ -58,8 +60,7 @@ Check uniqueness(const ConjugatePair& pair, const Decomposed& at, const Metric& 
       const double bound = at.slack +
                            value_roundings * (std::abs(f) + std::abs(g) + std::abs(f + g - gap) + least) *
                                spectrum(W).condition() +
-                           outside(pair, at.x.x + d, at.y.x - d, f, g, W) +
-                           (at.x.bound + at.y.bound) * W.norm(d);
+                           outside(pair, at.x.x + d, at.y.x - d, W) + (at.x.bound + at.y.bound) * W.norm(d);
       worst.take(std::max(0.0, least - gap), bound);
     }
   return worst.check();
@@ -81,7 +82,7 @@ Check fenchel(const ConjugatePair& pair, const Metric& W, const std::vector<Vect
       const double inner = W.inner(u, w);
       const double bound =
           value_roundings * spectrum(W).condition() * (std::abs(f) + std::abs(g) + W.norm(u) * W.norm(w)) +
-          outside(pair, u, w, f, g, W);
+          outside(pair, u, w, W);
       worst.take(std::max(0.0, inner - f - g), bound);
     }
   return worst.check();
