@@ -56,9 +56,12 @@ Index entries(const NearestPointProblem& problem) {
 }
 
 bool is_large_and_sparse(const NearestPointProblem& problem) {
+  if (problem.dimension() < sparse_size) return false;
+  // A full first column tells a dense A without a look at the rest.
+  if (problem.A.kind() == MetricKind::dense && !(problem.A.dense_gram().col(0).array() == 0).any())
+    return false;
   const double n = static_cast<double>(problem.dimension()), m = static_cast<double>(problem.rows());
-  return problem.dimension() >= sparse_size &&
-         static_cast<double>(entries(problem)) <= sparse_part * n * (n + m);
+  return static_cast<double>(entries(problem)) <= sparse_part * n * (n + m);
 }
 
 Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
