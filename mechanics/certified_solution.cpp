@@ -15,6 +15,15 @@ bool small_enough(const convex::NearestPointProblem& problem) {
   return problem.dimension() * (problem.dimension() + problem.rows()) <= most_exact_entries;
 }
 
+/// A bound on doubles cannot be expected to be better than this part of ||q||_A.
+constexpr double few_ulps = 4 * 0x1p-52;
+
+/// Where fractions take milliseconds they are used for a wide bound too.
+bool is_quick(const convex::NearestPointProblem& problem) {
+  constexpr Index quick_entries = 40 * 80;
+  return problem.dimension() * (problem.dimension() + problem.rows()) <= quick_entries;
+}
+
 /// Whether the caller left the method to the program.
 bool is_default(const GaussOptions& options) {
   return options.method == &convex::methods().front() || options.method->name == "exact";
@@ -71,7 +80,8 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
   CertifiedSolution found;
   found.solution = solve(problem, options);
   if (data.are_doubles && has_answer(found.solution))
-    if (const auto bound = convex::enclosed_error(problem, found.solution.primal)) {
+    if (const auto bound = convex::enclosed_error(problem, found.solution.primal);
+        bound && (!is_quick(problem) || *bound <= few_ulps * found.solution.primal.acceleration_norm)) {
       found.certificate = {ProofLevel::enclosure, *bound};
       judge(found, options);
       return found;

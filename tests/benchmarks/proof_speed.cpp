@@ -4,9 +4,11 @@
 #include <random>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-/// Times of proofs: the plain solve, the exact solution by verification of its active set, and from nothing.
+/// Times of proofs: the plain solve, its enclosure in doubles, the exact solution by verification of the
+/// active set, and from nothing.
 namespace {
 
 using convex::Index;
@@ -48,18 +50,22 @@ int main(int argc, char** argv) {
   const bool smoke = argc > 1 && std::strcmp(argv[1], "--smoke") == 0;
   const std::vector<std::pair<Index, Index>> sizes =
       smoke ? std::vector<std::pair<Index, Index>>{{6, 8}}
-            : std::vector<std::pair<Index, Index>>{{10, 20}, {20, 40}, {40, 80}, {80, 160}};
-  std::printf("%4s %4s %6s %12s %12s %12s\n", "n", "m", "active", "plain s", "verified s", "cold s");
+            : std::vector<std::pair<Index, Index>>{{10, 20}, {20, 40}, {40, 80}, {80, 160}, {100, 200}};
+  std::printf("%4s %4s %6s %12s %12s %12s %12s %12s\n", "n", "m", "active", "plain s", "enclosed s", "bound",
+              "verified s", "cold s");
   for (const auto& [n, m] : sizes) {
     const convex::NearestPointProblem problem = random_problem(7, n, m);
     const convex::Solution plain = convex::active_set(problem);
     const double plain_time = best_time([&] { convex::active_set(problem); }, 5);
+    double bound = -1;
+    const double enclosed =
+        best_time([&] { bound = convex::enclosed_error(problem, plain).value_or(-1); }, 5);
     const double verified = best_time(
         [&] { convex::exact_active_set(convex::exact_problem(problem), plain.basis); }, n > 40 ? 1 : 3);
     const double cold =
         n > 40 ? 0 : best_time([&] { convex::exact_active_set(convex::exact_problem(problem), {}); }, 1);
-    std::printf("%4td %4td %6zu %12.3g %12.3g %12.3g\n", n, m, plain.basis.size(), plain_time, verified,
-                cold);
+    std::printf("%4td %4td %6zu %12.3g %12.3g %12.3g %12.3g %12.3g\n", n, m, plain.basis.size(), plain_time,
+                enclosed, bound, verified, cold);
   }
   return 0;
 }
