@@ -72,3 +72,36 @@ TEST_CASE("--certify on a decomposition is refused") {
   const std::string file = folder.write("d.toml", "[decomposition]\nz = [1]\nf = \"norm1()\"\n");
   CHECK(run({"solve", "--certify", file}).code == 2);
 }
+
+TEST_CASE("a mechanism is proved from its text: decimals as written, no answer made by rounding alone") {
+  // A point on a plane y = x/3, given twice in ways that doubles round apart; gravity 9.81 is 981/100.
+  constexpr const char* planes = R"toml([system]
+coordinates = ["x", "y"]
+kinetic = "m/2*(x'^2 + y'^2)"
+potential = "m*g*y"
+[system.parameters]
+m = 0.3
+g = 9.81
+[system.constraints]
+plane = "y - x/3 >= 0"
+again = "(y - x/3)*t >= 0"
+[state]
+t = 0.7
+position = { x = "3/7", y = "1/7" }
+velocity = { x = 3, y = 1 }
+)toml";
+  const Json answer = solved({"--certify"}, planes, 0);
+  const Json& text = answer.at("from_text");
+  CHECK(text.at("contacts_hold") == true);
+  // Down the slope: g sin a cos a and g sin² a with tan a = 1/3.
+  CHECK(text.at("acceleration") == Json{{"x", "-2943/1000"}, {"y", "-981/1000"}});
+  CHECK(answer.at("certificate").at("level") != "none");
+  CHECK(answer.at("certificate").at("error_bound") >= text.at("error_bound"));
+  // A pendulum at an angle has sines that are no fractions.
+  const Json curved = solved({"--certify"},
+                             "[system]\ncoordinates = [\"a\"]\nkinetic = \"a'^2/2\"\npotential = "
+                             "\"-cos(a)\"\n[state]\nposition = { a = 0.5 }\n",
+                             0);
+  CHECK_FALSE(curved.contains("from_text"));
+  CHECK(curved.at("certificate").at("level") == "enclosure");
+}
