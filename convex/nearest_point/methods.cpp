@@ -8,6 +8,7 @@
 #include "convex/nearest_point/methods/accelerated_gradient.hpp"
 #include "convex/nearest_point/methods/admm.hpp"
 #include "convex/nearest_point/methods/block_pivoting.hpp"
+#include "convex/nearest_point/methods/ceres_method.hpp"
 #include "convex/nearest_point/methods/drop_negative.hpp"
 #include "convex/nearest_point/methods/enumerate.hpp"
 #include "convex/nearest_point/methods/interior_point.hpp"
@@ -28,6 +29,11 @@ std::string when_dense(const NearestPointProblem& problem) {
   if (is_dense_size(problem) && problem.rows() <= most_dense_rows) return {};
   return "works with dense factors, which " + std::to_string(problem.dimension()) + " coordinates and " +
          std::to_string(problem.rows()) + " rows are too many for; take a sparse method";
+}
+
+std::string when_ceres_is_there(const NearestPointProblem& problem) {
+  const std::string reason = why_no_ceres();
+  return reason.empty() ? when_dense(problem) : reason;
 }
 
 std::string when_few_rows(const NearestPointProblem& problem) {
@@ -70,6 +76,8 @@ constexpr std::array table{
            always, accelerated_gradient},
     Method{"projected-gauss-seidel", "one multiplier after the other, over-relaxed", iterative, when_dense,
            projected_gauss_seidel},
+    Method{"ceres", "bounded least squares on the dual, by the trust-region method of Ceres", iterative,
+           when_ceres_is_there, ceres_method},
     Method{"drop-negative", "rejected rule, for comparison: holds all rows, drops negative multipliers once",
            for_comparison, when_dense, drop_negative},
     Method{"exact", "the exact solution in fractions, by proof of the active set found in doubles", direct,

@@ -1,0 +1,106 @@
+#include "convex/nearest_point/methods/ceres_method.hpp"
+
+#include <dlfcn.h>
+
+#include <Eigen/QR>
+#include <cmath>
+#include <filesystem>
+
+#include "convex/invalid_input.hpp"
+#include "convex/nearest_point/iteration.hpp"
+#include "convex/nearest_point/whitened_problem.hpp"
+
+namespace convex {
+namespace {
+
+/// Calls of Ceres, each from the point of the last, and its iterations in each.
+constexpr Index most_calls = 100, iterations_of_a_call = 100;
+
+/// Ceres projects its steps on the bounds: long ones come to nothing there, short ones go along the gradient.
+/// The trust region is at most 10^widest, and a tenth of that with each call, so many times over.
+constexpr double widest = 2;
+constexpr Index radii = 5;
+
+/// The weight of the proximal term, rows being of length 1.
+constexpr double ridge = 0.01;
+
+using BoundedLeastSquares = long (*)(long, long, const double*, const double*, const char*, double*, double,
+                                     long);
+
+struct Module {
+  BoundedLeastSquares solve = nullptr;
+  std::string reason;  ///< why there is none
+};
+
+/// Beside the program, in the library folder of an installation, or where it was built.
+Module load() {
+#ifdef MOREAU_CERES_MODULE
+  namespace fs = std::filesystem;
+  const fs::path built(MOREAU_CERES_MODULE);
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  std::string reason;
+  for (const fs::path& folder :
+       {program, program.parent_path() / "lib", fs::path(MOREAU_CERES_FOLDER), built.parent_path()}) {
+    const fs::path file = folder / built.filename();
+    if (!fs::exists(file, ignored)) continue;
+    if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)
+      if (void* found = dlsym(handle, "moreau_bounded_least_squares"); found != nullptr)
+        return {reinterpret_cast<BoundedLeastSquares>(found), {}};
+    const char* said = dlerror();
+    reason = said != nullptr ? said : "unknown";
+  }
+  return {nullptr, "its module " + built.filename().string() + " cannot be loaded" +
+                       (reason.empty() ? "" : " (" + reason + ")") + "; build again, or take another method"};
+#else
+  return {nullptr, "not built: install libceres-dev and build again"};
+#endif
+}
+
+const Module& module() {
+  static const Module loaded = load();
+  return loaded;
+}
+
+}  // namespace
+
+std::string why_no_ceres() { return module().reason; }
+
+Solution ceres_method(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  validate(problem);
+  if (const auto found = without_a_method(problem, "ceres", accuracy)) return *found;
+  if (module().solve == nullptr) throw InvalidInput("method \"ceres\": " + module().reason);
+  const WhitenedProblem white(problem);
+  const Index n = problem.dimension(), k = white.size();
+  // ½|V y|² - b·y + ridge/2 |y - centre|² as a sum of squares: V y - d and root(ridge) (y - c), where Vᵀd is
+  // as much of b as V spans and c makes up for the rest.
+  const Vector d = white.V.transpose().completeOrthogonalDecomposition().solve(white.b);
+  const Vector rest = white.b - white.V.transpose() * d;
+  const double root = std::sqrt(ridge);
+  Matrix E(n + k, k);
+  E << white.V, root * Matrix::Identity(k, k);
+  Vector target(n + k), y = Vector::Zero(k), before = y;
+  target.head(n) = d;
+  std::vector<char> free;
+  for (Index a = 0; a < k; ++a) free.push_back(white.is_free(a) ? 1 : 0);
+  const Accuracy by_calls{accuracy.tolerance,
+                          accuracy.step_limit > 0 ? std::min(accuracy.step_limit, most_calls) : 0};
+  return iterate(
+      problem, by_calls, most_calls,
+      [&](Index call) {
+        before = y;
+        const double radius = std::pow(10.0, widest - static_cast<double>(call % radii));
+        target.tail(k) = root * y + rest / root;
+        module().solve(n + k, k, E.data(), target.data(), free.data(), y.data(), radius,
+                       iterations_of_a_call);
+        return true;
+      },
+      [&](Index) {
+        return Candidate{.method = "ceres",
+                         .q = {},
+                         .lambda = white.multipliers(problem, y),
+                         .farkas = white.weights(problem, y - before)};
+      });
+}
+
+}  // namespace convex
