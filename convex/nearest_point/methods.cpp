@@ -76,7 +76,7 @@ constexpr std::array table{
            always, accelerated_gradient},
     Method{"projected-gauss-seidel", "one multiplier after the other, over-relaxed", iterative, when_dense,
            projected_gauss_seidel},
-    Method{"ceres", "bounded least squares on the dual, by the trust-region method of Ceres", iterative,
+    Method{"ceres", "proximal least squares by the trust-region method of Ceres", iterative,
            when_ceres_is_there, ceres_method},
     Method{"drop-negative", "rejected rule, for comparison: holds all rows, drops negative multipliers once",
            for_comparison, when_dense, drop_negative},

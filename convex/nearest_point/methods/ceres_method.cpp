@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <filesystem>
 
@@ -16,19 +15,14 @@ namespace {
 /// Calls of Ceres, each from the point of the last, and its iterations in each.
 constexpr Index most_calls = 100, iterations_of_a_call = 100;
 
-/// Ceres projects its steps on the bounds: long ones come to nothing there, short ones go along the gradient.
-/// The trust region is at most 10^widest, and a tenth of that with each call, so many times over.
-constexpr double widest = 2;
-constexpr Index radii = 5;
+/// The weight of the proximal term, rows being of length 1: it falls from the first to the last.
+constexpr double first_theta = 1e-2, last_theta = 1e-6, fall = 0.1;
 
-/// The weight of the proximal term, rows being of length 1.
-constexpr double ridge = 0.01;
-
-using BoundedLeastSquares = long (*)(long, long, const double*, const double*, const char*, double*, double,
-                                     long);
+using HingeLeastSquares = long (*)(long, long, const double*, const double*, const char*, double, double*,
+                                   long);
 
 struct Module {
-  BoundedLeastSquares solve = nullptr;
+  HingeLeastSquares solve = nullptr;
   std::string reason;  ///< why there is none
 };
 
@@ -45,8 +39,8 @@ Module load() {
     const fs::path file = folder / built.filename();
     if (!fs::exists(file, ignored)) continue;
     if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)
-      if (void* found = dlsym(handle, "moreau_bounded_least_squares"); found != nullptr)
-        return {reinterpret_cast<BoundedLeastSquares>(found), {}};
+      if (void* found = dlsym(handle, "moreau_hinge_least_squares"); found != nullptr)
+        return {reinterpret_cast<HingeLeastSquares>(found), {}};
     const char* said = dlerror();
     reason = said != nullptr ? said : "unknown";
   }
@@ -72,27 +66,22 @@ Solution ceres_method(const NearestPointProblem& problem, const Accuracy& accura
   if (module().solve == nullptr) throw InvalidInput("method \"ceres\": " + module().reason);
   const WhitenedProblem white(problem);
   const Index n = problem.dimension(), k = white.size();
-  // ½|V y|² - b·y + ridge/2 |y - centre|² as a sum of squares: V y - d and root(ridge) (y - c), where Vᵀd is
-  // as much of b as V spans and c makes up for the rest.
-  const Vector d = white.V.transpose().completeOrthogonalDecomposition().solve(white.b);
-  const Vector rest = white.b - white.V.transpose() * d;
-  const double root = std::sqrt(ridge);
-  Matrix E(n + k, k);
-  E << white.V, root * Matrix::Identity(k, k);
-  Vector target(n + k), y = Vector::Zero(k), before = y;
-  target.head(n) = d;
+  Vector d = Vector::Zero(n), y = Vector::Zero(k), before = y;
   std::vector<char> free;
   for (Index a = 0; a < k; ++a) free.push_back(white.is_free(a) ? 1 : 0);
+  double theta = first_theta;
   const Accuracy by_calls{accuracy.tolerance,
                           accuracy.step_limit > 0 ? std::min(accuracy.step_limit, most_calls) : 0};
   return iterate(
       problem, by_calls, most_calls,
-      [&](Index call) {
+      [&](Index) {
         before = y;
-        const double radius = std::pow(10.0, widest - static_cast<double>(call % radii));
-        target.tail(k) = root * y + rest / root;
-        module().solve(n + k, k, E.data(), target.data(), free.data(), y.data(), radius,
-                       iterations_of_a_call);
+        const Vector push = white.b + theta * y;
+        module().solve(n, k, white.V.data(), push.data(), free.data(), theta, d.data(), iterations_of_a_call);
+        y = (push - white.V.transpose() * d) / theta;
+        for (Index a = 0; a < k; ++a)
+          if (!white.is_free(a)) y[a] = std::max(0.0, y[a]);
+        theta = std::max(last_theta, fall * theta);
         return true;
       },
       [&](Index) {
