@@ -25,6 +25,12 @@ Exit prox_command(const Options&);
 /// `moreau conjugate "f"`: the conjugate as an expression, its domain, its value.
 Exit conjugate_command(const Options&);
 
+/// `moreau chart [FILE…]`: speed against accuracy, every method.
+Exit chart_command(const Options&);
+
+/// `moreau stress [FAMILY…]`: where each method fails.
+Exit stress_command(const Options&);
+
 /// `moreau gallery [FAMILY]`: the families of hard problems; an instance as a problem file.
 Exit gallery_command(const Options&);
 

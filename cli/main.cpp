@@ -19,7 +19,7 @@ using cli::Options;
 constexpr const char* version = "moreau " MOREAU_VERSION;
 
 /// Commands of the contract that a later version brings.
-constexpr std::array planned{"simulate", "chart", "stress"};
+constexpr std::array planned{"simulate"};
 
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
@@ -67,6 +67,41 @@ void add_function(CLI::App& command, Options& options, bool needs_point) {
       ->type_name("MATRIX");
 }
 
+void add_output(CLI::App& command, Options& options, const char* columns) {
+  command.add_option("--output", options.output, "the picture: F.svg or F.png (drawn by gnuplot)")
+      ->type_name("FILE");
+  command.add_option("--data", options.data, columns)->type_name("F.csv");
+  command.add_flag("--quiet", options.quiet, "no text");
+}
+
+void add_chart(CLI::App& app, Options& options, std::function<Exit(const Options&)>& chosen) {
+  CLI::App* chart =
+      app.add_subcommand("chart", "speed against accuracy, every method, one diagram a problem");
+  chart->add_option("FILE", options.files, "problem files; without one, a set from the gallery");
+  chart->add_option("--method", options.method, "this method alone")->type_name("NAME");
+  chart->add_option("--relative", options.relative_to, "times as multiples of this method's")
+      ->type_name("NAME");
+  chart
+      ->add_option("--error", options.error,
+                   "the error charted: that of the acceleration, or of the multipliers")
+      ->check(CLI::IsMember({"acceleration", "multipliers"}));
+  chart->add_flag("--profile", options.profile,
+                  "performance profiles over the files, or over the whole gallery, small");
+  add_output(*chart, options, "the table: problem, n, m, method, setting, seconds, error, status");
+  chart->callback([&] { chosen = cli::chart_command; });
+}
+
+void add_stress(CLI::App& app, Options& options, std::function<Exit(const Options&)>& chosen) {
+  CLI::App* stress = app.add_subcommand("stress", "where each method fails: method by difficulty");
+  stress->add_option("FAMILY", options.families, "families of the gallery; without one, all");
+  stress->add_option("--method", options.method, "this method alone")->type_name("NAME");
+  stress->add_option("--tolerance", options.tolerance, "asked of iterative methods; default 1e-9")
+      ->type_name("X")
+      ->check(positive_number);
+  add_output(*stress, options, "the table: family, difficulty, n, m, method, seconds, error, status");
+  stress->callback([&] { chosen = cli::stress_command; });
+}
+
 /// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
 /// option.
 std::string unknown_command(const CLI::App& app, const std::string& first) {
@@ -105,6 +140,10 @@ int main(int argc, char** argv) {
   solve->add_flag("--sensitivity", options.sensitivity,
                   "with --json: derivatives by forces and bounds, and margins of the contacts");
   solve->add_flag("--certify", options.certify, "a proved error bound; exit 3 without proof");
+  solve
+      ->add_option("--plot", options.plot,
+                   "the decomposition drawn, for two coordinates: F.svg or F.png (by gnuplot)")
+      ->type_name("FILE");
   solve->callback([&] { chosen = cli::solve_command; });
 
   CLI::App* check = app.add_subcommand(
@@ -166,6 +205,9 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   gallery->add_flag("--json", options.json, "the list as one JSON object");
   gallery->callback([&] { chosen = cli::gallery_command; });
+
+  add_chart(app, options, chosen);
+  add_stress(app, options, chosen);
 
   for (const char* name : planned) {
     CLI::App* later = app.add_subcommand(name, "not available yet")->group("")->allow_extras();

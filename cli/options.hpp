@@ -20,17 +20,23 @@ struct Options {
   bool full_model = false;  ///< solve without islands, special structure and leaving out
   bool catalogue = false;   ///< of check: the whole language instead of files
   bool sensitivity = false;
-  bool certify = false;                 ///< a proved error bound, or that there is no solution
-  std::string expression;               ///< of prox and conjugate: a call of the language of functions
-  std::optional<std::string> at;        ///< a vector
-  std::optional<std::string> metric;    ///< a matrix, or "diagonal [1, 2]"
-  std::optional<std::string> function;  ///< of functions: the one to tell about
-  std::optional<std::string> family;    ///< of gallery
-  std::optional<double> difficulty;     ///< of gallery: the setting of the family's knob
-  std::optional<long> size;             ///< of gallery
-  unsigned seed = 1;                    ///< of gallery
-  std::optional<std::string> output;    ///< a file to write
-  bool markdown = false;                ///< of functions: docs/functions.md
+  bool certify = false;                    ///< a proved error bound, or that there is no solution
+  std::string expression;                  ///< of prox and conjugate: a call of the language of functions
+  std::optional<std::string> at;           ///< a vector
+  std::optional<std::string> metric;       ///< a matrix, or "diagonal [1, 2]"
+  std::optional<std::string> function;     ///< of functions: the one to tell about
+  std::optional<std::string> family;       ///< of gallery
+  std::optional<double> difficulty;        ///< of gallery: the setting of the family's knob
+  std::optional<long> size;                ///< of gallery
+  unsigned seed = 1;                       ///< of gallery
+  std::optional<std::string> output;       ///< a file to write
+  bool markdown = false;                   ///< of functions: docs/functions.md
+  std::optional<std::string> plot;         ///< of solve: a picture to write
+  std::optional<std::string> data;         ///< of chart and stress: a table file to write
+  std::optional<std::string> relative_to;  ///< of chart: the method whose times are the unit
+  std::string error = "acceleration";      ///< of chart: what the error is of
+  bool profile = false;                    ///< of chart
+  std::vector<std::string> families;       ///< of stress
 };
 
 }  // namespace cli

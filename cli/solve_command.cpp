@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/cone_report.hpp"
 #include "cli/decomposition_report.hpp"
+#include "cli/drawing/decomposition_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/solve_report.hpp"
 
@@ -33,6 +34,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
   if (proved) solved.certificate = found.certificate;
   if (found.exact) solved.exact = &*found.exact;
   if (found.text) solved.text = &*found.text;
+  if (options.plot) draw(*options.plot, decomposition_drawing(solved));
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)
     exit = std::max(exit, Exit::inaccurate);
@@ -40,6 +42,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
 }
 
 Answer solve_file(const std::string& file, const Options& options) {
+  if (options.plot) terminal_text(*options.plot, 1, 1);
   Problem problem = read_problem_file(file);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options);

@@ -74,7 +74,7 @@ class Judge {
     const HeldRows& held = *holding.held;
     const double error_of_held = bound_of_held(held);
     raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
-    if (!candidate_.may_polish) return with_status(raw);
+    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
     Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
     polished.rounding = rounding_norm(held.q.lo);
     polished.error_bound = error_of_held + polished.rounding;

@@ -17,6 +17,8 @@ struct Accuracy {
       1e-9;  ///< loosen it to accept a coarser bound on ||q - q*||_A; direct methods ignore it otherwise
   Index step_limit = 0;  ///< steps before a method gives up; 0 means its own, generous limit
   bool reduce = true;  ///< false: `auto` solves the whole as it stands, without islands and special structure
+  bool polish =
+      true;  ///< false: an iteration's answer is its own, not that of the rows it shows to be active
 };
 
 /// The relative residuals of docs/problem-files.md, at the printed numbers.

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "cli/drawing/work_precision_drawing.hpp"
+#include "cli/measurement/trial_files.hpp"
+
+namespace cli {
+
+/// The failure map: a panel for each family, a row for each method, a column for each difficulty; digits of
+/// accuracy as colour, marks for what was wrong, gave up, was too slow or crashed; white where a method does
+/// not apply.
+Drawing failure_map_drawing(const std::vector<StressTrial>&);
+
+}  // namespace cli

@@ -1,0 +1,105 @@
+#include "cli/drawing/gnuplot.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "convex/invalid_input.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+
+constexpr int width = 700;
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+/// A file of its own for the script, gone when this is.
+class ScriptFile {
+ public:
+  explicit ScriptFile(const std::string& script) {
+    const int file = mkstemp(path_.data());
+    if (file < 0) throw InvalidInput("cannot write to /tmp; make room there");
+    close(file);
+    std::ofstream(path_.data()) << script;
+  }
+  ~ScriptFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_.data(), ignored);
+  }
+  ScriptFile(const ScriptFile&) = delete;
+  ScriptFile& operator=(const ScriptFile&) = delete;
+  std::string path() const { return path_.data(); }
+
+ private:
+  std::array<char, 24> path_{"/tmp/moreau-plot-XXXXXX"};
+};
+
+}  // namespace
+
+bool has_gnuplot() {
+  const char* folders = std::getenv("PATH");
+  std::istringstream path(folders != nullptr ? folders : "");
+  for (std::string folder; std::getline(path, folder, ':');)
+    if (access((folder + "/gnuplot").c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    if (c == '_' || c == '^' || c == '{' || c == '}' || c == '@' || c == '&' || c == '~') result += "\\\\";
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
+  }
+  return result + "\"";
+}
+
+std::string terminal_text(const std::string& file, int wide, int height) {
+  std::string size = std::to_string(wide) + "," + std::to_string(height);
+  std::string plain = "\"";
+  for (const char c : file) {
+    if (c == '"' || c == '\\') plain += '\\';
+    plain += c;
+  }
+  plain += '"';
+  if (ends_with(file, ".svg"))
+    return "set terminal svg enhanced size " + size +
+           " dynamic background \"#ffffff\" font \"Helvetica,11\"\nset output " + plain + "\n";
+  if (ends_with(file, ".png"))
+    return "set terminal pngcairo enhanced size " + std::to_string(2 * wide) + "," +
+           std::to_string(2 * height) +
+           " background \"#ffffff\" font \"Helvetica,11\" fontscale 2 linewidth 2 pointscale 2\nset output " +
+           plain + "\n";
+  throw InvalidInput("--output " + file + ": a picture is named .svg or .png; give such a name");
+}
+
+void draw(const std::string& file, const Drawing& drawing) {
+  const std::string text = terminal_text(file, width, drawing.height) + drawing.script;
+  if (!has_gnuplot()) {
+    std::ofstream(file + ".gnuplot") << text;
+    std::fprintf(stderr, "moreau: gnuplot is not there, so %s.gnuplot holds the picture's script; %s\n",
+                 file.c_str(), gnuplot_advice);
+    return;
+  }
+  const ScriptFile script(text);
+  FILE* program = popen(("gnuplot " + script.path() + " 2>&1").c_str(), "r");
+  if (program == nullptr) throw InvalidInput(std::string("gnuplot does not start; ") + gnuplot_advice);
+  std::string said;
+  std::array<char, 512> block{};
+  while (std::fgets(block.data(), block.size(), program) != nullptr) said += block.data();
+  if (pclose(program) != 0) throw InvalidInput("gnuplot says: " + said + "; install version 5.2 or later");
+}
+
+}  // namespace cli

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace cli {
+
+/// The processor, its number, the system and the compiler, in one line: what a time was measured on.
+std::string machine_text();
+
+}  // namespace cli
