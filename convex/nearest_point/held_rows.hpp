@@ -33,4 +33,9 @@ struct Holding {
 Holding hold_active_rows(const NearestPointProblem&, const Vector& q, const Vector& lambda,
                          const Vector& row_scale, Index most_changes);
 
+/// The same with sparse factors, for problems that dense ones are too large for: dependent rows stay in W
+/// (`refine_rows`), and rows of a wrong sign change sides all at once, at most three times.
+Holding hold_active_rows_sparse(const NearestPointProblem&, const Vector& q, const Vector& lambda,
+                                const Vector& row_scale);
+
 }  // namespace convex

@@ -64,7 +64,7 @@ class Judge {
     const Index loaded = (lambda.array() != 0).count();
     const Holding holding = is_dense_size(problem_)
                                 ? hold_active_rows(problem_, q, lambda, row_scale_, most_changes(loaded))
-                                : Holding{};
+                                : hold_active_rows_sparse(problem_, q, lambda, row_scale_);
     if (std::optional<Solution> proved = infeasible(holding.farkas); proved && candidate_.may_polish)
       return *proved;
     if (!holding.held) {
@@ -78,7 +78,7 @@ class Judge {
     Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
     polished.rounding = rounding_norm(held.q.lo);
     polished.error_bound = error_of_held + polished.rounding;
-    polished.basis = held.rows;
+    if (is_dense_size(problem_)) polished.basis = held.rows;  // else they may depend on each other
     polished.polished = true;
     return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
   }

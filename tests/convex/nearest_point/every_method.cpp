@@ -172,6 +172,23 @@ TEST_CASE("a limit on the steps ends in gave-up, not in an answer that is not on
   }
 }
 
+TEST_CASE("where dense factors are too large, sparse ones find chains, packings and obstacles just as well") {
+  for (const auto& [name, size] : {std::pair{"chain", 3000}, {"hexagonal-packing", 1500}, {"obstacle", 60}}) {
+    const convex::GalleryFamily& family = *convex::find_family(name);
+    const convex::GalleryInstance instance = convex::gallery_instance(family, size, family.usual);
+    REQUIRE_FALSE(convex::is_dense_size(instance.problem));
+    for (const char* method :
+         {"semismooth-newton", "proximal-point", "interior-point", "accelerated-gradient"}) {
+      CAPTURE(std::string(name));
+      CAPTURE(std::string(method));
+      const Solution found = convex::find_method(method)->solve(instance.problem, {.tolerance = 1e-10});
+      REQUIRE(found.status == Status::solved);
+      const Vector error = found.q - instance.solution.hi - instance.solution.lo;
+      CHECK(instance.problem.A.norm(error) <= few_roundings * scale(instance.problem, instance.solution.hi));
+    }
+  }
+}
+
 TEST_CASE("enumerate refuses more rows than it can try, and says so") {
   const auto [problem, solution] = oracles::planted_problem(1, 5, 30, Difficulty::none);
   CHECK(convex::find_method("enumerate")->applies(problem).find("30 one-sided rows") != std::string::npos);
