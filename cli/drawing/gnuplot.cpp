@@ -27,20 +27,20 @@ class ScriptFile {
  public:
   explicit ScriptFile(const std::string& script) {
     const int file = mkstemp(path_.data());
-    if (file < 0) throw InvalidInput("cannot write to /tmp; make room there");
+    if (file < 0) throw InvalidInput("cannot write to " + path_ + "; make room there");
     close(file);
-    std::ofstream(path_.data()) << script;
+    std::ofstream(path_) << script;
   }
   ~ScriptFile() {
     std::error_code ignored;
-    std::filesystem::remove(path_.data(), ignored);
+    std::filesystem::remove(path_, ignored);
   }
   ScriptFile(const ScriptFile&) = delete;
   ScriptFile& operator=(const ScriptFile&) = delete;
-  std::string path() const { return path_.data(); }
+  const std::string& path() const { return path_; }
 
  private:
-  std::array<char, 24> path_{"/tmp/moreau-plot-XXXXXX"};
+  std::string path_ = (std::filesystem::temp_directory_path() / "moreau-plot-XXXXXX").string();
 };
 
 }  // namespace
