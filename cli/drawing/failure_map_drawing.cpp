@@ -114,7 +114,7 @@ std::string legend(int height) {
                  "screen {1},{0} left "
                  "font \",9\"\n",
                  (top + below) / 2, 0.165 + 0.022 * static_cast<double>(scale.size()));
-  double x = 0.4;
+  double x = 0.39;
   for (std::size_t k = 0; k < marks.size(); ++k) {
     fmt::format_to(out,
                    "set label {} \"{}\" at screen {},{} left point pt {} ps 0.8 lw 1.6 lc rgb \"{}\" offset "
@@ -122,7 +122,7 @@ std::string legend(int height) {
                    k + 3, marks[k].words, x, (top + below) / 2, marks[k].point, marks[k].colour);
     x += k == 0 ? 0.2 : 0.095;
   }
-  fmt::format_to(out, "set label {} \"blank: not applicable\" at screen {},{} left font \",8\"\n",
+  fmt::format_to(out, "set label {} \"blank: refused\" at screen {},{} left font \",8\"\n",
                  marks.size() + 3, x, (top + below) / 2);
   return text;
 }
@@ -138,7 +138,7 @@ Drawing failure_map_drawing(const std::vector<StressTrial>& trials) {
   drawing.height = legend_height + rows * panel;
   drawing.script = legend(drawing.height);
   drawing.script += "unset key\nset border lw 0.6 lc rgb \"#666666\"\nset multiplot\n";
-  const double left = 0.17, width = (1 - left - 0.02) / columns;
+  const double left = 0.19, width = (1 - left - 0.02) / columns;
   for (std::size_t k = 0; k < families.size(); ++k) {
     const double column = static_cast<double>(k % columns), row = static_cast<double>(k / columns);
     const double top = 1 - (legend_height + row * panel + 18) / drawing.height,
