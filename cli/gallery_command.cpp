@@ -2,11 +2,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "cli/commands.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
+#include "cli/measurement/trial_files.hpp"
 #include "cli/problem_file/write_projection.hpp"
 #include "cli/text_table.hpp"
 #include "convex/invalid_input.hpp"
@@ -76,14 +76,6 @@ std::string comment(const GalleryFamily& family, const GalleryInstance& instance
   return text;
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file)
-    throw InvalidInput("cannot write " + path.string() + "; give a path in a folder that you may write");
-}
-
 convex::SparseRows rows_of(const convex::SparseMatrix& A) { return convex::SparseRows(A); }
 
 void write_instance(const Options& options) {
@@ -103,10 +95,10 @@ void write_instance(const Options& options) {
   const std::filesystem::path path(*options.output);
   const std::string stem = path.stem().string();
   if (problem.A.kind() == convex::MetricKind::sparse)
-    write(path.parent_path() / (stem + ".A.mtx"), matrix_market_text(rows_of(problem.A.sparse_gram())));
+    write_file(path.parent_path() / (stem + ".A.mtx"), matrix_market_text(rows_of(problem.A.sparse_gram())));
   if (problem.U.is_sparse())
-    write(path.parent_path() / (stem + ".U.mtx"), matrix_market_text(problem.U.sparse()));
-  write(path, projection_text(problem, top, stem));
+    write_file(path.parent_path() / (stem + ".U.mtx"), matrix_market_text(problem.U.sparse()));
+  write_file(path, projection_text(problem, top, stem));
 }
 
 }  // namespace
