@@ -52,13 +52,12 @@ Vector ConstraintRows::transpose_times(const Vector& lambda) const {
 
 DoubleDouble ConstraintRows::dot(Index a, const DoubleDoubleVector& x) const {
   if (!is_sparse()) return convex::dot(dimension(), dense().row(a).data(), x.hi.data(), x.lo.data());
-  DoubleDouble sum;
+  RunningSum sum;
   for (SparseRows::InnerIterator it(sparse(), a); it; ++it) {
-    DoubleDouble term = two_product(it.value(), x.hi[it.col()]);
-    term.lo += it.value() * x.lo[it.col()];
-    sum = add(sum, term);
+    sum.add(two_product(it.value(), x.hi[it.col()]));
+    sum.lo += it.value() * x.lo[it.col()];
   }
-  return sum;
+  return sum.tidy();
 }
 
 void ConstraintRows::add_multiple(Index a, DoubleDouble c, DoubleDoubleVector& sum) const {
@@ -67,7 +66,7 @@ void ConstraintRows::add_multiple(Index a, DoubleDouble c, DoubleDoubleVector& s
     return;
   }
   for (SparseRows::InnerIterator it(sparse(), a); it; ++it)
-    convex::add_multiple(1, &it.value(), c, &sum.hi[it.col()], &sum.lo[it.col()]);
+    accumulate_product(it.value(), c, sum.hi[it.col()], sum.lo[it.col()]);
 }
 
 double ConstraintRows::absolute_dot(Index a, const Vector& weight) const {

@@ -6,17 +6,14 @@
 namespace convex {
 namespace {
 
-/// TwoProduct without a fused multiply-add: Dekker's product with Veltkamp's split.
-struct SplitProduct {
-  static double error(double a, double b, double product) {
-    constexpr double splitter = 0x1p27 + 1;
-    const double ca = splitter * a, a_high = ca - (ca - a), a_low = a - a_high;
-    const double cb = splitter * b, b_high = cb - (cb - b), b_low = b - b_high;
-    return a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+/// TwoProduct as the header has it.
+struct PortableProduct {
+  [[gnu::always_inline]] static inline double error(double a, double b, double) {
+    return two_product(a, b).lo;
   }
 };
 
-/// TwoProduct by a fused multiply-add.
+/// By a fused multiply-add, which the processor has.
 struct FusedProduct {
   [[gnu::always_inline]] static inline double error(double a, double b, double product) {
     return __builtin_fma(a, b, -product);
@@ -48,8 +45,7 @@ template <class Product>
     for (Index l = 0; l < lanes; ++l)
       accumulate<Product>(x[i + l], y_hi[i + l], x[i + l] * y_lo[i + l], hi[static_cast<std::size_t>(l)],
                           lo[static_cast<std::size_t>(l)]);
-  for (std::size_t l = 0; i < n; ++i, ++l)
-    accumulate<Product>(x[i], y_hi[i], x[i] * y_lo[i], hi[l], lo[l]);
+  for (std::size_t l = 0; i < n; ++i, ++l) accumulate<Product>(x[i], y_hi[i], x[i] * y_lo[i], hi[l], lo[l]);
   // In pairs: one after the other, the lanes would wait for each other longer than the loop takes.
   std::array<DoubleDouble, lanes> sum;
   for (std::size_t l = 0; l < lanes; ++l) sum[l] = two_sum(hi[l], lo[l]);
@@ -69,19 +65,9 @@ template <class Product>
   return dot_with<FusedProduct>(n, x, y_hi, y_lo);
 }
 const bool has_fused = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-using Portable = SplitProduct;
-#elif defined(__FMA__) || defined(__aarch64__)
-using Portable = FusedProduct;
-#else
-using Portable = SplitProduct;
 #endif
 
 }  // namespace
-
-DoubleDouble two_product(double a, double b) {
-  const double product = a * b;
-  return {product, Portable::error(a, b, product)};
-}
 
 void DoubleDoubleVector::add(const Vector& x) {
   for (Index i = 0; i < x.size(); ++i) {
@@ -95,14 +81,14 @@ void add_multiple(Index n, const double* x, DoubleDouble c, double* sum_hi, doub
 #if defined(__x86_64__) && !defined(__FMA__)
   if (has_fused) return add_multiple_fused(n, x, c, sum_hi, sum_lo);
 #endif
-  add_multiple_with<Portable>(n, x, c, sum_hi, sum_lo);
+  add_multiple_with<PortableProduct>(n, x, c, sum_hi, sum_lo);
 }
 
 DoubleDouble dot(Index n, const double* x, const double* y_hi, const double* y_lo) {
 #if defined(__x86_64__) && !defined(__FMA__)
   if (has_fused) return dot_fused(n, x, y_hi, y_lo);
 #endif
-  return dot_with<Portable>(n, x, y_hi, y_lo);
+  return dot_with<PortableProduct>(n, x, y_hi, y_lo);
 }
 
 }  // namespace convex

@@ -1,12 +1,13 @@
 #include "convex/metric.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/sparse_gram.hpp"
 #include "convex/triangular_solve.hpp"
 
 namespace convex {
@@ -64,12 +65,11 @@ void require_finite(double value, Index i, Index j) {
 
 struct Metric::Data {
   MetricKind kind = MetricKind::identity;
-  Vector diagonal;        // of W
-  Vector root;            // sqrt of the diagonal, kind diagonal
-  Matrix W;               // kind dense
-  Matrix L;               // kind dense, the factor in the lower triangle, its transpose in the upper
-  SparseMatrix sparse_W;  // kind sparse
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> sparse_factor;
+  Vector diagonal;  // of W
+  Vector root;      // sqrt of the diagonal, kind diagonal
+  Matrix W;         // kind dense
+  Matrix L;         // kind dense, the factor in the lower triangle, its transpose in the upper
+  std::optional<SparseGram> sparse;
   double factor_condition = 1;
 };
 
@@ -147,18 +147,12 @@ Metric Metric::sparse(const SparseMatrix& W) {
       is_diagonal = is_diagonal && a.row() == j;
     }
   }
-  data->sparse_W = 0.5 * (W + transposed);
-  data->diagonal = data->sparse_W.diagonal();
+  SparseMatrix mean = 0.5 * (W + transposed);
+  data->diagonal = mean.diagonal();
   if (is_diagonal) return diagonal(data->diagonal);
   for (Index i = 0; i < n; ++i)
     if (!(data->diagonal[i] > 0)) refuse_indefinite();
-  data->sparse_factor.compute(data->sparse_W);
-  if (data->sparse_factor.info() != Eigen::Success) refuse_indefinite();
-  const SparseMatrix L = data->sparse_factor.matrixL();
-  const Vector permuted = data->sparse_factor.permutationP() * data->diagonal;
-  const double smallest = (L.diagonal().array().square() / permuted.array()).minCoeff();
-  if (!(smallest > pivot_roundings * unit_roundoff * static_cast<double>(n))) refuse_indefinite();
-  data->factor_condition = 1 / std::sqrt(smallest);
+  data->sparse.emplace(std::move(mean), pivot_roundings * unit_roundoff * static_cast<double>(n));
   return Metric(std::move(data));
 }
 
@@ -167,7 +161,7 @@ Metric Metric::scaled(double factor) const {
     case MetricKind::dense:
       return dense(data_->W * factor);
     case MetricKind::sparse:
-      return sparse(data_->sparse_W * factor);
+      return sparse(data_->sparse->matrix() * factor);
     default:
       return diagonal(data_->diagonal * factor);
   }
@@ -176,7 +170,9 @@ Metric Metric::scaled(double factor) const {
 MetricKind Metric::kind() const { return data_->kind; }
 Index Metric::dimension() const { return data_->diagonal.size(); }
 const Vector& Metric::diagonal() const { return data_->diagonal; }
-double Metric::factor_condition() const { return data_->factor_condition; }
+double Metric::factor_condition() const {
+  return data_->sparse ? data_->sparse->factor_condition() : data_->factor_condition;
+}
 
 const Matrix& Metric::dense_gram() const {
   invariant(data_->kind == MetricKind::dense, "a dense Gram matrix is asked of a dense metric");
@@ -185,7 +181,7 @@ const Matrix& Metric::dense_gram() const {
 
 const SparseMatrix& Metric::sparse_gram() const {
   invariant(data_->kind == MetricKind::sparse, "a sparse Gram matrix is asked of a sparse metric");
-  return data_->sparse_W;
+  return data_->sparse->matrix();
 }
 
 Vector Metric::multiply(const Vector& x) const {
@@ -197,7 +193,7 @@ Vector Metric::multiply(const Vector& x) const {
     case MetricKind::dense:
       return data_->W * x;
     case MetricKind::sparse:
-      return data_->sparse_W * x;
+      return data_->sparse->matrix() * x;
   }
   return x;
 }
@@ -216,7 +212,7 @@ double Metric::norm(const Vector& x) const {
     case MetricKind::dense:
       return (data_->L.triangularView<Eigen::Upper>() * x).norm();
     case MetricKind::sparse:
-      return (data_->sparse_factor.matrixU() * (data_->sparse_factor.permutationP() * x).eval()).norm();
+      return data_->sparse->norm(x);
   }
   return 0;
 }
@@ -243,12 +239,9 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
     case MetricKind::dense:
       solve_lower_triangle(data_->L, C);
       break;
-    case MetricKind::sparse: {
-      Matrix permuted = data_->sparse_factor.permutationP() * C;
-      data_->sparse_factor.matrixL().solveInPlace(permuted);
-      C = permuted;
+    case MetricKind::sparse:
+      data_->sparse->whiten_in_place(C);
       break;
-    }
   }
 }
 
@@ -262,12 +255,9 @@ void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
     case MetricKind::dense:
       solve_upper_triangle(data_->L, w);
       break;
-    case MetricKind::sparse: {
-      Vector permuted = w;
-      data_->sparse_factor.matrixU().solveInPlace(permuted);
-      w = data_->sparse_factor.permutationPinv() * permuted;
+    case MetricKind::sparse:
+      data_->sparse->unwhiten_in_place(w);
       break;
-    }
   }
 }
 

@@ -30,7 +30,6 @@ DoubleDouble quotient(double a, double b) {
   return {q, std::fma(-q, b, a) / b};
 }
 
-DoubleDouble negative(DoubleDouble a) { return {-a.hi, -a.lo}; }
 
 /// Where z lies, after division by a power of two.
 enum class Region {

@@ -13,7 +13,7 @@ Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDou
       return ((sum.hi - q.hi) + (sum.lo - q.lo)).eval();
     case MetricKind::diagonal: {
       const Vector& d = problem.A.diagonal();
-      for (Index i = 0; i < n; ++i) add_multiple(1, &d[i], {-q.hi[i], -q.lo[i]}, &sum.hi[i], &sum.lo[i]);
+      for (Index i = 0; i < n; ++i) accumulate_product(d[i], {-q.hi[i], -q.lo[i]}, sum.hi[i], sum.lo[i]);
       break;
     }
     case MetricKind::dense: {
@@ -26,7 +26,7 @@ Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDou
       const SparseMatrix& A = problem.A.sparse_gram();
       for (Index j = 0; j < n; ++j)
         for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-          add_multiple(1, &it.value(), {-q.hi[j], -q.lo[j]}, &sum.hi[it.row()], &sum.lo[it.row()]);
+          accumulate_product(it.value(), {-q.hi[j], -q.lo[j]}, sum.hi[it.row()], sum.lo[it.row()]);
       break;
     }
   }

@@ -1,0 +1,101 @@
+#include "convex/sparse_gram.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "convex/double_double.hpp"
+#include "convex/invalid_input.hpp"
+
+namespace convex {
+namespace {
+
+/// An excess below this part of the diagonal is rounding about 0.
+constexpr double silence = 0x1p-90;
+
+[[noreturn]] void refuse_indefinite() {
+  throw InvalidInput(
+      "A: not positive definite to working precision; every motion must have a positive kinetic energy");
+}
+
+}  // namespace
+
+Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot) {
+  const Index n = W.rows();
+  Vector excess(n), diagonal(n), resistance(n);
+  std::vector<int> reached;  // nodes with a path to the ground, nearest first as far as steps go
+  reached.reserve(static_cast<std::size_t>(n));
+  for (Index j = 0; j < n; ++j) {
+    RunningSum sum;
+    for (SparseMatrix::InnerIterator it(W, j); it; ++it) {
+      if (it.row() == j) diagonal[j] = it.value();
+      sum.add(it.row() == j ? it.value() : -std::abs(it.value()));
+    }
+    excess[j] = std::abs(sum.value()) <= silence * diagonal[j] ? 0 : sum.value();
+    if (excess[j] < 0) return {};
+    const bool grounded = excess[j] > 2 * least_pivot * diagonal[j];
+    resistance[j] = grounded ? 1 / excess[j] : -1;
+    if (grounded) reached.push_back(static_cast<int>(j));
+  }
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    const Index j = reached[k];
+    if (!(resistance[j] * diagonal[j] * least_pivot < 0.5)) return {};
+    for (SparseMatrix::InnerIterator it(W, j); it; ++it) {
+      double& there = resistance[it.row()];
+      if (there >= 0 || !(std::abs(it.value()) > 0)) continue;
+      there = resistance[j] + 1 / std::abs(it.value());
+      reached.push_back(static_cast<int>(it.row()));
+    }
+  }
+  return static_cast<Index>(reached.size()) == n ? excess : Vector();
+}
+
+SparseGram::SparseGram(SparseMatrix W, double least_pivot)
+    : W_(std::move(W)), least_pivot_(least_pivot), excess_(excess_if_plainly_definite(W_, least_pivot)) {
+  if (excess_.size() == 0) factor();
+}
+
+const SparseGram::Factor& SparseGram::factor() const {
+  std::call_once(made_, [this] {
+    auto made = std::make_unique<Factor>();
+    made->LLT.compute(W_);
+    if (made->LLT.info() != Eigen::Success) refuse_indefinite();
+    const SparseMatrix L = made->LLT.matrixL();
+    const Vector permuted = made->LLT.permutationP() * Vector(W_.diagonal());
+    const double smallest = (L.diagonal().array().square() / permuted.array()).minCoeff();
+    if (!(smallest > least_pivot_)) refuse_indefinite();
+    made->condition = 1 / std::sqrt(smallest);
+    factor_ = std::move(made);
+  });
+  return *factor_;
+}
+
+double SparseGram::norm(const Vector& x) const {
+  if (excess_.size() == 0) return (factor().LLT.matrixU() * (factor().LLT.permutationP() * x).eval()).norm();
+  // Σ excess_i x_i² + Σ |w_ij| (x_i ± x_j)²: no term is negative, so none cancels.
+  double energy = 0;
+  for (Index j = 0; j < W_.cols(); ++j) {
+    double column = excess_[j] * x[j] * x[j];
+    for (SparseMatrix::InnerIterator it(W_, j); it && it.row() < j; ++it) {
+      const double way = it.value() < 0 ? x[it.row()] - x[j] : x[it.row()] + x[j];
+      column += std::abs(it.value()) * way * way;
+    }
+    energy += column;
+  }
+  return std::sqrt(energy);
+}
+
+void SparseGram::whiten_in_place(Eigen::Ref<Matrix> C) const {
+  Matrix permuted = factor().LLT.permutationP() * C;
+  factor().LLT.matrixL().solveInPlace(permuted);
+  C = permuted;
+}
+
+void SparseGram::unwhiten_in_place(Eigen::Ref<Vector> w) const {
+  Vector permuted = w;
+  factor().LLT.matrixU().solveInPlace(permuted);
+  w = factor().LLT.permutationPinv() * permuted;
+}
+
+double SparseGram::factor_condition() const { return factor().condition; }
+
+}  // namespace convex

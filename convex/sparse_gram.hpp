@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <memory>
+#include <mutex>
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// A sparse Gram matrix W, W = F Fᵀ with F = PᵀL, P a fill-reducing permutation. Where the entries prove that
+/// no pivot can be small (`is_plainly_definite`), F is made when it is first asked for, by one thread while
+/// others wait; else at once. Which of both depends on W alone, and so do all results.
+class SparseGram {
+ public:
+  /// What a pivot must be at least, relative to its diagonal entry, for W to count as positive definite.
+  /// Throws InvalidInput otherwise. W: symmetric, its diagonal positive.
+  SparseGram(SparseMatrix W, double least_pivot);
+
+  const SparseMatrix& matrix() const { return W_; }
+  /// ||x||_W; without F when W is plainly definite.
+  double norm(const Vector& x) const;
+  void whiten_in_place(Eigen::Ref<Matrix> C) const;
+  void unwhiten_in_place(Eigen::Ref<Vector> w) const;
+  double factor_condition() const;
+
+ private:
+  struct Factor {
+    Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> LLT;
+    double condition = 1;
+  };
+  const Factor& factor() const;
+
+  SparseMatrix W_;
+  double least_pivot_;
+  Vector excess_;  ///< of the diagonal over the other entries of a row; empty unless W is plainly definite
+  mutable std::once_flag made_;
+  mutable std::unique_ptr<const Factor> factor_;
+};
+
+/// The excess w_ii - Σ_j≠i |w_ij| of every row where it proves, by O(nonzeros) operations, that every pivot
+/// of every symmetric elimination exceeds `least_pivot` w_ii; else nothing. Then no excess is negative, W is
+/// the matrix of a network of conductances |w_ij| with excess to the ground (up to signs, which only help),
+/// and a pivot is at least one over the resistance from its node to the ground along any path (Rayleigh's
+/// monotonicity: Doyle and Snell 1984).
+Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot);
+
+}  // namespace convex
