@@ -65,6 +65,52 @@ void write_solution(JsonWriter& json, const Scene& scene, const mechanics::Exact
   }
 }
 
+const char* name(mechanics::ContactVerdict verdict) {
+  switch (verdict) {
+    case mechanics::ContactVerdict::touches:
+      return "touches";
+    case mechanics::ContactVerdict::apart:
+      return "apart";
+    case mechanics::ContactVerdict::violated:
+      return "violated";
+    case mechanics::ContactVerdict::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::TextProof& proof) {
+  json.key("from_text").begin_object().key("contacts").begin_object();
+  for (std::size_t a = 0; a < proof.contacts.size(); ++a)
+    json.key(scene.constraints[a]).value(name(proof.contacts[a]));
+  json.end_object();
+  json.key("contacts_hold").value(proof.contacts_hold);
+  json.key("error_bound");
+  if (proof.error_bound)
+    json.value(*proof.error_bound);
+  else
+    json.null();
+  if (proof.exact) write_solution(json, scene, *proof.exact);
+  if (proof.acceleration) {
+    json.key("acceleration").begin_object();
+    for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
+      json.key(scene.coordinates[i]).value(proof.acceleration->entries[i]);
+    json.end_object().key("radius").value(proof.acceleration->radius);
+  } else if (proof.enclosed) {
+    json.key("farkas");
+    write_fractions(json, scene.constraints, over_constraints(scene, {proof.enclosed->farkas, 1}));
+  }
+  json.end_object();
+}
+
+/// The weights of a contradiction that was proved, if it was.
+const convex::IntegerVector* proved_farkas(const SolvedScene& solved) {
+  if (solved.exact != nullptr) return &solved.exact->primal.farkas;
+  if (solved.text == nullptr) return nullptr;
+  if (solved.text->exact) return &solved.text->exact->primal.farkas;
+  return solved.text->enclosed ? &solved.text->enclosed->farkas : nullptr;
+}
+
 }  // namespace
 
 void write_certificate(JsonWriter& json, const SolvedScene& solved) {
@@ -82,25 +128,18 @@ void write_exact(JsonWriter& json, const SolvedScene& solved) {
     write_solution(json, solved.scene, *solved.exact);
     json.end_object();
   }
-  if (solved.text == nullptr) return;
-  json.key("from_text").begin_object();
-  json.key("contacts_hold").value(solved.text->contacts_hold);
-  json.key("error_bound").value(solved.text->error_bound);
-  write_solution(json, solved.scene, solved.text->exact);
-  json.end_object();
+  if (solved.text != nullptr) write_text_proof(json, solved.scene, *solved.text);
 }
 
 void write_farkas(JsonWriter& json, const SolvedScene& solved) {
   json.key("farkas");
   const convex::Vector rounded = solved.scene.over_constraints(solved.solution.primal.farkas);
-  const mechanics::ExactGaussSolution* proof = solved.exact != nullptr  ? solved.exact
-                                               : solved.text != nullptr ? &solved.text->exact
-                                                                        : nullptr;
-  if (proof == nullptr) {
+  const convex::IntegerVector* proof = proved_farkas(solved);
+  if (proof == nullptr || proof->empty()) {
     json.numbers(solved.scene.constraints, rounded);
     return;
   }
-  const ExactVector exact = over_constraints(solved.scene, {proof->primal.farkas, 1});
+  const ExactVector exact = over_constraints(solved.scene, {*proof, 1});
   json.begin_object();
   for (std::size_t a = 0; a < exact.numerators.size(); ++a) {
     json.key(solved.scene.constraints[a]);

@@ -74,7 +74,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
     mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
     auto from_text = [typed, written = text.state, present = gauss.contacts.present] {
-      return mechanics::exact_from_text(*typed, written, present);
+      return mechanics::problem_from_text(*typed, written, present);
     };
     return {"",
             "",

@@ -30,7 +30,7 @@ struct Scene {
   mechanics::GaussOptions solve;
   mechanics::ExactData exact = {};  ///< the problem at its exact values
   /// The problem of a mechanism straight from its text, where that is rational; may be empty.
-  std::function<std::optional<mechanics::ExactTextProblem>()> from_text = {};
+  std::function<std::optional<mechanics::TextProblem>()> from_text = {};
 
   std::string contact_name(convex::Index row) const {
     return constraints[static_cast<std::size_t>(contacts[static_cast<std::size_t>(row)])];

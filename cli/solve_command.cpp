@@ -27,7 +27,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
     found.solution = mechanics::solve(scene.problem, scene.solve);
   if (options.certify && scene.from_text)
     if (const auto text = scene.from_text())
-      mechanics::prove_from_text(found, scene.problem, *text, scene.solve);
+      mechanics::prove_from_text(found, scene.problem, *text, scene.contacts, scene.solve);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   SolvedScene solved = solved_scene(scene, found.solution, seconds);
   solved.sensitivity = options.sensitivity;

@@ -1,5 +1,7 @@
 #include "mechanics/certified_solution.hpp"
 
+#include <algorithm>
+
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
@@ -38,8 +40,23 @@ void judge(CertifiedSolution& found, const GaussOptions& options) {
   primal.status = close ? Status::solved : Status::inaccurate;
 }
 
+/// Whether the constraints of K touch, and no other one does.
+bool prove_all(const std::vector<ContactVerdict>& verdicts, const std::vector<Index>& contacts) {
+  for (std::size_t a = 0; a < verdicts.size(); ++a) {
+    const bool in_K = std::binary_search(contacts.begin(), contacts.end(), static_cast<Index>(a));
+    if (verdicts[a] != (in_K ? ContactVerdict::touches : ContactVerdict::apart)) return false;
+  }
+  return true;
+}
+
 bool has_answer(const GaussSolution& solution) {
   return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
+}
+
+std::vector<Index> likely_rows(const CertifiedSolution& found, const convex::NearestPointProblem& problem) {
+  return has_answer(found.solution) && !found.solution.primal.basis.empty()
+             ? found.solution.primal.basis
+             : convex::likely_active_rows(problem);
 }
 
 }  // namespace
@@ -57,21 +74,40 @@ CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem,
 }
 
 void prove_from_text(CertifiedSolution& found, const convex::NearestPointProblem& problem,
-                     const ExactTextProblem& text, const GaussOptions& options) {
-  found.text = TextProof{solve_exactly(text.problem, problem, options), text.contacts_hold, 0};
-  const GaussSolution& exact = found.text->exact.rounded;
-  if (has_answer(exact) != has_answer(found.solution)) {
-    found.solution = exact;
+                     const TextProblem& text, const std::vector<Index>& contacts,
+                     const GaussOptions& options) {
+  TextProof& proof = found.text.emplace();
+  proof.contacts = text.contacts;
+  proof.contacts_hold = prove_all(text.contacts, contacts);
+  const convex::ExactProblem& middle = text.problem.middle;
+  if (text.is_exact) {
+    proof.exact = solve_exactly(middle, problem, options);
+  } else {
+    proof.enclosed = convex::enclosed_solution(text.problem, likely_rows(found, problem));
+    if (!proof.enclosed) return;
+  }
+  const bool feasible =
+      proof.exact ? has_answer(proof.exact->rounded) : proof.enclosed->status != Status::infeasible;
+  const ProofLevel level = proof.exact ? ProofLevel::exact : ProofLevel::enclosure;
+  if (feasible != has_answer(found.solution)) {
+    found.solution = proof.exact ? proof.exact->rounded : solve_exactly(middle, problem, options).rounded;
     found.exact.reset();
-    found.certificate = {ProofLevel::exact, has_answer(exact) ? exact.primal.error_bound : 0};
-    found.text->error_bound = found.certificate.error_bound;
+    found.certificate = {level, 0};
+  }
+  if (found.certificate.level == ProofLevel::none) found.certificate = {level, 0};
+  if (!feasible) {
+    proof.error_bound = 0;
     return;
   }
-  if (!has_answer(exact)) return;
-  found.text->error_bound =
-      convex::distance_above(text.problem, found.solution.primal.q, found.text->exact.primal.q);
-  if (found.certificate.level == ProofLevel::none) found.certificate = {ProofLevel::exact, 0};
-  found.certificate.error_bound = std::max(found.certificate.error_bound, found.text->error_bound);
+  const Vector& q = found.solution.primal.q;
+  proof.error_bound = proof.exact ? convex::distance_above(middle, q, proof.exact->primal.q)
+                                  : convex::distance_above(text.problem, *proof.enclosed, q);
+  if (proof.enclosed) {
+    constexpr int digits = 30;
+    proof.acceleration = convex::decimals(text.problem, *proof.enclosed, digits);
+    found.certificate.level = ProofLevel::enclosure;
+  }
+  found.certificate.error_bound = std::max(found.certificate.error_bound, *proof.error_bound);
   judge(found, options);
 }
 

@@ -14,11 +14,15 @@ struct ExactData {
   bool are_doubles = true;  ///< the doubles of the problem are the exact values
 };
 
-/// The exact solution of a mechanism as its text has it, and how far from it the answer lies.
+/// What the text of a mechanism proves: its solution in fractions where the text is rational, else enclosed,
+/// if that succeeds.
 struct TextProof {
-  ExactGaussSolution exact;
-  bool contacts_hold = true;  ///< K was proved: f_a = 0 and df_a/dt = 0 exactly
-  double error_bound = 0;
+  std::vector<ContactVerdict> contacts;  ///< by constraint
+  bool contacts_hold = false;            ///< every contact of K touches, and no other constraint does
+  std::optional<ExactGaussSolution> exact;
+  std::optional<convex::EnclosedSolution> enclosed;
+  std::optional<convex::Decimals> acceleration;  ///< when it is enclosed
+  std::optional<double> error_bound;             ///< of the acceleration given; none when nothing is proved
 };
 
 /// An answer with its proof.
@@ -26,7 +30,7 @@ struct CertifiedSolution {
   GaussSolution solution;
   convex::Certificate certificate;
   std::optional<ExactGaussSolution> exact;  ///< when the proof needed it
-  std::optional<TextProof> text;            ///< of a mechanism whose text is rational at its state
+  std::optional<TextProof> text;            ///< of a mechanism
 };
 
 /// Solves Gauss' problem and proves a bound on the error of the acceleration, or that there is no solution:
@@ -40,9 +44,10 @@ CertifiedSolution solve_by_fractions(const convex::NearestPointProblem&, const E
                                      const GaussOptions&);
 
 /// Takes in what the text of the mechanism says: the bound covers the rounding of A, z, U, s as well, and an
-/// answer that only this rounding made (in)feasible is replaced by the exact one.
-void prove_from_text(CertifiedSolution&, const convex::NearestPointProblem&, const ExactTextProblem&,
-                     const GaussOptions&);
+/// answer that only this rounding made (in)feasible is replaced by that of the text. `contacts`: the
+/// constraints of K.
+void prove_from_text(CertifiedSolution&, const convex::NearestPointProblem&, const TextProblem&,
+                     const std::vector<Index>& contacts, const GaussOptions&);
 
 /// n (n + m) up to which fractions are tried: some seconds of work.
 inline constexpr Index most_exact_entries = 300 * 300;

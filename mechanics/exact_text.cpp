@@ -14,10 +14,11 @@ namespace {
 
 using convex::ExactRows;
 using convex::Fraction;
+using convex::Matrix;
 
-/// The values of a table of the state; false where one is no fraction. What is missing stays.
+/// The values of a table of the state; false where one cannot be had. What is missing stays.
 bool read_values(const LagrangianModel& model, const std::vector<NamedText>& texts, const std::string& table,
-                 const Fraction& t, std::vector<Fraction>& values) {
+                 const Number& t, long precision, std::vector<Number>& values) {
   Sources sources;
   Tape tape;
   Expansion expansion(model.meanings, tape);
@@ -31,7 +32,7 @@ bool read_values(const LagrangianModel& model, const std::vector<NamedText>& tex
       const std::uint32_t entry = given.entry_of[family.first + member];
       if (entry == no_entry) continue;
       const NodeId node = expansion.node(given.entries[entry].value, family.members[member]);
-      ExactEvaluation evaluate(tape, instant);
+      ExactEvaluation evaluate(tape, instant, precision);
       const auto& jet = evaluate(node);
       if (!jet) return false;
       values[family.first + member] = jet->value;
@@ -39,9 +40,10 @@ bool read_values(const LagrangianModel& model, const std::vector<NamedText>& tex
   return true;
 }
 
-std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const StateText& text) {
+std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const StateText& text,
+                                             long precision) {
   const std::size_t n = model.coordinates.size();
-  ExactState state{{}, std::vector<Fraction>(n), std::vector<Fraction>(n)};
+  ExactState state{{}, std::vector<Number>(n), std::vector<Number>(n)};
   if (text.t) {
     Sources sources;
     Tape tape;
@@ -49,66 +51,157 @@ std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const
     const Source& source = sources.add(*text.t, "t of the state");
     const NodeId node = expansion.node(parse_expression(source, {&model.names, Vocabulary::system, {}}), {});
     const ExactState nothing;
-    ExactEvaluation evaluate(tape, nothing);
+    ExactEvaluation evaluate(tape, nothing, precision);
     const auto& jet = evaluate(node);
     if (!jet) return std::nullopt;
     state.t = jet->value;
   }
-  if (!read_values(model, text.position, "position", state.t, state.q) ||
-      !read_values(model, text.velocity, "velocity", state.t, state.v))
+  if (!read_values(model, text.position, "position", state.t, precision, state.q) ||
+      !read_values(model, text.velocity, "velocity", state.t, precision, state.v))
     return std::nullopt;
   return state;
 }
 
-Fraction at(const std::vector<Fraction>& x, std::size_t i) { return x.empty() ? Fraction{} : x[i]; }
+Number at(const std::vector<Number>& x, std::size_t i) { return x.empty() ? Number{} : x[i]; }
 
-}  // namespace
+/// A, z, U and s as they come, the middle and the radius of each.
+struct Collected {
+  std::vector<std::vector<Fraction>> A, U;
+  std::vector<Fraction> z, s;
+  Matrix A_radius;
+  Vector z_radius, s_radius;
+  convex::RowMatrix U_radius;
+};
 
-std::optional<ExactTextProblem> exact_from_text(const LagrangianSystem& system, const StateText& text,
-                                                const std::vector<Index>& contacts) {
-  const LagrangianModel& model = system.model();
+/// A and z: false where a function cannot be evaluated.
+bool collect_motion(const LagrangianModel& model, ExactEvaluation& evaluate, Collected& found) {
   const std::size_t n = model.coordinates.size();
-  if (n > most_exact_coordinates) return std::nullopt;
-  const auto state = read_state_exactly(model, text);
-  if (!state) return std::nullopt;
-  ExactEvaluation evaluate(model.tape, *state);
-
-  if (!evaluate(model.kinetic)) return std::nullopt;
+  if (!evaluate(model.kinetic)) return false;
   const ExactJet kinetic = *evaluate(model.kinetic);
   ExactJet potential;
   if (model.potential != no_node) {
-    if (!evaluate(model.potential)) return std::nullopt;
+    if (!evaluate(model.potential)) return false;
     potential = *evaluate(model.potential);
   }
-  ExactRows A;
-  std::vector<Fraction> z(n);
+  const auto size = static_cast<Index>(n);
+  found.A.assign(n, std::vector<Fraction>(n));
+  found.A_radius = Matrix::Zero(size, size);
+  found.z_radius = Vector::Zero(size);
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<Fraction> row(n);
-    for (std::size_t j = 0; j < n; ++j) row[j] = at(kinetic.by_vv, i * n + j);
-    A.push_back(convex::exact_vector(row));
-    z[i] = at(kinetic.by_q, i) - at(potential.by_q, i) - at(kinetic.along_by_v, i);
-    if (i >= model.forces.size() || model.forces[i] == no_node) continue;
-    const auto& force = evaluate(model.forces[i]);
-    if (!force) return std::nullopt;
-    z[i] = z[i] + force->value;
+    const auto row = static_cast<Index>(i);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const Number entry = at(kinetic.by_vv, i * n + j);
+      const auto column = static_cast<Index>(j);
+      found.A[i][j] = found.A[j][i] = entry.middle();
+      found.A_radius(row, column) = found.A_radius(column, row) = entry.radius();
+    }
+    Number z = at(kinetic.by_q, i) - at(potential.by_q, i) - at(kinetic.along_by_v, i);
+    if (i < model.forces.size() && model.forces[i] != no_node) {
+      const auto& force = evaluate(model.forces[i]);
+      if (!force) return false;
+      z = z + force->value;
+    }
+    found.z.push_back(z.middle());
+    found.z_radius[row] = z.radius();
   }
+  return true;
+}
 
-  ExactTextProblem found;
-  ExactRows U;
-  std::vector<Fraction> s;
-  std::vector<Index> two_sided;
-  for (std::size_t k = 0; k < contacts.size(); ++k) {
-    const auto a = static_cast<std::size_t>(contacts[k]);
-    const auto& f = evaluate(model.f[a]);
-    if (!f) return std::nullopt;
-    found.contacts_hold = found.contacts_hold && convex::sign(f->value) == 0 && convex::sign(f->along) == 0;
+/// U and s.
+bool collect_contacts(const LagrangianModel& model, const std::vector<Index>& contacts,
+                      ExactEvaluation& evaluate, Collected& found) {
+  const std::size_t n = model.coordinates.size();
+  const auto m = static_cast<Index>(contacts.size());
+  found.U_radius = convex::RowMatrix::Zero(m, static_cast<Index>(n));
+  found.s_radius = Vector::Zero(m);
+  for (Index k = 0; k < m; ++k) {
+    const auto& f = evaluate(model.f[static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)])]);
+    if (!f) return false;
     std::vector<Fraction> row(n);
-    for (std::size_t i = 0; i < n; ++i) row[i] = at(f->by_q, i);
-    U.push_back(convex::exact_vector(row));
-    s.push_back(-f->along_twice);
-    if (model.constraints[a].two_sided) two_sided.push_back(static_cast<Index>(k));
+    for (std::size_t i = 0; i < n; ++i) {
+      const Number u = at(f->by_q, i);
+      row[i] = u.middle();
+      found.U_radius(k, static_cast<Index>(i)) = u.radius();
+    }
+    found.U.push_back(std::move(row));
+    found.s.push_back((-f->along_twice).middle());
+    found.s_radius[k] = f->along_twice.radius();
   }
-  found.problem = convex::exact_problem(A, convex::exact_vector(z), U, convex::exact_vector(s), two_sided);
+  return true;
+}
+
+/// What the signs of f and df/dt say.
+ContactVerdict verdict(const ExactJet& f, bool two_sided) {
+  const auto value = f.value.sign(), rate = f.along.sign();
+  if (value && rate && *value == 0 && *rate == 0) return ContactVerdict::touches;
+  if (two_sided)
+    return (value && *value != 0) || (rate && *rate != 0) ? ContactVerdict::violated
+                                                          : ContactVerdict::undecided;
+  if (value && *value > 0) return ContactVerdict::apart;
+  if (value && *value < 0) return ContactVerdict::violated;
+  if (value && rate) return *rate > 0 ? ContactVerdict::apart : ContactVerdict::violated;
+  return ContactVerdict::undecided;
+}
+
+convex::ExactRows exact_rows_of(const std::vector<std::vector<Fraction>>& rows) {
+  convex::ExactRows found;
+  for (const auto& row : rows) found.push_back(convex::exact_vector(row));
+  return found;
+}
+
+/// One attempt at a precision; 0: in fractions alone.
+std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateText& text,
+                                   const std::vector<Index>& contacts, long precision) {
+  const LagrangianModel& model = system.model();
+  const auto state = read_state_exactly(model, text, precision);
+  if (!state) return std::nullopt;
+  ExactEvaluation evaluate(model.tape, *state, precision);
+  Collected numbers;
+  if (!collect_motion(model, evaluate, numbers) || !collect_contacts(model, contacts, evaluate, numbers))
+    return std::nullopt;
+  TextProblem found;
+  for (std::size_t a = 0; a < model.f.size(); ++a) {
+    const auto& f = evaluate(model.f[a]);
+    found.contacts.push_back(f ? verdict(*f, model.constraints[a].two_sided) : ContactVerdict::undecided);
+  }
+  std::vector<Index> two_sided;
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    if (model.constraints[static_cast<std::size_t>(contacts[k])].two_sided)
+      two_sided.push_back(static_cast<Index>(k));
+  found.is_exact = numbers.A_radius.isZero(0) && numbers.z_radius.isZero(0) && numbers.U_radius.isZero(0) &&
+                   numbers.s_radius.isZero(0);
+  found.precision = precision;
+  convex::UncertainProblem& problem = found.problem;
+  problem.middle =
+      convex::exact_problem(exact_rows_of(numbers.A), convex::exact_vector(numbers.z),
+                            exact_rows_of(numbers.U), convex::exact_vector(numbers.s), two_sided);
+  problem.A = std::move(numbers.A_radius);
+  problem.z = std::move(numbers.z_radius);
+  problem.U = std::move(numbers.U_radius);
+  problem.s = std::move(numbers.s_radius);
+  return found;
+}
+
+bool is_decided(const TextProblem& problem) {
+  return std::count(problem.contacts.begin(), problem.contacts.end(), ContactVerdict::undecided) == 0;
+}
+
+}  // namespace
+
+std::optional<TextProblem> problem_from_text(const LagrangianSystem& system, const StateText& text,
+                                             const std::vector<Index>& contacts) {
+  if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;
+  if (auto found = attempt(system, text, contacts, 0)) return found;
+  if (!Ball::why_none().empty()) return std::nullopt;
+  std::optional<TextProblem> found;
+  for (const long precision : {first_precision, last_precision}) {
+    try {
+      found = attempt(system, text, contacts, precision);
+    } catch (const convex::InvalidInput&) {
+      found.reset();  // the middle of an A that is too wide need not be positive definite
+    }
+    if (found && is_decided(*found)) break;
+  }
   return found;
 }
 

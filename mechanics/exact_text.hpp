@@ -2,24 +2,33 @@
 
 #include <optional>
 
-#include "convex/nearest_point/proof/exact_problem.hpp"
+#include "convex/nearest_point/proof/uncertain_problem.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace mechanics {
 
-/// Gauss' problem over the rationals, straight from the text of a mechanism and its state: decimals and
-/// fractions count as written (9.81 is 981/100), nothing is rounded anywhere.
-struct ExactTextProblem {
-  convex::ExactProblem problem;
-  bool contacts_hold = true;  ///< f_a = 0 and df_a/dt = 0 exactly for every contact given
+/// What the text proves of a constraint at the state: f = 0 and df/dt = 0 (it belongs to K); f > 0, or f = 0
+/// and df/dt > 0 (it does not); it does not hold; or f or df/dt may or may not be 0, for all that balls tell.
+enum class ContactVerdict { touches, apart, violated, undecided };
+
+/// Gauss' problem straight from the text of a mechanism and its state: decimals and fractions count as
+/// written (9.81 is 981/100), nothing is rounded without a bound.
+struct TextProblem {
+  convex::UncertainProblem problem;
+  bool is_exact = false;                 ///< all numbers are fractions, all radii 0
+  std::vector<ContactVerdict> contacts;  ///< by constraint
+  long precision = 0;                    ///< of the balls, bits; 0: there are none
 };
 
-/// `contacts`: the constraints of K, in order. None when a function's value there is no fraction, or a
-/// derivative does not exist, or the system has more than `most_exact_coordinates` coordinates. Throws
-/// InvalidInput when A is not positive definite.
-std::optional<ExactTextProblem> exact_from_text(const LagrangianSystem&, const StateText&,
-                                                const std::vector<Index>& contacts);
+/// `contacts`: the constraints of K, in order. In fractions where every function has a rational value and
+/// rational derivatives; else in balls of `first_precision`, or of `last_precision` where some contact is not
+/// decided. None when a derivative does not exist for all that balls tell, when there are no balls
+/// (Ball::why_none), or when the system has more than `most_exact_coordinates` coordinates. Throws
+/// InvalidInput when A, in fractions, is not positive definite.
+std::optional<TextProblem> problem_from_text(const LagrangianSystem&, const StateText&,
+                                             const std::vector<Index>& contacts);
 
 inline constexpr std::size_t most_exact_coordinates = 40;
+inline constexpr long first_precision = 192, last_precision = 768;
 
 }  // namespace mechanics

@@ -45,6 +45,31 @@ std::string text(const Fraction& a) {
                                  : lowest.numerator.text() + "/" + lowest.denominator.text();
 }
 
+std::string decimal_text(const Fraction& a, int digits) {
+  if (a.numerator.is_zero()) return "0";
+  const Integer p = a.numerator.sign() < 0 ? -a.numerator : a.numerator;
+  const auto power = [](long exponent) {
+    return Integer::from_digits("1" + std::string(static_cast<std::size_t>(exponent), '0'));
+  };
+  // |a| 10^shift to the nearest integer.
+  const auto scaled = [&](long shift) {
+    const Integer top = shift >= 0 ? p * power(shift) : p;
+    const Integer bottom = shift >= 0 ? a.denominator : a.denominator * power(-shift);
+    return truncated_quotient(top + top + bottom, bottom + bottom).text();
+  };
+  constexpr double digits_of_a_bit = 0.30103;
+  const double magnitude =
+      digits_of_a_bit * (static_cast<double>(p.bits()) - static_cast<double>(a.denominator.bits()));
+  long shift = digits + 1 - static_cast<long>(std::floor(magnitude));
+  std::string text = scaled(shift);
+  shift -= static_cast<long>(text.size()) - digits;
+  text = scaled(shift);
+  const long exponent = static_cast<long>(text.size()) - 1 - shift;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.size() > 1) text.insert(1, ".");
+  return (a.numerator.sign() < 0 ? "-" : "") + text + (exponent == 0 ? "" : "e" + std::to_string(exponent));
+}
+
 Fraction dot(const ExactVector& x, const ExactVector& y) {
   return {dot(x.numerators, y.numerators), x.denominator * y.denominator};
 }

@@ -23,6 +23,9 @@ bool operator<(const Fraction& a, const Fraction& b);
 /// "p/q" in lowest terms, or "p".
 std::string text(const Fraction& a);
 
+/// In decimals, rounded to `digits` significant ones (one more after a carry): "-1.25e-3", "7".
+std::string decimal_text(const Fraction& a, int digits);
+
 /// Σ x_i y_i.
 Fraction dot(const ExactVector& x, const ExactVector& y);
 

@@ -124,6 +124,11 @@ Integer exact_quotient(const Integer& a, const Integer& b) {
   return made([&](mpz_t r) { mpz_divexact(r, View(a), View(b)); });
 }
 
+Integer truncated_quotient(const Integer& a, const Integer& b) {
+  if (a.is_small(b) && b.small_ != -1) return a.small_ / b.small_;
+  return made([&](mpz_t r) { mpz_tdiv_q(r, View(a), View(b)); });
+}
+
 Integer greatest_common_divisor(const Integer& a, const Integer& b) {
   constexpr std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
   if (a.is_small(b) && a.small_ != lowest && b.small_ != lowest) return std::gcd(a.small_, b.small_);

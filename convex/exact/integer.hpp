@@ -57,6 +57,8 @@ class Integer {
 
   /// a / b, b not 0 and a divisor of a.
   friend Integer exact_quotient(const Integer& a, const Integer& b);
+  /// a / b, b not 0, towards 0.
+  friend Integer truncated_quotient(const Integer& a, const Integer& b);
   /// The greatest common divisor, >= 0; that of 0 and 0 is 0.
   friend Integer greatest_common_divisor(const Integer& a, const Integer& b);
   /// a / b, b > 0, rounded to nearest, ties to even; infinite when it is beyond all doubles.
@@ -88,6 +90,7 @@ class Integer {
 };
 
 Integer exact_quotient(const Integer& a, const Integer& b);
+Integer truncated_quotient(const Integer& a, const Integer& b);
 Integer greatest_common_divisor(const Integer& a, const Integer& b);
 double nearest_quotient(const Integer& a, const Integer& b);
 

@@ -1,128 +1,17 @@
 #include "mechanics/expression/exact_jet.hpp"
 
-#include <cmath>
-
 namespace mechanics::expression {
 namespace {
 
-using convex::Integer;
+const Number zero{}, one{1}, two{2};
 
-/// f(a, b) with its partials.
-struct ExactPartials {
-  Fraction f, a, b, aa, ab, bb;
-};
-
-const Fraction zero{}, one{1, 1};
-
-bool is_zero(const Fraction& x) { return convex::sign(x) == 0; }
-
-/// Larger exponents make numbers that nobody wants to wait for.
-constexpr std::int64_t largest_exponent = 64;
-
-Fraction raised(const Fraction& base, std::int64_t exponent) {
-  Fraction result = one;
-  for (std::int64_t k = 0; k < std::abs(exponent); ++k) result = result * base;
-  return exponent < 0 ? one / result : result;
-}
-
-std::optional<ExactPartials> power(const Fraction& a, const Fraction& b) {
-  if (!(b.denominator == 1) || !b.numerator.fits_word()) return std::nullopt;
-  const std::int64_t e = b.numerator.word();
-  if (std::abs(e) > largest_exponent || (is_zero(a) && e < 0)) return std::nullopt;
-  ExactPartials p{raised(a, e), zero, zero, zero, zero, zero};
-  if (e != 0) p.a = Fraction{e, 1} * raised(a, e - 1);
-  if (e != 0 && e != 1) p.aa = Fraction{e * (e - 1), 1} * raised(a, e - 2);
-  return p;
-}
-
-/// The root of a square.
-std::optional<Fraction> exact_root(const Fraction& a) {
-  const double root = std::sqrt(convex::nearest_double(a));
-  if (!std::isfinite(root)) return std::nullopt;
-  // Numerator and denominator of a in lowest terms are squares themselves.
-  const Fraction lowest = convex::lowest_terms(a);
-  constexpr double largest = 0x1p52;
-  const double p = std::sqrt(convex::nearest_quotient(lowest.numerator, 1));
-  const double q = std::sqrt(convex::nearest_quotient(lowest.denominator, 1));
-  if (!(p < largest && q < largest)) return std::nullopt;
-  const Fraction candidate{static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)};
-  if (!(candidate * candidate == lowest)) return std::nullopt;
-  return candidate;
-}
-
-/// Functions of one operand at the one point where they and their derivatives are whole numbers.
-std::optional<ExactPartials> at_whole_point(Operation operation, const Fraction& a) {
-  const bool at_zero = is_zero(a);
-  switch (operation) {
-    case Operation::sin:
-    case Operation::tan:
-    case Operation::asin:
-    case Operation::atan:
-    case Operation::sinh:
-    case Operation::tanh:
-      if (at_zero) return ExactPartials{zero, one, zero, zero, zero, zero};
-      break;
-    case Operation::cos:
-      if (at_zero) return ExactPartials{one, zero, zero, -one, zero, zero};
-      break;
-    case Operation::cosh:
-      if (at_zero) return ExactPartials{one, zero, zero, one, zero, zero};
-      break;
-    case Operation::exp:
-      if (at_zero) return ExactPartials{one, one, zero, one, zero, zero};
-      break;
-    case Operation::log:
-      if (a == one) return ExactPartials{zero, one, zero, -one, zero, zero};
-      break;
-    default:
-      break;
-  }
-  return std::nullopt;
-}
-
-std::optional<ExactPartials> partials(Operation operation, const Fraction& a, const Fraction& b,
-                                      bool b_is_constant) {
-  switch (operation) {
-    case Operation::negate:
-      return ExactPartials{-a, -one, zero, zero, zero, zero};
-    case Operation::add:
-      return ExactPartials{a + b, one, one, zero, zero, zero};
-    case Operation::subtract:
-      return ExactPartials{a - b, one, -one, zero, zero, zero};
-    case Operation::multiply:
-      return ExactPartials{a * b, b, a, zero, one, zero};
-    case Operation::divide: {
-      if (is_zero(b)) return std::nullopt;
-      const Fraction f = a / b, inverse = one / b;
-      return ExactPartials{
-          f, inverse, -f * inverse, zero, -inverse * inverse, Fraction{2, 1} * f * inverse * inverse};
-    }
-    case Operation::power:
-      return b_is_constant ? power(a, b) : std::nullopt;
-    case Operation::sqrt: {
-      if (convex::sign(a) <= 0) return std::nullopt;
-      const auto root = exact_root(a);
-      if (!root) return std::nullopt;
-      const Fraction slope = one / (Fraction{2, 1} * *root);
-      return ExactPartials{*root, slope, zero, -slope / (Fraction{2, 1} * a), zero, zero};
-    }
-    case Operation::abs:
-      if (is_zero(a)) return std::nullopt;
-      return convex::sign(a) > 0 ? ExactPartials{a, one, zero, zero, zero, zero}
-                                 : ExactPartials{-a, -one, zero, zero, zero, zero};
-    case Operation::sign:
-      if (is_zero(a)) return std::nullopt;
-      return ExactPartials{{convex::sign(a), 1}, zero, zero, zero, zero, zero};
-    default:
-      return at_whole_point(operation, a);
-  }
-}
+bool is_zero(const Number& x) { return x.is_zero(); }
 
 /// c x + d y, entry by entry.
-std::vector<Fraction> combined(const Fraction& c, const std::vector<Fraction>& x, const Fraction& d,
-                               const std::vector<Fraction>& y) {
+std::vector<Number> combined(const Number& c, const std::vector<Number>& x, const Number& d,
+                             const std::vector<Number>& y) {
   const bool from_x = !x.empty() && !is_zero(c), from_y = !y.empty() && !is_zero(d);
-  std::vector<Fraction> sum(from_x ? x.size() : from_y ? y.size() : 0);
+  std::vector<Number> sum(from_x ? x.size() : from_y ? y.size() : 0);
   for (std::size_t i = 0; i < sum.size(); ++i) {
     if (from_x && !is_zero(x[i])) sum[i] = c * x[i];
     if (from_y && !is_zero(y[i])) sum[i] = sum[i] + d * y[i];
@@ -130,13 +19,13 @@ std::vector<Fraction> combined(const Fraction& c, const std::vector<Fraction>& x
   return sum;
 }
 
-void widen(std::vector<Fraction>& x, std::size_t size) {
+void widen(std::vector<Number>& x, std::size_t size) {
   if (x.empty()) x.resize(size);
 }
 
 /// sum_ij += c x_i y_j.
-void add_product(std::vector<Fraction>& sum, const Fraction& c, const std::vector<Fraction>& x,
-                 const std::vector<Fraction>& y) {
+void add_product(std::vector<Number>& sum, const Number& c, const std::vector<Number>& x,
+                 const std::vector<Number>& y) {
   if (is_zero(c) || x.empty() || y.empty()) return;
   widen(sum, x.size() * y.size());
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -144,17 +33,17 @@ void add_product(std::vector<Fraction>& sum, const Fraction& c, const std::vecto
       if (!is_zero(x[i]) && !is_zero(y[j])) sum[i * y.size() + j] = sum[i * y.size() + j] + c * x[i] * y[j];
 }
 
-ExactJet chained(const ExactPartials& p, const ExactJet& a, const ExactJet& b) {
+ExactJet chained(const NumberPartials& p, const ExactJet& a, const ExactJet& b) {
   ExactJet f;
   f.value = p.f;
   f.along = p.a * a.along + p.b * b.along;
   f.along_twice = p.a * a.along_twice + p.b * b.along_twice + p.aa * a.along * a.along +
-                  Fraction{2, 1} * p.ab * a.along * b.along + p.bb * b.along * b.along;
+                  two * p.ab * a.along * b.along + p.bb * b.along * b.along;
   f.by_q = combined(p.a, a.by_q, p.b, b.by_q);
   f.by_v = combined(p.a, a.by_v, p.b, b.by_v);
   // ∂(Df)/∂v: the second derivatives with D on one side.
-  const Fraction with_a = p.aa * a.along + p.ab * b.along, with_b = p.ab * a.along + p.bb * b.along;
-  const std::vector<Fraction> first = combined(p.a, a.along_by_v, p.b, b.along_by_v);
+  const Number with_a = p.aa * a.along + p.ab * b.along, with_b = p.ab * a.along + p.bb * b.along;
+  const std::vector<Number> first = combined(p.a, a.along_by_v, p.b, b.along_by_v);
   f.along_by_v = combined(one, first, one, combined(with_a, a.by_v, with_b, b.by_v));
   f.by_vv = combined(p.a, a.by_vv, p.b, b.by_vv);
   add_product(f.by_vv, p.aa, a.by_v, a.by_v);
@@ -201,8 +90,12 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
       jet.value = convex::lowest_terms(*value);
       return jet;
     }
-    case Operation::pi:
-      return std::nullopt;
+    case Operation::pi: {
+      if (precision_ == 0) return std::nullopt;
+      ExactJet jet;
+      jet.value = Number(Ball::pi(precision_));
+      return jet;
+    }
     case Operation::coordinate:
     case Operation::velocity:
     case Operation::time:
@@ -213,7 +106,8 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
       const auto& a = *known_[tape_->a(node)];
       const auto& b = arity(operation) == 2 ? *known_[tape_->b(node)] : a;
       if (!a || !b) return std::nullopt;
-      const auto p = partials(operation, a->value, b->value, tape_->is_constant(tape_->b(node)));
+      const auto p =
+          number_partials(operation, a->value, b->value, tape_->is_constant(tape_->b(node)), precision_);
       if (!p) return std::nullopt;
       return arity(operation) == 2 ? chained(*p, *a, *b) : chained(*p, *a, ExactJet{});
     }

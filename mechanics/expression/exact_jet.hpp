@@ -3,34 +3,35 @@
 #include <optional>
 #include <vector>
 
-#include "convex/exact/fraction_arithmetic.hpp"
+#include "mechanics/expression/number.hpp"
 #include "mechanics/expression/tape.hpp"
 
 namespace mechanics::expression {
 
-using convex::Fraction;
-
-/// A state in fractions.
+/// A state in fractions, or in balls where it is none.
 struct ExactState {
-  Fraction t;
-  std::vector<Fraction> q, v;
+  Number t;
+  std::vector<Number> q, v;
 };
 
-/// An expression at a state in fractions, with the derivatives that Lagrange's equations and d²f/dt² need. D
-/// is the derivative along the motion at rest of acceleration: D = v·∂/∂q + ∂/∂t. Lists are empty where all
-/// is 0.
+/// An expression at a state, nothing rounded without a bound, with the derivatives that Lagrange's equations
+/// and d²f/dt² need. D is the derivative along the motion at rest of acceleration: D = v·∂/∂q + ∂/∂t. Lists
+/// are empty where all is 0.
 struct ExactJet {
-  Fraction value, along, along_twice;  ///< f, Df, D²f
-  std::vector<Fraction> by_q, by_v;    ///< ∂f/∂q, ∂f/∂v: n
-  std::vector<Fraction> along_by_v;    ///< ∂Df/∂v, v inside of D held: n
-  std::vector<Fraction> by_vv;         ///< ∂²f/∂v∂v: n·n, by rows
+  Number value, along, along_twice;  ///< f, Df, D²f
+  std::vector<Number> by_q, by_v;    ///< ∂f/∂q, ∂f/∂v: n
+  std::vector<Number> along_by_v;    ///< ∂Df/∂v, v inside of D held: n
+  std::vector<Number> by_vv;         ///< ∂²f/∂v∂v: n·n, by rows
 };
 
-/// Evaluates nodes of a tape in fractions.
+/// Evaluates nodes of a tape in fractions and, when `precision` (bits) is not 0, in balls where fractions
+/// end.
 class ExactEvaluation {
  public:
-  ExactEvaluation(const Tape& tape, const ExactState& state) : tape_(&tape), state_(&state) {}
-  /// None where the value or a derivative is no fraction (a sine of anything but 0, π), or does not exist.
+  ExactEvaluation(const Tape& tape, const ExactState& state, long precision)
+      : tape_(&tape), state_(&state), precision_(precision) {}
+  /// None where the value or a derivative does not exist (for all that balls tell), or, without balls, is no
+  /// fraction (a sine of anything but 0, π).
   const std::optional<ExactJet>& operator()(NodeId node);
 
  private:
@@ -38,6 +39,7 @@ class ExactEvaluation {
   ExactJet variable(NodeId node) const;
   const Tape* tape_;
   const ExactState* state_;
+  long precision_;
   std::vector<std::optional<std::optional<ExactJet>>> known_;
 };
 

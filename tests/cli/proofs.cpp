@@ -97,11 +97,48 @@ velocity = { x = 3, y = 1 }
   CHECK(text.at("acceleration") == Json{{"x", "-2943/1000"}, {"y", "-981/1000"}});
   CHECK(answer.at("certificate").at("level") != "none");
   CHECK(answer.at("certificate").at("error_bound") >= text.at("error_bound"));
-  // A pendulum at an angle has sines that are no fractions.
-  const Json curved = solved({"--certify"},
-                             "[system]\ncoordinates = [\"a\"]\nkinetic = \"a'^2/2\"\npotential = "
-                             "\"-cos(a)\"\n[state]\nposition = { a = 0.5 }\n",
-                             0);
-  CHECK_FALSE(curved.contains("from_text"));
-  CHECK(curved.at("certificate").at("level") == "enclosure");
+  CHECK(text.at("contacts") == Json{{"plane", "touches"}, {"again", "touches"}});
+}
+
+TEST_CASE(
+    "a mechanism whose text is not rational is enclosed from its text, contacts that balls cannot tell are "
+    "not") {
+  // A pendulum of mass and length 1: a'' = -sin a, no contact; the rods at equal heights may or may not
+  // touch.
+  constexpr const char* pendulum = R"toml([system]
+coordinates = ["a"]
+kinetic = "a'^2/2"
+potential = "-cos(a)"
+[system.constraints]
+stop = "a >= 0"
+rest = "sin(2*a) <= 2*sin(0.5)*cos(0.5)"
+[state]
+position = { a = 0.5 }
+)toml";
+  const Json answer = solved({"--certify"}, pendulum, 0);
+  const Json& text = answer.at("from_text");
+  CHECK(text.at("contacts") == Json{{"stop", "apart"}, {"rest", "undecided"}});
+  CHECK(text.at("contacts_hold") == false);
+  CHECK(answer.at("certificate").at("level") == "enclosure");
+  // sin(1/2) to 30 digits (Abramowitz and Stegun 1964, table 4.6, has 23 of them).
+  CHECK(text.at("acceleration").at("a") == "-4.79425538604203000273287935216e-1");
+  CHECK(text.at("error_bound").get<double>() <= 1e-16);
+  CHECK(text.at("radius").get<double>() <= 1e-29);
+}
+
+TEST_CASE("a contradiction among irrational bounds is proved when the rows are fractions") {
+  // Two walls close in on a block, one faster than the other retreats.
+  constexpr const char* walls = R"toml([system]
+coordinates = ["x"]
+kinetic = "x'^2/2"
+[system.constraints]
+left = "x >= sqrt(2)*t^2"
+right = "x <= t^2"
+[state]
+position = { x = 0 }
+)toml";
+  const Json answer = solved({"--certify"}, walls, 1);
+  CHECK(answer.at("status") == "infeasible");
+  CHECK(answer.at("from_text").at("farkas") == Json{{"left", "1"}, {"right", "1"}});
+  CHECK(answer.at("from_text").at("contacts_hold") == true);
 }

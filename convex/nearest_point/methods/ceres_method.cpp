@@ -1,11 +1,9 @@
 #include "convex/nearest_point/methods/ceres_method.hpp"
 
-#include <dlfcn.h>
-
 #include <cmath>
-#include <filesystem>
 
 #include "convex/invalid_input.hpp"
+#include "convex/loaded_module.hpp"
 #include "convex/nearest_point/iteration.hpp"
 #include "convex/nearest_point/whitened_problem.hpp"
 
@@ -26,26 +24,12 @@ struct Module {
   std::string reason;  ///< why there is none
 };
 
-/// Beside the program, in the library folder of an installation, or where it was built.
 Module load() {
 #ifdef MOREAU_CERES_MODULE
-  namespace fs = std::filesystem;
-  const fs::path built(MOREAU_CERES_MODULE);
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  std::string reason;
-  for (const fs::path& folder :
-       {program, program.parent_path() / "lib", fs::path(MOREAU_CERES_FOLDER), built.parent_path()}) {
-    const fs::path file = folder / built.filename();
-    if (!fs::exists(file, ignored)) continue;
-    if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)
-      if (void* found = dlsym(handle, "moreau_hinge_least_squares"); found != nullptr)
-        return {reinterpret_cast<HingeLeastSquares>(found), {}};
-    const char* said = dlerror();
-    reason = said != nullptr ? said : "unknown";
-  }
-  return {nullptr, "its module " + built.filename().string() + " cannot be loaded" +
-                       (reason.empty() ? "" : " (" + reason + ")") + "; build again, or take another method"};
+  const LoadedModule found =
+      load_symbol(MOREAU_CERES_MODULE, MOREAU_CERES_FOLDER, "moreau_hinge_least_squares");
+  if (found.symbol != nullptr) return {reinterpret_cast<HingeLeastSquares>(found.symbol), {}};
+  return {nullptr, found.reason + "; build again, or take another method"};
 #else
   return {nullptr, "not built: install libceres-dev and build again"};
 #endif

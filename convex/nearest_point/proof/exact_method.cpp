@@ -38,12 +38,7 @@ Vector rounded_weights(const IntegerVector& weights) {
 
 double distance_above(const ExactProblem& problem, const Vector& x, const ExactVector& q) {
   if (!x.allFinite()) return std::numeric_limits<double>::infinity();
-  const ExactVector point = exact_vector(x);
-  ExactVector difference{{}, point.denominator * q.denominator};
-  for (std::size_t i = 0; i < q.numerators.size(); ++i)
-    difference.numerators.push_back(point.numerators[i] * q.denominator -
-                                    q.numerators[i] * point.denominator);
-  return root_above(squared_norm(problem, difference));
+  return root_above(squared_distance(problem, exact_vector(x), q));
 }
 
 Solution rounded(const ExactProblem& problem, const ExactSolution& exact, const Accuracy& accuracy) {

@@ -154,6 +154,13 @@ ExactVector reaction(const ExactProblem& problem, const ExactVector& lambda) {
   return exact_vector(sum);
 }
 
+Fraction squared_distance(const ExactProblem& problem, const ExactVector& x, const ExactVector& y) {
+  ExactVector difference{{}, x.denominator * y.denominator};
+  for (std::size_t i = 0; i < x.numerators.size(); ++i)
+    difference.numerators.push_back(x.numerators[i] * y.denominator - y.numerators[i] * x.denominator);
+  return squared_norm(problem, difference);
+}
+
 Fraction squared_norm(const ExactProblem& problem, const ExactVector& x) {
   IntegerVector product;
   for (const IntegerVector& row : problem.A) product.push_back(dot(row, x.numerators));

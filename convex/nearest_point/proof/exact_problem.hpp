@@ -41,5 +41,7 @@ ExactVector reaction(const ExactProblem&, const ExactVector& lambda);
 
 /// ||x||_A² .
 Fraction squared_norm(const ExactProblem&, const ExactVector& x);
+/// ||x - y||_A².
+Fraction squared_distance(const ExactProblem&, const ExactVector& x, const ExactVector& y);
 
 }  // namespace convex

@@ -1,0 +1,28 @@
+#include "convex/loaded_module.hpp"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+
+namespace convex {
+
+LoadedModule load_symbol(const std::string& built, const std::string& installed, const char* name) {
+  namespace fs = std::filesystem;
+  const fs::path file_as_built(built);
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  std::string reason;
+  for (const fs::path& folder :
+       {program, program.parent_path() / "lib", fs::path(installed), file_as_built.parent_path()}) {
+    const fs::path file = folder / file_as_built.filename();
+    if (!fs::exists(file, ignored)) continue;
+    if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)
+      if (void* found = dlsym(handle, name); found != nullptr) return {found, {}};
+    const char* said = dlerror();
+    reason = said != nullptr ? said : "unknown";
+  }
+  return {nullptr, "its module " + file_as_built.filename().string() + " cannot be loaded" +
+                       (reason.empty() ? "" : " (" + reason + ")")};
+}
+
+}  // namespace convex

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/exact/ball.hpp"
+#include "convex/exact/fraction_arithmetic.hpp"
+#include "mechanics/expression/operation.hpp"
+
+namespace mechanics::expression {
+
+using convex::Ball;
+using convex::Fraction;
+
+/// A number of a text: a fraction where it is one, else a ball that contains it. What is computed from
+/// fractions alone is a fraction wherever the result is known to be one.
+class Number {
+ public:
+  Number() = default;
+  Number(Fraction value) : fraction_(std::move(value)) {}  // NOLINT: a fraction is one
+  Number(std::int64_t value) : fraction_{value, 1} {}      // NOLINT
+  explicit Number(Ball ball) : ball_(std::move(ball)) {}
+
+  bool is_exact() const { return !ball_; }
+  /// Known to be 0; a ball about 0 is not.
+  bool is_zero() const { return is_exact() && convex::sign(fraction_) == 0; }
+  bool is_finite() const { return is_exact() || ball_->is_finite(); }
+  /// The sign where it is known, else none.
+  std::optional<int> sign() const;
+
+  /// The fraction itself, or the midpoint of the ball.
+  Fraction middle() const { return is_exact() ? fraction_ : ball_->midpoint(); }
+  /// At least the distance of the number from its middle.
+  double radius() const { return is_exact() ? 0 : ball_->radius(); }
+
+  const Fraction& fraction() const { return fraction_; }
+  /// As a ball, of this precision when it is a fraction.
+  Ball ball(long precision) const { return ball_ ? *ball_ : Ball::of(fraction_, precision); }
+
+  friend Number operator-(const Number& a);
+  friend Number operator+(const Number& a, const Number& b);
+  friend Number operator-(const Number& a, const Number& b);
+  friend Number operator*(const Number& a, const Number& b);
+  /// Not finite when b may be 0; b is not known to be.
+  friend Number operator/(const Number& a, const Number& b);
+
+ private:
+  Fraction fraction_;
+  std::optional<Ball> ball_;
+};
+
+/// A function at (a, b) with its partial derivatives.
+struct NumberPartials {
+  Number f, a, b, aa, ab, bb;
+  bool is_finite() const;
+};
+
+/// `precision`: of balls made from fractions, in bits; 0: fractions alone. A unary operation ignores b. None
+/// where the value or a derivative does not exist, may not exist for all that the balls tell, or is no
+/// fraction although it should.
+std::optional<NumberPartials> number_partials(Operation operation, const Number& a, const Number& b,
+                                              bool b_is_constant, long precision);
+
+}  // namespace mechanics::expression
