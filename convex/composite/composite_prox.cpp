@@ -10,7 +10,6 @@ namespace convex {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double tolerance = 1e-12;  ///< of x, relative to ||z||_W + ||x||_W
 
 void check_sizes(const GraphForm& f, Index n) {
   if (f.n != n)
@@ -75,10 +74,12 @@ Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
   found.error_bound = theirs ? std::max(error.bound, of_own) : error.bound;
   found.duality_gap = gap(problem, point, theirs ? own : point.y);
   const double size = W.norm(z) + W.norm(found.x);
-  // Where x and z are 0 beside the data, only rounding of the data is asked for.
-  const double data = size + problem.D.cwiseSqrt().cwiseProduct(problem.b).norm();
-  const bool solved = error.bound <= tolerance * size ||
-                      (error.bound <= tolerance * data && error.bound <= 2 * error.rounding);
+  // Where x and z are 0 beside the data, shifts b and slopes that cancel in v, only rounding of those is
+  // asked for.
+  const Vector root = problem.D.cwiseSqrt();
+  const double data = size + root.cwiseProduct(problem.b).norm() + point.y.cwiseQuotient(root).norm();
+  const bool solved = error.bound <= accuracy_of_prox * size ||
+                      (error.bound <= accuracy_of_prox * data && error.bound <= 2 * error.rounding);
   found.status = solved ? Status::solved : Status::inaccurate;
   return found;
 }

@@ -30,6 +30,14 @@ double term_value(const GraphTerm& term, const Vector& x) {
                                                               : infinity;
 }
 
+/// What the bounds of the terms' domains say of the size of w.
+double size_of_domains(const GraphForm& f) {
+  double size = 0;
+  for (const GraphTerm& term : f.terms)
+    if (term.M.nonZeros() > 0) size = std::max(size, term.f->domain_size() / term.M.coeffs().abs().maxCoeff());
+  return size;
+}
+
 /// The terms as functions of w at a given x.
 GraphForm at_x(const GraphForm& f, const Vector& x) {
   GraphForm rest{0, f.k, {}, f.constant};
@@ -94,6 +102,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   Vector whole(f.n + f.k);
   whole << x, point.xi;
   Vector slope = Vector::Zero(f.n + f.k);
+  const double around_w = whole.norm() + size_of_domains(f);
   std::size_t j = 0;
   bool indicator = true;
   for (const GraphTerm& term : f.terms) {
@@ -114,7 +123,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     // An argument near 0 carries the rounding of the w that it is the end of.
     const double argument = (term.M.cwiseAbs() * whole.cwiseAbs() + term.b.cwiseAbs()).norm();
     const double around =
-        argument + (term.M.nonZeros() > 0 ? term.M.coeffs().abs().maxCoeff() * whole.norm() : 0);
+        argument + (term.M.nonZeros() > 0 ? term.M.coeffs().abs().maxCoeff() * around_w : 0);
     if (around > 0) outside = std::max(outside, r.norm() / around);
   }
   if (solution.infeasible || outside > membership_tolerance) {

@@ -16,9 +16,9 @@ constexpr double near = 1e-2;  ///< theta over the relative residual
 SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
   SaddlePoint point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
   const Vector ridge = polish_ridge * problem.R;
-  for (int count = 0; count < step_limit && point.residual > 0; ++count) {
-    const double theta =
-        std::clamp(near * point.residual / solution_size(problem, point), polish_theta, far_theta);
+  double least = polish_theta;
+  for (int count = 0; count < step_limit && point.residual > 0;) {
+    const double theta = std::clamp(near * point.residual / solution_size(problem, point), least, far_theta);
     const NewtonSystem system(problem, point.t, problem.D, theta, ridge);
     if (!system.usable()) break;
     const NewtonStep step = system.step(point.rho, point.r);
@@ -31,9 +31,14 @@ SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from)
         continue;
       point = std::move(next);
       kept = true;
+      ++count;
       break;
     }
-    if (!kept) break;
+    if (kept) continue;
+    // Where a term is nearly an edge, as log x near 0, the part that guards against dependent rows hides its
+    // curvature: with less of it the step is Newton's again.
+    if (theta > least || least < 1e-5 * polish_theta) break;
+    least *= 1e-3;
   }
   return point;
 }

@@ -61,21 +61,25 @@ void set_scales(SaddleProblem& problem) {
   }
 }
 
+/// Sets first: a point that misses a set by rounding has the value +inf, and no other function cares as much.
 void set_pins(SaddleProblem& problem) {
   const SparseRows rows = problem.M;
   problem.pin.assign(static_cast<std::size_t>(problem.n), -1);
   Index pinned = 0;
-  for (Index r = 0; r < problem.m; ++r) {
-    SparseRows::InnerIterator entry(rows, r);
-    if (!entry || entry.value() != 1 || entry.col() >= problem.n) continue;
-    const Index c = entry.col();
-    if (++entry) continue;
-    Index& pin = problem.pin[static_cast<std::size_t>(c)];
-    if (pin < 0) {
-      pin = r;
-      ++pinned;
+  for (const bool of_sets : {true, false})
+    for (const SaddleTerm& term : problem.terms) {
+      if (term.f->facts().indicator != of_sets) continue;
+      for (Index r = term.first; r < term.first + term.rows; ++r) {
+        SparseRows::InnerIterator entry(rows, r);
+        if (!entry || entry.value() != 1 || entry.col() >= problem.n) continue;
+        const Index c = entry.col();
+        if (++entry) continue;
+        Index& pin = problem.pin[static_cast<std::size_t>(c)];
+        if (pin >= 0) continue;
+        pin = r;
+        ++pinned;
+      }
     }
-  }
   problem.all_pinned = problem.k == 0 && pinned == problem.m;
 }
 

@@ -90,11 +90,28 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
   }
 }
 
+/// The size of the parts that a term's argument M ξ + b is made of, which may cancel.
+double size_of_parts(const SaddleProblem& problem, const SaddlePoint& point, const SaddleTerm& term) {
+  const double around = point.xi.norm() + problem.b.norm();
+  const double factor = term.M.nonZeros() > 0 ? term.M.coeffs().abs().maxCoeff() : 0;
+  return problem.b.segment(term.first, term.rows).norm() + factor * around;
+}
+
+/// How far, relative to its size, an argument is from where its term was evaluated.
+double miss(const SaddleProblem& problem, const SaddlePoint& point) {
+  double worst = 0;
+  for (const SaddleTerm& term : problem.terms) {
+    const double size = size_of_parts(problem, point, term);
+    if (size > 0) worst = std::max(worst, point.r.segment(term.first, term.rows).norm() / size);
+  }
+  return worst;
+}
+
 /// D enlarged to |y|/|u| in the terms where it is much smaller; false when there is none.
 bool balance(SaddleProblem& problem, const SaddlePoint& point) {
   bool changed = false;
   for (const SaddleTerm& term : problem.terms) {
-    const double u = point.u.segment(term.first, term.rows).norm();
+    const double u = size_of_parts(problem, point, term);
     auto d = problem.D.segment(term.first, term.rows);
     const double y = point.y.segment(term.first, term.rows).norm();
     const double factor = y / (u * d.maxCoeff());
@@ -118,15 +135,20 @@ SaddleSolution solve(SaddleProblem problem) {
   SaddleSolution solution;
   solution.point = saddle_point(problem, xi, problem.M * xi + problem.b, problem.D);
   run(problem, solution);
-  if (solution.infeasible || problem.all_pinned ||
-      solution.point.residual <= rounding_level * target_size(problem, solution.point) ||
-      !balance(problem, solution.point))
+  // Without x nothing gave the first D its size, and a residual that is small beside u and y together may be
+  // large beside one of them.
+  const bool at_rounding =
+      problem.n > 0 && solution.point.residual <= rounding_level * target_size(problem, solution.point);
+  if (solution.infeasible || problem.all_pinned || at_rounding || !balance(problem, solution.point))
     return solution;
   SaddleSolution other = solution;
   const SaddlePoint& last = solution.point;
   other.point = saddle_point(problem, last.xi, last.u + last.y.cwiseQuotient(problem.D), problem.D);
   run(problem, other);
-  const bool better = other.infeasible || error_of(problem, other.point) < error_of(problem, solution.point);
+  const double missed = problem.n > 0 ? 0 : miss(problem, solution.point);
+  const bool better = other.infeasible || (missed > near_rounding ? miss(problem, other.point) < missed
+                                                                  : error_of(problem, other.point) <
+                                                                        error_of(problem, solution.point));
   return better ? other : solution;
 }
 

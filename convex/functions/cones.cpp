@@ -33,7 +33,7 @@ Cone plain_cone(Call call, Call polar_call, Index dimension, Project project, Po
           .dimension = dimension,
           .project = [project](const Vector& z, const Vector&) -> Vector { return project(z); },
           .jacobian = [jacobian](const Vector& z, const Vector&) -> Matrix { return jacobian(z); },
-          .project_polar = [polar](const Vector& z) -> Vector { return polar(z); }};
+          .project_polar = [polar](const Vector& z, const Vector&) -> Vector { return polar(z); }};
 }
 
 /// The dual -K° of a cone in R³: its projection is -polar(-z), its polar is -K.
@@ -114,6 +114,12 @@ Set monotone_cone() {
       .project = [](const Vector& z, const Vector& d) { return kernels::proj_monotone(z, d).x; },
       .jacobian = [](const Vector& z,
                      const Vector& d) { return kernels::blocks_jacobian(kernels::proj_monotone(z, d), d); },
+      .project_polar =
+          [](const Vector& z, const Vector& d) {
+            const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
+            const kernels::Blocks runs = kernels::proj_monotone(force, inverse);
+            return kernels::blocks_covector(runs, force, inverse, Vector::Zero(z.size()));
+          },
       .form = linear_quadratic::monotone_cone,
       .any_diagonal = true});
 }

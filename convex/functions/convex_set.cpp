@@ -24,6 +24,7 @@ class SetIndicator : public Atom {
   Call call() const override { return {"indicator", {argument(S_->call())}}; }
   double value(const Vector& x) const override { return S_->contains(x) ? 0 : infinity; }
   Function conjugate() const override { return support_of(S_); }
+  double domain_size() const override { return S_->scale(); }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (!S_->contains(x)) return std::nullopt;
     return Vector::Zero(x.size());
@@ -108,7 +109,7 @@ class ConeSet : public ConvexSet {
     return Vector::Zero(v.size());
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    if (K_.project_polar && d.maxCoeff() == d.minCoeff()) return K_.project_polar(z);
+    if (K_.project_polar && (K_.any_diagonal || d.maxCoeff() == d.minCoeff())) return K_.project_polar(z, d);
     const Vector polar = ConvexSet::support_prox(z, d);
     // A difference that is all rounding is 0: relative to itself it would be far outside.
     const bool rounding = polar.stableNorm() <= roundings_of_a_difference * unit_roundoff * z.stableNorm();

@@ -69,8 +69,9 @@ struct Cone {
   Index dimension = 0;  ///< 0: any number of entries
   std::function<Vector(const Vector& z, const Vector& d)> project;
   std::function<Matrix(const Vector& z, const Vector& d)> jacobian;
-  /// The projection on the polar in the plain metric; z - project(z) in any when empty.
-  std::function<Vector(const Vector& z)> project_polar = {};
+  /// The projection on the polar in D, a multiple of the identity unless any_diagonal; z - D⁻¹ project(Dz) in
+  /// D⁻¹ when empty.
+  std::function<Vector(const Vector& z, const Vector& d)> project_polar = {};
   std::function<void(Index n, const std::string& name)> require_size = {};
   std::function<LinearQuadratic(Index n)> form = {};
   bool any_diagonal = false;

@@ -18,4 +18,7 @@ struct Facts {
 /// projection is rounded, and an indicator at a rounded projection must not be +inf.
 inline constexpr double membership_tolerance = 1e-9;
 
+/// What every prox aims at: ||x - x*||_W <= this (||z||_W + ||x||_W), in metrics of condition up to 1e6.
+inline constexpr double accuracy_of_prox = 1e-12;
+
 }  // namespace convex

@@ -26,12 +26,13 @@ void check(const Function& f, const Vector& x, const char* what) {
 /// A result that is nothing but the rounding of z lies on no side of a set whose boundary passes 0; where 0
 /// itself is in the domain, it is the answer, and the bound says what was left out.
 void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Prox& found) {
-  constexpr double roundings = 64 * unit_roundoff;
+  constexpr double roundings = 64 * unit_roundoff, negligible = 1e-13;
   const double length = W.norm(found.x);
   const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
   if (!(length > 0 && length <= std::max(rounding, found.error_bound))) return;
   const double here = f.value(found.x), at_zero = f.value(Vector::Zero(z.size()));
   if (!std::isfinite(at_zero) || at_zero > here) return;
+  if (std::isfinite(here) && length > negligible * W.norm(z)) return;
   found.x.setZero();
   found.error_bound += length;
 }

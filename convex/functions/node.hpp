@@ -56,6 +56,10 @@ class Atom : public FunctionNode {
   /// with D·J symmetric positive semidefinite.
   virtual Matrix prox_jacobian(const Vector& z, const Vector& d) const = 0;
 
+  /// The size of the data that bound the domain, 0 when none do: what membership is relative to besides the
+  /// point.
+  virtual double domain_size() const { return 0; }
+
   /// f on Rⁿ where it is quadratic or linear: sums of atoms then need no prox of it.
   virtual std::optional<QuadraticForm> quadratic_form(Index) const { return std::nullopt; }
 

@@ -27,6 +27,16 @@ class ScalarSum : public Atom {
   Call call() const override { return law_.call(); }
   Function conjugate() const override { return law_.conjugate(); }
 
+  double domain_size() const override {
+    double size = 0;
+    for (Index i = 0; i < std::max<Index>(1, dimension()); ++i) {
+      const auto [low, high] = law_.ends(i);
+      for (const double end : {low, high})
+        if (std::isfinite(end)) size = std::max(size, std::abs(end));
+    }
+    return size;
+  }
+
   double value(const Vector& x) const override {
     const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
     double sum = 0;

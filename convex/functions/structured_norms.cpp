@@ -48,6 +48,10 @@ class BoundedPartialSums : public DualBall {
   Facts facts() const override { return {.piecewise_quadratic = true}; }
   bool takes_any_diagonal() const override { return true; }
   double scale() const override { return bound_; }
+  /// The sum of all is 0 whatever the bound: it is measured by x alone.
+  bool contains(const Vector& x) const override {
+    return std::abs(x.sum()) <= membership_tolerance * x.lpNorm<1>() && DualBall::contains(x);
+  }
   double support(const Vector& v) const override {
     double sum = 0;
     for (Index i = 0; i + 1 < v.size(); ++i) sum += std::abs(v[i + 1] - v[i]);
@@ -61,6 +65,20 @@ class BoundedPartialSums : public DualBall {
       x[i + 1] += sign;
     }
     return x;
+  }
+  /// D(z - u) for u the prox of the support function; each run of it passes the bound on to its neighbours.
+  Vector project(const Vector& z, const Vector& d) const override {
+    const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
+    kernels::Blocks runs = kernels::prox_total_variation(force, bound_, inverse);
+    std::erase_if(runs.first, [&](Index i) { return i > 0 && runs.x[i] == runs.x[i - 1]; });
+    Vector sums = Vector::Zero(z.size());
+    for (std::size_t k = 1; k < runs.first.size(); ++k) {
+      const Index first = runs.first[k], run = static_cast<Index>(k);
+      const double passed = runs.x[first] > runs.x[first - 1] ? bound_ : -bound_;
+      sums[run - 1] -= passed;
+      sums[run] += passed;
+    }
+    return kernels::blocks_covector(runs, force, inverse, sums);
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
     return kernels::prox_total_variation(z, bound_, d).x;

@@ -16,4 +16,8 @@ struct Blocks {
 /// The derivative of a point whose runs are means of z with weights d, up to constants: J_ij = d_j / Σ_run d.
 Matrix blocks_jacobian(const Blocks&, const Vector& d);
 
+/// D(z - x) for the exact x behind the rounded one, whose runs have Σ d_i (z_i - x_i) = sum_of_run[k]: the
+/// sums hold to the rounding of the result itself, however far away z is.
+Vector blocks_covector(const Blocks&, const Vector& z, const Vector& d, const Vector& sum_of_run);
+
 }  // namespace convex::kernels

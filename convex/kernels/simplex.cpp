@@ -113,7 +113,7 @@ Vector prox_norm_inf(const Vector& z, double weight) {
   require(weight, "norm_inf: the weight");
   if (!(weight > 0)) return z;
   if (sum_of_absolutes(z) <= weight) return Vector::Zero(z.size());
-  const double level = top_level(z, weight, Values::absolute_ones).value();
+  const double level = std::max(0.0, top_level(z, weight, Values::absolute_ones).value());
   return proj_box(z, -level, level);
 }
 
@@ -123,7 +123,7 @@ Vector prox_norm_inf(const Vector& z, double weight, const Vector& d) {
   const double scaled = z.size() > 0 ? std::ldexp(weight, -std::ilogb(d.maxCoeff())) : 0;
   if (!(weight > 0)) return z;
   if (metric.dot(z.cwiseAbs()) <= scaled) return Vector::Zero(z.size());
-  const double level = water_level(z.cwiseAbs(), metric, infinity, scaled);
+  const double level = std::max(0.0, water_level(z.cwiseAbs(), metric, infinity, scaled));
   return proj_box(z, -level, level);
 }
 

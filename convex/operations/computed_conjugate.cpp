@@ -45,11 +45,8 @@ class ComputedConjugate : public Operation {
  protected:
   /// The covector of f at its point is the point of f*, and the other way round.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    const Prox part = f_.prox(W.multiply(z), inverse(W));
-    if (part.x.size() == 0) return part;
-    Prox whole = moved(part, part.v, part.x, part.error_bound, z, W);
-    whole.method = "Moreau's identity, " + part.method;
-    return whole;
+    return by_moreau([&](const Vector& point, const Metric& V) { return std::optional(f_.prox(point, V)); },
+                     z, W);
   }
 
  private:

@@ -8,7 +8,9 @@
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
@@ -27,9 +29,43 @@ constexpr double nearest_point_weight = 1e12;
       "`moreau functions`");
 }
 
+/// Nothing is left to try: the bound is within the accuracy that is asked for, or there is no solution.
+bool is_settled(const Prox& found, const Vector& z, const Metric& W) {
+  if (found.status == Status::infeasible || found.x.size() == 0) return true;
+  return found.status == Status::solved &&
+         found.error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found.x));
+}
+
+void take_better(std::optional<Prox>& best, Prox found) {
+  if (!best || (found.x.size() > 0 && found.error_bound < best->error_bound)) best = std::move(found);
+}
+
 }  // namespace
 
+std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metric& W) {
+  const Metric V = inverse(W);
+  bool known = true;
+  const auto from = [&](const Vector& point) {
+    std::optional<Prox> part = dual(point, V);
+    known = known && part;
+    if (!part || part->x.size() == 0) return part ? *part : Prox{};
+    return moved(*part, part->v, part->x, part->error_bound, z, W);
+  };
+  Prox whole = reduced(W.multiply(z), z, W, from, [](const Vector& r) { return r; });
+  if (!known) return std::nullopt;
+  if (whole.x.size() > 0) whole.method = "Moreau's identity, " + whole.method;
+  return whole;
+}
+
 double Operation::value(const Vector& x) const {
+  const double length = x.norm();
+  if (!facts().support || !(length > 0)) return value_by_program(x);
+  // Positively homogeneous: the solvers see the point at the size of 1.
+  const double size = std::exp2(std::floor(std::log2(length)));
+  return size * value_by_program(x / size);
+}
+
+double Operation::value_by_program(const Vector& x) const {
   double found = std::numeric_limits<double>::quiet_NaN();
   if (const auto form = linear_quadratic(x.size())) found = convex::value(*form, x);
   if (!std::isnan(found)) return found;
@@ -37,11 +73,28 @@ double Operation::value(const Vector& x) const {
   refuse(*this, "value");
 }
 
+std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W) const {
+  std::optional<Prox> best = reduced_prox(z, W);
+  if (best && is_settled(*best, z, W)) return best;
+  if (const auto form = linear_quadratic(z.size()))
+    take_better(best, convex::prox(*form, z, W));
+  else if (const auto program = graph(z.size()))
+    take_better(best, convex::prox(*program, z, W));
+  return best;
+}
+
 Prox Operation::prox(const Vector& z, const Metric& W) const {
-  if (std::optional<Prox> reduced = reduced_prox(z, W)) return *std::move(reduced);
-  if (const auto form = linear_quadratic(z.size())) return convex::prox(*form, z, W);
-  if (const auto form = graph(z.size())) return convex::prox(*form, z, W);
-  refuse(*this, "prox in this metric");
+  std::optional<Prox> best = own_prox(z, W);
+  if (!best) refuse(*this, "prox in this metric");
+  if (is_settled(*best, z, W)) return *std::move(best);
+  const Function g = conjugate();
+  const auto* dual = dynamic_cast<const Operation*>(&g.node());
+  if (dual && primal_of(g)) return *std::move(best);
+  const auto of_dual = [&](const Vector& point, const Metric& V) {
+    return dual ? dual->own_prox(point, V) : std::optional(g.prox(point, V));
+  };
+  if (auto other = by_moreau(of_dual, z, W)) take_better(best, *std::move(other));
+  return *std::move(best);
 }
 
 std::optional<Vector> Operation::subgradient(const Vector& x) const {
@@ -53,9 +106,13 @@ std::optional<Vector> Operation::subgradient(const Vector& x) const {
 Function Operation::conjugate() const { return computed_conjugate(self()); }
 
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W) {
+  return moved(std::move(part), std::move(x), std::move(v), bound, z, W, W);
+}
+
+Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V) {
   if (part.status == Status::infeasible || part.x.size() == 0) return part;
   const double rounding = roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x) + W.dual_norm(v));
-  part.error_bound = bound + W.dual_norm(stationarity(z, W, x, v)) + rounding;
+  part.error_bound = bound + V.dual_norm(stationarity(z, W, x, v)) + rounding;
   part.x = std::move(x);
   part.v = std::move(v);
   return part;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace convex {
 class Operation : public FunctionNode {
  public:
   double value(const Vector& x) const override;
+  /// By formula, else by program; where that is not accurate, each of the ways there are is tried, the last
+  /// of them Moreau's identity, and the one with the smallest bound is taken.
   Prox prox(const Vector& z, const Metric& W) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
@@ -22,14 +25,24 @@ class Operation : public FunctionNode {
  protected:
   /// The prox by formula from those of the parts; none when there is no formula in this metric.
   virtual std::optional<Prox> reduced_prox(const Vector&, const Metric&) const { return std::nullopt; }
+  double value_by_program(const Vector& x) const;
+  /// The prox by formula or program, without the conjugate's help.
+  std::optional<Prox> own_prox(const Vector& z, const Metric& W) const;
   /// This function as one to be handed on.
   Function self() const { return Function(shared_from_this()); }
 };
 
 /// The prox of a part, moved: x and v belong to the whole at z in W, `bound` is what the part's own bound
-/// means for ||x - x*||_W. The residual ||W(x - z) + v||_(W⁻¹), and the rounding of the move, are added to
-/// it.
+/// means for ||x - x*||_W. The residual ||W(x - z) + v||_(V⁻¹), and the rounding of the move, are added to
+/// it. V, W unless given: the metric in which the equation for x (or for the part's own point, when an error
+/// of it costs x no more) is strongly monotone.
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W);
+Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V);
+
+/// The prox of a function by that of its conjugate (Moreau 1965): prox^W_f z = z - W⁻¹ prox_f*(Wz) in W⁻¹.
+/// What the rounding of W⁻¹ leaves is corrected. None where `dual` has none.
+using DualProx = std::function<std::optional<Prox>(const Vector& point, const Metric& W)>;
+std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metric& W);
 
 /// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
 /// `membership_tolerance` of that, the value there.

@@ -6,6 +6,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
+#include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
@@ -35,6 +36,15 @@ std::optional<double> multiple_of_identity(const SparseMatrix& Q) {
     }
   if (mu != 0 && on_diagonal != Q.rows()) return std::nullopt;
   return mu;
+}
+
+Vector force_of(const QuadraticTerm& q, const Vector& x, const Vector& v) {
+  DoubleDoubleVector sum(q.c);
+  for (Index j = 0; j < x.size(); ++j)
+    for (SparseMatrix::InnerIterator entry(q.Q, j); entry; ++entry)
+      add_multiple(1, &entry.value(), {x[j], 0}, &sum.hi[entry.row()], &sum.lo[entry.row()]);
+  sum.add(v);
+  return sum.value();
 }
 
 Function function_of(const QuadraticTerm& q) {
@@ -67,12 +77,18 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {
   const Metric P = parallel_sum(W, q.Q);
-  const Prox part = f.prox(q.c.isZero(0) ? z : Vector(z + q.Q.solve(q.c)), P);
-  if (part.x.size() == 0) return part;
-  const Vector& a = part.x;
-  const Vector b = plus(W, q.Q).solve(W.multiply(z - a) - q.c);
+  const Metric V = plus(W, q.Q);
   // An error of a in the parallel sum is one of a + b in W at most as large: b follows a as its best answer.
-  Prox whole = moved(part, a + b, part.v, part.error_bound, z, W);
+  const auto from = [&](const Vector& point) {
+    const Prox part = f.prox(point, P);
+    if (part.x.size() == 0) return part;
+    const Vector& a = part.x;
+    const Vector b = V.solve(metric_difference(W, z, a) - q.c);
+    return moved(part, a + b, part.v, part.error_bound, z, W, P);
+  };
+  const Vector point = q.c.isZero(0) ? z : Vector(z + q.Q.solve(q.c));
+  Prox whole = reduced(point, z, W, from, [&](const Vector& r) { return P.solve(r); });
+  if (whole.x.size() == 0) return whole;
   whole.method += " in the parallel sum of two metrics";
   return whole;
 }

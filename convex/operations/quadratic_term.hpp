@@ -20,6 +20,9 @@ std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n);
 /// mu when Q = mu I, mu >= 0.
 std::optional<double> multiple_of_identity(const SparseMatrix& Q);
 
+/// Qx + c + v, rounded once.
+Vector force_of(const QuadraticTerm& q, const Vector& x, const Vector& v);
+
 /// The quadratic term as a function of the catalogue.
 Function function_of(const QuadraticTerm& q);
 

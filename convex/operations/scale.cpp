@@ -58,7 +58,7 @@ class Scale : public Operation {
       part.duality_gap *= alpha_;
       return moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W);
     };
-    return reduced(z / rho_, z, W, from, [&](const Vector& r) { return W.solve(r) / rho_; });
+    return reduced(z / rho_, z, W, from, [&](const Vector& r) -> Vector { return W.solve(r) / rho_; });
   }
 
  private:

@@ -88,9 +88,10 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   const Metric V = plus(W, Q);
   const Vector y = V.solve(W.multiply(z) - c);
   if (sorted.rest.empty()) {
-    const auto residual = [&](const Vector& x) -> Vector { return W.multiply(x - z) + Q * x + c; };
-    const Vector x = y - V.solve(residual(y));
-    return moved({.x = x, .v = {}, .method = "linear equations"}, x, Q * x + c, 0, z, W);
+    const Vector none = Vector::Zero(z.size());
+    const Vector x = y - V.solve(stationarity(z, W, y, force_of(*sorted.quadratic, y, none)));
+    const Vector v = force_of(*sorted.quadratic, x, none);
+    return moved({.x = x, .v = {}, .method = "linear equations"}, x, v, 0, z, W, V);
   }
   // A program takes the quadratic as it is, without a rounded point in a rounded metric.
   if (facts().piecewise_quadratic && !is_diagonal_kind(V)) return std::nullopt;
@@ -98,7 +99,7 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   const auto from = [&](const Vector& point) {
     const Prox part = rest.prox(point, V);
     if (part.x.size() == 0) return part;
-    return moved(part, part.x, part.v + Q * part.x + c, part.error_bound, z, W);
+    return moved(part, part.x, force_of(*sorted.quadratic, part.x, part.v), part.error_bound, z, W, V);
   };
   return reduced(y, z, W, from, [&](const Vector& r) { return V.solve(r); });
 }
