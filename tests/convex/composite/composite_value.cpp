@@ -90,10 +90,11 @@ TEST_CASE("a minimum of -inf is told from a value") {
 
 TEST_CASE("domains that do not meet are infeasible, and domains that touch are not") {
   const Vector z = Eigen::Vector2d(0.3, 2);
-  const auto status = [&](const GraphForm& f, const GraphForm& g) {
+  const auto found = [&](const GraphForm& f, const GraphForm& g) {
     const GraphForm both[] = {f, g};
-    return prox(convex::sum(both), z, Metric::identity(2)).status;
+    return prox(convex::sum(both), z, Metric::identity(2));
   };
+  const auto status = [&](const GraphForm& f, const GraphForm& g) { return found(f, g).status; };
   CHECK(status(cube(0, 1), point(Vector::Constant(2, 2))) == Status::infeasible);
   CHECK(status(cube(0, 1), cube(1.001, 2)) == Status::infeasible);
   CHECK(status(cube(0, 1), point(Vector::Ones(2))) == Status::solved);
@@ -102,6 +103,6 @@ TEST_CASE("domains that do not meet are infeasible, and domains that touch are n
                convex::precompose(graph<SecondOrderCone>(2),
                                   SparseMatrix(-Matrix::Identity(2, 2).sparseView()), Vector::Zero(2))) ==
         Status::solved);
-  // No subgradient of entropy at 0: the multipliers do not exist, and the answer says that it is not exact.
-  CHECK(status(graph<Entropy>(2), point(Vector::Zero(2))) == Status::inaccurate);
+  // No subgradient of entropy at 0, so that multipliers do not exist; the point is the set's all the same.
+  CHECK(found(graph<Entropy>(2), point(Vector::Zero(2))).x == Vector::Zero(2));
 }
