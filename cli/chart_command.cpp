@@ -9,8 +9,10 @@
 #include "cli/drawing/profile_drawing.hpp"
 #include "cli/drawing/work_precision_drawing.hpp"
 #include "cli/each_file.hpp"
+#include "cli/measurement/charted_problems.hpp"
 #include "cli/measurement/exams.hpp"
 #include "cli/measurement/progress.hpp"
+#include "cli/measurement/rank_correlation.hpp"
 #include "cli/measurement/trial_files.hpp"
 #include "cli/text_table.hpp"
 #include "convex/nearest_name.hpp"
@@ -19,7 +21,6 @@ namespace cli {
 namespace {
 
 using convex::InvalidInput;
-using convex::Method;
 using convex::MethodKind;
 
 /// A direct method has one accuracy; the others are asked for each of these, and no further once two in a row
@@ -28,47 +29,64 @@ constexpr double direct_setting = 1e-9;
 constexpr std::array ladder{1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
                             1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
-std::vector<const Method*> charted_methods(const std::string& only) {
-  std::vector<const Method*> chosen;
-  std::vector<std::string> names;
-  for (const Method& method : convex::methods()) {
-    names.emplace_back(method.name);
-    if (only.empty() || method.name == only) chosen.push_back(&method);
-  }
-  if (chosen.empty())
-    throw InvalidInput("--method " + only + ": there is no such method; did you mean \"" +
-                       convex::nearest_name(only, names) + "\"?");
-  return chosen;
+/// With --quick only each third step.
+constexpr std::size_t quick_step = 3;
+
+TrialLimits limits_of(const Options& options) {
+  return options.quick ? TrialLimits{0.005, 0.5} : TrialLimits{};
 }
 
-void chart_one(const Exam& exam, const Method& method, const TrialLimits& limits,
+/// Keeps the contests of the method asked for.
+void keep_asked(std::vector<Contest>& contests, const std::string& only) {
+  if (only.empty()) return;
+  std::erase_if(contests, [&](const Contest& contest) { return contest.method != only; });
+}
+
+void require_method(const std::string& name, const std::vector<std::string>& known, const char* option) {
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InvalidInput(std::string(option) + " " + name + ": there is no such method; did you mean \"" +
+                     convex::nearest_name(name, known) + "\"?");
+}
+
+void chart_one(const Contest& contest, const TrialLimits& limits, std::size_t step,
                std::vector<Trial>& trials) {
-  if (method.kind != MethodKind::iterative) {
-    trials.push_back(trial(exam, method, {.tolerance = direct_setting}, limits));
+  const auto add = [&](const convex::Accuracy& accuracy) {
+    Trial next = trial(contest, accuracy, limits);
+    if (!Progress::interrupted()) trials.push_back(std::move(next));
+    return !Progress::interrupted();
+  };
+  if (contest.kind == MethodKind::iterative) {
+    int missed = 0;
+    for (std::size_t k = 0; k < ladder.size(); k += step) {
+      if (!add({.tolerance = ladder[k], .polish = false})) return;
+      const Trial& last = trials.back();
+      if (last.verdict() == Verdict::refused) return;
+      const bool reached = last.is_right() && last.judgement.error <= 10 * ladder[k];
+      missed = reached ? 0 : missed + 1;
+      if (missed == 2 || last.verdict() == Verdict::too_slow) break;
+    }
+    if (add({.tolerance = direct_setting}) && !trials.back().judgement.polished) trials.pop_back();
     return;
   }
-  int missed = 0;
-  for (const double setting : ladder) {
-    trials.push_back(trial(exam, method, {.tolerance = setting, .polish = false}, limits));
-    const Trial& last = trials.back();
-    if (last.verdict == Verdict::refused || Progress::interrupted()) return;
-    const bool reached = last.verdict == Verdict::ok && last.error <= 10 * setting;
-    missed = reached ? 0 : missed + 1;
-    if (missed == 2 || last.verdict == Verdict::too_slow) break;
-  }
-  trials.push_back(trial(exam, method, {.tolerance = direct_setting}, limits));
+  // A direct method whose digits come from the judge has a marker more: its answer as it stands.
+  if (!add({.tolerance = direct_setting}) || !trials.back().judgement.polished) return;
+  if (add({.tolerance = direct_setting, .polish = false})) std::iter_swap(trials.end() - 1, trials.end() - 2);
 }
 
-std::vector<Trial> charted(const std::vector<Exam>& exams, const std::vector<const Method*>& methods,
-                           const TrialLimits& limits) {
+std::vector<Trial> charted(const std::vector<ChartedProblem>& problems, const Options& options) {
+  const std::string only = options.method.value_or("");
   std::vector<Trial> trials;
-  Progress progress(static_cast<int>(exams.size() * methods.size()));
-  for (const Exam& exam : exams)
-    for (const Method* method : methods) {
+  Progress progress(static_cast<int>(problems.size()));
+  for (const ChartedProblem& problem : problems) {
+    std::vector<Contest> contests = problem.contests();
+    keep_asked(contests, only);
+    for (const Contest& contest : contests) {
+      progress.now(problem.name + ": " + contest.method);
+      chart_one(contest, limits_of(options), options.quick ? quick_step : 1, trials);
       if (Progress::interrupted()) return trials;
-      chart_one(exam, *method, limits, trials);
-      progress.step(exam.name + ": " + std::string(method->name));
     }
+    progress.step();
+  }
   return trials;
 }
 
@@ -86,7 +104,7 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
   for (const std::string& problem : problems) {
     std::vector<Trial> here;
     for (const Trial& t : trials)
-      if (t.problem == problem && t.verdict != Verdict::refused) here.push_back(t);
+      if (t.problem == problem && t.verdict() != Verdict::refused) here.push_back(t);
     if (here.empty()) continue;
     TextTable table({"method", "time", "digits", "verdict"});
     std::vector<std::string> seen;
@@ -94,7 +112,8 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
       if (std::find(seen.begin(), seen.end(), t.method) != seen.end()) continue;
       seen.push_back(t.method);
       table.add({t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-",
-                 digits_text(drawn.multipliers ? t.multiplier_error : t.error), verdict_text(t.verdict)});
+                 digits_text(drawn.multipliers ? t.judgement.multiplier_error : t.judgement.error),
+                 verdict_text(t.verdict())});
     }
     text += fmt::format("{}: {} coordinates, {} contacts\n{}\n", problem, here.front().n, here.front().m,
                         table.text());
@@ -102,19 +121,32 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
   return text;
 }
 
-std::vector<Exam> asked_exams(const Options& options) {
-  if (options.files.empty()) return charted_exams();
-  std::vector<Exam> exams;
-  for (const std::string& file : options.files) exams.push_back(file_exam(read_scene(file, {})));
-  return exams;
+std::vector<ChartedProblem> asked_problems(const Options& options) {
+  if (options.files.empty())
+    return options.profile ? profiled_problems(options.quick) : charted_problems(options.quick);
+  std::vector<ChartedProblem> problems;
+  for (const std::string& file : options.files) problems.push_back(charted_file(file));
+  return problems;
+}
+
+/// How alike this run and the committed data order the methods; "" where there is nothing to compare.
+std::string correlation_text(const std::vector<Trial>& trials) {
+  const std::optional<std::string> file = committed_data();
+  if (!file) return "";
+  std::vector<RankCorrelation> all = rank_correlations(trials, read_chart_csv(*file));
+  if (all.empty()) return "";
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  return fmt::format(
+      "Order of the methods beside docs/charts/speed_accuracy.csv: rank correlation {:.2f} in the median, "
+      "{:.2f} at least ({}).\n",
+      all[all.size() / 2].value, all.front().value, all.front().problem);
 }
 
 /// What is written: the data and the picture.
-void write_chart(const Options& options, const std::vector<Trial>& trials, const DrawnAs& drawn,
-                 const TrialLimits& limits) {
+void write_chart(const Options& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
   if (options.data) {
     write_file(*options.data, chart_csv(trials));
-    write_file(about_file(*options.data), measurement_json(trials, limits));
+    write_file(about_file(*options.data), measurement_json(trials, limits_of(options)));
   }
   if (!options.output) return;
   draw(*options.output, options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn));
@@ -126,15 +158,17 @@ Exit chart_command(const Options& options) {
   const Source source{options.files.empty() ? "chart" : options.files.front(), ""};
   return answered(options, source, [&] {
     const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or("")};
-    if (!drawn.relative_to.empty()) charted_methods(drawn.relative_to);
     if (options.output)
       terminal_text(*options.output, 1, 1);  // a wrong name is told before the work, not after
-    const TrialLimits limits;
-    const std::vector<Exam> exams =
-        options.profile && options.files.empty() ? profile_exams() : asked_exams(options);
-    const std::vector<Trial> trials = charted(exams, charted_methods(options.method.value_or("")), limits);
-    write_chart(options, trials, drawn, limits);
-    if (!options.output && !options.quiet) fmt::print("{}", table_text(trials, drawn));
+    const std::vector<ChartedProblem> problems = asked_problems(options);
+    const std::vector<std::string> known = contestant_names();
+    require_method(options.method.value_or(""), known, "--method");
+    require_method(drawn.relative_to, known, "--relative");
+    const std::vector<Trial> trials = charted(problems, options);
+    write_chart(options, trials, drawn);
+    if (options.quiet) return Exit::solved;
+    if (!options.output) fmt::print("{}", table_text(trials, drawn));
+    if (options.files.empty() && !options.profile) fmt::print("{}", correlation_text(trials));
     return Exit::solved;
   });
 }

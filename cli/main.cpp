@@ -71,6 +71,7 @@ void add_output(CLI::App& command, Options& options, const char* columns) {
   command.add_option("--output", options.output, "the picture: F.svg or F.png (drawn by gnuplot)")
       ->type_name("FILE");
   command.add_option("--data", options.data, columns)->type_name("F.csv");
+  command.add_flag("--quick", options.quick, "fewer and smaller problems, half a minute at most");
   command.add_flag("--quiet", options.quiet, "no text");
 }
 
@@ -93,11 +94,15 @@ void add_chart(CLI::App& app, Options& options, std::function<Exit(const Options
 
 void add_stress(CLI::App& app, Options& options, std::function<Exit(const Options&)>& chosen) {
   CLI::App* stress = app.add_subcommand("stress", "where each method fails: method by difficulty");
-  stress->add_option("FAMILY", options.families, "families of the gallery; without one, all");
+  stress->add_option("FAMILY", options.families, "families; without one, all");
   stress->add_option("--method", options.method, "this method alone")->type_name("NAME");
   stress->add_option("--tolerance", options.tolerance, "asked of iterative methods; default 1e-9")
       ->type_name("X")
       ->check(positive_number);
+  stress->add_flag("--polish", options.polish,
+                   "answers after the refinement that `solve` ends with, instead of a method's own");
+  stress->add_flag("--peers", options.peers,
+                   "with the solvers of other packages that were found at build time");
   add_output(*stress, options, "the table: family, difficulty, n, m, method, seconds, error, status");
   stress->callback([&] { chosen = cli::stress_command; });
 }

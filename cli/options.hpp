@@ -37,6 +37,9 @@ struct Options {
   std::string error = "acceleration";      ///< of chart: what the error is of
   bool profile = false;                    ///< of chart
   std::vector<std::string> families;       ///< of stress
+  bool quick = false;                      ///< of chart and stress: fewer problems, settings and repetitions
+  bool peers = false;                      ///< of stress: with the solvers of other packages
+  bool polish = false;                     ///< of stress: answers after the judge's refinement
 };
 
 }  // namespace cli

@@ -7,8 +7,9 @@
 #include "cli/drawing/failure_map_drawing.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/each_file.hpp"
-#include "cli/measurement/exams.hpp"
+#include "cli/measurement/peers.hpp"
 #include "cli/measurement/progress.hpp"
+#include "cli/measurement/stress_families.hpp"
 #include "cli/measurement/trial_files.hpp"
 #include "cli/text_table.hpp"
 #include "convex/invalid_input.hpp"
@@ -17,66 +18,80 @@
 namespace cli {
 namespace {
 
-using convex::GalleryFamily;
-using convex::Index;
 using convex::InvalidInput;
-using convex::Method;
 
 /// One call is enough to see whether a method fails.
-constexpr TrialLimits limits{1e-6, 3};
+TrialLimits limits_of(const Options& options) { return {1e-6, options.quick ? 0.5 : 3}; }
 
-std::vector<const GalleryFamily*> asked_families(const Options& options) {
-  std::vector<const GalleryFamily*> chosen;
+/// With --quick a ladder has so many settings, its ends among them.
+constexpr std::size_t quick_settings = 3;
+constexpr convex::Index usual_size = 20, quick_size = 8;
+
+std::vector<StressFamily> asked_families(const Options& options) {
+  std::vector<StressFamily> all = stress_families(options.quick ? quick_size : usual_size, options.peers);
+  if (options.families.empty()) return all;
+  std::vector<StressFamily> chosen;
   std::vector<std::string> names;
-  for (const GalleryFamily& family : convex::gallery()) {
-    names.emplace_back(family.name);
-    if (options.families.empty()) chosen.push_back(&family);
-  }
+  for (const StressFamily& family : all) names.push_back(family.name);
   for (const std::string& name : options.families) {
-    const GalleryFamily* family = convex::find_family(name);
-    if (family == nullptr)
-      throw InvalidInput("there is no family \"" + name + "\" in the gallery; did you mean \"" +
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw InvalidInput("there is no family \"" + name + "\" to stress; did you mean \"" +
                          convex::nearest_name(name, names) + "\"?");
-    chosen.push_back(family);
+    chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
   }
   return chosen;
 }
 
-/// Sizes at which every method can be expected to end.
-Index stressed_size(const GalleryFamily& family) {
-  if (family.name == "obstacle") return 12;
-  return family.sparse ? 80 : std::min<Index>(family.size, 20);
+std::vector<double> thinned(const std::vector<double>& ladder) {
+  if (ladder.size() <= quick_settings) return ladder;
+  std::vector<double> some;
+  for (std::size_t k = 0; k < quick_settings; ++k)
+    some.push_back(ladder[k * (ladder.size() - 1) / (quick_settings - 1)]);
+  return some;
+}
+
+/// An iteration's own answer is what is stressed, not that of the rows it shows to be active.
+convex::Accuracy asked_accuracy(const Options& options) {
+  return {.tolerance = options.tolerance.value_or(1e-9), .polish = options.polish};
 }
 
 std::vector<StressTrial> stressed(const Options& options) {
-  const std::vector<const GalleryFamily*> families = asked_families(options);
-  std::vector<const Method*> methods;
-  for (const Method& method : convex::methods())
-    if (!options.method || method.name == *options.method) methods.push_back(&method);
-  if (methods.empty())
-    throw InvalidInput("--method " + *options.method + ": there is no such method; see `moreau methods`");
+  if (options.peers && !why_no_peers().empty()) throw InvalidInput(why_no_peers());
+  std::vector<StressFamily> families = asked_families(options);
   std::size_t steps = 0;
-  for (const GalleryFamily* family : families) steps += family->ladder.size();
+  for (StressFamily& family : families) {
+    if (options.quick) family.ladder = thinned(family.ladder);
+    steps += family.ladder.size();
+  }
+  const std::vector<std::string> known = contestant_names();
+  if (options.method && std::find(known.begin(), known.end(), *options.method) == known.end())
+    throw InvalidInput("--method " + *options.method + ": there is no such method; did you mean \"" +
+                       convex::nearest_name(*options.method, known) + "\"?");
   Progress progress(static_cast<int>(steps));
   std::vector<StressTrial> trials;
-  for (const GalleryFamily* family : families)
-    for (const double difficulty : family->ladder) {
-      const Exam exam = gallery_exam(*family, stressed_size(*family), difficulty);
-      for (const Method* method : methods) {
+  for (const StressFamily& family : families) {
+    for (const double setting : family.ladder) {
+      for (const Contest& contest : family.at(setting)) {
+        if (options.method && contest.method != *options.method) continue;
+        progress.now(fmt::format("{} {:g}: {}", family.name, setting, contest.method));
+        Trial next = trial(contest, asked_accuracy(options), limits_of(options));
         if (Progress::interrupted()) return trials;
-        trials.push_back({std::string(family->name), difficulty,
-                          trial(exam, *method, {.tolerance = options.tolerance.value_or(1e-9)}, limits)});
+        trials.push_back({family.name, family.knob, setting, std::move(next)});
       }
-      progress.step(fmt::format("{} {:g}", family->name, difficulty));
+      progress.step();
     }
+  }
   return trials;
 }
 
 /// Two characters a cell: digits, or how it failed.
 std::string cell(const Trial& t) {
-  switch (t.verdict) {
+  switch (t.verdict()) {
     case Verdict::ok:
-      return t.error > 0 ? fmt::format("{:.0f}", std::clamp(-std::log10(t.error), 0.0, 16.0)) : "=";
+      return t.judgement.error > 0
+                 ? fmt::format("{:.0f}", std::clamp(-std::log10(t.judgement.error), 0.0, 16.0))
+                 : "=";
     case Verdict::wrong:
       return "X";
     case Verdict::gave_up:
@@ -125,12 +140,11 @@ std::string threshold_text(const std::vector<StressTrial>& trials) {
       methods.push_back(t.trial.method);
   for (const std::string& method : methods) {
     std::string last;
-    for (const auto& [family, difficulty, t] : trials) {
-      if (t.method != method || family == last || t.verdict == Verdict::ok || t.verdict == Verdict::refused)
-        continue;
+    for (const auto& [family, knob, difficulty, t] : trials) {
+      if (t.method != method || family == last || t.is_right() || t.verdict() == Verdict::refused) continue;
       last = family;
-      table.add({method, family, fmt::format("{:g}", difficulty), verdict_text(t.verdict),
-                 std::isfinite(t.error) ? fmt::format("{:.0e}", t.error) : "-"});
+      table.add({method, family, fmt::format("{:g}", difficulty), verdict_text(t.verdict()),
+                 std::isfinite(t.judgement.error) ? fmt::format("{:.0e}", t.judgement.error) : "-"});
     }
     if (last.empty()) table.add({method, "none", "-", "-", "-"});
   }
@@ -142,7 +156,7 @@ void write_stress(const Options& options, const std::vector<StressTrial>& trials
     write_file(*options.data, stress_csv(trials));
     std::vector<Trial> plain;
     for (const StressTrial& t : trials) plain.push_back(t.trial);
-    write_file(about_file(*options.data), measurement_json(plain, limits));
+    write_file(about_file(*options.data), measurement_json(plain, limits_of(options)));
   }
   if (!options.output) return;
   const Drawing drawing = failure_map_drawing(trials);

@@ -3,22 +3,45 @@
 #include <string>
 #include <vector>
 
+#include "cli/measurement/trial.hpp"
+
 namespace cli {
 
-/// One colour and one marker for each method, the same on every picture: Okabe and Ito's palette (2008),
-/// which the colour-blind can tell apart, and another marker for each eight.
+/// How a method is drawn, the same on every picture. Iterations have a colour each, which the colour-blind
+/// can tell apart (Okabe and Ito 2008; two of Tol's, 2021), and a dash pattern; direct methods, a marker
+/// each, are dark and differ by its shape; the default stands out.
+struct MethodStyle {
+  std::string colour;
+  int marker = 7;  ///< gnuplot's number of a filled one; the one before it is the same hollow
+  int dashes = 1;
+  double size = 0.7;
+
+  int hollow() const { return marker - 1; }
+};
+
+/// The methods of a picture in their order.
 class MethodStyles {
  public:
-  explicit MethodStyles(std::vector<std::string> methods) : methods_(std::move(methods)) {}
+  explicit MethodStyles(const std::vector<Trial>&);
   const std::vector<std::string>& methods() const { return methods_; }
-  std::string colour(const std::string& method) const;
-  /// gnuplot's number of the filled marker, and of the same one hollow.
-  int filled(const std::string& method) const;
-  int hollow(const std::string& method) const { return filled(method) - 1; }
+  const MethodStyle& style(const std::string& method) const;
 
  private:
-  std::size_t place(const std::string& method) const;
   std::vector<std::string> methods_;
+  std::vector<MethodStyle> styles_;
 };
+
+/// Values in the order in which they first occur.
+template <class T, class Range, class Get>
+std::vector<T> in_order(const Range& range, Get get) {
+  std::vector<T> all;
+  for (const auto& item : range) {
+    const T value = get(item);
+    bool known = false;
+    for (const T& before : all) known = known || before == value;
+    if (!known) all.push_back(value);
+  }
+  return all;
+}
 
 }  // namespace cli

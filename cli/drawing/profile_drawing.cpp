@@ -21,16 +21,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity(), good_error 
 Drawing profile_drawing(const std::vector<Trial>& trials) {
   std::map<std::string, double> quickest;                          // by problem
   std::map<std::string, std::map<std::string, double>> by_method;  // seconds, by method and problem
-  std::vector<std::string> methods;
   for (const Trial& t : trials) {
     quickest.try_emplace(t.problem, infinity);
-    if (std::find(methods.begin(), methods.end(), t.method) == methods.end()) methods.push_back(t.method);
-    if (t.verdict != Verdict::ok || !(t.error <= good_error)) continue;
+    if (!t.is_right() || !(t.judgement.error <= good_error)) continue;
     double& own = by_method[t.method].try_emplace(t.problem, infinity).first->second;
     own = std::min(own, t.seconds);
     quickest[t.problem] = std::min(quickest[t.problem], t.seconds);
   }
-  const MethodStyles styles(methods);
+  const MethodStyles styles(trials);
+  const std::vector<std::string>& methods = styles.methods();
   const auto problems = static_cast<double>(quickest.size());
   Drawing drawing;
   drawing.height = 480;
@@ -45,9 +44,10 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
       steps += fmt::format("{} {}\n", ratios[i], static_cast<double>(i + 1) / problems);
     steps += fmt::format("{} {}\n", most_ratio, static_cast<double>(ratios.size()) / problems);
     fmt::format_to(std::back_inserter(drawing.script), "$m{} << EOD\n{}EOD\n", k, steps);
-    plots += fmt::format("{}$m{} using 1:2 with steps lc rgb \"{}\" lw 2 dt {} title {}",
-                         k > 0 ? ", \\\n  " : "", k, styles.colour(methods[k]), 1 + k / 8,
-                         quoted(fmt::format("{} ({} of {})", methods[k], ratios.size(), quickest.size())));
+    plots +=
+        fmt::format("{}$m{} using 1:2 with steps lc rgb \"{}\" lw 2 dt {} title {}", k > 0 ? ", \\\n  " : "",
+                    k, styles.style(methods[k]).colour, styles.style(methods[k]).dashes,
+                    quoted(fmt::format("{} ({} of {})", methods[k], ratios.size(), quickest.size())));
   }
   fmt::format_to(std::back_inserter(drawing.script),
                  "set logscale x\nset format x \"10^{{%L}}\"\nset xrange [1:{}]\nset yrange [0:1.02]\n"

@@ -5,129 +5,229 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <limits>
 #include <tuple>
 
 #include "cli/drawing/gnuplot.hpp"
+#include "cli/drawing/label_column.hpp"
 #include "cli/drawing/method_style.hpp"
 
 namespace cli {
 namespace {
 
-/// An error of 0 is drawn where no double's error lies; what failed, beyond all errors.
-constexpr double least_error = 1e-18, most_error = 1, failed_at = 3e2;
-
 /// An error up to here is a right answer to an engineer; the quickest such method is named above a diagram.
 constexpr double good_error = 1e-9;
 
-constexpr int panel_height = 290;
+/// Pixels. A diagram's box lies between `left` and the width less `right`.
+constexpr double width = 700, left = 62, right = 8, heading = 62, box_height = 212, title_height = 26,
+                 foot = 40, label_height = 11.5;
+
+/// Along x, in decades of the error: names of methods, answers from exact ones (at -18) to 1, failures.
+constexpr double names_from = -26.6, names_end = -18.9, exact_at = -18, errors_end = 0.6, failed_at = 1.3,
+                 failed_name = 1.9, x_end = 12.2;
 
 double error_of(const Trial& trial, const DrawnAs& drawn) {
-  return drawn.multipliers ? trial.multiplier_error : trial.error;
+  return drawn.multipliers ? trial.judgement.multiplier_error : trial.judgement.error;
 }
 
-template <typename Get>
-std::vector<std::string> in_order(const std::vector<Trial>& trials, Get get) {
-  std::vector<std::string> all;
-  for (const Trial& trial : trials)
-    if (std::find(all.begin(), all.end(), get(trial)) == all.end()) all.push_back(get(trial));
-  return all;
+double decades(double error) {
+  return error > 0 ? std::clamp(std::log10(error), exact_at + 0.6, 0.0) : exact_at;
 }
-
-bool is_right(const Trial& trial) { return trial.verdict == Verdict::ok; }
 
 /// Seconds, or multiples of the seconds of the method that all are compared with.
-double unit_of(const std::vector<Trial>& trials, const std::string& problem, const DrawnAs& drawn) {
+double unit_of(const std::vector<Trial>& here, const DrawnAs& drawn) {
   if (drawn.relative_to.empty()) return 1;
-  double least = std::nan("");
-  for (const Trial& trial : trials)
-    if (trial.problem == problem && trial.method == drawn.relative_to && is_right(trial) &&
-        !(trial.seconds >= least))
+  double least = unknown;
+  for (const Trial& trial : here)
+    if (trial.method == drawn.relative_to && trial.is_right() && !(trial.seconds >= least))
       least = trial.seconds;
   return least;
 }
 
-std::string best_text(const std::vector<Trial>& trials, const std::string& problem) {
-  std::vector<Trial> here;
-  for (const Trial& trial : trials)
-    if (trial.problem == problem) here.push_back(trial);
-  const std::vector<Trial> best = ranked(here);
-  if (best.empty() || !is_right(best.front()) || !(best.front().error <= good_error))
-    return "no method reaches 1e-9";
-  return "quickest to 1e-9: " + best.front().method;
+/// 1e-6 is "1 us", or "1e-06x" of another method's time.
+std::string time_text(int decade, bool is_relative) {
+  if (is_relative)
+    return decade >= -1 && decade <= 4 ? fmt::format("{:g}x", std::pow(10, decade))
+                                       : fmt::format("1e{}x", decade);
+  const int third = decade >= 0 ? 0 : (decade - 2) / 3;
+  constexpr const char* units[] = {"s", "ms", "us", "ns"};
+  const int place = std::min(3, -third);
+  return fmt::format("{:g} {}", std::pow(10, decade + 3 * place), units[place]);
 }
 
-void add_panel(std::string& script, const std::vector<Trial>& trials, const std::string& problem,
-               std::size_t index, const MethodStyles& styles, const DrawnAs& drawn) {
-  const auto out = std::back_inserter(script);
-  const auto first =
-      std::find_if(trials.begin(), trials.end(), [&](const Trial& t) { return t.problem == problem; });
-  const double unit = unit_of(trials, problem, drawn);
-  std::string plots;
-  for (std::size_t k = 0; k < styles.methods().size(); ++k) {
-    const std::string& method = styles.methods()[k];
-    std::string right, polished, failed;
-    std::string word;
-    for (const Trial& trial : trials) {
-      if (trial.problem != problem || trial.method != method || !std::isfinite(trial.seconds)) continue;
-      const double error = error_of(trial, drawn);
-      if (is_right(trial) && std::isfinite(error)) {
-        (trial.polished && trial.kind == convex::MethodKind::iterative ? polished : right) +=
-            fmt::format("{} {}\n", std::clamp(error, least_error, most_error), trial.seconds / unit);
-      } else if (!is_right(trial)) {
-        failed = fmt::format("{} {} {}\n", failed_at, trial.seconds / unit,
-                             quoted(method + " " + verdict_text(trial.verdict)));
+std::string seconds_text(double seconds) {
+  const double digits = std::pow(10, std::floor(std::log10(seconds)) - 1);
+  const double rounded = std::round(seconds / digits) * digits;
+  if (rounded < 1e-3) return fmt::format("{:.3g} us", rounded * 1e6);
+  return rounded < 1 ? fmt::format("{:.3g} ms", rounded * 1e3) : fmt::format("{:.3g} s", rounded);
+}
+
+std::string best_text(const std::vector<Trial>& here, const DrawnAs& drawn) {
+  const std::vector<Trial> best = ranked(here);
+  if (best.empty() || !best.front().is_right() || !(best.front().judgement.error <= good_error))
+    return "no method reaches 1e-9";
+  return "quickest to 1e-9: " + best.front().method +
+         (drawn.relative_to.empty() ? ", " + seconds_text(best.front().seconds) : "");
+}
+
+/// A method in a diagram: its marks, and where its name points to.
+struct Mark {
+  std::string method, words;
+  double x = 0, y = 0, label = 0;
+};
+
+class Panel {
+ public:
+  Panel(const std::vector<Trial>& trials, const std::string& problem, std::size_t index,
+        const MethodStyles& styles, const DrawnAs& drawn)
+      : index_(index), styles_(styles), drawn_(drawn) {
+    for (const Trial& trial : trials)
+      if (trial.problem == problem) here_.push_back(trial);
+    unit_ = unit_of(here_, drawn);
+    low_ = std::numeric_limits<double>::infinity();
+    high_ = -low_;
+    for (const Trial& trial : here_) {
+      if (!std::isfinite(trial.seconds)) continue;
+      low_ = std::min(low_, std::log10(trial.seconds / unit_));
+      high_ = std::max(high_, std::log10(trial.seconds / unit_));
+    }
+    if (!(low_ < high_)) low_ = -6, high_ = 0;
+    low_ = std::floor(low_ - 0.1);
+    high_ = std::ceil(high_ + 0.1);
+  }
+
+  std::string script(double top, double height) {
+    for (const std::string& method : styles_.methods()) add(method);
+    add_names(names_, names_end, -1, "right");
+    add_names(failures_, failed_name, 1, "left");
+    std::string tics;
+    for (int decade = static_cast<int>(low_); decade <= static_cast<int>(high_); ++decade)
+      tics += fmt::format("{}{} {}", tics.empty() ? "" : ", ",
+                          quoted(time_text(decade, !drawn_.relative_to.empty())), decade);
+    const Trial& first = here_.front();
+    const std::string size =
+        first.m > 0 ? fmt::format("n = {}, m = {}", first.n, first.m) : fmt::format("n = {}", first.n);
+    return data_ +
+           fmt::format(
+               "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\n"
+               "set bmargin at screen {}\nset yrange [{}:{}]\nset ytics ({})\n"
+               "set label 1 {} at graph 0, 1 left offset 0,0.8 font \",11\" tc rgb \"#111111\"\n"
+               "set label 2 {} at graph 1, 1 right offset 0,0.8 font \",9\" tc rgb \"#111111\"\nplot {}\n",
+               left / width, 1 - right / width, 1 - top / height, 1 - (top + box_height) / height, low_,
+               high_, tics, quoted(first.problem + " (" + size + ")"), quoted(best_text(here_, drawn_)),
+               plots_.empty() ? "NaN notitle" : plots_);
+  }
+
+ private:
+  void plot(const std::string& name, const std::string& block, const std::string& how) {
+    if (block.empty()) return;
+    fmt::format_to(std::back_inserter(data_), "${}{} << EOD\n{}EOD\n", name, index_, block);
+    plots_ += fmt::format("{}${}{} {} notitle", plots_.empty() ? "" : ", \\\n  ", name, index_, how);
+  }
+
+  void add(const std::string& method) {
+    const MethodStyle& style = styles_.style(method);
+    std::string own, polished;
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Mark best{method, method, far, 0, 0}, refined = best, failed{method, "", failed_at, 0, 0};
+    for (const Trial& trial : here_) {
+      if (trial.method != method) continue;
+      const double error = error_of(trial, drawn_);
+      const double y = std::isfinite(trial.seconds) ? std::log10(trial.seconds / unit_) : high_;
+      if (trial.is_right() && std::isfinite(error)) {
+        const double x = decades(error);
+        (trial.judgement.polished ? polished : own) += fmt::format("{} {}\n", x, y);
+        Mark& mark = trial.judgement.polished ? refined : best;
+        if (x < mark.x - 1e-9) mark.x = x, mark.y = y;
+      } else if (!trial.is_right()) {
+        failed.words = fmt::format("{} {}{}", method, verdict_text(trial.verdict()),
+                                   trial.kind == convex::MethodKind::iterative
+                                       ? fmt::format(", 1e{}", std::lround(std::log10(trial.setting)))
+                                       : "");
+        failed.y = y;
       }
     }
-    const std::string style = fmt::format("lc rgb \"{}\"", styles.colour(method));
-    if (!right.empty()) {
-      fmt::format_to(out, "$right{}_{} << EOD\n{}EOD\n", index, k, right);
-      plots += fmt::format("{}$right{}_{} using 1:2 with linespoints {} lw 1.4 pt {} ps 0.7 notitle",
-                           plots.empty() ? "" : ", \\\n  ", index, k, style, styles.filled(method));
-    }
-    if (!polished.empty()) {
-      fmt::format_to(out, "$polished{}_{} << EOD\n{}EOD\n", index, k, polished);
-      plots += fmt::format("{}$polished{}_{} using 1:2 with points {} lw 1.2 pt 3 ps 0.7 notitle",
-                           plots.empty() ? "" : ", \\\n  ", index, k, style);
-    }
-    if (!failed.empty()) {
-      fmt::format_to(out, "$failed{}_{} << EOD\n{}EOD\n", index, k, failed);
-      plots += fmt::format(
-          "{0}$failed{1}_{2} using 1:2 with points {3} lw 1.2 pt {4} ps 0.8 notitle, \\\n"
-          "  $failed{1}_{2} using 1:2:3 with labels right offset -0.8,0 font \",7\" tc rgb \"{5}\" notitle",
-          plots.empty() ? "" : ", \\\n  ", index, k, style, styles.hollow(method), styles.colour(method));
+    const std::string number = std::to_string(places_++) + "_";
+    if (std::isfinite(best.x) && std::isfinite(refined.x))
+      plot("gain" + number, fmt::format("{} {}\n{} {}\n", best.x, best.y, refined.x, refined.y),
+           fmt::format("using 1:2 with lines lc rgb \"{}\" lw 0.5 dt 3", style.colour));
+    plot("own" + number, own,
+         fmt::format("using 1:2 with linespoints lc rgb \"{}\" lw 1.5 dt {} pt {} ps {}", style.colour,
+                     style.dashes, style.marker, style.size));
+    plot("polished" + number, polished,
+         fmt::format("using 1:2 with points lc rgb \"{}\" lw 1.3 pt 3 ps 0.7", style.colour));
+    if (std::isfinite(best.x))
+      names_.push_back(best);
+    else if (std::isfinite(refined.x))
+      names_.push_back(refined);
+    if (!failed.words.empty()) failures_.push_back(failed);
+  }
+
+  /// Names in a column, each with its marker and a line to where it points.
+  void add_names(std::vector<Mark>& marks, double x, int side, const char* aligned) {
+    std::vector<double> wanted;
+    for (const Mark& mark : marks) wanted.push_back(mark.y);
+    const double pixel = (high_ - low_) / box_height;
+    const std::vector<double> placed =
+        label_positions(wanted, label_height * pixel, low_ + 7 * pixel, high_ - 7 * pixel);
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const Mark& mark = marks[k];
+      const MethodStyle& style = styles_.style(mark.method);
+      const std::string name = fmt::format("{}{}_", side < 0 ? "name" : "failed", k);
+      plot(name + "line", fmt::format("{} {}\n{} {}\n", x, placed[k], mark.x, mark.y),
+           fmt::format("using 1:2 with lines lc rgb \"{}\" lw 0.4", style.colour));
+      plot(name + "text", fmt::format("{} {} {}\n", x, placed[k], quoted(mark.words)),
+           fmt::format("using 1:2:3 with labels {} offset {},0 font \"{},{}\" tc rgb \"{}\"", aligned,
+                       0.9 * side, mark.method == "auto" ? "Helvetica:Bold" : "", side < 0 ? 9 : 8,
+                       mark.method == "auto" ? "#b04a00" : "#222222"));
+      plot(name + "mark", fmt::format("{} {}\n", side < 0 ? x : mark.x, side < 0 ? placed[k] : mark.y),
+           fmt::format("using 1:2 with points lc rgb \"{}\" lw 1.2 pt {} ps {}", style.colour,
+                       side < 0 ? style.marker : style.hollow(), side < 0 ? 0.6 : 0.8));
     }
   }
-  fmt::format_to(
-      out, "set title {} offset 0,-0.5 font \",10\"\n",
-      quoted(fmt::format("{} (n {}, m {})\n{}", problem, first->n, first->m, best_text(trials, problem))));
-  if (plots.empty()) plots = "NaN notitle";
-  fmt::format_to(out, "plot {}\n", plots);
-}
 
-void add_key(std::string& script, const MethodStyles& styles) {
-  std::string plots;
-  for (const std::string& method : styles.methods())
-    plots += fmt::format("{}NaN with linespoints lc rgb \"{}\" lw 1.4 pt {} ps 0.7 title {}",
-                         plots.empty() ? "" : ", \\\n  ", styles.colour(method), styles.filled(method),
-                         quoted(method));
-  script +=
-      "unset title\nunset xlabel\nunset ylabel\nunset tics\nunset border\nunset grid\nunset arrow\nunset "
-      "logscale\nset xrange [0:1]\nset yrange [0:1]\nset key at screen KEYX,KEYY left top Left reverse "
-      "maxrows 8 "
-      "font \",9\" samplen 1.5 width 1\nset title \"star: then polished; hollow: "
-      "failed\" "
-      "font \",9\"\nplot " +
-      plots + "\n";
+  std::size_t index_;
+  const MethodStyles& styles_;
+  const DrawnAs& drawn_;
+  std::vector<Trial> here_;
+  double unit_ = 1, low_ = 0, high_ = 0;
+  std::vector<Mark> names_, failures_;
+  int places_ = 0;
+  std::string data_, plots_;
+};
+
+/// What the marks mean, above the diagrams.
+std::string key(double height, const DrawnAs& drawn) {
+  const auto y = [&](double pixel) { return 1 - pixel / height; };
+  std::string text;
+  int number = 10;
+  const auto add = [&](double x, double pixel, const std::string& words, const std::string& point) {
+    fmt::format_to(std::back_inserter(text),
+                   "set label {} {} at screen {},{} left font \",9\" tc rgb \"#111111\" {}\n", number++,
+                   quoted(words), x / width, y(pixel), point);
+  };
+  add(14, 14,
+      fmt::format("{} against true error{}: lower and further left is better.",
+                  drawn.relative_to.empty() ? "Time" : "Time over that of " + drawn.relative_to,
+                  drawn.multipliers ? " of the multipliers" : ""),
+      "");
+  add(22, 34, "auto, the default", "point pt 7 ps 1.1 lc rgb \"#d55e00\" offset 0.8,0");
+  add(142, 34, "direct: one mark", "point pt 5 ps 0.75 lc rgb \"#222222\" offset 0.8,0");
+  add(252, 34, "iterative: a mark a setting, 1e-1 to 1e-15",
+      "point pt 9 ps 0.7 lc rgb \"#0072b2\" offset 0.8,0");
+  add(482, 34, "after refinement", "point pt 3 ps 0.7 lw 1.3 lc rgb \"#222222\" offset 0.8,0");
+  add(590, 34, "failed", "point pt 6 ps 0.8 lw 1.2 lc rgb \"#222222\" offset 0.8,0");
+  return text;
 }
 
 }  // namespace
 
 std::vector<Trial> ranked(std::vector<Trial> trials) {
   const auto worth = [](const Trial& trial) {
-    const bool good = is_right(trial) && trial.error <= good_error;
-    const double lost = std::isfinite(trial.error) ? trial.error : 1e300;
-    return std::tuple(is_right(trial) ? (good ? 0 : 1) : 2, good ? trial.seconds : lost, trial.method);
+    const double error = trial.judgement.error;
+    const bool good = trial.is_right() && error <= good_error;
+    const double lost = std::isfinite(error) ? error : 1e300;
+    return std::tuple(trial.is_right() ? (good ? 0 : 1) : 2, good ? trial.seconds : lost, trial.method);
   };
   std::stable_sort(trials.begin(), trials.end(),
                    [&](const Trial& a, const Trial& b) { return worth(a) < worth(b); });
@@ -137,37 +237,33 @@ std::vector<Trial> ranked(std::vector<Trial> trials) {
 Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& drawn) {
   std::vector<Trial> applied;
   std::copy_if(trials.begin(), trials.end(), std::back_inserter(applied),
-               [](const Trial& trial) { return trial.verdict != Verdict::refused; });
-  const std::vector<std::string> problems = in_order(applied, [](const Trial& t) { return t.problem; });
-  const MethodStyles styles(in_order(applied, [](const Trial& t) { return t.method; }));
-  const std::size_t panels = problems.size() + 1, rows = (panels + 1) / 2;
+               [](const Trial& trial) { return trial.verdict() != Verdict::refused; });
+  const auto problems = in_order<std::string>(applied, [](const Trial& t) { return t.problem; });
+  const MethodStyles styles(applied);
+  const double panel = title_height + box_height + foot;
   Drawing drawing;
-  drawing.height = static_cast<int>(rows) * panel_height;
+  drawing.height = static_cast<int>(heading + panel * static_cast<double>(problems.size()));
+  const double height = drawing.height;
   const auto out = std::back_inserter(drawing.script);
-  fmt::format_to(out, "set multiplot layout {},2 rowsfirst\n", rows);
+  fmt::format_to(out, "{}set multiplot\n", key(height, drawn));
   fmt::format_to(
       out,
-      "set logscale xy\nset xrange [{}:{}]\nset grid lc rgb \"#cccccc\" lw 0.7\nset tics font \",9\"\n"
-      "set border lw 0.7 lc rgb \"#444444\"\nset format y \"10^{{%L}}\"\n"
-      "set xtics (\"0\" {}, \"10^{{-16}}\" 1e-16, \"10^{{-12}}\" 1e-12, \"10^{{-8}}\" 1e-8, \"10^{{-4}}\" "
-      "1e-4, "
-      "\"1\" 1, \"failed\" {})\n"
-      "set xlabel \"true error{}, relative\" font \",9\" offset 0,0.5\nset ylabel \"{}\" font \",9\" offset "
-      "1,0\n"
-      "set arrow from 20, graph 0 to 20, graph 1 nohead dt 2 lc rgb \"#888888\"\nunset key\n",
-      least_error / 3, failed_at * 10, least_error, failed_at, drawn.multipliers ? " of the multipliers" : "",
-      drawn.relative_to.empty() ? "time (s)" : "time / time of " + drawn.relative_to);
-  for (std::size_t k = 0; k < problems.size(); ++k)
-    add_panel(drawing.script, applied, problems[k], k, styles, drawn);
-  std::string key;
-  add_key(key, styles);
-  const bool right_column = problems.size() % 2 == 1;
-  const auto put = [&](const std::string& name, double value) {
-    key.replace(key.find(name), name.size(), fmt::format("{}", value));
-  };
-  put("KEYX", right_column ? 0.53 : 0.08);
-  put("KEYY", 1.0 / static_cast<double>(rows) - 40.0 / drawing.height);
-  drawing.script += key + "unset multiplot\n";
+      "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.6 dt 1\nset tics font \",9\" nomirror scale 0.5\n"
+      "set border lw 0.7 lc rgb \"#666666\"\nunset key\n"
+      "set xtics (\"exact\" {}, \"1e-16\" -16, \"1e-12\" -12, \"1e-8\" -8, \"1e-4\" -4, \"1\" 0)\n"
+      "set object 1 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
+      "set object 2 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
+      "set label 3 \"relative error{}\" at -9,graph 0 center offset 0,-2.1 font \",9\"\n"
+      "set label 4 \"failed\" at {},graph 0 center offset 0,-1.1 font \",9\"\n",
+      names_from, x_end, exact_at, names_from, exact_at - 0.6, errors_end, x_end,
+      drawn.multipliers ? " of the multipliers" : "", failed_at);
+  for (std::size_t k = 0; k < problems.size(); ++k) {
+    const double top = heading + title_height + panel * static_cast<double>(k);
+    drawing.script += Panel(applied, problems[k], k, styles, drawn).script(top, height);
+    if (k > 0) continue;
+    for (int label = 10; label < 16; ++label) fmt::format_to(out, "unset label {}\n", label);
+  }
+  drawing.script += "unset multiplot\n";
   return drawing;
 }
 

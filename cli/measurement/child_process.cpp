@@ -6,16 +6,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 
+#include "cli/measurement/progress.hpp"
+
 namespace cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Milliseconds between two looks at whether Ctrl-C was pressed.
+constexpr long glance = 100;
 
 /// More memory than any method should need on what is charted.
 constexpr rlim_t most_memory = rlim_t{8} << 30;
@@ -72,9 +78,9 @@ ChildOutcome in_child(double seconds, const std::function<std::vector<double>()>
   while (open && !late) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     pollfd ready{ends[0], POLLIN, 0};
-    const int events = left > 0 ? poll(&ready, 1, static_cast<int>(left)) : 0;
-    late = left <= 0;
-    if (events <= 0) continue;
+    const int events = left > 0 ? poll(&ready, 1, static_cast<int>(std::min<long>(left, glance))) : 0;
+    late = left <= 0 || Progress::interrupted();
+    if (events <= 0 || late) continue;
     std::array<char, 4096> block{};
     const ssize_t count = read(ends[0], block.data(), block.size());
     if (count <= 0)
@@ -87,7 +93,7 @@ ChildOutcome in_child(double seconds, const std::function<std::vector<double>()>
   int state = 0;
   waitpid(child, &state, 0);
   if (late) {
-    outcome.ending = Ending::too_slow;
+    outcome.ending = Progress::interrupted() ? Ending::interrupted : Ending::too_slow;
   } else if (WIFEXITED(state) && WEXITSTATUS(state) == 0) {
     outcome.ending = Ending::done;
     const auto* first = reinterpret_cast<const double*>(bytes.data());

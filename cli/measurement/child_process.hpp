@@ -5,8 +5,8 @@
 
 namespace cli {
 
-/// What became of work done in a process of its own.
-enum class Ending { done, too_slow, crashed };
+/// What became of work done in a process of its own. interrupted: Ctrl-C was pressed.
+enum class Ending { done, too_slow, crashed, interrupted };
 
 struct ChildOutcome {
   Ending ending = Ending::crashed;

@@ -2,74 +2,156 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 #include "convex/exact/fraction.hpp"
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/multipliers.hpp"
-#include "convex/nearest_point/proof/exact_solution.hpp"
+#include "convex/nearest_point/proof/enclosure.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace cli {
 namespace {
 
-using convex::Index;
-using convex::Integer;
+using convex::Metric;
+using convex::MetricKind;
+using convex::NearestPointProblem;
+using convex::Solution;
+using convex::Status;
+using convex::Vector;
 
-/// Entries of x as doubles and what the doubles leave.
-convex::DoubleDoubleVector twice(const convex::ExactVector& x) {
-  convex::DoubleDoubleVector result(x.size());
-  for (Index i = 0; i < x.size(); ++i) {
-    const Integer& numerator = x.numerators[static_cast<std::size_t>(i)];
-    result.hi[i] = convex::nearest_double({numerator, x.denominator});
-    const convex::Fraction taken = convex::fraction(result.hi[i]);
-    result.lo[i] = convex::nearest_double(
-        {numerator * taken.denominator - taken.numerator * x.denominator, x.denominator * taken.denominator});
+double multiplier_error(const Exam& exam, const Vector& lambda) {
+  if (exam.multipliers.size() == 0 || lambda.size() != exam.multipliers.size()) return unknown;
+  const double scale = exam.multipliers.cwiseAbs().maxCoeff();
+  return scale > 0 ? (lambda - exam.multipliers).cwiseAbs().maxCoeff() / scale : unknown;
+}
+
+/// The default's answer with a proved bound, in doubles; where that proves nothing, the answer in fractions.
+Solution certified(const NearestPointProblem& problem, const convex::Accuracy& accuracy) {
+  Solution found = convex::automatic(problem, accuracy);
+  const std::optional<double> bound = convex::enclosed_error(problem, found);
+  if (bound) {
+    found.error_bound = *bound;
+    return found;
   }
-  return result;
+  if (convex::exact_applies(problem).empty()) return convex::exact_method(problem, accuracy);
+  found.error_bound = INFINITY;
+  return found;
+}
+
+/// The methods of the table and the certified default, which no problem file names.
+std::vector<convex::Method> contestants() {
+  std::vector<convex::Method> all(convex::methods().begin(), convex::methods().end());
+  all.push_back({"certified", "", convex::MethodKind::direct,
+                 [](const NearestPointProblem&) { return std::string(); }, certified});
+  return all;
 }
 
 }  // namespace
 
-Exam gallery_exam(const convex::GalleryFamily& family, Index size, double difficulty, std::uint32_t seed) {
-  convex::GalleryInstance instance = convex::gallery_instance(family, size, difficulty, seed);
+std::vector<std::string> contestant_names() {
+  std::vector<std::string> names;
+  for (const convex::Method& method : contestants()) names.emplace_back(method.name);
+  // Of the convex layer and of other packages, where a problem has them.
+  for (const char* name : {"iterative", "both-halves", "proximal-gradient", "difference", "facets",
+                           "siconos-lemke", "siconos-pgs", "siconos-newton-fb"})
+    names.emplace_back(name);
+  return names;
+}
+
+Metric anew(const Metric& A) {
+  switch (A.kind()) {
+    case MetricKind::identity:
+      return Metric::identity(A.dimension());
+    case MetricKind::diagonal:
+      return Metric::diagonal(A.diagonal());
+    case MetricKind::dense:
+      return Metric::dense(A.dense_gram());
+    case MetricKind::sparse:
+      break;
+  }
+  return Metric::sparse(A.sparse_gram());
+}
+
+namespace {
+
+/// Of an answer to a problem that has none: how far, at least, it is from satisfying all rows. Where this is
+/// within its bound, rows contradict each other by no more than rounding.
+double least_violation(const NearestPointProblem& problem, const Vector& q) {
+  double worst = 0;
+  for (convex::Index a = 0; a < problem.rows(); ++a) {
+    const double rest =
+        convex::add(problem.U.dot(a, convex::DoubleDoubleVector(q)), {-problem.s[a], 0}).value();
+    const double length = problem.A.dual_norm(problem.U.row(a));
+    if (length > 0) worst = std::max(worst, -rest / length);
+  }
+  return worst;
+}
+
+void judge_infeasible(const Exam& exam, const Solution& found, Judgement& result) {
+  if (found.status == Status::infeasible) {
+    result.error = result.bound = 0;
+    return;
+  }
+  result.verdict = Verdict::gave_up;
+  if (found.status != Status::solved) return;
+  const double scale = std::max(exam.problem.A.norm(found.q), exam.problem.A.dual_norm(exam.problem.z));
+  result.error = least_violation(exam.problem, found.q) / scale;
+  result.bound = found.error_bound / scale;
+  result.verdict = exceeds(result.error, result.bound) ? Verdict::wrong : Verdict::ok;
+}
+
+}  // namespace
+
+Judgement judgement(const Exam& exam, const Solution& found) {
+  Judgement result;
+  result.polished = found.polished;
+  if (!exam.feasible) {
+    judge_infeasible(exam, found, result);
+    return result;
+  }
+  if (found.status == Status::gave_up) result.verdict = Verdict::gave_up;
+  if (found.status == Status::infeasible) result.verdict = Verdict::wrong;
+  if (found.q.size() != exam.solution.size()) return result;
+  const Metric& A = exam.problem.A;
+  const double scale =
+      std::max({A.norm(exam.solution.hi), A.dual_norm(exam.problem.z), std::numeric_limits<double>::min()});
+  result.error = A.norm((found.q - exam.solution.hi) - exam.solution.lo) / scale;
+  result.bound = found.error_bound / scale;
+  result.multiplier_error = multiplier_error(exam, found.lambda);
+  if (result.verdict == Verdict::ok && !std::isfinite(result.bound)) result.verdict = Verdict::gave_up;
+  if (result.verdict == Verdict::ok && exceeds(result.error, result.bound)) result.verdict = Verdict::wrong;
+  return result;
+}
+
+std::vector<Contest> contests(Exam given) {
+  const auto exam = std::make_shared<const Exam>(std::move(given));
+  std::vector<Contest> all;
+  for (const convex::Method& method : contestants()) {
+    const auto found = std::make_shared<Solution>();
+    const NearestPointProblem& problem = exam->problem;
+    all.push_back({exam->name, problem.dimension(), problem.rows(), std::string(method.name), method.kind,
+                   method.applies(problem),
+                   [exam, found, solve = method.solve](const convex::Accuracy& accuracy) {
+                     const NearestPointProblem& given_one = exam->problem;
+                     *found = solve(
+                         {anew(given_one.A), given_one.z, given_one.U, given_one.s, given_one.two_sided},
+                         accuracy);
+                   },
+                   [exam, found] { return judgement(*exam, *found); }});
+  }
+  return all;
+}
+
+Exam gallery_exam(const convex::GalleryFamily& family, convex::Index size, double difficulty) {
+  convex::GalleryInstance instance = convex::gallery_instance(family, size, difficulty);
   return {fmt::format("{} {:g}", family.name, difficulty),
           std::move(instance.problem),
           instance.feasible,
           std::move(instance.solution),
           {}};
-}
-
-std::vector<Exam> charted_exams() {
-  struct Chosen {
-    const char* title;
-    const char* family;
-    Index size;
-    double difficulty;
-  };
-  constexpr std::array chosen{Chosen{"small dense", "well-posed", 12, 0.5},
-                              Chosen{"large dense", "well-posed", 150, 0.5},
-                              Chosen{"redundant", "redundant", 40, 4},
-                              Chosen{"ill-conditioned (cond 1e8)", "ill-conditioned", 16, 1e8},
-                              Chosen{"chain (mass ratio 1e4)", "chain", 300, 1e4},
-                              Chosen{"hexagonal packing", "hexagonal-packing", 100, 0.5},
-                              Chosen{"obstacle", "obstacle", 16, 0.5}};
-  std::vector<Exam> exams;
-  for (const auto& [title, family, size, difficulty] : chosen) {
-    exams.push_back(gallery_exam(*convex::find_family(family), size, difficulty));
-    exams.back().name = title;
-  }
-  return exams;
-}
-
-std::vector<Exam> profile_exams() {
-  constexpr Index small = 12;
-  std::vector<Exam> exams;
-  for (const convex::GalleryFamily& family : convex::gallery())
-    for (const double difficulty : family.ladder) {
-      Exam exam = gallery_exam(family, small, difficulty);
-      if (exam.feasible) exams.push_back(std::move(exam));
-    }
-  return exams;
 }
 
 Exam file_exam(const Scene& scene) {
@@ -87,10 +169,10 @@ Exam file_exam(const Scene& scene) {
       convex::exact_active_set(convex::exact_problem(scene.problem), found.basis);
   exam.feasible = exact.status != convex::Status::infeasible;
   if (!exam.feasible) return exam;
-  exam.solution = twice(exact.q);
+  exam.solution = convex::nearest_pairs(exact.q);
   const convex::Multipliers known =
       convex::multipliers(scene.problem, found, scene.solve.accuracy.tolerance, false);
-  if (known.unique) exam.multipliers = twice(exact.lambda).hi;
+  if (known.unique) exam.multipliers = convex::nearest_pairs(exact.lambda).hi;
   return exam;
 }
 

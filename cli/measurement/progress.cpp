@@ -25,15 +25,27 @@ Progress::~Progress() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
-void Progress::step(const std::string& what) {
+void Progress::now(const std::string& what) {
+  what_ = what;
+  show();
+}
+
+void Progress::step() {
   ++done_;
+  show();
+}
+
+void Progress::show() const {
   if (!shown_) return;
   const double spent = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const int width = 24, filled = steps_ > 0 ? width * done_ / steps_ : width;
+  constexpr int width = 24;
+  const int filled = steps_ > 0 ? width * done_ / steps_ : width;
   const std::string bar(static_cast<std::size_t>(filled), '#'),
       rest(static_cast<std::size_t>(width - filled), '.');
-  std::fprintf(stderr, "\r\033[K[%s%s] %d/%d, %.0f s left  %s", bar.c_str(), rest.c_str(), done_, steps_,
-               spent / done_ * (steps_ - done_), what.c_str());
+  const std::string left =
+      done_ > 0 ? std::to_string(static_cast<long>(spent / done_ * (steps_ - done_))) + " s left" : "";
+  std::fprintf(stderr, "\r\033[K[%s%s] %d/%d %s  %s", bar.c_str(), rest.c_str(), done_, steps_, left.c_str(),
+               what_.c_str());
   std::fflush(stderr);
 }
 

@@ -14,12 +14,17 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void step(const std::string& what);
+  /// What is being done, within the step.
+  void now(const std::string& what);
+  /// A step is done.
+  void step();
   static bool interrupted();
 
  private:
+  void show() const;
   int steps_, done_ = 0;
   bool shown_;
+  std::string what_;
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -13,8 +13,8 @@
 namespace cli {
 namespace {
 
-/// Empty where there is nothing to tell.
-std::string field(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
+/// Four digits are more than any of these numbers has; empty where there is nothing to tell.
+std::string field(double x) { return std::isfinite(x) ? fmt::format("{:.4g}", x) : ""; }
 
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -29,15 +29,16 @@ std::string chart_csv(const std::vector<Trial>& trials) {
   std::string text = "problem,n,m,method,setting,seconds,error,status\n";
   for (const Trial& t : trials)
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", field(t.problem), t.n, t.m,
-                   t.method, field(t.setting), field(t.seconds), field(t.error), verdict_text(t.verdict));
+                   t.method, field(t.setting), field(t.seconds), field(t.judgement.error),
+                   verdict_text(t.verdict()));
   return text;
 }
 
 std::string stress_csv(const std::vector<StressTrial>& trials) {
   std::string text = "family,difficulty,n,m,method,seconds,error,status\n";
-  for (const auto& [family, difficulty, t] : trials)
+  for (const auto& [family, knob, difficulty, t] : trials)
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", family, field(difficulty), t.n, t.m,
-                   t.method, field(t.seconds), field(t.error), verdict_text(t.verdict));
+                   t.method, field(t.seconds), field(t.judgement.error), verdict_text(t.verdict()));
   return text;
 }
 
@@ -58,12 +59,12 @@ std::string measurement_json(const std::vector<Trial>& trials, const TrialLimits
       json.null();
   };
   for (const Trial& t : trials) {
-    json.begin_object().key("polished").value(t.polished);
+    json.begin_object().key("polished").value(t.judgement.polished);
     number("lower_quartile", t.lower);
     number("upper_quartile", t.upper);
     json.key("repetitions").value(t.repetitions);
-    number("multiplier_error", t.multiplier_error);
-    number("reported_bound", t.bound);
+    number("multiplier_error", t.judgement.multiplier_error);
+    number("reported_bound", t.judgement.bound);
     json.end_object();
   }
   json.end_array().end_object();

@@ -10,9 +10,9 @@ namespace cli {
 /// The columns of `chart --data`: problem, n, m, method, setting, seconds, error, status.
 std::string chart_csv(const std::vector<Trial>&);
 
-/// A trial of the stress map: the family that the exam came from, and how hard it was made.
+/// A trial of the stress map: the family that the problem came from, and how hard it was made.
 struct StressTrial {
-  std::string family;
+  std::string family, knob;
   double difficulty = 0;
   Trial trial;
 };

@@ -107,6 +107,23 @@ Vector nearest(const ExactVector& x) {
   return rounded;
 }
 
+DoubleDouble nearest_pair(const Fraction& value) {
+  const double hi = nearest_double(value);
+  const Fraction taken = fraction(hi);
+  return {hi, nearest_double({value.numerator * taken.denominator - taken.numerator * value.denominator,
+                              value.denominator * taken.denominator})};
+}
+
+DoubleDoubleVector nearest_pairs(const ExactVector& x) {
+  DoubleDoubleVector pairs(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble pair = nearest_pair({x.numerators[static_cast<std::size_t>(i)], x.denominator});
+    pairs.hi[i] = pair.hi;
+    pairs.lo[i] = pair.lo;
+  }
+  return pairs;
+}
+
 ExactRows exact_rows(const Matrix& M) {
   ExactRows rows;
   for (Index i = 0; i < M.rows(); ++i) rows.push_back(exact_vector(Vector(M.row(i))));

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "convex/double_double.hpp"
 #include "convex/exact/integer.hpp"
 #include "convex/vector.hpp"
 
@@ -24,6 +25,8 @@ Fraction fraction(double value);
 
 /// The nearest double, ties to even; infinite when it is beyond all doubles.
 double nearest_double(const Fraction& value);
+/// The nearest double and the one nearest to what it leaves.
+DoubleDouble nearest_pair(const Fraction& value);
 
 /// A vector of fractions over one positive denominator, without a factor common to all.
 struct ExactVector {
@@ -37,6 +40,8 @@ ExactVector exact_vector(const std::vector<Fraction>& entries);
 ExactVector exact_vector(const Vector& x);
 /// The nearest doubles.
 Vector nearest(const ExactVector& x);
+/// The nearest pairs.
+DoubleDoubleVector nearest_pairs(const ExactVector& x);
 
 /// Rows of one length.
 using ExactRows = std::vector<ExactVector>;

@@ -1,10 +1,16 @@
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "cli/drawing/gnuplot.hpp"
 #include "convex/nearest_point/methods.hpp"
@@ -60,7 +66,7 @@ TEST_CASE("a chart of a file has every method, with the columns that were promis
       CHECK(std::stod(rows[k][5]) > 0);
     }
   }
-  CHECK(methods.size() == convex::methods().size());
+  CHECK(methods.size() == convex::methods().size() + 1);  // and the certified default
   const Json about = Json::parse(bytes_of(folder.path("chart.about.json")));
   CHECK(about["rows"].size() == rows.size() - 1);
   CHECK(outcome.out.find("active-set") != std::string::npos);
@@ -74,9 +80,106 @@ TEST_CASE(
   const auto rows = table_of(bytes_of(data));
   CHECK(rows[0] ==
         std::vector<std::string>{"family", "difficulty", "n", "m", "method", "seconds", "error", "status"});
-  CHECK(rows.size() == 1 + convex::methods().size() * 9);
-  for (std::size_t k = 1; k < rows.size(); ++k)
+  CHECK(rows.size() == 1 + (convex::methods().size() + 1) * 9);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    CHECK(rows[k][7] != "wrong");
     if (rows[k][4] == "active-set" || rows[k][4] == "auto") CHECK(rows[k][7] == "ok");
+  }
+}
+
+TEST_CASE("the quick map has every family, and no cell of it is wrong without saying so") {
+  const Folder folder;
+  const std::string data = folder.path("stress.csv");
+  const Outcome outcome = run({"stress", "--quick", "--data", data, "--output", folder.path("map.svg")});
+  CHECK(outcome.code == 0);
+  const auto rows = table_of(bytes_of(data));
+  std::set<std::string> families;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    families.insert(rows[k][0]);
+    CAPTURE(rows[k][0]);
+    CAPTURE(rows[k][1]);
+    CAPTURE(rows[k][4]);
+    CHECK(rows[k][7] != "wrong");
+    CHECK(rows[k][7] != "crashed");
+  }
+  for (const char* family : {"well-posed", "infeasible", "size", "prox-norm1", "prox-ball2", "ties-simplex",
+                             "exponential-cone-boundary", "power-cone-boundary", "flat-cone-polar"})
+    CHECK_MESSAGE(families.count(family) == 1, family);
+  CHECK(outcome.out.find("first fails at") != std::string::npos);
+}
+
+TEST_CASE("what the default computes of the convex layer is right at every difficulty") {
+  const Folder folder;
+  const std::string data = folder.path("stress.csv");
+  CHECK(run({"stress", "prox-norm1", "prox-simplex", "prox-ball2", "prox-second-order-cone", "ties-simplex",
+             "ties-ball1", "ties-sum-largest", "flat-cone-polar", "--method", "auto", "--data", data,
+             "--quiet"})
+            .code == 0);
+  const auto rows = table_of(bytes_of(data));
+  CHECK(rows.size() > 50);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    CAPTURE(rows[k][0]);
+    CAPTURE(rows[k][1]);
+    CHECK(rows[k][7] == "ok");
+    CHECK(std::stod(rows[k][6]) <= 1e-12);
+  }
+}
+
+TEST_CASE("a quick chart without files has the gallery and the proxes, and tells how its order compares") {
+  const Folder folder;
+  const std::string data = folder.path("chart.csv");
+  const Outcome outcome = run({"chart", "--quick", "--data", data});
+  CHECK(outcome.code == 0);
+  std::set<std::string> problems;
+  const auto rows = table_of(bytes_of(data));
+  for (std::size_t k = 1; k < rows.size(); ++k) problems.insert(rows[k][0]);
+  CHECK(problems.count("small dense") == 1);
+  CHECK(problems.count("redundant") == 1);
+  CHECK(outcome.out.find("prox of norm1, cond(W) 1e6") != std::string::npos);
+  CHECK(outcome.out.find("rank correlation") != std::string::npos);
+}
+
+TEST_CASE("Ctrl-C ends the work and keeps what is done") {
+  const Folder folder;
+  const std::string data = folder.path("stress.csv");
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    execl(MOREAU_PROGRAM, MOREAU_PROGRAM, "stress", "--data", data.c_str(), nullptr);
+    _exit(127);
+  }
+  REQUIRE(child > 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
+  const auto rows = table_of(bytes_of(data));
+  CHECK(rows.size() > 1);
+  CHECK(rows[0][0] == "family");
+  for (const auto& row : rows) CHECK(row.size() == 8);
+}
+
+TEST_CASE("the solvers of other packages are judged like ours, or it is told how to get them") {
+  const Folder folder;
+  const std::string data = folder.path("stress.csv");
+  const Outcome outcome =
+      run({"stress", "well-posed", "near-opposite", "--quick", "--peers", "--data", data});
+  if (outcome.code == 2) {
+    CHECK(outcome.err.find("libsiconos-numerics-dev") != std::string::npos);
+    return;
+  }
+  CHECK(outcome.code == 0);
+  std::set<std::string> wrong;
+  bool good = false;
+  for (const auto& row : table_of(bytes_of(data))) {
+    good = good || (row[4] == "siconos-lemke" && row[0] == "well-posed" && row[7] == "ok");
+    if (row[7] == "wrong") wrong.insert(row[4]);
+  }
+  CHECK(good);
+  for (const std::string& method : wrong) CHECK(method.rfind("siconos-", 0) == 0);
 }
 
 TEST_CASE("pictures are drawn by gnuplot where it is, and its script is kept where it is not") {

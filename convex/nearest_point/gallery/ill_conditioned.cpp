@@ -55,11 +55,9 @@ DoubleDoubleVector exact_solution(const Matrix& K, const Vector& b) {
   const Integer denominator = negative ? -last : last;
   for (Index i = 0; i < n; ++i) {
     const Integer& entry = line[static_cast<std::size_t>(i)];
-    const Fraction value{negative ? -entry : entry, denominator};
-    v.hi[i] = nearest_double(value);
-    const Fraction taken = fraction(v.hi[i]);
-    v.lo[i] = nearest_double({value.numerator * taken.denominator - taken.numerator * value.denominator,
-                              value.denominator * taken.denominator});
+    const DoubleDouble pair = nearest_pair({negative ? -entry : entry, denominator});
+    v.hi[i] = pair.hi;
+    v.lo[i] = pair.lo;
   }
   return v;
 }

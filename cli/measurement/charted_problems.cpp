@@ -1,0 +1,71 @@
+#include "cli/measurement/charted_problems.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cli/measurement/exams.hpp"
+#include "cli/measurement/prox_exams.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+
+constexpr double charted_condition = 1e6;
+
+ChartedProblem of_gallery(const char* family, Index size, double difficulty, const std::string& title) {
+  return {title, [=] {
+            Exam exam = gallery_exam(*convex::find_family(family), size, difficulty);
+            exam.name = title;
+            return contests(std::move(exam));
+          }};
+}
+
+ChartedProblem of_prox(Charted f, const char* title) {
+  const std::string name = fmt::format("prox of {}, cond(W) 1e6", title);
+  return {name, [=] {
+            std::vector<Contest> all = prox_contests(f, charted_condition);
+            for (Contest& contest : all) contest.problem = name;
+            return all;
+          }};
+}
+
+}  // namespace
+
+std::vector<ChartedProblem> charted_problems(bool quick) {
+  std::vector<ChartedProblem> all;
+  all.push_back(of_gallery("well-posed", 12, 0.5, "small dense"));
+  if (!quick) all.push_back(of_gallery("well-posed", 150, 0.5, "large dense"));
+  all.push_back(of_gallery("redundant", quick ? 16 : 40, 4, "redundant"));
+  all.push_back(of_gallery("ill-conditioned", 16, 1e8, "ill-conditioned, cond(A) 1e8"));
+  all.push_back(of_gallery("chain", quick ? 40 : 300, 1e4, "chain, mass ratio 1e4"));
+  if (!quick) {
+    all.push_back(of_gallery("hexagonal-packing", 100, 0.5, "hexagonal packing"));
+    all.push_back(of_gallery("obstacle", 16, 0.5, "obstacle"));
+  }
+  all.push_back(of_prox(Charted::norm1, "norm1"));
+  if (!quick) all.push_back(of_prox(Charted::simplex, "the simplex"));
+  all.push_back(of_prox(Charted::ball2, "a ball"));
+  if (!quick) all.push_back(of_prox(Charted::second_order_cone, "a second-order cone"));
+  return all;
+}
+
+std::vector<ChartedProblem> profiled_problems(bool quick) {
+  const Index small = quick ? 6 : 12;
+  std::vector<ChartedProblem> all;
+  for (const convex::GalleryFamily& family : convex::gallery()) {
+    if (family.name == "infeasible") continue;
+    for (const double difficulty : family.ladder)
+      all.push_back(
+          of_gallery(family.name.data(), small, difficulty, fmt::format("{} {:g}", family.name, difficulty)));
+  }
+  return all;
+}
+
+ChartedProblem charted_file(const std::string& file) {
+  const auto exam = std::make_shared<const Exam>(file_exam(read_scene(file, {})));
+  return {exam->name, [exam] { return contests(*exam); }};
+}
+
+}  // namespace cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cli/measurement/contest.hpp"
+#include "cli/scene.hpp"
+
+namespace cli {
+
+/// A problem of the chart: it is made, and the methods put before it, when its turn comes.
+struct ChartedProblem {
+  std::string name;
+  std::function<std::vector<Contest>()> contests;
+};
+
+/// What `moreau chart` charts without a file: small and large, redundant, ill-conditioned, chain, packing,
+/// obstacle; and the prox of four functions in an ill-conditioned metric. `quick`: fewer and smaller.
+std::vector<ChartedProblem> charted_problems(bool quick);
+
+/// What `moreau chart --profile` profiles without a file: every feasible family of the gallery at every
+/// setting of its knob, small.
+std::vector<ChartedProblem> profiled_problems(bool quick);
+
+/// The problem of a file.
+ChartedProblem charted_file(const std::string& file);
+
+}  // namespace cli
