@@ -7,6 +7,7 @@
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/structure/assembly.hpp"
+#include "convex/nearest_point/structure/bordered_chain.hpp"
 #include "convex/nearest_point/structure/chain.hpp"
 #include "convex/nearest_point/structure/closed_form.hpp"
 #include "convex/nearest_point/structure/islands.hpp"
@@ -78,6 +79,7 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
   if (accuracy.reduce) {
     if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
     if (std::optional<Solution> found = solve_obstacle(problem, accuracy)) return *std::move(found);
+    if (std::optional<Solution> found = solve_bordered_chain(problem, accuracy)) return *std::move(found);
   }
   if (is_large_and_sparse(problem)) {
     Solution found = sparse_active_set(problem, accuracy, guess);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/sparse_residuals.hpp"
 
 namespace convex {
 
@@ -56,6 +57,8 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
 
 Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
                     KnownParts known) {
+  const bool plain = problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
+  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, q, lambda, known);
   Vector& length = known.length;
   Vector& rest = known.slack;
   const Index m = problem.rows();
@@ -84,7 +87,8 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
 
   DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
   for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
-  const double stationarity = problem.A.dual_norm(stationarity_residual(problem, point, loaded, weights));
+  const Vector unbalanced = stationarity_residual(problem, point, loaded, weights);
+  const double stationarity = known.dual_norm ? known.dual_norm(unbalanced) : problem.A.dual_norm(unbalanced);
   const double q_norm = known.q_norm, scale = std::max(q_norm, known.force_norm);
   const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -17,6 +19,7 @@ struct KnownParts {
   Vector magnitude;       ///< at least Σ_i |u_ai q_i| of every row, m; may be empty
   double q_norm = 0;      ///< ||q||_A
   double force_norm = 0;  ///< ||z||_(A⁻¹)
+  std::function<double(const Vector&)> dual_norm = {};  ///< ||c||_(A⁻¹) without A's factor; may be empty
 };
 Residuals residuals(const NearestPointProblem&, const Vector& q, const Vector& lambda, KnownParts known);
 

@@ -11,7 +11,6 @@ namespace convex {
 struct GridOperator {
   Index width = 0, height = 0;
   double d = 4, c = 1;
-  Vector free;  ///< 1 on free points, else 0
 
   Index stride() const { return width + 2; }
   Index size() const { return (width + 2) * (height + 2); }
@@ -19,37 +18,51 @@ struct GridOperator {
   Vector field() const { return Vector::Zero(size()); }
 };
 
-/// free ∘ (A u): out. u vanishes off the points.
-void apply(const GridOperator&, const Vector& u, Vector& out);
+/// The grid of the points with odd numbers, the operator scaled with it.
+GridOperator coarsened(const GridOperator& fine);
 
-/// A V-cycle as a preconditioner (Brandt 1977; for free sets, truncated as by Kornhuber 1994): two steps of
-/// Jacobi's method with the weights of Chebyshev's polynomial on the upper part of the spectrum before and,
-/// in reverse, after; bilinear interpolation and its transpose; a coarse point is free when the fine point at
-/// its place is.
+/// Conjugate gradients on the free points with a V-cycle as preconditioner (Brandt 1977; for free sets,
+/// truncated as by Kornhuber 1994): a red-black sweep before and, in reverse, after; bilinear interpolation
+/// and its transpose; a coarse point is free when the fine point at its place is. All in single precision,
+/// which halves what is read and doubles what is done at once: digits come from residuals that the caller
+/// computes anew. Directions are made conjugate by Polak and Ribière's formula, which bears roundings best.
 class GridMultigrid {
  public:
   explicit GridMultigrid(const GridOperator& finest);
+  /// free: 1 on free points, else 0, the frame included.
   void set_free(const Vector& free);
-  const GridOperator& finest() const { return levels_.front(); }
 
-  /// Conjugate gradients on A u = r over the free points from u = 0 until the residual is `part` of the first
-  /// or the limit of steps is reached; returns the energy norm of u.
-  double solve(const Vector& r, double part, Vector& u);
+  /// Energy norms of u and of what it lacks: the square of the latter is r·(V-cycle of r) before the last
+  /// step, which differs from it by the V-cycle's own error, a small part.
+  struct Size {
+    double found, missing;
+  };
+  /// A u = r over the free points from u = 0 until `missing` is at most `part` of `found` or `absolute`, or
+  /// the limit of steps is reached. part: at least 1e-4, to which single precision suffices.
+  Size solve(const Vector& r, double part, Vector& u, double absolute = 0);
   Index steps() const { return steps_; }
 
  private:
+  /// u, r, free on one grid, and room for rows; each row begins with a spare entry.
+  struct Level {
+    Index width, height;
+    float d, c;
+    std::vector<float> free, u, r, even, odd, row, mean, sum, last;
+    Index stride() const { return width + 2; }
+    Index at(Index j) const { return (j + 1) * stride() + 1; }
+    /// 1 on the points of row j that are red (or black), else 0.
+    const float* colour(Index j, bool red) const { return ((j % 2 == 0) == red ? even : odd).data() + 1; }
+  };
+  static Level level(const GridOperator&);
+  static void sweep_row(Level&, Index j, bool red);
+  static void descend(Level& fine, Level& coarse);
+  static void ascend(const Level& coarse, Level& fine);
   void cycle(std::size_t level);
 
-  std::vector<GridOperator> levels_;
-  std::vector<Vector> u_, r_, rest_;
+  GridOperator finest_;
+  std::vector<Level> levels_;
+  std::vector<float> x_, p_, Ap_;
   Index steps_ = 0;
 };
-
-/// Bilinear interpolation from the coarse grid of a level to it, and its transpose; points off the grids
-/// count as 0.
-void interpolate(const GridOperator& coarse, const Vector& from, const GridOperator& fine, Vector& to);
-void restrict_to(const GridOperator& fine, const Vector& from, const GridOperator& coarse, Vector& to);
-/// The grid of the points with odd numbers.
-GridOperator coarsened(const GridOperator& fine);
 
 }  // namespace convex

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// Work on one row of a grid, vectorised; neighbours beside, above and below are read at i ± 1 and
+/// i ± stride. Results do not depend on the machine: no product is contracted with a sum, and sums have a
+/// fixed order.
+namespace grid_kernels {
+
+/// out = free (r + c Σ neighbours of u)/d on the points of a colour (`colour` is 1 there, else 0), u on the
+/// others.
+void relax(Index n, Index stride, float c, float inverse_d, const float* colour, const float* free,
+           const float* r, const float* u, float* out);
+/// u = free r/d on the points of a colour, 0 on the others.
+void relax_zero(Index n, float inverse_d, const float* colour, const float* free, const float* r, float* u);
+/// out = max(lower, (z + c Σ neighbours of u)/d) on the points of a colour, u on the others.
+void relax_above(Index n, Index stride, double c, double inverse_d, const double* colour, const double* lower,
+                 const double* z, const double* u, double* out);
+/// out = weight (free (r - A u)) + before.
+void add_residual(Index n, Index stride, float d, float c, const float* free, const float* r, const float* u,
+                  float weight, const float* before, float* out);
+/// coarse_k = free_k (fine_(2k+1) + half of the two beside).
+void gather(Index n, const float* fine, const float* free, float* coarse);
+/// fine += free P coarse, coarse: the mean of the rows m0 and m1; n: of the fine row, count: of the coarse
+/// one.
+void spread(Index n, Index count, const float* m0, const float* m1, const float* free, float* mean,
+            float* fine);
+
+/// out = free (d u - c Σ neighbours); the inner product of u with it.
+double apply(Index n, Index stride, float d, float c, const float* free, const float* u, float* out);
+/// out = z - (d u - c Σ neighbours).
+void residual(Index n, Index stride, double d, double c, const double* z, const double* u, double* out);
+/// The same with u = hi + lo, in twice the working precision, rounded at the end.
+void precise_residual(Index n, Index stride, double d, double c, const double* z, const double* hi,
+                      const double* lo, double* out);
+
+/// The inner products of r and of Ap with z, sums of products.
+struct Products {
+  double of_r = 0, of_Ap = 0;
+};
+void add_products(Index n, const float* r, const float* Ap, const float* z, Products& sums);
+/// x += step p, r -= step Ap.
+void advance(Index n, float step, const float* p, const float* Ap, float* x, float* r);
+/// p = z + part p.
+void turn(Index n, float part, const float* z, float* p);
+
+}  // namespace grid_kernels
+}  // namespace convex
