@@ -1,7 +1,4 @@
-#include <fmt/format.h>
-
 #include <chrono>
-#include <cstdio>
 
 #include "cli/checks_report.hpp"
 #include "cli/commands.hpp"
@@ -74,13 +71,7 @@ Answer check_file(const std::string& file, const Options& options) {
 }  // namespace
 
 Exit check_command(const Options& options) {
-  bool first = true;
-  return for_each_file(options, [&](const std::string& file) {
-    const Answer answer = check_file(file, options);
-    if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
-    first = false;
-    return answer.exit;
-  });
+  return print_for_each_file(options, [&](const std::string& file) { return check_file(file, options); });
 }
 
 }  // namespace cli

@@ -59,4 +59,14 @@ Exit for_each_file(const Options& options, const std::function<Exit(const std::s
   return worst;
 }
 
+Exit print_for_each_file(const Options& options, const std::function<Answer(const std::string&)>& work) {
+  bool first = true;
+  return for_each_file(options, [&](const std::string& file) {
+    const Answer answer = work(file);
+    if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
+    first = false;
+    return answer.exit;
+  });
+}
+
 }  // namespace cli

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "cli/answer.hpp"
 #include "cli/options.hpp"
 
 namespace cli {
@@ -20,5 +21,9 @@ Exit answered(const Options& options, const Source& source, const std::function<
 
 /// Does `work` for every file, each answered, and returns the largest exit code.
 Exit for_each_file(const Options& options, const std::function<Exit(const std::string& file)>& work);
+
+/// The same for work that returns what is to be printed: texts are set apart by an empty line, objects are a
+/// line each; --quiet keeps texts back.
+Exit print_for_each_file(const Options& options, const std::function<Answer(const std::string& file)>& work);
 
 }  // namespace cli

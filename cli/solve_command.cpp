@@ -1,8 +1,5 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
 #include "cli/commands.hpp"
 #include "cli/cone_report.hpp"
@@ -62,13 +59,7 @@ Answer solve_file(const std::string& file, const Options& options) {
 }  // namespace
 
 Exit solve_command(const Options& options) {
-  bool first = true;
-  return for_each_file(options, [&](const std::string& file) {
-    const Answer answer = solve_file(file, options);
-    if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
-    first = false;
-    return answer.exit;
-  });
+  return print_for_each_file(options, [&](const std::string& file) { return solve_file(file, options); });
 }
 
 }  // namespace cli
