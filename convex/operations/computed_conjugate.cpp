@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
@@ -31,8 +33,10 @@ class ComputedConjugate : public Operation {
   }
   double value(const Vector& v) const override {
     const auto* parts = dynamic_cast<const Operation*>(&f_.node());
-    const double slope = v.norm();
-    if (!parts || facts().piecewise_quadratic || !(slope > 0)) return Operation::value(v);
+    if (parts)
+      if (const auto found = parts->conjugate_value(v); found && std::isfinite(*found)) return *found;
+    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return Operation::value(v);
+    const double slope = parts->slope_of(v);
     const auto form = parts->graph_at_slope(v.size(), slope);
     return form ? evaluate(convex::conjugate(*form), v).value : Operation::value(v);
   }

@@ -20,6 +20,11 @@ Function with_last_reversed(const Function& h, Index n) {
   return precompose(h, signs.asDiagonal(), Vector::Zero(n + 1));
 }
 
+Vector last_reversed(Vector v) {
+  v[v.size() - 1] *= -1;
+  return v;
+}
+
 /// Rows of f's program in (x, s, w): G (x, w) >= h s. The last entry of x is s, or t for the epigraph.
 LinearQuadratic lifted(const LinearQuadratic& f, bool perspective) {
   const Index n = f.n, k = f.auxiliaries();
@@ -104,11 +109,27 @@ class Epigraph : public Lifted {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(perspective(f_.conjugate()), f_.dimension());
   }
+  std::optional<double> conjugate_value(const Vector& v) const override {
+    return perspective(f_.conjugate())(last_reversed(v));
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, false); }
-  std::optional<GraphForm> graph(Index n) const override {
+  std::optional<GraphForm> graph(Index n) const override { return graph_at_slope(n, 1); }
+  /// A normal is (λ∇f, -λ).
+  double slope_of(const Vector& v) const override {
+    const Index n = v.size() - 1;
+    return v.head(n).norm() / std::abs(v[n]);
+  }
+  std::optional<GraphForm> graph_at_slope(Index n, double slope) const override {
     const auto form = part_graph(n);
     if (!form) return std::nullopt;
-    return convex::epigraph(*form);
+    return convex::epigraph(*form, unit_of_slope(slope));
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    if (polyhedral_) return std::nullopt;
+    // With the unit 1 x and t come from the set itself, and v is proved to be normal to it.
+    return prox_in_slopes(*this, 1, z, W);
   }
 };
 
@@ -137,6 +158,9 @@ class Perspective : public Lifted {
   Function conjugate() const override {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(epigraph(f_.conjugate()), f_.dimension());
+  }
+  std::optional<double> conjugate_value(const Vector& v) const override {
+    return epigraph(f_.conjugate())(last_reversed(v));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, true); }
   std::optional<GraphForm> graph(Index n) const override {

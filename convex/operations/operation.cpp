@@ -57,6 +57,32 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
   return whole;
 }
 
+double unit_of_slope(double slope) {
+  return slope > 0 && std::isfinite(slope) ? std::exp2(std::floor(std::log2(slope))) : 1;
+}
+
+std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W) {
+  constexpr int most_slopes = 3;
+  constexpr double far_above = 1024;
+  std::optional<Prox> best;
+  double slope = unit_of_slope(first);
+  for (int pass = 0; pass < most_slopes; ++pass) {
+    const auto form = f.graph_at_slope(z.size(), slope);
+    if (!form) return std::nullopt;
+    Prox found = convex::prox(*form, z, W);
+    const double actual = f.slope_of(found.v);
+    const bool hidden = slope > far_above * std::max(actual, 1.0);
+    const bool better = !best || found.error_bound < best->error_bound;
+    if (better && (!hidden || !best)) best = std::move(found);
+    if (!hidden && (best->status == Status::solved || best->status == Status::infeasible)) break;
+    const double next = unit_of_slope(actual);
+    if (next == slope) break;
+    slope = next;
+    if (hidden) best.reset();
+  }
+  return best;
+}
+
 double Operation::value(const Vector& x) const {
   const double length = x.norm();
   if (!facts().support || !(length > 0)) return value_by_program(x);

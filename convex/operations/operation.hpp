@@ -19,7 +19,11 @@ class Operation : public FunctionNode {
   Prox prox(const Vector& z, const Metric& W) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
-  /// The graph form for use where subgradients are of the size of `slope` > 0.
+  /// f*(v) where a formula gives it though the conjugate has no expression for any number of entries.
+  virtual std::optional<double> conjugate_value(const Vector&) const { return std::nullopt; }
+  /// The slope that a covector of this function tells of the functions whose heights are measured.
+  virtual double slope_of(const Vector& v) const { return v.norm(); }
+  /// The graph form for use where slopes are of the size of `slope` > 0.
   virtual std::optional<GraphForm> graph_at_slope(Index n, double) const { return graph(n); }
 
  protected:
@@ -38,6 +42,13 @@ class Operation : public FunctionNode {
 /// of it costs x no more) is strongly monotone.
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W);
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V);
+
+/// The power of 2 below a slope; 1 when it is not positive and finite.
+double unit_of_slope(double slope);
+
+/// The prox through the graph form in units of the slope at the solution, which is known when it has been
+/// found: units far above would hide a miss in the height.
+std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W);
 
 /// The prox of a function by that of its conjugate (Moreau 1965): prox^W_f z = z - W⁻¹ prox_f*(Wz) in W⁻¹.
 /// What the rounding of W⁻¹ leaves is corrected. None where `dual` has none.

@@ -68,7 +68,7 @@ class PointwiseMax : public Operation {
   std::optional<GraphForm> graph_at_slope(Index n, double slope) const override {
     const auto forms = graphs(parts_, n);
     if (!forms) return std::nullopt;
-    return convex::pointwise_max(*forms, binary(slope));
+    return convex::pointwise_max(*forms, unit_of_slope(slope));
   }
 
  protected:
@@ -76,29 +76,10 @@ class PointwiseMax : public Operation {
   /// above would hide a miss in the height.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (piecewise_) return std::nullopt;
-    std::optional<Prox> best;
-    double slope = first_slope(z, W);
-    for (int pass = 0; pass < most_slopes; ++pass) {
-      const auto form = graph_at_slope(z.size(), slope);
-      if (!form) return std::nullopt;
-      Prox found = convex::prox(*form, z, W);
-      const double actual = found.v.norm();
-      const bool hidden = slope > far_above * std::max(actual, 1.0);
-      const bool better = !best || found.error_bound < best->error_bound;
-      if (better && (!hidden || !best)) best = std::move(found);
-      if (!hidden && (best->status == Status::solved || best->status == Status::infeasible)) break;
-      const double next = actual > 0 && std::isfinite(actual) ? binary(actual) : 1;
-      if (next == slope) break;
-      slope = next;
-      if (hidden) best.reset();
-    }
-    return best;
+    return prox_in_slopes(*this, first_slope(z, W), z, W);
   }
 
  private:
-  static constexpr int most_slopes = 3;
-  static constexpr double far_above = 1024;
-
   /// ||v||_(W⁻¹) is at most that of a subgradient at z, and at most 2||z||_W and that of a subgradient at 0,
   /// the prox being nonexpansive.
   double first_slope(const Vector& z, const Metric& W) const {
@@ -106,10 +87,8 @@ class PointwiseMax : public Operation {
     if (const auto here = subgradient(z)) slope = here->norm();
     if (const auto at_zero = subgradient(Vector::Zero(z.size())))
       slope = std::min(slope, std::sqrt(W.diagonal().maxCoeff()) * (2 * W.norm(z) + W.dual_norm(*at_zero)));
-    return slope > 0 && std::isfinite(slope) ? binary(slope) : 1;
+    return slope;
   }
-  /// The power of 2 below.
-  static double binary(double number) { return std::exp2(std::floor(std::log2(number))); }
 
   std::vector<Function> parts_;
   Index n_;
