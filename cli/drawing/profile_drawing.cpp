@@ -3,18 +3,48 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <map>
 
 #include "cli/drawing/gnuplot.hpp"
+#include "cli/drawing/label_column.hpp"
 #include "cli/drawing/method_style.hpp"
 
 namespace cli {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), good_error = 1e-9, most_ratio = 1e5;
+constexpr double infinity = std::numeric_limits<double>::infinity(), good_error = 1e-9;
+
+/// Across, in decades of the ratio: the curves, then their names. Up: parts of all problems.
+constexpr double curves_end = 3, sample_at = 3.2, names_at = 3.4, x_end = 4.9, y_end = 1.03,
+                 name_height = 0.042;
+
+/// Curves cross, so here each method has a colour and dashes that no other has.
+constexpr std::array colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#222222"};
+
+struct Curve {
+  std::string method, steps;
+  std::size_t solved = 0;
+  double end = 0;  ///< its height at the right end
+};
+
+Curve curve(const std::string& method, const std::map<std::string, double>& times,
+            const std::map<std::string, double>& quickest) {
+  const auto problems = static_cast<double>(quickest.size());
+  std::vector<double> ratios;
+  for (const auto& [problem, seconds] : times) ratios.push_back(std::log10(seconds / quickest.at(problem)));
+  std::sort(ratios.begin(), ratios.end());
+  Curve result{method, "0 0\n", ratios.size(), 0};
+  for (std::size_t i = 0; i < ratios.size() && ratios[i] <= curves_end; ++i) {
+    result.end = static_cast<double>(i + 1) / problems;
+    result.steps += fmt::format("{} {}\n", ratios[i], result.end);
+  }
+  result.steps += fmt::format("{} {}\n", curves_end, result.end);
+  return result;
+}
 
 }  // namespace
 
@@ -28,34 +58,49 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
     own = std::min(own, t.seconds);
     quickest[t.problem] = std::min(quickest[t.problem], t.seconds);
   }
+  std::vector<Curve> curves;
+  std::vector<double> wanted;
   const MethodStyles styles(trials);
-  const std::vector<std::string>& methods = styles.methods();
-  const auto problems = static_cast<double>(quickest.size());
-  Drawing drawing;
-  drawing.height = 480;
-  std::string plots;
-  for (std::size_t k = 0; k < methods.size(); ++k) {
-    std::vector<double> ratios;
-    for (const auto& [problem, seconds] : by_method[methods[k]])
-      ratios.push_back(seconds / quickest[problem]);
-    std::sort(ratios.begin(), ratios.end());
-    std::string steps = "1 0\n";
-    for (std::size_t i = 0; i < ratios.size(); ++i)
-      steps += fmt::format("{} {}\n", ratios[i], static_cast<double>(i + 1) / problems);
-    steps += fmt::format("{} {}\n", most_ratio, static_cast<double>(ratios.size()) / problems);
-    fmt::format_to(std::back_inserter(drawing.script), "$m{} << EOD\n{}EOD\n", k, steps);
-    plots +=
-        fmt::format("{}$m{} using 1:2 with steps lc rgb \"{}\" lw 2 dt {} title {}", k > 0 ? ", \\\n  " : "",
-                    k, styles.style(methods[k]).colour, styles.style(methods[k]).dashes,
-                    quoted(fmt::format("{} ({} of {})", methods[k], ratios.size(), quickest.size())));
+  for (const std::string& method : styles.methods()) {
+    curves.push_back(curve(method, by_method[method], quickest));
+    // What a curve reaches it should reach early: ties go to the one with more under it.
+    wanted.push_back(curves.back().end + 1e-6 * static_cast<double>(styles.methods().size() - curves.size()));
   }
-  fmt::format_to(std::back_inserter(drawing.script),
-                 "set logscale x\nset format x \"10^{{%L}}\"\nset xrange [1:{}]\nset yrange [0:1.02]\n"
-                 "set grid lc rgb \"#dddddd\" lw 0.5\nset key outside right top Left reverse font \",9\"\n"
-                 "set title {} font \",11\"\nset xlabel \"time / time of the quickest\"\n"
-                 "set ylabel \"part of the problems solved to 1e-9\"\nplot {}\n",
-                 most_ratio, quoted(fmt::format("Performance profiles over {} problems", quickest.size())),
-                 plots);
+  const std::vector<double> placed = label_positions(wanted, name_height, 0.03, y_end - 0.03);
+  Drawing drawing;
+  drawing.height = 460;
+  const auto out = std::back_inserter(drawing.script);
+  std::string plots;
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    const Curve& c = curves[k];
+    const bool is_default = c.method == "auto";
+    const std::string colour = is_default ? "#d55e00" : colours[k % colours.size()];
+    fmt::format_to(out,
+                   "$m{} << EOD\n{}EOD\n$l{} << EOD\n{} {}\n{} {}\nEOD\n$s{} << EOD\n{} {}\n{} {}\nEOD\n$t{} "
+                   "<< EOD\n{} {} {}\nEOD\n",
+                   k, c.steps, k, curves_end, c.end, sample_at, placed[k], k, sample_at, placed[k], names_at,
+                   placed[k], k, names_at, placed[k],
+                   quoted(fmt::format("{} ({} of {})", c.method, c.solved, quickest.size())));
+    plots += fmt::format(
+        "{0}$m{1} using 1:2 with steps lc rgb \"{2}\" lw {3} dt {4} notitle, \\\n"
+        "  $l{1} using 1:2 with lines lc rgb \"{2}\" lw 0.4 notitle, \\\n"
+        "  $s{1} using 1:2 with lines lc rgb \"{2}\" lw {3} dt {4} notitle, \\\n"
+        "  $t{1} using 1:2:3 with labels left offset 0.4,0 font \"{5},9\" tc rgb \"#222222\" notitle",
+        k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / colours.size(),
+        is_default ? "Helvetica:Bold" : "");
+  }
+  fmt::format_to(
+      out,
+      "set xrange [0:{}]\nset yrange [0:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nunset key\n"
+      "set border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror font \",9\"\n"
+      "set xtics (\"1\" 0, \"10\" 1, \"100\" 2, \"1000\" 3)\n"
+      "set title {} font \",11\"\n"
+      "set xlabel \"at most so many times the time of the quickest\" font \",10\"\n"
+      "set ylabel \"part of the problems solved to 1e-9\" font \",10\"\nplot {}\n",
+      x_end, y_end,
+      quoted(fmt::format("Performance profiles over {} problems: higher and further left is better",
+                         quickest.size())),
+      plots.empty() ? "NaN notitle" : plots);
   return drawing;
 }
 

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <span>
+#include <vector>
 
 #include "cli/measurement/exams.hpp"
 #include "cli/measurement/prox_exams.hpp"
@@ -56,7 +57,8 @@ std::vector<ChartedProblem> profiled_problems(bool quick) {
   std::vector<ChartedProblem> all;
   for (const convex::GalleryFamily& family : convex::gallery()) {
     if (family.name == "infeasible") continue;
-    for (const double difficulty : family.ladder)
+    const std::vector<double> usual{family.usual};
+    for (const double difficulty : quick ? std::span<const double>(usual) : family.ladder)
       all.push_back(
           of_gallery(family.name.data(), small, difficulty, fmt::format("{} {:g}", family.name, difficulty)));
   }

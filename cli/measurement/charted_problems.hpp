@@ -16,7 +16,7 @@ struct ChartedProblem {
 std::vector<ChartedProblem> charted_problems(bool quick);
 
 /// What `moreau chart --profile` profiles without a file: every feasible family of the gallery at every
-/// setting of its knob, small.
+/// setting of its knob, small. `quick`: at its usual one.
 std::vector<ChartedProblem> profiled_problems(bool quick);
 
 /// The problem of a file.

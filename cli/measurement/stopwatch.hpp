@@ -4,7 +4,7 @@
 
 namespace cli {
 
-/// Seconds of one call: the median of several measurements and their quartiles.
+/// Processor seconds of one call: the median of several measurements and their quartiles.
 struct Timing {
   double median = 0, lower = 0, upper = 0;
   int repetitions = 0;

@@ -46,9 +46,9 @@ std::string measurement_json(const std::vector<Trial>& trials, const TrialLimits
   JsonWriter json;
   json.begin_object().key("machine").value(machine_text());
   json.key("time").value(
-      "seconds from raw numbers to the answer, the factorisation of A included: the median of batches of at "
-      "least "
-      "20 us after a warm-up, one process pinned to one processor");
+      "processor seconds from raw numbers to the answer, factorisations included: the median of batches of "
+      "at "
+      "least 20 us after a warm-up, one process pinned to one processor");
   json.key("budget_seconds").value(limits.budget).key("limit_seconds").value(limits.limit);
   json.key("rows").begin_array();
   const auto number = [&](const char* key, double value) {

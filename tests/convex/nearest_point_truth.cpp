@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
 #include "tests/oracles/planted_problem.hpp"
 #include "tests/oracles/rational_kkt.hpp"
 
@@ -14,15 +15,10 @@ using convex::Solution;
 using convex::Status;
 using convex::Vector;
 using oracles::Difficulty;
+using oracles::few_roundings;
+using oracles::scale;
 
 namespace {
-
-/// "A few 1e-15" of docs/methods.md.
-constexpr double few_roundings = 4e-15;
-
-double scale(const NearestPointProblem& problem, const Vector& x) {
-  return std::max(problem.A.norm(x), problem.A.dual_norm(problem.z));
-}
 
 NearestPointProblem gaussian(unsigned seed, Index n, Index m) {
   std::mt19937 generator(seed);
@@ -59,7 +55,7 @@ TEST_CASE("planted solutions are found to rounding, whatever the degeneracy") {
       const auto [problem, solution] = oracles::planted_problem(seed, n, m, difficulty);
       const Solution found = convex::active_set(problem);
       REQUIRE(found.status == Status::solved);
-      const double unit = std::max(scale(problem, solution), 1e-300);
+      const double unit = scale(problem, solution);
       const double error = problem.A.norm(found.q - solution);
       CHECK(error <= few_roundings * unit);
       CHECK(error <= 10 * found.error_bound + 1e-16 * unit);

@@ -164,9 +164,9 @@ convex::Status judged(const NearestPointProblem& problem, const Answer& answer) 
 
 double true_error(const convex::GalleryInstance& instance, const Vector& q) {
   const convex::Metric& A = instance.problem.A;
-  const double scale = std::max(A.norm(instance.solution.hi), A.dual_norm(instance.problem.z));
   return q.size() == instance.solution.size() && q.allFinite()
-             ? A.norm((q - instance.solution.hi) - instance.solution.lo) / scale
+             ? A.norm((q - instance.solution.hi) - instance.solution.lo) /
+                   oracles::scale(instance.problem, instance.solution.hi)
              : INFINITY;
 }
 

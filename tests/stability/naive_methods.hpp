@@ -4,6 +4,7 @@
 
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/solution.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
 
 /// Methods known from the literature to fail on some problems, written the way that fails. One-sided rows
 /// only.
@@ -55,5 +56,4 @@ convex::GalleryInstance instance_of(const char* family, convex::Index size, doub
 /// What the default makes of it.
 convex::Solution by_default(const convex::NearestPointProblem&);
 
-/// "A few 1e-15".
-inline constexpr double few_roundings = 4e-15;
+using oracles::few_roundings;

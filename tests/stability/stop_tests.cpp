@@ -65,8 +65,7 @@ TEST_CASE("no method is wrong without saying so, whatever the family and the dif
         } else if (!instance.feasible) {
           CHECK(found.status != Status::solved);
         } else if (found.q.size() > 0) {
-          const convex::Metric& A = instance.problem.A;
-          const double scale = std::max(A.norm(instance.solution.hi), A.dual_norm(instance.problem.z));
+          const double scale = oracles::scale(instance.problem, instance.solution.hi);
           CHECK(true_error(instance, found.q) <= 10 * std::max(found.error_bound / scale, 0x1p-53));
         }
       }

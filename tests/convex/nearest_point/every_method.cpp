@@ -5,6 +5,7 @@
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/judged.hpp"
 #include "convex/nearest_point/methods.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
 #include "tests/oracles/planted_problem.hpp"
 #include "tests/oracles/rational_kkt.hpp"
 
@@ -19,15 +20,10 @@ using convex::Solution;
 using convex::Status;
 using convex::Vector;
 using oracles::Difficulty;
+using oracles::few_roundings;
+using oracles::scale;
 
 namespace {
-
-/// "A few 1e-15" of docs/methods.md.
-constexpr double few_roundings = 4e-15;
-
-double scale(const NearestPointProblem& problem, const Vector& x) {
-  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
-}
 
 /// The methods of the table that apply, but for those that only stand for comparison.
 std::vector<Method> solvers(const NearestPointProblem& problem) {

@@ -5,6 +5,7 @@
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/farkas.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
 #include "tests/oracles/planted_problem.hpp"
 
 using convex::Index;
@@ -17,6 +18,7 @@ using convex::Solution;
 using convex::Status;
 using convex::Vector;
 using oracles::Difficulty;
+using oracles::few_roundings;
 
 namespace {
 
@@ -86,8 +88,6 @@ NearestPointProblem without(const NearestPointProblem& problem, const std::vecto
   }
   return part;
 }
-
-constexpr double few_roundings = 4e-15;
 
 }  // namespace
 

@@ -10,6 +10,7 @@
 #include "convex/nearest_point/structure/obstacle.hpp"
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
 #include "convex/nearest_point/structure/sparse_factor.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
 
 using convex::ConstraintRows;
 using convex::GalleryInstance;
@@ -20,15 +21,13 @@ using convex::Solution;
 using convex::SparseRows;
 using convex::Status;
 using convex::Vector;
+using oracles::few_roundings;
 
 namespace {
 
-constexpr double few_roundings = 4e-15;
-
 double relative_error(const GalleryInstance& instance, const Solution& found) {
   const NearestPointProblem& problem = instance.problem;
-  const double scale = std::max(problem.A.norm(instance.solution.hi), problem.A.dual_norm(problem.z));
-  return problem.A.norm(found.q - instance.solution.hi) / std::max(scale, 1e-300);
+  return problem.A.norm(found.q - instance.solution.hi) / oracles::scale(problem, instance.solution.hi);
 }
 
 /// A string of bodies with gaps, a floor under the first when asked for.
