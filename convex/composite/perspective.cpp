@@ -106,7 +106,7 @@ class PerspectiveAtom final : public Atom {
       return {square * (f_->value(p) - p.dot(v)) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p))};
     };
     const double size = d * z.norm();
-    return std::max(monotone_root(excess, s > 0 ? s : size, smallest(size)), smallest(size));
+    return std::max(monotone_root(excess, s > 0 ? s : size > 0 ? size : 1, smallest(size)), smallest(size));
   }
 
   std::shared_ptr<const Atom> f_;

@@ -8,10 +8,13 @@ namespace convex {
 struct ConjugatePair {
   Subject f, g;
   bool cone = false;  ///< f is the indicator of a cone
+  /// The prox of g by another route than g's own, for when that is derived from f; none when there is none.
+  std::function<std::optional<Prox>(const Vector& z, const Metric& W)> second_route = {};
 };
 
 /// What is tried of such a pair, with x = prox_f z and y = prox_g z (Moreau 1965 and 1966, section 4):
-/// - z = x + y; unless both came by one route, which is no evidence and is said in `no_evidence`;
+/// - z = x + y; where y came from x, with a y by the second route; without one it is no evidence, which is
+///   said in `no_evidence`;
 /// - conjugacy, f(x) + g(y) = (x|y), and Fenchel's inequality f(u) + g(w) >= (u|w) elsewhere;
 /// - uniqueness: z = (x + d) + (y - d) misses conjugacy by at least ||d||²;
 /// - x is the gradient at z of the envelope of g, e(z) = g(y) + ½||z - y||²: (x|h) <= e(z + h) - e(z) <=

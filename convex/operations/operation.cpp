@@ -129,6 +129,12 @@ std::optional<Vector> Operation::subgradient(const Vector& x) const {
   refuse(*this, "subgradient");
 }
 
+std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W) {
+  if (const auto form = f.node().linear_quadratic(z.size())) return convex::prox(*form, z, W);
+  if (const auto form = f.node().graph(z.size())) return convex::prox(*form, z, W);
+  return std::nullopt;
+}
+
 Function Operation::conjugate() const { return computed_conjugate(self()); }
 
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W) {

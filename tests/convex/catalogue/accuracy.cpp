@@ -7,6 +7,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/laws/trial.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operations.hpp"
 
 using namespace convex;
 
@@ -75,5 +76,27 @@ TEST_CASE("a prox that calls itself solved is proved to 1e-12 in any metric, by 
         CHECK(std::isfinite(g(y.x)));
       }
     }
+  }
+}
+
+TEST_CASE("the prox of a conjugate by its own program is z minus that of the function") {
+  for (const char* text :
+       {"indicator(epigraph(exponential()))", "indicator(epigraph(logistic()))",
+        "indicator(epigraph(norm1()))", "perspective(exponential())", "perspective(squared_norm2())",
+        "pointwise_max(norm2(), constant(1))", "pointwise_max(norm1(), linear([1,2,-3]))",
+        "precompose(logistic(), [[1,2,0],[0,1,1],[1,0,1],[2,1,1]], [1,0,-1,0])"}) {
+    CAPTURE(text);
+    const Function f = make_function(cli::parse_call(text, "f"), {Metric::identity(3)}), g = f.conjugate();
+    const std::vector<Vector> all = trial_points(3);
+    for (const Metric& W : {Metric::identity(3), Metric::dense(matrix_of_condition(3, 10))})
+      for (const Vector& z : {all[0], all[1], all[3], all[7]}) {
+        CAPTURE(z.transpose());
+        const Metric V = inverse(W);
+        const Prox x = f.prox(z, W);
+        const std::optional<Prox> y = prox_by_program(g, W.multiply(z), V);
+        REQUIRE(y);
+        CHECK(W.norm(z - x.x - W.solve(y->x)) <=
+              x.error_bound + y->error_bound + 4 * rounding_bound(W, z, x.x) + 1e-15);
+      }
   }
 }
