@@ -16,12 +16,13 @@ constexpr double good_error = 1e-9;
 
 using Times = std::map<std::string, double>;  // by method
 
-/// The least time to a good error, by problem and method.
+/// The least time to a good error, by problem (with its size, which --quick changes) and method.
 std::map<std::string, Times> best_times(const std::vector<Trial>& trials) {
   std::map<std::string, Times> best;
   for (const Trial& t : trials) {
     if (t.verdict() == Verdict::refused) continue;
-    double& time = best[t.problem].try_emplace(t.method, INFINITY).first->second;
+    const std::string problem = t.problem + " (n " + std::to_string(t.n) + ", m " + std::to_string(t.m) + ")";
+    double& time = best[problem].try_emplace(t.method, INFINITY).first->second;
     if (t.is_right() && t.judgement.error <= good_error) time = std::min(time, t.seconds);
   }
   return best;
@@ -102,6 +103,8 @@ std::vector<Trial> read_chart_csv(const std::string& file) {
     if (row.size() != 8) throw convex::InvalidInput(file + ": a row has not eight fields; write it again");
     Trial t;
     t.problem = row[0];
+    t.n = std::strtol(row[1].c_str(), nullptr, 10);
+    t.m = std::strtol(row[2].c_str(), nullptr, 10);
     t.method = row[3];
     t.setting = number(row[4]);
     t.seconds = number(row[5]);

@@ -14,8 +14,8 @@ struct RankCorrelation {
   double value = 0;  ///< Spearman's rho (1904), equal ranks being averaged: 1 is the same order
 };
 
-/// For each problem that both have, methods being ranked by their least time to an error of 1e-9; those that
-/// do not get there share the last place.
+/// For each problem that both have in the same size, methods being ranked by their least time to an error of
+/// 1e-9; those that do not get there share the last place.
 std::vector<RankCorrelation> rank_correlations(const std::vector<Trial>&, const std::vector<Trial>& before);
 
 /// The trials of a table that `chart --data` wrote, as far as it tells. Throws InvalidInput when it is none.
