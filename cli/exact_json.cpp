@@ -46,7 +46,19 @@ void write_ranges(JsonWriter& json, const Scene& scene, const std::vector<convex
   json.end_object();
 }
 
-void write_solution(JsonWriter& json, const Scene& scene, const mechanics::ExactGaussSolution& exact) {
+void write_null_space(JsonWriter& json, const Scene& scene, const convex::ExactMultipliers& multipliers) {
+  json.key("null_space").begin_array();
+  for (const auto& mu : multipliers.null_space) {
+    json.begin_object();
+    for (const auto& [row, coefficient] : mu)
+      json.key(scene.contact_name(row)).value(convex::text(coefficient));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_solution(JsonWriter& json, const Scene& scene, const mechanics::ExactGaussSolution& exact,
+                    bool null_space) {
   if (exact.primal.status == convex::Status::infeasible) {
     json.key("farkas");
     write_fractions(json, scene.constraints, over_constraints(scene, {exact.primal.farkas, 1}));
@@ -63,6 +75,7 @@ void write_solution(JsonWriter& json, const Scene& scene, const mechanics::Exact
     json.key("multiplier_ranges");
     write_ranges(json, scene, *exact.multipliers.ranges);
   }
+  if (null_space) write_null_space(json, scene, exact.multipliers);
 }
 
 const char* name(mechanics::ContactVerdict verdict) {
@@ -90,7 +103,7 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
     json.value(*proof.error_bound);
   else
     json.null();
-  if (proof.exact) write_solution(json, scene, *proof.exact);
+  if (proof.exact) write_solution(json, scene, *proof.exact, false);
   if (proof.acceleration) {
     json.key("acceleration").begin_object();
     for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
@@ -125,7 +138,7 @@ void write_certificate(JsonWriter& json, const SolvedScene& solved) {
 void write_exact(JsonWriter& json, const SolvedScene& solved) {
   if (solved.exact != nullptr) {
     json.key("exact").begin_object();
-    write_solution(json, solved.scene, *solved.exact);
+    write_solution(json, solved.scene, *solved.exact, solved.null_space);
     json.end_object();
   }
   if (solved.text != nullptr) write_text_proof(json, solved.scene, *solved.text);

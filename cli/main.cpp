@@ -142,6 +142,8 @@ int main(int argc, char** argv) {
           "reduced (default): no more than the scene needs; full: the whole at once, and what that costs")
       ->type_name("NAME")
       ->check(CLI::IsMember({"reduced", "full"}));
+  solve->add_flag("--null-space", options.null_space,
+                  "a basis of the changes of multipliers that no motion feels, in --json");
   solve->add_flag("--sensitivity", options.sensitivity,
                   "with --json: derivatives by forces and bounds, and margins of the contacts");
   solve->add_flag("--certify", options.certify, "a proved error bound; exit 3 without proof");

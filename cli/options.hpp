@@ -20,6 +20,7 @@ struct Options {
   bool full_model = false;  ///< solve without islands, special structure and leaving out
   bool catalogue = false;   ///< of check: the whole language instead of files
   bool sensitivity = false;
+  bool null_space = false;                 ///< of the multipliers, in JSON
   bool certify = false;                    ///< a proved error bound, or that there is no solution
   std::string expression;                  ///< of prox and conjugate: a call of the language of functions
   std::optional<std::string> at;           ///< a vector

@@ -26,7 +26,9 @@ Answer solve_scene(const Scene& scene, const Options& options) {
     if (const auto text = scene.from_text())
       mechanics::prove_from_text(found, scene.problem, *text, scene.contacts, scene.solve);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  SolvedScene solved = solved_scene(scene, found.solution, seconds);
+  SolvedScene solved =
+      solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);
+  solved.null_space = options.null_space;
   solved.sensitivity = options.sensitivity;
   if (proved) solved.certificate = found.certificate;
   if (found.exact) solved.exact = &*found.exact;

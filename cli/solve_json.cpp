@@ -32,6 +32,22 @@ void write_ranges(JsonWriter& json, const SolvedScene& solved) {
   json.end_object();
 }
 
+void write_null_space(JsonWriter& json, const SolvedScene& solved) {
+  if (!solved.null_space) return;
+  json.key("null_space");
+  if (!solved.solution.multipliers.null_space) {
+    json.null();
+    return;
+  }
+  json.begin_array();
+  for (const convex::NullVector& mu : *solved.solution.multipliers.null_space) {
+    json.begin_object();
+    for (const auto& [row, coefficient] : mu) json.key(solved.scene.contact_name(row)).value(coefficient);
+    json.end_object();
+  }
+  json.end_array();
+}
+
 void write_hypothesis(JsonWriter& json, const SolvedScene& solved) {
   const mechanics::Hypothesis& hypothesis = solved.solution.hypothesis;
   const bool consistent = hypothesis.two_sided.consistent;
@@ -89,6 +105,7 @@ void write_answer(JsonWriter& json, const SolvedScene& solved) {
       .numbers(solved.scene.constraints, solved.scene.over_constraints(solution.multipliers.least_norm));
   json.key("multipliers_unique").value(solution.multipliers.unique);
   write_ranges(json, solved);
+  write_null_space(json, solved);
   json.key("reaction").numbers(solved.scene.coordinates, solution.reaction);
   json.key("gauss").value(solution.gauss);
   write_hypothesis(json, solved);

@@ -20,6 +20,7 @@ struct SolvedScene {
   convex::Vector second_rates;          ///< d²f_a/dt², one per constraint
   double seconds = 0;
   bool sensitivity = false;                              ///< whether its report is wanted
+  bool null_space = false;                               ///< whether that of the multipliers is
   std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for
   const mechanics::ExactGaussSolution* exact = nullptr;  ///< when it was found in fractions
   const mechanics::TextProof* text = nullptr;            ///< when it was proved from the text of a mechanism

@@ -75,7 +75,8 @@ void MultiplierTableau::pivot(Index row, Index column) {
   const Eigen::RowVectorXd pivot_row = T_.row(row) / element;
   const Vector pivot_column = T_.col(column);
   value_ -= pivot_column * entering;
-  T_.noalias() -= pivot_column * pivot_row;
+  for (Index j = 0; j < T_.cols(); ++j)
+    if (pivot_row[j] != 0) T_.col(j) -= pivot_column * pivot_row[j];
   T_.row(row) = pivot_row;
   T_.col(column) = -pivot_column / element;
   T_(row, column) = 1 / element;
@@ -83,8 +84,24 @@ void MultiplierTableau::pivot(Index row, Index column) {
   std::swap(basic_[static_cast<std::size_t>(row)], nonbasic_[static_cast<std::size_t>(column)]);
 }
 
+Index MultiplierTableau::entering_column(Index row, double direction, bool by_name) const {
+  Index entering = -1;
+  for (Index j = 0; j < T_.cols(); ++j) {
+    const double slope = -direction * T_(row, j);
+    if (fixed_[static_cast<std::size_t>(j)] || slope <= noise_) continue;
+    const bool better = entering < 0 || (by_name ? nonbasic_[static_cast<std::size_t>(j)] <
+                                                       nonbasic_[static_cast<std::size_t>(entering)]
+                                                 : slope > -direction * T_(row, entering));
+    if (better) entering = j;
+  }
+  return entering;
+}
+
 double MultiplierTableau::extreme(Index a, double direction) {
-  // Bland (1977): the entering multiplier of least name that improves, the leaving one of least name.
+  // The steepest column enters; after a step of length 0 the rule of Bland (1977) holds until there is a
+  // longer one: the entering multiplier of least name that improves, the leaving one of least name. So
+  // nothing comes back.
+  bool by_name = false;
   while (true) {
     const auto position = std::find(basic_.begin(), basic_.end(), a);
     Index entering = -1;
@@ -94,16 +111,13 @@ double MultiplierTableau::extreme(Index a, double direction) {
       invariant(entering < T_.cols(), "a tight row is basic or nonbasic");
     } else {
       const Index row = position - basic_.begin();
-      for (Index j = 0; j < T_.cols(); ++j)
-        if (!fixed_[static_cast<std::size_t>(j)] && -direction * T_(row, j) > noise_ &&
-            (entering < 0 ||
-             nonbasic_[static_cast<std::size_t>(j)] < nonbasic_[static_cast<std::size_t>(entering)]))
-          entering = j;
+      entering = entering_column(row, direction, by_name);
       if (entering < 0) return is_free(a) ? value_[row] : std::max(0.0, value_[row]);
     }
     double step = infinity;
     const Index row = blocking_row(entering, 1, step);
     if (row < 0) return direction * infinity;
+    by_name = step <= 0;
     pivot(row, entering);
   }
 }

@@ -7,8 +7,7 @@
 namespace convex {
 
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
-/// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0. Bland's rule, so
-/// finite.
+/// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0.
 class MultiplierTableau {
  public:
   /// basic: names of the basic multipliers with their values (>= 0 where not free); nonbasic: those at 0; T:
@@ -21,6 +20,9 @@ class MultiplierTableau {
 
  private:
   double extreme(Index a, double direction);
+  /// A column whose growth moves the basic multiplier of `row` that way: the steepest or the least by name;
+  /// or -1.
+  Index entering_column(Index row, double direction, bool by_name) const;
   /// The row that blocks the increase of nonbasic column `column`, or -1; `step` is how far it may go.
   Index blocking_row(Index column, double sign, double& step) const;
   void pivot(Index row, Index column);

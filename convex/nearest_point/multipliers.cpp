@@ -1,60 +1,23 @@
 #include "convex/nearest_point/multipliers.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/dependence.hpp"
 #include "convex/nearest_point/multiplier_tableau.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/structure/sparse_multipliers.hpp"
-#include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
 namespace {
-
-/// Beyond so many multiplications for a dense factor of the tight rows, sparse factors tell whether
-/// multipliers are unique; their ranges are then not found.
-constexpr double most_dense_work = 3e9;
 
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
   std::vector<bool> mark(static_cast<std::size_t>(count), false);
   for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
   return mark;
-}
-
-/// The tight rows split into independent ones, `basic`, and the others with their expansions: u_p = Σ T(k, p)
-/// u_k.
-struct Dependence {
-  std::vector<Index> basic, dependent;
-  Matrix T;
-};
-
-Dependence dependence(const NearestPointProblem& problem, const std::vector<Index>& basis,
-                      const std::vector<Index>& tight) {
-  using Set = WorkingSet<Eigen::Dynamic>;
-  Set set(problem);
-  Matrix whitened = whitened_rows(problem, basis);
-  set.append_block(basis, whitened, 0);
-  Dependence found;
-  Set::Split split;
-  for (Index a : tight) {
-    if (set.holds(a)) continue;
-    set.split(a, split);
-    if (split.rho > 0 && set.size() < set.factor().capacity())
-      set.append(a, split, 0);
-    else
-      found.dependent.push_back(a);
-  }
-  found.basic = set.rows();
-  found.T.resize(set.size(), static_cast<Index>(found.dependent.size()));
-  for (std::size_t p = 0; p < found.dependent.size(); ++p) {
-    set.split(found.dependent[p], split);
-    const double noise = 64 * unit_roundoff * split.magnitude;  // of a coefficient times its row's length
-    for (Index k = 0; k < set.size(); ++k) {
-      const double r = split.coefficients[k];
-      found.T(k, static_cast<Index>(p)) = std::abs(r) * set.factor().length(k) > noise ? r : 0;
-    }
-  }
-  return found;
 }
 
 /// lambda of least norm: with lambda = lambda_0 + N mu, N the null vectors e_p - Σ T(k, p) e_k, the nearest
@@ -88,6 +51,33 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   }
 }
 
+/// The tableau of a group of rows, whose multipliers are named by their places in it.
+class MultiplierPolyhedron {
+ public:
+  MultiplierPolyhedron(const Dependence& rows, const Vector& lambda, const std::vector<bool>& is_free)
+      : names_(rows.basic), tableau_(made(rows, lambda, is_free, names_)) {}
+
+  Interval range(Index a) {
+    return tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
+  }
+
+ private:
+  static MultiplierTableau made(const Dependence& rows, const Vector& lambda,
+                                const std::vector<bool>& is_free, std::vector<Index>& names) {
+    const std::size_t k = rows.basic.size();
+    names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
+    std::vector<Index> places(names.size());
+    std::iota(places.begin(), places.end(), Index{0});
+    std::vector<bool> free;
+    for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
+    const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
+    return {{places.begin(), end_of_basic}, lambda(rows.basic), {end_of_basic, places.end()}, rows.T, free};
+  }
+
+  std::vector<Index> names_;
+  MultiplierTableau tableau_;
+};
+
 }  // namespace
 
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
@@ -119,9 +109,8 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
   for (Index a = 0; a < problem.rows(); ++a)
     ranges[static_cast<std::size_t>(a)] = {solution.lambda[a], solution.lambda[a]};
 
-  const double tight_count = static_cast<double>(found.tight.size()),
-               n = static_cast<double>(problem.dimension());
-  if (n * tight_count * std::min(n, tight_count) > most_dense_work) {
+  const auto groups = dependences(problem, solution.basis, found.tight);
+  if (!groups) {
     std::vector<Index> loaded;
     for (Index a : found.tight)
       if (solution.lambda[a] != 0 || is_free[static_cast<std::size_t>(a)]) loaded.push_back(a);
@@ -133,27 +122,27 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
     return found;
   }
 
-  const bool all_in_basis = found.tight.size() == solution.basis.size();
-  const Dependence rows = all_in_basis ? Dependence{} : dependence(problem, solution.basis, found.tight);
-  if (!rows.dependent.empty()) {
-    Vector value(static_cast<Index>(rows.basic.size()));
-    for (std::size_t k = 0; k < rows.basic.size(); ++k)
-      value[static_cast<Index>(k)] = solution.lambda[rows.basic[k]];
-    MultiplierTableau tableau(rows.basic, value, rows.dependent, rows.T, is_free);
-    // They are unique when every dependent row keeps its multiplier 0.
-    const double noise =
-        tolerance * std::max(solution.lambda.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  found.null_space = null_space(*groups);
+  // They are unique when every dependent row keeps its multiplier 0.
+  const double noise =
+      tolerance * std::max(solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().maxCoeff() : 0.0,
+                           std::numeric_limits<double>::min());
+  for (const Dependence& rows : *groups) {
+    const auto start = std::chrono::steady_clock::now();
+    MultiplierPolyhedron polyhedron(rows, solution.lambda, is_free);
+    bool unique = true;
     for (Index p : rows.dependent) {
-      const Interval range = tableau.range(p);
+      const Interval range = polyhedron.range(p);
       ranges[static_cast<std::size_t>(p)] = range;
-      if (range.high - range.low > noise) found.unique = false;
-      if (!found.unique && !want_ranges) break;
+      if (range.high - range.low > noise) unique = false;
+      if (!unique && !want_ranges) break;
     }
-    if (!found.unique) {
-      if (want_ranges)
-        for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = tableau.range(a);
-      least_norm(rows, is_free, found.least_norm);
-    }
+    if (unique) continue;
+    found.unique = false;
+    if (want_ranges)
+      for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
+    found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    least_norm(rows, is_free, found.least_norm);
   }
   if (want_ranges || found.unique) found.ranges = std::move(ranges);
   return found;

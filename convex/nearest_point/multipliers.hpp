@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "convex/interval.hpp"
+#include "convex/nearest_point/dependence.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -16,6 +17,9 @@ struct Multipliers {
   Vector least_norm;  ///< of least Euclidean norm: m
   /// The m intervals of the multipliers over all dual optima; none when not asked for.
   std::optional<std::vector<Interval>> ranges;
+  /// A basis of {mu : Uᵀmu = 0} over the tight rows; none when they are too many for a dense factor.
+  std::optional<std::vector<NullVector>> null_space;
+  double range_seconds = 0;  ///< what the ranges took, which nobody needs to solve a problem
   std::vector<Index> tight;  ///< rows with u_a·q = s_a within the tolerance, in order
 };
 
@@ -23,8 +27,9 @@ struct Multipliers {
 /// ones.
 std::vector<Index> tight_rows(const NearestPointProblem&, const Solution&, double tolerance);
 
-/// The dual optima of a solved (or inaccurately solved) problem. `want_ranges`: one linear program per
-/// multiplier and direction, so leave it out for thousands of rows; uniqueness is then found all the same.
+/// The dual optima of a solved (or inaccurately solved) problem. `want_ranges`: two linear programs for every
+/// row that depends on others or is needed for them, each from where the last one ended, so leave it out for
+/// thousands of rows; uniqueness is then found all the same.
 Multipliers multipliers(const NearestPointProblem&, const Solution&, double tolerance, bool want_ranges);
 
 }  // namespace convex

@@ -51,6 +51,17 @@ TEST_CASE("--method exact gives fractions of the numbers as written") {
   CHECK(answer.at("certificate").at("level") == "exact");
 }
 
+TEST_CASE("--null-space gives what multipliers may be changed by, in doubles and in fractions") {
+  const Json answer = solved({"--method", "exact", "--null-space"}, thirds, 0);
+  CHECK(answer.at("exact").at("null_space") == Json::array({{{"c[1]", "1"}, {"c[2]", "-1/10"}}}));
+  CHECK(answer.at("null_space") == Json::array({{{"c[1]", 1}, {"c[2]", -0.1}}}));
+  const Json near = solved({"--null-space"}, thirds, 0);
+  REQUIRE(near.at("null_space").size() == 1);
+  const Json& mu = near.at("null_space")[0];
+  CHECK(0.7 * mu.at("c[1]").get<double>() + 7 * mu.at("c[2]").get<double>() == doctest::Approx(0));
+  CHECK_FALSE(solved({}, thirds, 0).contains("null_space"));
+}
+
 TEST_CASE("--certify proves a bound, in doubles where signs are strict and else in fractions") {
   const Json answer = solved({"--certify"}, thirds, 0);
   CHECK(answer.at("certificate").at("level") == "exact");

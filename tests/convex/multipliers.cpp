@@ -106,3 +106,42 @@ TEST_CASE("the least-norm multipliers balance the forces, lie in their ranges an
       CHECK(inner >= -1e-9 * size * size);
     }
 }
+
+TEST_CASE("rows on coordinates of their own are ranged by themselves: a hall full of tables") {
+  constexpr Index tables = 40;
+  RowMatrix U = RowMatrix::Zero(4 * tables, 3 * tables);
+  convex::Matrix A = convex::Matrix::Identity(3 * tables, 3 * tables);
+  Vector z(3 * tables);
+  for (Index k = 0; k < tables; ++k) {
+    const NearestPointProblem one = table(0, k % 2 == 0 ? 0.0 : 1.0);
+    U.block(4 * k, 3 * k, 4, 3) = one.U.dense();
+    z.segment(3 * k, 3) = one.z;
+    if (k > 0) A(3 * k, 3 * k - 1) = A(3 * k - 1, 3 * k) = 0.25;  // the floors couple what the legs do not
+  }
+  // At rest whatever the inertia: z is in the cone of the legs.
+  const Multipliers found =
+      all_multipliers({convex::Metric::dense(A), z, convex::ConstraintRows(U), Vector::Zero(4 * tables), {}});
+  CHECK_FALSE(found.unique);
+  REQUIRE(found.null_space);
+  CHECK(found.null_space->size() == tables);
+  for (Index k = 0; k < tables; ++k) {
+    const convex::NullVector& mu = (*found.null_space)[static_cast<std::size_t>(k)];
+    REQUIRE(mu.size() == 4);
+    Vector sum = Vector::Zero(3 * tables);
+    for (const auto& [row, coefficient] : mu) {
+      CHECK(row / 4 == k);
+      sum += coefficient * U.row(row).transpose();
+    }
+    CHECK(sum.norm() <= 1e-15);
+    for (Index leg = 0; leg < 4; ++leg) {
+      const bool is_loaded = k % 2 == 0 || leg == 0 || leg == 3;  // the others tip off
+      CAPTURE(k);
+      CAPTURE(leg);
+      CHECK((*found.ranges)[static_cast<std::size_t>(4 * k + leg)].low == doctest::Approx(k % 2 == 0  ? 0
+                                                                                          : is_loaded ? 20
+                                                                                                      : 0));
+      CHECK((*found.ranges)[static_cast<std::size_t>(4 * k + leg)].high ==
+            doctest::Approx(is_loaded ? 20 : 0));
+    }
+  }
+}

@@ -73,6 +73,16 @@ std::vector<Index> spanning(const ExactProblem& problem, std::vector<Index> basi
   return chosen;
 }
 
+/// e_p - Σ T_kp e_k.
+std::vector<std::pair<Index, Fraction>> null_vector(const std::vector<Index>& basic, const ExactVector& T,
+                                                    Index p) {
+  std::vector<std::pair<Index, Fraction>> mu{{p, {1, 1}}};
+  for (std::size_t k = 0; k < basic.size(); ++k)
+    if (!T.numerators[k].is_zero()) mu.emplace_back(basic[k], -entry(T, k));
+  std::sort(mu.begin(), mu.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return mu;
+}
+
 std::vector<std::vector<Fraction>> tableau(const std::vector<ExactVector>& T, std::size_t basics) {
   std::vector<std::vector<Fraction>> rows(basics);
   for (std::size_t k = 0; k < basics; ++k)
@@ -102,6 +112,8 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
   }
   if (!dependent.empty()) {
     const std::vector<ExactVector> T = exact_expansions(problem, basic, dependent);
+    for (std::size_t p = 0; p < dependent.size(); ++p)
+      found.null_space.push_back(null_vector(basic, T[p], dependent[p]));
     std::vector<Fraction> value;
     for (Index a : basic) value.push_back(entry(solution.lambda, at(a)));
     ExactTableau all(basic, value, dependent, tableau(T, basic.size()), is_free);
@@ -128,6 +140,11 @@ Multipliers rounded(const ExactMultipliers& exact) {
   found.unique = exact.unique;
   found.least_norm = nearest(exact.least_norm);
   found.tight = exact.tight;
+  found.null_space.emplace();
+  for (const auto& exact_mu : exact.null_space) {
+    NullVector& mu = found.null_space->emplace_back();
+    for (const auto& [row, coefficient] : exact_mu) mu.emplace_back(row, nearest_double(coefficient));
+  }
   if (exact.ranges) {
     found.ranges.emplace();
     for (const ExactInterval& range : *exact.ranges)

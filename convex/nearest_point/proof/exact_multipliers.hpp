@@ -17,6 +17,8 @@ struct ExactMultipliers {
   bool unique = true;
   ExactVector least_norm;  ///< m
   std::optional<std::vector<ExactInterval>> ranges;
+  /// A basis of {mu : Uᵀmu = 0} over the tight rows, entries that are not 0.
+  std::vector<std::vector<std::pair<Index, Fraction>>> null_space;
   std::vector<Index> tight;  ///< rows with u_a·q = s_a, in order
 };
 
