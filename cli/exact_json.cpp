@@ -119,6 +119,7 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
 /// The weights of a contradiction that was proved, if it was.
 const convex::IntegerVector* proved_farkas(const SolvedScene& solved) {
   if (solved.exact != nullptr) return &solved.exact->primal.farkas;
+  if (!solved.farkas.empty()) return &solved.farkas;
   if (solved.text == nullptr) return nullptr;
   if (solved.text->exact) return &solved.text->exact->primal.farkas;
   return solved.text->enclosed ? &solved.text->enclosed->farkas : nullptr;

@@ -32,6 +32,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
   solved.sensitivity = options.sensitivity;
   if (proved) solved.certificate = found.certificate;
   if (found.exact) solved.exact = &*found.exact;
+  solved.farkas = found.farkas;
   if (found.text) solved.text = &*found.text;
   if (options.plot) draw(*options.plot, decomposition_drawing(solved));
   Exit exit = exit_code(found.solution.primal.status);

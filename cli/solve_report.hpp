@@ -23,6 +23,7 @@ struct SolvedScene {
   bool null_space = false;                               ///< whether that of the multipliers is
   std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for
   const mechanics::ExactGaussSolution* exact = nullptr;  ///< when it was found in fractions
+  convex::IntegerVector farkas = {};                     ///< exact weights, when these alone were proved
   const mechanics::TextProof* text = nullptr;            ///< when it was proved from the text of a mechanism
 
   bool infeasible() const { return solution.primal.status == convex::Status::infeasible; }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cli/model_report.hpp"
+#include "cli/sensitivity_text.hpp"
 #include "cli/solve_report.hpp"
 #include "cli/text_table.hpp"
 #include "cli/verdict_text.hpp"
@@ -71,6 +72,23 @@ bool is_proved(const std::optional<convex::Certificate>& certificate) {
   return certificate && certificate->level != convex::ProofLevel::none;
 }
 
+/// What the text of a mechanism proves of the contacts, and of the answer.
+std::string from_text_text(const SolvedScene& solved) {
+  if (solved.text == nullptr) return "";
+  const mechanics::TextProof& proof = *solved.text;
+  std::vector<std::string> open;
+  for (std::size_t a = 0; a < proof.contacts.size(); ++a)
+    if (proof.contacts[a] == mechanics::ContactVerdict::undecided)
+      open.push_back(solved.scene.constraints[a]);
+  std::string text = proof.contacts_hold ? "From the text: the contacts of K are proved"
+                     : open.empty()      ? "From the text: K is that of contact_tolerance, not the exact one"
+                                         : "From the text: contact is not decided for " + listed(open);
+  if (proof.error_bound && !solved.infeasible())
+    text +=
+        fmt::format("; the acceleration is that of the mechanism as written to {:.1e}", *proof.error_bound);
+  return text + ".\n";
+}
+
 const char* proof_text(const std::optional<convex::Certificate>& certificate) {
   if (!certificate) return "";
   switch (certificate->level) {
@@ -119,19 +137,23 @@ std::string infeasible_text(const SolvedScene& solved) {
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
       "left reads 0 >= {} (Farkas).{}\n",
-      listed(parts), number_text(sum), is_proved(solved.certificate) ? " Proved in fractions." : "");
+      listed(parts), number_text(sum),
+      !is_proved(solved.certificate)                           ? ""
+      : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
+                                                               : " Proved with bounds on every rounding.");
 }
 
 }  // namespace
 
 std::string solve_text(const SolvedScene& solved) {
   const std::string text = heading(solved.scene.title, solved.scene.file);
-  if (solved.infeasible()) return text + infeasible_text(solved);
+  if (solved.infeasible()) return text + infeasible_text(solved) + from_text_text(solved);
   if (!solved.has_answer())
     return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",
                               solved.solution.primal.method);
   return text + constraint_table(solved) + coordinate_table(solved) + uniqueness_text(solved) +
-         hypothesis_text(solved) + model_text(solved) + accuracy_text(solved);
+         hypothesis_text(solved) + model_text(solved) + accuracy_text(solved) + from_text_text(solved) +
+         sensitivity_text(solved);
 }
 
 }  // namespace cli

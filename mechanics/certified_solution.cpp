@@ -122,6 +122,13 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
       judge(found, options);
       return found;
     }
+  if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
+    if (auto proof = convex::infeasibility_proof(problem, found.solution.primal.farkas)) {
+      found.certificate = {proof->level, 0};
+      found.solution.primal.farkas = std::move(proof->farkas);
+      found.farkas = std::move(proof->weights);
+      return found;
+    }
   if (!small_enough(problem)) return found;
   CertifiedSolution exact = solve_by_fractions(problem, data, options);
   if (is_default(options) || !has_answer(found.solution) || !has_answer(exact.solution)) return exact;

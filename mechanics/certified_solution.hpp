@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "convex/nearest_point/proof/certificate.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/exact_gauss_solution.hpp"
 #include "mechanics/exact_text.hpp"
 
@@ -30,13 +31,14 @@ struct CertifiedSolution {
   GaussSolution solution;
   convex::Certificate certificate;
   std::optional<ExactGaussSolution> exact;  ///< when the proof needed it
+  convex::IntegerVector farkas;             ///< exact weights, where these alone were proved
   std::optional<TextProof> text;            ///< of a mechanism
 };
 
 /// Solves Gauss' problem and proves a bound on the error of the acceleration, or that there is no solution:
 /// first in doubles, then, where signs are not strict or the rows contradict each other, in fractions. Where
 /// fractions are needed and the method is the default one, the answer is the exact one, rounded. Beyond
-/// `most_exact_entries` nothing is tried in fractions.
+/// `most_exact_entries` nothing is tried in fractions but the rows that contradict each other.
 CertifiedSolution solve_certified(const convex::NearestPointProblem&, const ExactData&, const GaussOptions&);
 
 /// The exact solution of the data, as the method "exact" gives it.

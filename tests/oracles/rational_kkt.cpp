@@ -4,8 +4,6 @@
 #include <cmath>
 
 namespace oracles {
-namespace {
-
 using convex::Index;
 
 convex::Matrix gram(const convex::Metric& A) {
@@ -14,8 +12,6 @@ convex::Matrix gram(const convex::Metric& A) {
   if (A.kind() == convex::MetricKind::sparse) return convex::Matrix(A.sparse_gram());
   return A.diagonal().asDiagonal() * convex::Matrix::Identity(n, n);
 }
-
-}  // namespace
 
 RationalPoint solve_kkt(const convex::NearestPointProblem& problem, const std::vector<Index>& rows) {
   const auto n = static_cast<std::size_t>(problem.dimension()), k = rows.size();
@@ -77,6 +73,22 @@ double relative_error(const convex::NearestPointProblem& problem, const convex::
     for (std::size_t j = 0; j < difference.size(); ++j)
       square += difference[i] * Rational(A(static_cast<Index>(i), static_cast<Index>(j))) * difference[j];
   return std::sqrt(square.get_d()) / scale;
+}
+
+bool is_exact_farkas_witness(const convex::NearestPointProblem& problem, const RationalVector& w) {
+  RationalVector combination(static_cast<std::size_t>(problem.dimension()));
+  Rational gap = 0;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    const Rational& weight = w[static_cast<std::size_t>(a)];
+    const bool two_sided = std::count(problem.two_sided.begin(), problem.two_sided.end(), a) > 0;
+    if (weight < 0 && !two_sided) return false;
+    if (weight == 0) continue;
+    const convex::Vector u = problem.U.row(a);
+    for (Index i = 0; i < u.size(); ++i) combination[static_cast<std::size_t>(i)] += weight * Rational(u[i]);
+    gap += weight * Rational(problem.s[a]);
+  }
+  return gap > 0 &&
+         std::all_of(combination.begin(), combination.end(), [](const Rational& c) { return c == 0; });
 }
 
 bool is_farkas_witness(const convex::NearestPointProblem& problem, const convex::Vector& w, double slack) {

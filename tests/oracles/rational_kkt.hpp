@@ -21,6 +21,12 @@ bool is_exact_solution(const convex::NearestPointProblem&, const RationalPoint&)
 double relative_error(const convex::NearestPointProblem&, const convex::Vector& q, const RationalPoint& exact,
                       double scale);
 
+/// The Gram matrix of a metric of any kind.
+convex::Matrix gram(const convex::Metric& A);
+
+/// wᵀU = 0, w·s > 0 and w_a >= 0 on one-sided rows, exactly.
+bool is_exact_farkas_witness(const convex::NearestPointProblem&, const RationalVector& w);
+
 /// wᵀU = 0, w·s > 0 and w_a >= 0 on one-sided rows, in fractions, wᵀU to `slack` of its largest term.
 bool is_farkas_witness(const convex::NearestPointProblem&, const convex::Vector& w, double slack);
 

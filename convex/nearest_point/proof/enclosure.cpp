@@ -1,30 +1,17 @@
 #include "convex/nearest_point/proof/enclosure.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <cmath>
 
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/nearest_point/proof/sparse_enclosure.hpp"
 
 namespace convex {
 namespace {
 
-/// Nonzero numbers outside of this range might underflow in products of a few of them.
-constexpr double largest_ordinary = 0x1p150, smallest_ordinary = 0x1p-150;
-
-/// Dense matrices of X and of products with it are made up to this dimension.
-constexpr Index largest_dimension = 1500;
-
-template <class Numbers>
-bool is_ordinary(const Numbers& numbers) {
-  for (Index i = 0; i < numbers.size(); ++i) {
-    const double x = std::abs(numbers.data()[i]);
-    if (x != 0 && !(x >= smallest_ordinary && x <= largest_ordinary)) return false;
-  }
-  return true;
-}
-
-/// Entries too small to be ordinary are 0: the proof holds for any preconditioner.
-void keep_ordinary(Matrix& M) { M = (M.array().abs() >= smallest_ordinary).select(M, 0.0); }
+/// Dense matrices of X and of the active rows are made up to these sizes.
+constexpr Index largest_dimension = 1500, most_active_entries = largest_dimension * largest_dimension;
 
 /// A metric seen through X ≈ F⁻¹: A' = X A Xᵀ = I + Δ with |Δ|₂ <= delta < 1.
 struct Preconditioned {
@@ -61,14 +48,20 @@ std::optional<Preconditioned> preconditioned(const Metric& metric) {
       P.delta = std::max(P.delta, above(std::abs(P.x[i] * P.a[i] * P.x[i] - 1) + gamma(3)));
     return P;
   }
-  if (n > largest_dimension) return std::nullopt;
   P.A = metric.kind() == MetricKind::dense ? metric.dense_gram() : Matrix(metric.sparse_gram());
   P.X = Matrix::Identity(n, n);
   metric.whiten_in_place(P.X);
   keep_ordinary(P.X);
   if (!is_ordinary(P.A) || !is_ordinary(P.X)) return std::nullopt;
-  const Matrix Y = P.X * P.A;
-  Matrix S = Y * P.X.transpose();
+  // Sums in any order, with terms that are 0 left out, have the same bounds.
+  Matrix Y, S;
+  if (P.X.isLowerTriangular(0)) {
+    Y = P.X.triangularView<Eigen::Lower>() * P.A;
+    S = Y * P.X.transpose().triangularView<Eigen::Upper>();
+  } else {
+    Y = P.X * P.A;
+    S = Y * P.X.transpose();
+  }
   S.diagonal().array() -= 1;
   const Vector ones = Vector::Ones(n);
   const Matrix size = P.X.cwiseAbs();
@@ -94,6 +87,34 @@ double matrix_norm(const Vector& row_sums, const Vector& column_sums) {
              : above(std::sqrt(row_sums.maxCoeff() * column_sums.maxCoeff()));
 }
 
+/// VᵀV; the half that is computed stands for the other.
+Matrix gram(const Matrix& V) {
+  Matrix G = Matrix::Zero(V.cols(), V.cols());
+  G.selfadjointView<Eigen::Lower>().rankUpdate(V.transpose());
+  G.triangularView<Eigen::StrictlyUpper>() = G.transpose();
+  return G;
+}
+
+/// T near R⁻¹ for V = QR: from VᵀV where that is well conditioned, which is the cheaper way, else by
+/// reflections. False when V has dependent columns. Nothing is trusted of it.
+bool find_orthogonalizer(const Matrix& V, Matrix& T) {
+  T = Matrix::Identity(V.cols(), V.cols());
+  constexpr double well_conditioned = 1e-4;  // of the diagonal of R: VᵀV then keeps half of the digits
+  const Vector length = V.colwise().norm();
+  if (!(length.minCoeff() > 0)) return false;
+  const Eigen::LLT<Matrix> normal(gram(V));
+  if (normal.info() == Eigen::Success &&
+      (normal.matrixLLT().diagonal().array() > well_conditioned * length.array()).all()) {
+    normal.matrixU().solveInPlace(T);
+    return true;
+  }
+  const Eigen::HouseholderQR<Matrix> factor(V);
+  const Matrix R = factor.matrixQR().topRows(V.cols());
+  if (!(R.diagonal().cwiseAbs().minCoeff() > 0)) return false;
+  R.triangularView<Eigen::Upper>().solveInPlace(T);
+  return true;
+}
+
 std::optional<Active> active_rows(const NearestPointProblem& problem, const Preconditioned& P,
                                   const std::vector<Index>& rows) {
   const Index n = P.dimension(), k = static_cast<Index>(rows.size());
@@ -105,14 +126,10 @@ std::optional<Active> active_rows(const NearestPointProblem& problem, const Prec
   if (!is_ordinary(active.U)) return std::nullopt;
   const Matrix V =
       P.is_diagonal ? Matrix(P.x.asDiagonal() * active.U.transpose()) : Matrix(P.X * active.U.transpose());
-  const Eigen::HouseholderQR<Matrix> factor(V);
-  const Matrix R = factor.matrixQR().topRows(k);
-  if (!(R.diagonal().cwiseAbs().minCoeff() > 0)) return std::nullopt;
-  active.T = Matrix::Identity(k, k);
-  R.triangularView<Eigen::Upper>().solveInPlace(active.T);
+  if (!find_orthogonalizer(V, active.T)) return std::nullopt;
   keep_ordinary(active.T);
   if (!is_ordinary(active.T)) return std::nullopt;
-  active.Z = V * active.T;
+  active.Z = V * active.T.triangularView<Eigen::Upper>();
 
   // Ẑ - Z <= gamma_n |X| |Uᵀ| |T| + gamma_k |V| |T|, entry by entry.
   const Matrix T = active.T.cwiseAbs(), U = active.U.cwiseAbs(), W = V.cwiseAbs();
@@ -124,7 +141,7 @@ std::optional<Active> active_rows(const NearestPointProblem& problem, const Prec
       T.transpose() * (gamma(n) * (U * outer) + gamma(k) * (W.transpose() * Vector::Ones(n)));
   const double error = matrix_norm(rows_of_error, columns_of_error);
 
-  Matrix S = active.Z.transpose() * active.Z;
+  Matrix S = gram(active.Z);
   S.diagonal().array() -= 1;
   const Matrix size = active.Z.cwiseAbs();
   const Vector rounding =
@@ -302,6 +319,11 @@ std::optional<double> enclosed_error(const NearestPointProblem& problem, const S
                                                                     problem.U.sparse().nonZeros()))
                             : !is_ordinary(problem.U.dense()))
     return std::nullopt;
+  const Index n = problem.dimension();
+  const bool is_diagonal =
+      problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
+  if ((n > largest_dimension && !is_diagonal) || k * n > most_active_entries)
+    return sparse_enclosed_error(problem, solution, held);
   const auto P = preconditioned(problem.A);
   if (!P || !(P->delta < 0.5)) return std::nullopt;
   const auto active = active_rows(problem, *P, held);

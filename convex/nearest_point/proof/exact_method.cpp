@@ -19,9 +19,6 @@ std::vector<Index> likely_active_rows(const NearestPointProblem& problem) {
   return rows;
 }
 
-namespace {
-
-/// Integers that doubles hold stay as they are; others are measured by the smallest.
 Vector rounded_weights(const IntegerVector& weights) {
   constexpr std::size_t mantissa = 53;
   Integer smallest = 0;
@@ -33,8 +30,6 @@ Vector rounded_weights(const IntegerVector& weights) {
   }
   return nearest({weights, fit ? Integer(1) : smallest});
 }
-
-}  // namespace
 
 double distance_above(const ExactProblem& problem, const Vector& x, const ExactVector& q) {
   if (!x.allFinite()) return std::numeric_limits<double>::infinity();

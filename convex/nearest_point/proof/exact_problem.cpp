@@ -63,6 +63,13 @@ Integer shifted_one(int exponent) { return Integer::shifted(1, static_cast<unsig
 
 }  // namespace
 
+void append_row(ExactProblem& problem, const Vector& row, double s) {
+  const int own = last_bit_of_all(row, std::min(0, last_bit(s, 0)));
+  problem.U.push_back(integers(row, own));
+  problem.s.push_back(integer(s, own));
+  problem.row_unit.push_back(shifted_one(-own));
+}
+
 ExactProblem exact_problem(const NearestPointProblem& problem) {
   ExactProblem exact;
   const Matrix A = gram(problem.A);
@@ -70,13 +77,7 @@ ExactProblem exact_problem(const NearestPointProblem& problem) {
   for (Index i = 0; i < A.rows(); ++i) exact.A.push_back(integers(A.col(i), inertia));
   exact.z = integers(problem.z, inertia);
   exact.unit = shifted_one(-inertia);
-  for (Index a = 0; a < problem.rows(); ++a) {
-    const Vector row = problem.U.row(a);
-    const int own = last_bit_of_all(row, std::min(0, last_bit(problem.s[a], 0)));
-    exact.U.push_back(integers(row, own));
-    exact.s.push_back(integer(problem.s[a], own));
-    exact.row_unit.push_back(shifted_one(-own));
-  }
+  for (Index a = 0; a < problem.rows(); ++a) append_row(exact, problem.U.row(a), problem.s[a]);
   exact.two_sided = problem.two_sided;
   require_definite(exact);
   return exact;

@@ -33,6 +33,9 @@ ExactProblem exact_problem(const NearestPointProblem&);
 ExactProblem exact_problem(const ExactRows& A, const ExactVector& z, const ExactRows& U, const ExactVector& s,
                            std::vector<Index> two_sided);
 
+/// One more row with its bound, doubles at their exact values.
+void append_row(ExactProblem&, const Vector& row, double s);
+
 /// The doubles nearest to the problem's numbers.
 NearestPointProblem rounded(const ExactProblem&);
 

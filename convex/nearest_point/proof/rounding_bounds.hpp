@@ -9,6 +9,21 @@
 /// overflows; whoever uses them sees to that. The rounding mode is never touched.
 namespace convex {
 
+/// Nonzero numbers outside of this range might underflow in products of a few of them.
+inline constexpr double largest_ordinary = 0x1p150, smallest_ordinary = 0x1p-150;
+
+template <class Numbers>
+bool is_ordinary(const Numbers& numbers) {
+  for (Index i = 0; i < numbers.size(); ++i) {
+    const double x = std::abs(numbers.data()[i]);
+    if (x != 0 && !(x >= smallest_ordinary && x <= largest_ordinary)) return false;
+  }
+  return true;
+}
+
+/// Entries too small to be ordinary become 0: proofs hold for any preconditioner.
+inline void keep_ordinary(Matrix& M) { M = (M.array().abs() >= smallest_ordinary).select(M, 0.0); }
+
 /// A bound itself is a sum of at most some thousands of positive terms, each rounded: this much more covers
 /// it.
 inline double above(double bound) { return bound * (1 + 0x1p-30); }

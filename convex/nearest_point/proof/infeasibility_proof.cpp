@@ -1,0 +1,159 @@
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "convex/exact/elimination.hpp"
+#include "convex/exact/integer_system.hpp"
+#include "convex/exact/modular.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+
+namespace convex {
+namespace {
+
+/// The rows with weights, over the coordinates that they touch.
+struct Support {
+  std::vector<Index> rows;
+  RowMatrix U;
+  Vector s, w;
+  std::vector<bool> two_sided;
+};
+
+Support support(const NearestPointProblem& problem, const Vector& w) {
+  Support found;
+  for (Index a = 0; a < w.size(); ++a)
+    if (w[a] != 0) found.rows.push_back(a);
+  // The first one's weight is the unit of the others.
+  for (Index& a : found.rows)
+    if (w[a] > w[found.rows.front()]) std::swap(a, found.rows.front());
+  const ConstraintRows chosen = problem.U.select(found.rows);
+  const Index k = static_cast<Index>(found.rows.size());
+  std::vector<bool> touched(static_cast<std::size_t>(problem.dimension()), false);
+  std::vector<Vector> rows;
+  for (Index r = 0; r < k; ++r) {
+    rows.push_back(chosen.row(r));
+    for (Index i = 0; i < problem.dimension(); ++i)
+      if (rows.back()[i] != 0) touched[static_cast<std::size_t>(i)] = true;
+  }
+  std::vector<Index> columns;
+  for (Index i = 0; i < problem.dimension(); ++i)
+    if (touched[static_cast<std::size_t>(i)]) columns.push_back(i);
+  found.U.resize(k, static_cast<Index>(columns.size()));
+  for (Index r = 0; r < k; ++r) found.U.row(r) = rows[static_cast<std::size_t>(r)](columns).transpose();
+  found.s = problem.s(found.rows);
+  found.w = w(found.rows);
+  for (Index a : found.rows)
+    found.two_sided.push_back(std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a));
+  return found;
+}
+
+/// The rows as integers, A left out: nothing here is about it.
+ExactProblem integer_rows(const Support& rows) {
+  ExactProblem exact;
+  exact.z.assign(static_cast<std::size_t>(rows.U.cols()), 0);
+  for (Index r = 0; r < rows.U.rows(); ++r) {
+    append_row(exact, rows.U.row(r), rows.s[r]);
+    if (rows.two_sided[static_cast<std::size_t>(r)]) exact.two_sided.push_back(r);
+  }
+  return exact;
+}
+
+/// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
+/// rows are independent in; empty when there is more than one such w up to a factor.
+IntegerVector dependence_of(const ExactProblem& exact) {
+  const std::size_t k = exact.U.size(), r = exact.z.size();
+  IntegerRows columns(r, IntegerVector(k));
+  for (std::size_t a = 0; a < k; ++a)
+    for (std::size_t i = 0; i < r; ++i) columns[i][a] = exact.U[a][i];
+  const std::vector<std::size_t> chosen = independent_rows(columns, k);
+  if (chosen.size() + 1 != k) return {};
+  IntegerRows M;
+  IntegerVector right;
+  for (std::size_t i : chosen) {
+    M.emplace_back(columns[i].begin() + 1, columns[i].end());
+    right.push_back(-columns[i][0]);
+  }
+  const auto system = IntegerSystem::prepared(M);
+  if (!system) return {};
+  const ExactVector others = system->solve(right);
+  IntegerVector w{others.denominator};
+  w.insert(w.end(), others.numerators.begin(), others.numerators.end());
+  for (std::size_t a = 0; a < k; ++a) w[a] *= exact.row_unit[a];
+  make_primitive(w);
+  return w;
+}
+
+std::optional<InfeasibilityProof> by_fractions(const Support& rows, Index m) {
+  const ExactProblem exact = integer_rows(rows);
+  IntegerVector w = dependence_of(exact);
+  if (w.empty()) return std::nullopt;
+  if (rows.w[0] < 0)
+    for (Integer& weight : w) weight = -weight;
+  if (!proves_infeasibility(exact, w)) return std::nullopt;
+  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(static_cast<std::size_t>(m), 0)};
+  proof.farkas(rows.rows) = rounded_weights(w);
+  for (std::size_t r = 0; r < rows.rows.size(); ++r)
+    proof.weights[static_cast<std::size_t>(rows.rows[r])] = w[r];
+  return proof;
+}
+
+/// r + 1 rows of r entries: with B all but the first, B regular, c = -B⁻ᵀu_0 makes u_0 + Σ c_k u_k = 0
+/// exactly.
+std::optional<InfeasibilityProof> by_enclosure(const Support& rows, Index m) {
+  const Index r = rows.U.cols();
+  if (rows.U.rows() != r + 1 || !(rows.w[0] > 0) || !is_ordinary(rows.U) || !is_ordinary(rows.s))
+    return std::nullopt;
+  const Matrix B = rows.U.bottomRows(r).transpose();
+  const Eigen::PartialPivLU<Matrix> factor(B);
+  Matrix X = factor.inverse();
+  Vector c = rows.w.tail(r) / rows.w[0];
+  if (!X.allFinite() || !c.allFinite()) return std::nullopt;
+  keep_ordinary(X);
+  for (double& entry : c)
+    if (std::abs(entry) < smallest_ordinary) entry = 0;
+  if (!is_ordinary(X) || !is_ordinary(c)) return std::nullopt;
+  const Vector ones = Vector::Ones(r);
+  const Matrix size = X.cwiseAbs();
+  const Vector miss = (X * B - Matrix::Identity(r, r)).cwiseAbs() * ones +
+                      gamma(r) * (size * (B.cwiseAbs() * ones)) + 2 * unit_roundoff * ones;
+  const double delta = above(miss.maxCoeff());
+  if (!(delta < 0.5)) return std::nullopt;
+  Vector rest(r), rest_radius(r);
+  for (Index i = 0; i < r; ++i) {
+    CompensatedSum sum;
+    sum.add(rows.U(0, i), 1);
+    for (Index k = 0; k < r; ++k) sum.add(B(i, k), c[k]);
+    rest[i] = sum.result().value;
+    rest_radius[i] = sum.result().radius;
+  }
+  // |c* - c|_∞ <= |X rest|_∞ / (1 - delta).
+  const Vector error = (X * rest).cwiseAbs() + size * (gamma(r) * rest.cwiseAbs() + rest_radius);
+  const double radius = above(above(error.maxCoeff()) / below(1 - delta));
+  CompensatedSum gap;
+  gap.add(rows.s[0], 1);
+  double hidden = 0;
+  for (Index k = 0; k < r; ++k) {
+    if (!rows.two_sided[static_cast<std::size_t>(k + 1)] && !(c[k] > radius)) return std::nullopt;
+    gap.add(rows.s[k + 1], c[k]);
+    hidden += radius * std::abs(rows.s[k + 1]);
+  }
+  if (!(below(gap.result().value) > above(gap.result().radius + above(hidden)))) return std::nullopt;
+  InfeasibilityProof proof{ProofLevel::enclosure, Vector::Zero(m), {}};
+  proof.farkas[rows.rows[0]] = 1;
+  for (Index k = 0; k < r; ++k) proof.farkas[rows.rows[static_cast<std::size_t>(k + 1)]] = c[k];
+  return proof;
+}
+
+}  // namespace
+
+std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem& problem, const Vector& w) {
+  if (w.size() != problem.rows() || !w.allFinite()) return std::nullopt;
+  const Support rows = support(problem, w);
+  if (rows.rows.empty()) return std::nullopt;
+  if (static_cast<Index>(rows.rows.size()) <= most_exact_rows) return by_fractions(rows, w.size());
+  return by_enclosure(rows, w.size());
+}
+
+}  // namespace convex

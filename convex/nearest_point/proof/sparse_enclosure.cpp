@@ -1,0 +1,220 @@
+#include "convex/nearest_point/proof/sparse_enclosure.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+
+namespace convex {
+namespace {
+
+using Factor = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower>;
+
+SparseMatrix shifted(const SparseMatrix& M, double shift) {
+  SparseMatrix result = M;
+  result.diagonal().array() -= shift;
+  return result;
+}
+
+/// The largest row sum of gamma |L||L|ᵀ, and of what the shift rounded.
+double factor_error(const Factor& factor, const SparseMatrix& M) {
+  const SparseMatrix L = factor.matrixL();
+  Eigen::VectorXi in_row = Eigen::VectorXi::Zero(L.rows());
+  Vector down = Vector::Zero(L.rows()), across = Vector::Zero(L.rows());
+  for (Index j = 0; j < L.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
+      ++in_row[it.row()];
+      down[j] += std::abs(it.value());
+    }
+  for (Index j = 0; j < L.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) across[it.row()] += std::abs(it.value()) * down[j];
+  const double rounding = gamma(in_row.maxCoeff() + 2) * across.maxCoeff();
+  return above(rounding + 2 * unit_roundoff * M.diagonal().cwiseAbs().maxCoeff());
+}
+
+/// A guess of the least eigenvalue by inverse iteration.
+double guessed_least_eigenvalue(const Factor& factor, Index n) {
+  constexpr int iterations = 12;
+  Vector x(n);
+  for (Index i = 0; i < n; ++i) {  // fixed numbers without a pattern
+    const double golden = 0.6180339887498949 * static_cast<double>(i + 1);
+    x[i] = golden - std::floor(golden) - 0.5;
+  }
+  double growth = 1;
+  for (int k = 0; k < iterations; ++k) {
+    x.normalize();
+    x = factor.solve(x).eval();
+    growth = x.norm();
+  }
+  return 1 / growth;
+}
+
+/// The power of two near 1/sqrt(x): scaling by it rounds nothing.
+double scale_of(double x) { return std::ldexp(1.0, -std::ilogb(x) / 2); }
+
+/// A = diag(1/d) A' diag(1/d) and U_W = diag(1/r) U' diag(1/d) with A' and U' of ordinary size.
+struct Balanced {
+  SparseMatrix A;
+  SparseRows U;
+  Vector d, r;
+};
+
+Balanced balanced(const NearestPointProblem& problem, const std::vector<Index>& held) {
+  Balanced found;
+  const Index n = problem.dimension();
+  if (problem.A.kind() == MetricKind::sparse) {
+    found.A = problem.A.sparse_gram();
+  } else {
+    found.A.resize(n, n);
+    found.A.setIdentity();
+    found.A.diagonal() = problem.A.diagonal();
+  }
+  found.d = problem.A.diagonal().unaryExpr(&scale_of);
+  found.A = found.d.asDiagonal() * found.A * found.d.asDiagonal();
+  const ConstraintRows rows = problem.U.select(held);
+  found.U = rows.is_sparse() ? rows.sparse() : SparseRows(rows.dense().sparseView(0, 0));
+  found.U = found.U * found.d.asDiagonal();
+  found.r.resize(found.U.rows());
+  for (Index k = 0; k < found.r.size(); ++k) found.r[k] = scale_of(found.U.row(k).squaredNorm());
+  found.U = found.r.asDiagonal() * found.U;
+  return found;
+}
+
+/// |M|₁ for a symmetric M: at least |M|₂.
+double row_sum_above(const SparseMatrix& M) {
+  double largest = 0;
+  for (Index j = 0; j < M.outerSize(); ++j) {
+    double sum = 0;
+    for (SparseMatrix::InnerIterator it(M, j); it; ++it) sum += std::abs(it.value());
+    largest = std::max(largest, sum);
+  }
+  return above(largest);
+}
+
+/// A number below the eigenvalues of U'U'ᵀ.
+std::optional<double> least_of_rows(const SparseRows& U) {
+  const SparseMatrix columns = U.transpose();
+  const SparseMatrix G = U * columns;
+  const SparseMatrix size = columns.cwiseAbs();
+  const Vector sums = size.transpose() * Vector(size * Vector::Ones(size.cols()));
+  Index longest = 0;
+  for (Index k = 0; k < U.rows(); ++k) longest = std::max(longest, U.row(k).nonZeros());
+  return least_eigenvalue_below(G, above(gamma(longest) * sums.maxCoeff()));
+}
+
+struct ResidualBounds {
+  Vector r1, r2;  ///< |z + U_Wᵀlambda - A q|, |s_W - U_W q|, at least
+};
+
+ResidualBounds residuals_above(const NearestPointProblem& problem, const Solution& solution,
+                               const std::vector<Index>& held) {
+  const Index n = problem.dimension();
+  std::vector<CompensatedSum> balance(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) balance[static_cast<std::size_t>(i)].add(problem.z[i], 1);
+  if (problem.A.kind() == MetricKind::sparse) {
+    const SparseMatrix& A = problem.A.sparse_gram();
+    for (Index j = 0; j < n; ++j)
+      for (SparseMatrix::InnerIterator it(A, j); it; ++it)
+        balance[static_cast<std::size_t>(it.row())].add(-it.value(), solution.q[j]);
+  } else {
+    const Vector a = problem.A.diagonal();
+    for (Index i = 0; i < n; ++i) balance[static_cast<std::size_t>(i)].add(-a[i], solution.q[i]);
+  }
+  ResidualBounds found{Vector(n), Vector(static_cast<Index>(held.size()))};
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    CompensatedSum gap;
+    gap.add(problem.s[held[k]], 1);
+    const auto add = [&](Index i, double u) {
+      gap.add(-u, solution.q[i]);
+      balance[static_cast<std::size_t>(i)].add(u, solution.lambda[held[k]]);
+    };
+    if (problem.U.is_sparse())
+      for (SparseRows::InnerIterator it(problem.U.sparse(), held[k]); it; ++it) add(it.col(), it.value());
+    else
+      for (Index i = 0; i < n; ++i) add(i, problem.U.dense()(held[k], i));
+    found.r2[static_cast<Index>(k)] = above(std::abs(gap.result().value) + gap.result().radius);
+  }
+  for (Index i = 0; i < n; ++i) {
+    const Enclosed sum = balance[static_cast<std::size_t>(i)].result();
+    found.r1[i] = above(std::abs(sum.value) + sum.radius);
+  }
+  return found;
+}
+
+bool slacks_are_positive(const NearestPointProblem& problem, const Vector& q, const Vector& reach,
+                         const std::vector<bool>& is_held) {
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (is_held[static_cast<std::size_t>(a)]) continue;
+    CompensatedSum sum;
+    double hidden = 0;
+    sum.add(-problem.s[a], 1);
+    const auto add = [&](Index i, double u) {
+      sum.add(u, q[i]);
+      hidden += std::abs(u) * reach[i];
+    };
+    if (problem.U.is_sparse())
+      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it) add(it.col(), it.value());
+    else
+      for (Index i = 0; i < q.size(); ++i) add(i, problem.U.dense()(a, i));
+    const Enclosed slack = sum.result();
+    if (!(below(slack.value) > above(slack.radius + above(hidden)))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<double> least_eigenvalue_below(const SparseMatrix& M, double uncertainty) {
+  const Factor first(M);
+  if (first.info() != Eigen::Success) return std::nullopt;
+  double shift = 0.5 * guessed_least_eigenvalue(first, M.rows());
+  constexpr int tries = 4;
+  for (int k = 0; k < tries; ++k, shift /= 8) {
+    if (!(shift > 0) || !std::isfinite(shift)) return std::nullopt;
+    const Factor factor(shifted(M, shift));
+    if (factor.info() != Eigen::Success) continue;
+    const double found = below(shift) - above(factor_error(factor, M) + uncertainty);
+    if (found > 0) return below(found);
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, const Solution& solution,
+                                            const std::vector<Index>& held) {
+  if (problem.A.kind() == MetricKind::dense) return std::nullopt;
+  const Balanced scaled = balanced(problem, held);
+  if (!is_ordinary(Eigen::Map<const Vector>(scaled.A.valuePtr(), scaled.A.nonZeros())) ||
+      !is_ordinary(Eigen::Map<const Vector>(scaled.U.valuePtr(), scaled.U.nonZeros())))
+    return std::nullopt;
+  const auto alpha = least_eigenvalue_below(scaled.A, 0);
+  if (!alpha) return std::nullopt;
+  std::optional<double> sigma = 1.0;
+  if (!held.empty()) sigma = least_of_rows(scaled.U);
+  if (!sigma) return std::nullopt;
+  const double beta = row_sum_above(scaled.A);
+
+  const ResidualBounds rest = residuals_above(problem, solution, held);
+  const double force = above(norm_above(scaled.d.cwiseProduct(rest.r1)) / std::sqrt(*alpha));
+  const double gap = held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2)),
+               weak = above(beta / *sigma);
+  const double radius = above(force + std::sqrt(weak) * gap);
+  const double change = above(weak * gap + std::sqrt(weak) * force);
+  if (!std::isfinite(radius) || !std::isfinite(change)) return std::nullopt;
+
+  std::vector<bool> is_held(static_cast<std::size_t>(problem.rows()), false), two_sided = is_held;
+  for (Index a : held) is_held[static_cast<std::size_t>(a)] = true;
+  for (Index a : problem.two_sided) {
+    two_sided[static_cast<std::size_t>(a)] = true;
+    if (!is_held[static_cast<std::size_t>(a)]) return std::nullopt;
+  }
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (!two_sided[static_cast<std::size_t>(held[k])] &&
+        !(solution.lambda[held[k]] > above(scaled.r[static_cast<Index>(k)] * change)))
+      return std::nullopt;
+  const Vector reach = scaled.d * above(radius / std::sqrt(*alpha));
+  if (!slacks_are_positive(problem, solution.q, reach, is_held)) return std::nullopt;
+  return radius;
+}
+
+}  // namespace convex
