@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "cli/drawing/label_column.hpp"
 #include "cli/measurement/cone_exams.hpp"
+#include "cli/measurement/exams.hpp"
 #include "cli/measurement/prox_exams.hpp"
 #include "cli/measurement/rank_correlation.hpp"
+#include "cli/measurement/vector_exam.hpp"
 
 using namespace cli;
 
@@ -79,4 +82,51 @@ TEST_CASE("the planted proxes and projections are what the default finds, to rou
     for (const double distance : {1.0, 1e-4, 1e-8, 1e-12})
       check(boundary_contests(cone, distance), 1e-14 / distance);
   for (const double slope : {1.0, 1e-5, 1e-14}) check(flat_polar_contests(slope), 1e-14);
+}
+
+TEST_CASE("a trial tells apart what is right, wrong, given up, crashed, too slow and refused") {
+  using convex::Vector;
+  const Vector truth{{3, 4}};
+  const auto answer = [&](double off, double bound, bool gave_up = false) {
+    return [=](double) { return FoundVector{truth + Vector{{off, 0}}, bound, gave_up}; };
+  };
+  const auto direct = convex::MethodKind::direct;
+  std::vector<Way> ways{{"right", direct, "", answer(1e-10, 1e-10)},
+                        {"wrong", direct, "", answer(1e-8, 1e-10)},
+                        {"wrong at rounding", direct, "", answer(1e-13, 0)},
+                        {"gave up", direct, "", answer(1, 1, true)},
+                        {"without a bound", direct, "", answer(0, INFINITY)},
+                        {"crashed", direct, "", [](double) -> FoundVector { std::abort(); }},
+                        {"threw", direct, "", [](double) -> FoundVector { throw std::bad_alloc(); }},
+                        {"too slow", direct, "",
+                         [](double) -> FoundVector {
+                           for (volatile int k = 0;;) k = k + 1;
+                         }},
+                        {"refused", direct, "does not apply", {}}};
+  const std::vector<Verdict> expected{Verdict::ok,      Verdict::wrong,    Verdict::wrong,
+                                      Verdict::gave_up, Verdict::gave_up,  Verdict::crashed,
+                                      Verdict::crashed, Verdict::too_slow, Verdict::refused};
+  const std::vector<Contest> all =
+      contests({"two numbers", convex::Metric::identity(2), convex::DoubleDoubleVector(truth), 5}, ways);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    CAPTURE(all[k].method);
+    const Trial t = trial(all[k], {}, {1e-6, 0.2});
+    CHECK(verdict_text(t.verdict()) == verdict_text(expected[k]));
+    if (all[k].method == "right") CHECK(t.judgement.error == doctest::Approx(1e-10 / 5));
+  }
+}
+
+TEST_CASE("an answer to a problem that has none is wrong, unless only rounding speaks against it") {
+  const Exam hopeless = gallery_exam(*convex::find_family("infeasible"), 8, 1);
+  convex::Solution said;
+  said.status = convex::Status::solved;
+  said.q = convex::Vector::Zero(8);
+  said.error_bound = 1e-12;
+  CHECK(judgement(hopeless, said).verdict == Verdict::wrong);
+  said.status = convex::Status::gave_up;
+  CHECK(judgement(hopeless, said).verdict == Verdict::gave_up);
+  said.status = convex::Status::infeasible;
+  CHECK(judgement(hopeless, said).verdict == Verdict::ok);
+  Exam solvable = gallery_exam(*convex::find_family("well-posed"), 8, 0.5);
+  CHECK(judgement(solvable, said).verdict == Verdict::wrong);
 }
