@@ -22,8 +22,8 @@ constexpr double good_error = 1e-9;
 constexpr double width = 700, left = 62, right = 8, heading = 62, box_height = 212, title_height = 26,
                  foot = 40, label_height = 11.5;
 
-/// Along x, in decades of the error: names of methods, answers from exact ones (at -18) to 1, failures.
-constexpr double names_from = -26.6, names_end = -18.9, exact_at = -18, errors_end = 0.6, failed_at = 1.3,
+/// Along x, in decades of the error: names of methods, answers from exact ones (at -18.6) to 1, failures.
+constexpr double names_from = -28, names_end = -19.5, exact_at = -18.6, errors_end = 0.6, failed_at = 1.3,
                  failed_name = 1.9, x_end = 12.2;
 
 double error_of(const Trial& trial, const DrawnAs& drawn) {
