@@ -40,16 +40,20 @@ ExactJet chained(const NumberPartials& p, const ExactJet& a, const ExactJet& b) 
   f.along_twice = p.a * a.along_twice + p.b * b.along_twice + p.aa * a.along * a.along +
                   two * p.ab * a.along * b.along + p.bb * b.along * b.along;
   f.by_q = combined(p.a, a.by_q, p.b, b.by_q);
-  f.by_v = combined(p.a, a.by_v, p.b, b.by_v);
+  // What only A and z are made of needs no names: a contact hangs on f and its derivatives by q and t.
+  const NumberPartials bare{p.f,           p.a.unnamed(), p.b.unnamed(), p.aa.unnamed(), p.ab.unnamed(),
+                            p.bb.unnamed()};
+  f.by_v = combined(bare.a, a.by_v, bare.b, b.by_v);
   // ∂(Df)/∂v: the second derivatives with D on one side.
-  const Number with_a = p.aa * a.along + p.ab * b.along, with_b = p.ab * a.along + p.bb * b.along;
-  const std::vector<Number> first = combined(p.a, a.along_by_v, p.b, b.along_by_v);
+  const Number with_a = bare.aa * a.along.unnamed() + bare.ab * b.along.unnamed(),
+               with_b = bare.ab * a.along.unnamed() + bare.bb * b.along.unnamed();
+  const std::vector<Number> first = combined(bare.a, a.along_by_v, bare.b, b.along_by_v);
   f.along_by_v = combined(one, first, one, combined(with_a, a.by_v, with_b, b.by_v));
-  f.by_vv = combined(p.a, a.by_vv, p.b, b.by_vv);
-  add_product(f.by_vv, p.aa, a.by_v, a.by_v);
-  add_product(f.by_vv, p.ab, a.by_v, b.by_v);
-  add_product(f.by_vv, p.ab, b.by_v, a.by_v);
-  add_product(f.by_vv, p.bb, b.by_v, b.by_v);
+  f.by_vv = combined(bare.a, a.by_vv, bare.b, b.by_vv);
+  add_product(f.by_vv, bare.aa, a.by_v, a.by_v);
+  add_product(f.by_vv, bare.ab, a.by_v, b.by_v);
+  add_product(f.by_vv, bare.ab, b.by_v, a.by_v);
+  add_product(f.by_vv, bare.bb, b.by_v, b.by_v);
   return f;
 }
 
@@ -93,7 +97,7 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
     case Operation::pi: {
       if (precision_ == 0) return std::nullopt;
       ExactJet jet;
-      jet.value = Number(Ball::pi(precision_));
+      jet.value = Number(Ball::pi(precision_), atom("pi", {1, 1}));
       return jet;
     }
     case Operation::coordinate:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mechanics/expression/exact_root.hpp"
+
 namespace mechanics::expression {
 namespace {
 
@@ -53,24 +55,19 @@ Number raised(const Number& base, std::int64_t exponent) {
   return exponent < 0 ? one / result : result;
 }
 
-/// The root of a square.
-std::optional<Fraction> exact_root(const Fraction& a) {
-  // Numerator and denominator of a in lowest terms are squares themselves.
-  const Fraction lowest = convex::lowest_terms(a);
-  constexpr double largest = 0x1p52;
-  const double p = std::sqrt(convex::nearest_quotient(lowest.numerator, 1));
-  const double q = std::sqrt(convex::nearest_quotient(lowest.denominator, 1));
-  if (!(p < largest && q < largest)) return std::nullopt;
-  const Fraction candidate{static_cast<std::int64_t>(p), static_cast<std::int64_t>(q)};
-  if (!(candidate * candidate == lowest)) return std::nullopt;
-  return candidate;
-}
-
 /// The value of a function that is no fraction, or not known to be one.
 std::optional<Number> enclosed(Operation operation, const Number& a, const Number& b, long precision) {
   const auto function = ball_function(operation);
   if (precision == 0 || !function) return std::nullopt;
-  return Number(Ball::apply(*function, a.ball(precision), b.ball(precision)));
+  std::optional<SymbolicForm> form;
+  const std::string name(symbol(operation));
+  if (operation == Operation::power || operation == Operation::atan2) {
+    const auto left = a.name(), right = b.name();
+    if (left && right) form = atom(name + "(" + *left + ", " + *right + ")", {1, 1});
+  } else if (a.name()) {
+    form = function_form(name, *a.form());
+  }
+  return Number(Ball::apply(*function, a.ball(precision), b.ball(precision)), form);
 }
 
 std::optional<Number> root(const Number& a, long precision) {
@@ -238,17 +235,53 @@ std::optional<NumberPartials> partials_anyhow(Operation operation, const Number&
 }
 
 /// One of the four rules on numbers of which one is a ball.
-Number ruled(BallFunction rule, const Number& a, const Number& b) {
+Ball ruled(BallFunction rule, const Number& a, const Number& b) {
   // A fraction takes the precision of the other.
   if (a.is_exact()) {
     const Ball right = b.ball(0);
-    return Number(Ball::apply(rule, a.ball(right.precision()), right));
+    return Ball::apply(rule, a.ball(right.precision()), right);
   }
   const Ball left = a.ball(0);
-  return Number(Ball::apply(rule, left, b.ball(left.precision())));
+  return Ball::apply(rule, left, b.ball(left.precision()));
 }
 
+/// What a rule makes of two forms, when both are known.
+template <class Rule>
+std::optional<SymbolicForm> combined(const Number& a, const Number& b, Rule rule) {
+  const auto left = a.form(), right = b.form();
+  if (!left || !right) return std::nullopt;
+  return rule(*left, *right);
+}
+
+SymbolicForm difference(const SymbolicForm& a, const SymbolicForm& b) { return sum(a, scaled(b, {-1, 1})); }
+
 }  // namespace
+
+Number::Number(Ball ball, const std::optional<SymbolicForm>& form) : ball_(std::move(ball)) {
+  if (!form || !ball_->is_finite()) return;
+  if (form->atoms.empty()) {
+    fraction_ = convex::lowest_terms(form->constant);
+    ball_.reset();
+  } else if (const auto name = written(*form)) {
+    form_ = std::make_shared<const SymbolicForm>(*form);
+  }
+}
+
+std::optional<SymbolicForm> Number::form() const {
+  if (is_exact()) return SymbolicForm{fraction_, {}};
+  return form_ ? std::optional<SymbolicForm>(*form_) : std::nullopt;
+}
+
+std::optional<std::string> Number::name() const {
+  const auto known = form();
+  return known ? written(*known) : std::nullopt;
+}
+
+Number Number::unnamed() const {
+  Number number = *this;
+  number.form_.reset();
+  return number;
+}
 
 std::optional<int> Number::sign() const {
   if (is_exact()) return convex::sign(fraction_);
@@ -257,28 +290,30 @@ std::optional<int> Number::sign() const {
 }
 
 Number operator-(const Number& a) {
-  return a.is_exact() ? Number(-a.fraction_) : Number(Ball::apply(BallFunction::negate, *a.ball_));
+  if (a.is_exact()) return -a.fraction_;
+  return Number(Ball::apply(BallFunction::negate, *a.ball_), combined(Number(), a, difference));
 }
 Number operator+(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ + b.fraction_;
   if (a.is_zero()) return b;
   if (b.is_zero()) return a;
-  return ruled(BallFunction::add, a, b);
+  return Number(ruled(BallFunction::add, a, b), combined(a, b, sum));
 }
 Number operator-(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ - b.fraction_;
   if (b.is_zero()) return a;
-  return ruled(BallFunction::subtract, a, b);
+  return Number(ruled(BallFunction::subtract, a, b), combined(a, b, difference));
 }
 Number operator*(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ * b.fraction_;
   if (a.is_zero() || b.is_zero()) return zero;
-  return ruled(BallFunction::multiply, a, b);
+  return Number(ruled(BallFunction::multiply, a, b), combined(a, b, product));
 }
 Number operator/(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ / b.fraction_;
   if (a.is_zero() && b.sign()) return zero;
-  return ruled(BallFunction::divide, a, b);
+  if (!b.sign()) return Number(ruled(BallFunction::divide, a, b), std::nullopt);
+  return Number(ruled(BallFunction::divide, a, b), combined(a, b, quotient));
 }
 
 bool NumberPartials::is_finite() const {

@@ -1,24 +1,28 @@
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "convex/exact/ball.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/expression/operation.hpp"
+#include "mechanics/expression/symbolic_form.hpp"
 
 namespace mechanics::expression {
 
 using convex::Ball;
 using convex::Fraction;
 
-/// A number of a text: a fraction where it is one, else a ball that contains it. What is computed from
-/// fractions alone is a fraction wherever the result is known to be one.
+/// A number of a text: a fraction where it is one, else a ball that contains it, with the name of what it is.
+/// What is computed from fractions alone is a fraction wherever the result is known to be one.
 class Number {
  public:
   Number() = default;
   Number(Fraction value) : fraction_(std::move(value)) {}  // NOLINT: a fraction is one
   Number(std::int64_t value) : fraction_{value, 1} {}      // NOLINT
-  explicit Number(Ball ball) : ball_(std::move(ball)) {}
+  /// The number of this ball, which `form` names where it is known: a fraction when the form is one.
+  Number(Ball ball, const std::optional<SymbolicForm>& form);
 
   bool is_exact() const { return !ball_; }
   /// Known to be 0; a ball about 0 is not.
@@ -29,6 +33,12 @@ class Number {
 
   /// The fraction itself, or the midpoint of the ball.
   Fraction middle() const { return is_exact() ? fraction_ : ball_->midpoint(); }
+  /// What the number is, where that is known and short.
+  std::optional<SymbolicForm> form() const;
+  std::optional<std::string> name() const;
+  /// The same number without its form, whose arithmetic is quicker.
+  Number unnamed() const;
+
   /// At least the distance of the number from its middle.
   double radius() const { return is_exact() ? 0 : ball_->radius(); }
 
@@ -46,6 +56,7 @@ class Number {
  private:
   Fraction fraction_;
   std::optional<Ball> ball_;
+  std::shared_ptr<const SymbolicForm> form_;  ///< of a ball, or null
 };
 
 /// A function at (a, b) with its partial derivatives.

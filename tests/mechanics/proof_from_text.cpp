@@ -48,7 +48,7 @@ json expected_of(const std::string& name) {
 }  // namespace
 
 TEST_CASE("every mechanism of the library is solved exactly from its text, or enclosed to thirty digits") {
-  int exact = 0, enclosed = 0;
+  int exact = 0, enclosed = 0, open = 0;
   for (const std::string& name : systems()) {
     CAPTURE(name);
     const cli::Scene scene = cli::read_scene(std::string(library) + "/" + name + ".toml", {});
@@ -71,7 +71,7 @@ TEST_CASE("every mechanism of the library is solved exactly from its text, or en
       CHECK(solution->radius <= 1e-24);
       q = solution->q;
     }
-    Rational scale = 0;
+    Rational scale = 1;
     for (const auto& [coordinate, value] : expected["acceleration"].items())
       scale = std::max(scale, Rational(abs(number(value))));
     for (std::size_t i = 0; i < scene.coordinates.size(); ++i) {
@@ -84,6 +84,7 @@ TEST_CASE("every mechanism of the library is solved exactly from its text, or en
       else
         CHECK((abs(difference) <= tolerance(scale)));
     }
+    if (std::count(text->contacts.begin(), text->contacts.end(), ContactVerdict::undecided) > 0) ++open;
     // No contact of K is apart or violated, and no other constraint touches.
     for (std::size_t a = 0; a < text->contacts.size(); ++a) {
       CAPTURE(scene.constraints[a]);
@@ -93,7 +94,8 @@ TEST_CASE("every mechanism of the library is solved exactly from its text, or en
              verdict == (in_K ? ContactVerdict::touches : ContactVerdict::apart)));
     }
   }
-  MESSAGE("exact " << exact << ", enclosed " << enclosed);
+  MESSAGE("exact " << exact << ", enclosed " << enclosed << ", contacts not decided in " << open);
+  CHECK(open <= 6);
   CHECK(exact >= 14);
   CHECK(enclosed >= 10);
 }
@@ -139,4 +141,34 @@ TEST_CASE("a derivative that may not exist for all that balls tell is not enclos
   const tests::SystemText system{{"u"}, "u'^2/2", "abs(sin(u)^2 + cos(u)^2 - 1)*u", {}, {}, {}, {}};
   const auto lagrangian = tests::system(system);
   CHECK_FALSE(mechanics::problem_from_text(*lagrangian, tests::state_text({{"u", "0.4"}}), {}));
+}
+
+TEST_CASE("a contact is proved where the text makes f the same number twice, and only there") {
+  const auto verdict = [](const std::string& f) {
+    const tests::SystemText system{{"a", "b"}, "a'^2/2 + b'^2/2", "", {}, {}, {}, {{"contact", f + " >= 0"}}};
+    const auto lagrangian = tests::system(system);
+    const auto text = mechanics::problem_from_text(
+        *lagrangian, tests::state_text({{"a", "0.7"}, {"b", "2*cos(asin(0.8)) + sqrt(3)"}}), {});
+    REQUIRE(text);
+    return text->contacts.at(0);
+  };
+  for (const char* zero :
+       {"b - 2*cos(asin(0.8)) - sqrt(3)", "b - 6/5 - sqrt(3)", "a*(sin(pi/6) - 1/2)", "a - a*tan(pi/4)",
+        "sin(a)^2 + cos(a)^2 - 1", "sin(-a) + sin(a)", "cos(-a) - cos(a)", "a*sqrt(2)*sqrt(2) - 2*a",
+        "exp(a)*sin(b) - sin(b)*exp(a)", "3*exp(a)/exp(a) - 3", "sin(a + b) - sin(b + a)",
+        "sum(i in 1..4, cos(a)*b) - 4*b*cos(a)", "a*cos(7*pi/2)", "cos(acos(0.3)) - 3/10 + 0*a",
+        "atan2(a, b) - atan2(a, b)", "a^b - a^b", "a*sin(-13*pi/6) + a/2"}) {
+    CAPTURE(std::string(zero));
+    CHECK(verdict(zero) == ContactVerdict::touches);
+  }
+  // Equal, but by no rule that is known here; or different by less than doubles tell.
+  for (const char* unknown : {"sin(2*a) - 2*sin(a)*cos(a)", "sqrt(2)*sqrt(3) - sqrt(6) + 0*a",
+                              "exp(a)*exp(a) - exp(2*a)", "sin(a/2)^2 - (1 - cos(a))/2"}) {
+    CAPTURE(std::string(unknown));
+    CHECK(verdict(unknown) == ContactVerdict::undecided);
+  }
+  CHECK(verdict("pi - 3.1415926535897932384626433832795028841971693 + 0*a") == ContactVerdict::apart);
+  CHECK(verdict("sin(a + 1e-30) - sin(a)") == ContactVerdict::apart);
+  CHECK(verdict("sin(a) - sin(a + 1e-30)") == ContactVerdict::violated);
+  CHECK(verdict("cos(a)*cos(a) - cos(a)*cos(a + 1e-40)") == ContactVerdict::apart);
 }
