@@ -18,23 +18,27 @@
 #include "convex/kernels/log_barrier.hpp"
 #include "convex/kernels/logistic.hpp"
 #include "convex/kernels/norm2.hpp"
+#include "convex/kernels/nuclear_norm.hpp"
 #include "convex/kernels/power.hpp"
 #include "convex/kernels/power_cone.hpp"
 #include "convex/kernels/relative_entropy.hpp"
 #include "convex/kernels/second_order_cone.hpp"
 #include "convex/kernels/separable.hpp"
 #include "convex/kernels/simplex.hpp"
+#include "convex/kernels/spectral.hpp"
 #include "convex/kernels/total_variation.hpp"
 
 namespace {
 
 using convex::Index;
+using convex::Matrix;
 using convex::Vector;
 namespace k = convex::kernels;
 
 struct Kernel {
   std::string name;
   std::function<Vector(const Vector&)> run;
+  Index largest = 10'000'000;  ///< the largest n that is timed
 };
 
 template <class Prox>
@@ -55,15 +59,36 @@ Kernel each_triple(const std::string& name, Projection proj) {
           }};
 }
 
+/// Of the matrix of the first m² entries, stacked; O(m³), so that n stops at 1e5.
+template <class Prox>
+Kernel square(const std::string& name, Prox prox) {
+  return {name + " (m x m)",
+          [prox](const Vector& z) {
+            const Index m = static_cast<Index>(std::sqrt(double(z.size())));
+            const auto M = z.head(m * m).reshaped(m, m);
+            const Matrix symmetric = 0.5 * (M + M.transpose());
+            return Vector(prox(Vector(symmetric.reshaped())));
+          },
+          100'000};
+}
+
 std::vector<Kernel> kernels() {
   return {
       {"norm1", [](const Vector& z) { return k::prox_norm1(z, 0.7); }},
       {"box", [](const Vector& z) { return k::proj_box(z, -0.5, 1); }},
       {"huber", [](const Vector& z) { return k::prox_huber(z, 0.5, 0.7); }},
       {"hinge", [](const Vector& z) { return k::prox_hinge(z, 0.7); }},
+      {"squared_hinge", [](const Vector& z) { return k::prox_squared_hinge(z, 0.7); }},
       {"elastic_net", [](const Vector& z) { return k::prox_elastic_net(z, 0.3, 0.7); }},
       {"norm2", [](const Vector& z) { return k::prox_norm2(z, 1); }},
+      {"ball2", [](const Vector& z) { return k::proj_ball2(z, 1); }},
+      {"group_norm, groups of 10",
+       [](const Vector& z) {
+         const std::vector<Index> sizes(static_cast<std::size_t>(z.size() / 10), 10);
+         return k::prox_group_norm(z, sizes, Vector::Ones(z.size() / 10));
+       }},
       {"second_order_cone", k::proj_second_order_cone},
+      {"rotated_cone", k::proj_rotated_cone},
       {"simplex", [](const Vector& z) { return k::proj_simplex(z, 1); }},
       {"simplex, total n/2", [](const Vector& z) { return k::proj_simplex(z, 0.5 * double(z.size())); }},
       {"simplex, total 100n", [](const Vector& z) { return k::proj_simplex(z, 100 * double(z.size())); }},
@@ -75,16 +100,29 @@ std::vector<Kernel> kernels() {
        [](const Vector& z) { return k::proj_simplex(z, 1, z.array().square() + 0.1); }},
       {"sum_largest, k = n/10",
        [](const Vector& z) { return k::prox_sum_largest(z, std::floor(0.1 * double(z.size()))); }},
+      {"capped_simplex, total n/10",
+       [](const Vector& z) { return k::proj_capped_simplex(z, 1, 0.1 * double(z.size())); }},
+      {"sorted_norm1",
+       [](const Vector& z) { return k::prox_sorted_norm1(z, Vector::LinSpaced(z.size(), 2, 0)); }},
       {"isotonic", [](const Vector& z) { return k::proj_monotone(z).x; }},
       {"total_variation", [](const Vector& z) { return k::prox_total_variation(z, 2).x; }},
       each_entry("entropy", [](double z) { return k::prox_entropy(z, 1); }),
       each_entry("exponential", [](double z) { return k::prox_exponential(z, 1); }),
+      each_entry("kullback_leibler", [](double z) { return k::prox_kullback_leibler(z, 1, 0.5); }),
+      each_entry("binary_entropy", [](double z) { return k::prox_binary_entropy(z, 1); }),
       each_entry("logistic", [](double z) { return k::prox_logistic(z, 1); }),
       each_entry("log_barrier", [](double z) { return k::prox_log_barrier(z, 1); }),
       each_entry("power 1.5", [](double z) { return k::prox_power(z, 1, 1.5); }),
+      each_entry("power 3", [](double z) { return k::prox_power(z, 1, 3); }),
       each_entry("inverse_power 1", [](double z) { return k::prox_inverse_power(z, 1, 1); }),
       each_triple("exponential_cone", [](const Eigen::Vector3d& z) { return k::proj_exponential_cone(z); }),
       each_triple("power_cone 0.3", [](const Eigen::Vector3d& z) { return k::proj_power_cone(z, 0.3); }),
+      square("psd_cone", [](const Vector& z) { return k::proj_psd_cone(z); }),
+      square("neg_log_det", [](const Vector& z) { return k::prox_log_det(z); }),
+      square("nuclear_norm",
+             [](const Vector& z) {
+               return k::prox_nuclear_norm(z, 1, static_cast<Index>(std::sqrt(double(z.size()))));
+             }),
   };
 }
 
@@ -114,6 +152,7 @@ int main(int argc, char** argv) {
     if (!names.empty() && std::find(names.begin(), names.end(), kernel.name) == names.end()) continue;
     std::printf("%-24s", kernel.name.c_str());
     for (Index n : sizes) {
+      if (n > kernel.largest) break;
       std::mt19937_64 generator(1);
       std::normal_distribution<double> normal;
       Vector z(n);

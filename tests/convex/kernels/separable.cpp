@@ -134,3 +134,19 @@ TEST_CASE("the box keeps what is inside and takes the nearest bound outside, inf
   CHECK_THROWS_AS(k::proj_box(z, 1, 0), convex::InvalidInput);
   CHECK_THROWS_AS(k::prox_norm1(z, Vector::Ones(2)), convex::InvalidInput);
 }
+
+TEST_CASE("an entry's prox is the same, bit by bit, wherever it stands in the vector") {
+  const double values[] = {0.0, -0.0, 0.7, -0.7, 0.35, -1.2, 1e-300, -5e-324, 1e300, -3, 1.1999999999999999,
+                           1.2};
+  for (Index n = 1; n <= 40; ++n) {
+    Vector z(n);
+    for (Index i = 0; i < n; ++i) z[i] = values[(i * 7 + n) % 12];
+    const Vector shrunk = k::prox_norm1(z, 0.7), smooth = k::prox_huber(z, 0.5, 0.7);
+    for (Index i = 0; i < n; ++i) {
+      CAPTURE(z[i]);
+      const Vector alone = Vector::Constant(1, z[i]);
+      CHECK(shrunk[i] == k::prox_norm1(alone, 0.7)[0]);
+      CHECK(smooth[i] == k::prox_huber(alone, 0.5, 0.7)[0]);
+    }
+  }
+}

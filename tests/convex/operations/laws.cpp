@@ -174,3 +174,19 @@ TEST_CASE("the conjugate in a product is the supremum of that product, and split
     }
   }
 }
+
+TEST_CASE("the conjugate of f(Ax) with a wide A is f* on the range of its transpose, +inf off it") {
+  // f = ||.||_1, A = [[1,1,0],[0,1,-1]]: f*(v) = 0 where v = Aᵀw with |w_i| <= 1.
+  const Function g = samples::function("precompose(norm1(), [[1,1,0],[0,1,-1]])", 3).conjugate();
+  const auto at = [&](double a, double b, double c) { return g(Eigen::Vector3d(a, b, c)); };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  CHECK(at(0.5, 0.25, 0.25) == 0);        // w = (1/2, -1/4)
+  CHECK(at(1, 2, -1) == 0);               // w = (1, 1), at the corner
+  CHECK(at(1, 2.25, -1.25) == infinity);  // w = (1, 5/4)
+  CHECK(at(0.5, 0.25, 0.5) == infinity);  // no w: off the range
+  // f = ½||.||², b = (1, 2): f*(Aᵀw) = ½|w|² - b·w.
+  const Function h =
+      samples::function("precompose(squared_norm2(), [[1,1,0],[0,1,-1]], [1,2])", 3).conjugate();
+  CHECK(h(Eigen::Vector3d(0.5, 0.25, 0.25)) == doctest::Approx(0.15625).epsilon(1e-14));
+  CHECK(h(Eigen::Vector3d(0.5, 0.25, 0.5)) == infinity);
+}
