@@ -101,6 +101,16 @@ class ConjugateSum : public Sum {
   Function primal_;
 };
 
+/// The same for a square map: its inverse inverted is another matrix than A.
+class ConjugateMap : public Precompose {
+ public:
+  ConjugateMap(const Precompose& made, Function primal) : Precompose(made), primal_(std::move(primal)) {}
+  Function conjugate() const override { return primal_; }
+
+ private:
+  Function primal_;
+};
+
 /// (f(A· + b))*(v) = min {f*(w) - b·w : Aᵀw = v} (Rockafellar 1970, Theorem 16.3); with independent rows w =
 /// (A Aᵀ)⁻¹Av alone can do, for the v in the range of Aᵀ.
 Function Precompose::conjugate() const {
@@ -112,7 +122,10 @@ Function Precompose::conjugate() const {
   Matrix back(m, n);
   if (m == n) {
     back = Eigen::PartialPivLU<Matrix>(A_.transpose()).inverse();
-    return precompose(g, back, Vector::Zero(m));
+    const Function made = precompose(g, back, Vector::Zero(m));
+    const auto* map = dynamic_cast<const Precompose*>(&made.node());
+    if (!map || is_diagonal_kind(image->metric)) return made;
+    return Function(std::make_shared<ConjugateMap>(*map, self()));
   }
   if (is_diagonal_kind(image->metric))
     back = image->metric.diagonal().asDiagonal() * A_;

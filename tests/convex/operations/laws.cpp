@@ -190,3 +190,21 @@ TEST_CASE("the conjugate of f(Ax) with a wide A is f* on the range of its transp
   CHECK(h(Eigen::Vector3d(0.5, 0.25, 0.25)) == doctest::Approx(0.15625).epsilon(1e-14));
   CHECK(h(Eigen::Vector3d(0.5, 0.25, 0.5)) == infinity);
 }
+
+TEST_CASE("a support function is homogeneous down to points that are all rounding") {
+  const Function f = samples::function("support(intersection(ball2(1), box(0, 2)))", 3);
+  const Vector x = Eigen::Vector3d(6.2612733940231137, 0.95612806206086231, 0.36890104275753094);
+  for (double size : {1e-300, 1e-21, 1e-10, 1.0, 1e8})
+    CHECK(f(size * x) == doctest::Approx(size * x.norm()).epsilon(1e-13));
+}
+
+TEST_CASE("a conjugate that is approached at a corner of its domain has its value there") {
+  const Function f =
+      samples::function("precompose(logistic(), [[1,2,0],[0,1,1],[1,0,1],[2,1,1]], [1,0,-1,0])", 3);
+  CHECK(f.conjugate()(Vector::Zero(3)) == doctest::Approx(0).epsilon(1e-9));  // -inf f = 0
+}
+
+TEST_CASE("the conjugate of f(Ax) with an ill-conditioned A has f(Ax) for its own conjugate") {
+  const Function f = samples::function("precompose(norm2(), [[1,1,0],[1,1.0000001,0],[0,0,1]], [1,2,3])", 3);
+  CHECK(to_text(f.conjugate().conjugate().call()) == to_text(f.call()));
+}
