@@ -24,6 +24,43 @@ void subtract_four_from_two(Index n, double* __restrict c0, double* __restrict c
   }
 }
 
+/// The same for four columns c, where there are registers for sixteen weights; w_k of column j is w[4 j + k].
+MOREAU_CLONES
+void subtract_four_from_four(Index n, double* __restrict c0, double* __restrict c1, double* __restrict c2,
+                             double* __restrict c3, const double* a0, const double* a1, const double* a2,
+                             const double* a3, const double* w) {
+  const double p0 = w[0], p1 = w[1], p2 = w[2], p3 = w[3], r0 = w[4], r1 = w[5], r2 = w[6], r3 = w[7];
+  const double s0 = w[8], s1 = w[9], s2 = w[10], s3 = w[11], t0 = w[12], t1 = w[13], t2 = w[14], t3 = w[15];
+  for (Index i = 0; i < n; ++i) {
+    const double x0 = a0[i], x1 = a1[i], x2 = a2[i], x3 = a3[i];
+    c0[i] -= (x0 * p0 + x1 * p1) + (x2 * p2 + x3 * p3);
+    c1[i] -= (x0 * r0 + x1 * r1) + (x2 * r2 + x3 * r3);
+    c2[i] -= (x0 * s0 + x1 * s1) + (x2 * s2 + x3 * s3);
+    c3[i] -= (x0 * t0 + x1 * t1) + (x2 * t2 + x3 * t3);
+  }
+}
+
+/// The same with two columns a.
+MOREAU_CLONES
+void subtract_two_from_four(Index n, double* __restrict c0, double* __restrict c1, double* __restrict c2,
+                            double* __restrict c3, const double* a0, const double* a1, const double* w) {
+  const double p0 = w[0], p1 = w[1], r0 = w[4], r1 = w[5], s0 = w[8], s1 = w[9], t0 = w[12], t1 = w[13];
+  for (Index i = 0; i < n; ++i) {
+    const double x0 = a0[i], x1 = a1[i];
+    c0[i] -= x0 * p0 + x1 * p1;
+    c1[i] -= x0 * r0 + x1 * r1;
+    c2[i] -= x0 * s0 + x1 * s1;
+    c3[i] -= x0 * t0 + x1 * t1;
+  }
+}
+
+#if defined(__x86_64__) && defined(__GNUC__)
+const bool has_many_registers = __builtin_cpu_supports("avx512f");
+#else
+constexpr bool has_many_registers = false;
+#endif
+
+MOREAU_CLONES
 void subtract_one(Index n, double* __restrict c, const double* a, double w) {
   for (Index i = 0; i < n; ++i) c[i] -= a[i] * w;
 }
@@ -42,7 +79,32 @@ template <class Target>
 void subtract_columns(const double* panel, Index rows, Index first, Index count, Index from, Index to,
                       Index offset, Target target) {
   std::array<double, block> w0{}, w1{};
+  std::array<double, 4 * block> w{};
   Index c = from;
+  for (; c + 4 <= to && (has_many_registers || count < block); c += 4) {
+    const Index i = offset + c, n = rows - i;
+    const double* a = panel + first * rows + i;
+    double *c0 = target(c), *c1 = target(c + 1), *c2 = target(c + 2), *c3 = target(c + 3);
+    for (Index j = 0; j < 4; ++j) scaled_row(panel, rows, first, count, i + j, w.data() + 4 * j);
+    // Columns that are not there weigh nothing.
+    const Index second = count > 1 ? rows : 0, third = count > 2 ? 2 * rows : 0,
+                last = count > 3 ? 3 * rows : 0;
+    // The corner above the rows that all four have.
+    const auto entry = [&](Index row, Index j) {
+      const double *v = w.data() + 4 * j, *x = a + row;
+      return (x[0] * v[0] + x[second] * v[1]) + (x[third] * v[2] + x[last] * v[3]);
+    };
+    for (Index row = 0; row < 3; ++row) {
+      c0[row] -= entry(row, 0);
+      if (row >= 1) c1[row - 1] -= entry(row, 1);
+      if (row >= 2) c2[row - 2] -= entry(row, 2);
+    }
+    if (count > 2)
+      subtract_four_from_four(n - 3, c0 + 3, c1 + 2, c2 + 1, c3, a + 3, a + second + 3, a + third + 3,
+                              a + last + 3, w.data());
+    else
+      subtract_two_from_four(n - 3, c0 + 3, c1 + 2, c2 + 1, c3, a + 3, a + second + 3, w.data());
+  }
   for (; c < to; c += 2) {
     const Index i = offset + c, n = rows - i;
     scaled_row(panel, rows, first, count, i, w0.data());

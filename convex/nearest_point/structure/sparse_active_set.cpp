@@ -1,6 +1,7 @@
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "convex/nearest_point/farkas.hpp"
@@ -16,9 +17,9 @@ namespace {
 constexpr std::string_view method = "sparse-active-set";
 
 /// What the start is asked for, scaled: mean of multiplier times slack. Each time the rows that it shows
-/// prove wrong it is taken closer by `closer`, at most `most_starts` times.
-constexpr double first_gap = 1e-9, closer = 1e-3;
-constexpr int most_starts = 4;
+/// prove wrong it is taken closer. The first is a try, which `few_exchanges` must bring to its end.
+constexpr std::array gaps{1e-7, 1e-9, 1e-12, 1e-15, 1e-18};
+constexpr int few_exchanges = 3;
 
 /// The weight on the multipliers, and how it shrinks where it makes corrections slow.
 constexpr double first_delta = 1e-7, smaller = 1e-2;
@@ -48,14 +49,14 @@ class SparseActiveSet {
       for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
       point_.q = DoubleDoubleVector(problem_.dimension());
       point_.lambda = DoubleDoubleVector(problem_.rows());
-      if (exchange()) return answer();
+      if (exchange(most_exchanges)) return answer();
       if (all_two_sided) return infeasible(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
     }
     InteriorPointStart start(scaled_, system_);
-    double gap = first_gap;
-    for (int k = 0; k < most_starts; ++k, gap *= closer) {
-      const InteriorPointStart::End end = start.approach(gap);
-      steps_ += start.steps();
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const Index before = start.steps();
+      const InteriorPointStart::End end = start.approach(gaps[k]);
+      steps_ += start.steps() - before;
       if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
         Solution refused = infeasible(start.lambda());
         if (refused.status == Status::infeasible) return refused;
@@ -64,7 +65,8 @@ class SparseActiveSet {
       for (const double part : {0.0, data_roundings * unit_roundoff}) {
         silence_ = part;
         take_over(start);
-        if (exchange()) return answer();
+        if (exchange(k == 0 ? few_exchanges : most_exchanges)) return answer();
+        if (k == 0) break;
       }
       silence_ = 0;
       if (end != InteriorPointStart::End::close) break;
@@ -91,10 +93,10 @@ class SparseActiveSet {
 
   /// Refines on the active rows and exchanges those of the wrong sign until none is left; false when that
   /// does not lead anywhere.
-  bool exchange() {
+  bool exchange(int most) {
     Index fewest = problem_.rows() + 1;
     int idle = 0;
-    for (int k = 0; k < most_exchanges; ++k) {
+    for (int k = 0; k < most; ++k) {
       rows_.clear();
       for (Index a = 0; a < problem_.rows(); ++a)
         if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);

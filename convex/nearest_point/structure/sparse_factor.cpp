@@ -265,7 +265,8 @@ bool SparseFactor::factor() {
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const Index below = panel.below();
-    own.assign(at(below * below), 0.0);
+    if (own.size() < at(below * below)) own.resize(at(below * below));
+    for (Index j = 0; j < below; ++j) std::fill_n(own.data() + j * (below + 1), below - j, 0.0);
     for (Index c = 0; c < child_count[p]; ++c) {
       add_update(*pending.back(), updates_.data() + tops.back(), panel, own.data());
       used = tops.back();
@@ -276,11 +277,13 @@ bool SparseFactor::factor() {
     if (!factor_panel(values, panel.rows, panel.columns)) return false;
     if (panel.parent < 0) continue;
     subtract_outer(own.data(), below, values, panel.rows, panel.columns);
-    if (updates_.size() < used + own.size()) updates_.resize(2 * (used + own.size()));
-    std::copy(own.begin(), own.end(), updates_.begin() + static_cast<std::ptrdiff_t>(used));
+    const std::size_t size = at(below * below);
+    if (updates_.size() < used + size) updates_.resize(2 * (used + size));
+    for (Index j = 0; j < below; ++j)
+      std::copy_n(own.data() + j * (below + 1), below - j, updates_.data() + used + at(j * (below + 1)));
     tops.push_back(used);
     pending.push_back(&panel);
-    used += own.size();
+    used += size;
   }
   return true;
 }
