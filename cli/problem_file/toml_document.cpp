@@ -55,14 +55,21 @@ class Converter {
   }
 
  private:
-  /// The offset of a place in the text; columns count characters, not bytes.
+  /// The offset of a place in the text; columns count characters, not bytes. It is counted from the place
+  /// asked for before when that is on the same line and not behind: a line may be millions of numbers long.
   std::size_t offset(convex::Place at) const {
     const std::size_t line = static_cast<std::size_t>(at.line - 1);
-    std::size_t i = line < line_starts_.size() ? line_starts_[line] : text_.size();
-    for (int column = 1; column < at.column && i < text_.size(); ++column) {
+    if (at.line != before_.line || at.column < before_.column) {
+      before_ = {at.line, 1};
+      offset_before_ = line < line_starts_.size() ? line_starts_[line] : text_.size();
+    }
+    std::size_t i = offset_before_;
+    for (int column = before_.column; column < at.column && i < text_.size(); ++column) {
       ++i;
       while (i < text_.size() && (static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U) ++i;
     }
+    before_ = at;
+    offset_before_ = i;
     return i;
   }
 
@@ -84,6 +91,8 @@ class Converter {
 
   const std::string& text_;
   std::vector<std::size_t> line_starts_;
+  mutable convex::Place before_{0, 0};
+  mutable std::size_t offset_before_ = 0;
 };
 
 /// A key of more parts than this is refused before it is followed into the depth.
