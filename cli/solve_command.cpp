@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/cone_report.hpp"
 #include "cli/decomposition_report.hpp"
 #include "cli/drawing/decomposition_drawing.hpp"
 #include "cli/each_file.hpp"
+#include "cli/solve_progress.hpp"
 #include "cli/solve_report.hpp"
 
 namespace cli {
@@ -16,6 +18,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
   const bool by_fractions = scene.solve.method->name == "exact";
   const bool proved = by_fractions || options.certify;
   mechanics::CertifiedSolution found;
+  std::optional<SolveProgress> progress(std::in_place);
   if (by_fractions)
     found = mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
   else if (options.certify)
@@ -25,6 +28,7 @@ Answer solve_scene(const Scene& scene, const Options& options) {
   if (options.certify && scene.from_text)
     if (const auto text = scene.from_text())
       mechanics::prove_from_text(found, scene.problem, *text, scene.contacts, scene.solve);
+  progress.reset();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   SolvedScene solved =
       solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);

@@ -134,6 +134,7 @@ void write_solved(JsonWriter& json, const SolvedScene& solved) {
       .value(name(solved.solution.primal.status))
       .key("method")
       .value(solved.solution.primal.method);
+  if (solved.solution.primal.polished) json.key("polished").value(true);
   if (solved.infeasible())
     write_farkas(json, solved);
   else if (solved.has_answer())

@@ -126,3 +126,8 @@ TEST_CASE("a two-sided hypothesis that is inconsistent has empty objects") {
   CHECK(object.at("hypothesis").at("accepted") == false);
   CHECK(object.at("hypothesis").at("drop_negative_is_right").is_null());
 }
+
+TEST_CASE("an answer that rests on the rows an iteration showed says that it is polished, others do not") {
+  CHECK_FALSE(solved(two_rows()).contains("polished"));
+  CHECK(solved(two_rows() + "\n[solve]\nmethod = \"proximal-point\"\n").at("polished") == true);
+}

@@ -5,6 +5,7 @@
 
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/solve_watch.hpp"
 #include "convex/nearest_point/structure/peeling.hpp"
 #include "convex/nearest_point/structure/pooling.hpp"
 #include "convex/nearest_point/structure/string_answer.hpp"
@@ -93,6 +94,7 @@ class BorderedChain {
     pooling_.pool(force_);
     pooling_.place(q_);
     ++poolings_;
+    SolveWatch::tell("bordered-chain", poolings_);
     Vector left(count_);
     for (Index b = 0; b < count_; ++b) {
       double reach = 0;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/nearest_point/solve_watch.hpp"
+
 namespace convex {
 namespace {
 
@@ -149,6 +151,7 @@ InteriorPointStart::End InteriorPointStart::approach(double gap) {
     slack_ += step * to.slack;
     lambda_ += step * to.lambda;
     ++steps_;
+    SolveWatch::tell("sparse-active-set", steps_);
     idle = step < short_step ? idle + 1 : 0;
     if (idle > patience || !q_.allFinite() || !lambda_.allFinite()) return End::stalled;
   }

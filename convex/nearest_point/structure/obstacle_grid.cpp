@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/nearest_point/solve_watch.hpp"
 #include "convex/nearest_point/structure/grid_kernels.hpp"
 #include "convex/nearest_point/structure/grid_transfer.hpp"
 
@@ -44,6 +45,7 @@ class GridSolver {
       residual();
       multigrid_.solve(point_.rest, rough, correction_);
       point_.q.hi += correction_;
+      SolveWatch::tell("obstacle", point_.steps + multigrid_.steps());
     }
     point_.steps += multigrid_.steps();
     return std::move(point_);

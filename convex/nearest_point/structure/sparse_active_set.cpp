@@ -7,6 +7,7 @@
 #include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/solve_watch.hpp"
 #include "convex/nearest_point/structure/interior_point_start.hpp"
 #include "convex/nearest_point/structure/peeling.hpp"
 #include "convex/nearest_point/structure/sparse_refinement.hpp"
@@ -118,6 +119,7 @@ class SparseActiveSet {
       }
       fewest = std::min(fewest, wrong);
       ++steps_;
+      SolveWatch::tell(method, steps_);
     }
     return false;
   }
