@@ -5,6 +5,7 @@
 
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/methods/proximal_point.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/structure/assembly.hpp"
 #include "convex/nearest_point/structure/bordered_chain.hpp"
@@ -83,9 +84,11 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
   }
   if (is_large_and_sparse(problem)) {
     Solution found = sparse_active_set(problem, accuracy, guess);
-    if (found.status == Status::solved || found.status == Status::infeasible ||
-        problem.dimension() > affordable_size)
-      return found;
+    if (found.status == Status::solved || found.status == Status::infeasible) return found;
+    if (problem.dimension() > affordable_size) {
+      Solution other = proximal_point(problem, accuracy);
+      return other.status == Status::solved || found.status == Status::gave_up ? other : found;
+    }
   }
   Solution found = active_set(problem, accuracy, guess);
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());

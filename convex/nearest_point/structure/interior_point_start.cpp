@@ -57,13 +57,15 @@ void InteriorPointStart::start() {
   make_interior();
 }
 
-void InteriorPointStart::start_from(const Vector& lambda) {
+void InteriorPointStart::start_from_free_motion() {
   started_ = true;
-  lambda_ = lambda;
-  weight_.setConstant(1);
+  weight_.setConstant(regularisation);
   if (!system_.factor(weight_)) return;
-  q_ = system_.solve(problem_.z + problem_.U.transpose() * (problem_.s + lambda));
+  q_ = system_.solve(problem_.z);
   slack_ = problem_.U * q_ - problem_.s;
+  for (Index a = 0; a < slack_.size(); ++a)
+    if (!one_sided(a)) slack_[a] = 0;
+  lambda_ = Vector::Zero(problem_.s.size());
   make_interior();
 }
 

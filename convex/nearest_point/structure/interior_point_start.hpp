@@ -15,8 +15,9 @@ class InteriorPointStart {
   /// Steps until the mean of lambda ∘ slack is at most `gap`. unbounded: multipliers grow beyond all bounds,
   /// as where rows contradict each other.
   End approach(double gap);
-  /// Starts from the multipliers given, made interior.
-  void start_from(const Vector& lambda);
+  /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
+  /// problems in which rows held together are far from the answer.
+  void start_from_free_motion();
 
   const Vector& q() const { return q_; }
   const Vector& lambda() const { return lambda_; }

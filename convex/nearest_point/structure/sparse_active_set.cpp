@@ -56,7 +56,11 @@ class SparseActiveSet {
     InteriorPointStart start(scaled_, system_);
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const Index before = start.steps();
-      const InteriorPointStart::End end = start.approach(gaps[k]);
+      InteriorPointStart::End end = start.approach(gaps[k]);
+      if (end == InteriorPointStart::End::stalled && k == 0) {
+        start.start_from_free_motion();
+        end = start.approach(gaps[k]);
+      }
       steps_ += start.steps() - before;
       if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
         Solution refused = infeasible(start.lambda());

@@ -162,6 +162,37 @@ TEST_CASE("a sparse problem without a solution is refused with weights that prov
   }
 }
 
+TEST_CASE(
+    "a string that hangs far above the floor between long contacts is found, though all held is far off") {
+  // Slopes fall by one a bead from 1681 to -1189, then rise to 0: 1681·1682/2 = 1189², so it lands at 0.
+  constexpr Index up = 1681, down = 1189, loaded = up + down, resting = 2000, half = loaded + down - 1;
+  const Index n = 2 * half + resting;
+  Vector q = Vector::Zero(n);
+  double height = 0;
+  for (Index k = 0; k < half; ++k) {
+    height += static_cast<double>(k <= loaded ? up - k : k - loaded - down);
+    q[k] = q[n - 1 - k] = height;
+  }
+  std::vector<Eigen::Triplet<double>> entries, ones;
+  for (Index i = 0; i < n; ++i) {
+    entries.emplace_back(i, i, 2.0);
+    if (i > 0) entries.emplace_back(i, i - 1, -1.0);
+    if (i > 0) entries.emplace_back(i - 1, i, -1.0);
+    ones.emplace_back(i, i, 1.0);
+  }
+  Eigen::SparseMatrix<double> A(n, n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  SparseRows U(n, n);
+  U.setFromTriplets(ones.begin(), ones.end());
+  const Vector lambda = (q.array() == 0).cast<double>();
+  const NearestPointProblem problem{
+      Metric::sparse(A), A * q - lambda, ConstraintRows(U), Vector::Zero(n), {}};
+  const Solution found = convex::sparse_active_set(problem);
+  REQUIRE(found.status == Status::solved);
+  CHECK(problem.A.norm(found.q - q) <= few_roundings * problem.A.norm(q));
+  CHECK((found.lambda - lambda).cwiseAbs().maxCoeff() <= 1e-9);
+}
+
 TEST_CASE("rows with many entries are held beside the factor") {
   const Index n = 300;
   std::mt19937 generator(3);
