@@ -7,6 +7,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/padded_triangle.hpp"
 #include "convex/sparse_gram.hpp"
 #include "convex/triangular_solve.hpp"
 
@@ -38,37 +39,51 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
       "A: not positive definite to working precision; every motion must have a positive kinetic energy");
 }
 
-/// W = Wᵀ, entry by entry, and all finite: what is not differs from itself.
-bool is_symmetric(const Matrix& W) {
-  const Index n = W.rows();
-  Index unequal = 0;
-  for (Index j = 0; j < n; ++j) {
-    const double *column = W.data() + j * n, *row = W.data() + j;
-    for (Index i = 0; i <= j; ++i) unequal += !(column[i] - row[i * n] == 0);
-  }
-  return unequal == 0;
-}
-
-void mirror_lower_triangle(Matrix& L) {
-  const Index n = L.rows();
-  for (Index j = 0; j < n; ++j) {
-    double *column = L.data() + j * n, *row = L.data() + j;
-    for (Index i = 0; i < j; ++i) column[i] = row[i * n];
-  }
-}
-
 void require_finite(double value, Index i, Index j) {
   if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
+}
+
+/// Sets pairs of entries of W that should be equal to their mean. False when some differ by more than
+/// rounding or are not finite. By tiles, for the rows of a large matrix are far apart in memory.
+bool make_symmetric(Matrix& W) {
+  constexpr Index tile = 8;
+  const Index n = W.rows();
+  const double slack = symmetry_roundings * unit_roundoff * static_cast<double>(n);
+  const Vector root = W.diagonal().cwiseAbs().cwiseSqrt(), bound = slack * root;
+  Index wrong = 0;
+  for (Index first = 0; first < n; first += tile)
+    for (Index above = 0; above <= first; above += tile)
+      for (Index j = first; j < std::min(n, first + tile); ++j) {
+        double *const column = W.data() + j * n, *const row = W.data() + j;
+        for (Index i = above; i < std::min(j, above + tile); ++i) {
+          const double a = column[i], b = row[i * n], difference = b - a;
+          wrong += !(std::abs(difference) <= bound[i] * root[j]);
+          column[i] = row[i * n] = a + difference / 2;
+        }
+      }
+  for (Index i = 0; i < n; ++i) wrong += !std::isfinite(W(i, i));
+  return wrong == 0;
+}
+
+[[noreturn]] void refuse_unequal(const Matrix& W) {
+  const Index n = W.rows();
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i <= j; ++i) {
+      require_finite(W(i, j), i, j);
+      require_finite(W(j, i), j, i);
+      if (differ(W(i, j), W(j, i), W(i, i), W(j, j), n)) refuse_asymmetry(i, j);
+    }
+  refuse_asymmetry(0, n - 1);
 }
 
 }  // namespace
 
 struct Metric::Data {
   MetricKind kind = MetricKind::identity;
-  Vector diagonal;  // of W
-  Vector root;      // sqrt of the diagonal, kind diagonal
-  Matrix W;         // kind dense
-  Matrix L;         // kind dense, the factor in the lower triangle, its transpose in the upper
+  Vector diagonal;                         // of W
+  Vector root;                             // sqrt of the diagonal, kind diagonal
+  Matrix W;                                // kind dense
+  std::optional<PaddedTriangle> triangle;  // kind dense
   std::optional<SparseGram> sparse;
   double factor_condition = 1;
 };
@@ -99,28 +114,17 @@ Metric Metric::dense(const Matrix& W) {
   const Index n = W.rows();
   data->kind = MetricKind::dense;
   data->W = W;
-  if (!is_symmetric(W))
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i <= j; ++i) {
-        const double a = W(i, j), b = W(j, i);
-        if (a == b && std::isfinite(a)) continue;
-        require_finite(a, i, j);
-        require_finite(b, j, i);
-        if (differ(a, b, W(i, i), W(j, j), n)) refuse_asymmetry(i, j);
-        data->W(i, j) = data->W(j, i) = a + (b - a) / 2;
-      }
+  if (!make_symmetric(data->W)) refuse_unequal(W);
   data->diagonal = data->W.diagonal();
-  data->L = data->W;
-  Eigen::LLT<Eigen::Ref<Matrix>> factor(data->L);
-  const bool factored = factor.info() == Eigen::Success;
+  data->triangle.emplace(data->W);
+  const auto L = data->triangle->view();
   double smallest = 1;  // of L_ii² / w_ii
   for (Index i = 0; i < n; ++i) {
-    const double relative = factored ? data->L(i, i) * data->L(i, i) / data->diagonal[i] : 0;
+    const double relative = L(i, i) * L(i, i) / data->diagonal[i];
     if (!(relative > pivot_roundings * unit_roundoff * static_cast<double>(n))) refuse_indefinite();
     smallest = std::min(smallest, relative);
   }
   data->factor_condition = 1 / std::sqrt(smallest);
-  mirror_lower_triangle(data->L);
   return Metric(std::move(data));
 }
 
@@ -174,6 +178,12 @@ double Metric::factor_condition() const {
   return data_->sparse ? data_->sparse->factor_condition() : data_->factor_condition;
 }
 
+DenseFactor Metric::dense_factor() const {
+  invariant(data_->kind == MetricKind::dense, "a dense factor is asked of a dense metric");
+  const PaddedTriangle& factor = *data_->triangle;
+  return {factor.ld(), factor.T(), factor.inverse()};
+}
+
 const Matrix& Metric::dense_gram() const {
   invariant(data_->kind == MetricKind::dense, "a dense Gram matrix is asked of a dense metric");
   return data_->W;
@@ -210,7 +220,7 @@ double Metric::norm(const Vector& x) const {
     case MetricKind::diagonal:
       return data_->root.cwiseProduct(x).norm();
     case MetricKind::dense:
-      return (data_->L.triangularView<Eigen::Upper>() * x).norm();
+      return (data_->triangle->view().triangularView<Eigen::Upper>() * x).norm();
     case MetricKind::sparse:
       return data_->sparse->norm(x);
   }
@@ -237,7 +247,7 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
       C.array().colwise() /= data_->root.array();
       break;
     case MetricKind::dense:
-      solve_lower_triangle(data_->L, C);
+      solve_lower_triangle(data_->triangle->view(), C);
       break;
     case MetricKind::sparse:
       data_->sparse->whiten_in_place(C);
@@ -253,7 +263,7 @@ void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
       w.array() /= data_->root.array();
       break;
     case MetricKind::dense:
-      solve_upper_triangle(data_->L, w);
+      solve_upper_triangle(data_->triangle->view(), w);
       break;
     case MetricKind::sparse:
       data_->sparse->unwhiten_in_place(w);

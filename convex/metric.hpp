@@ -9,6 +9,13 @@ namespace convex {
 /// How a Gram matrix is stored; a fact that methods use to choose their path.
 enum class MetricKind { identity, diagonal, dense, sparse };
 
+/// The factor of a dense W as `DenseKernels` wants it: ld×ld, padded, L below and Lᵀ above; inverse: of
+/// the blocks on the diagonal.
+struct DenseFactor {
+  Index ld = 0;
+  const double *T = nullptr, *inverse = nullptr;
+};
+
 /// A Euclidean metric (x|y) = x·Wy, W n×n symmetric positive definite, factored once as W = F Fᵀ with
 /// F = L (dense), sqrt(W) (diagonal) or PᵀL (sparse, P a fill-reducing permutation). Immutable; copies share
 /// the factor.
@@ -52,6 +59,7 @@ class Metric {
   /// W itself, as stored; each may be asked for its own kind only.
   const Matrix& dense_gram() const;
   const SparseMatrix& sparse_gram() const;
+  DenseFactor dense_factor() const;
 
   /// max sqrt(w_ii) / min |F_ii|: a cheap lower estimate of the condition number of F.
   double factor_condition() const;

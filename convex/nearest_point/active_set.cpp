@@ -8,6 +8,7 @@
 #include "convex/nearest_point/dependent_row.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/well_conditioned.hpp"
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -343,6 +344,7 @@ class DualActiveSet {
 Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                     const std::vector<Index>& guess) {
   validate(problem);
+  if (std::optional<Solution> found = well_conditioned(problem, accuracy, guess)) return *std::move(found);
   if (problem.dimension() <= 8) return DualActiveSet<8>(problem, accuracy).run(guess);
   return DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
 }

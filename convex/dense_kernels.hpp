@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstring>
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+/// n rounded up to whole packs of eight.
+constexpr Index padded(Index n) { return (n + 7) / 8 * 8; }
+
+/// Copies and fills n doubles, a multiple of 8: short ones are done before the library's function is entered.
+inline void copy_packs(Index n, const double* from, double* to) {
+  for (Index i = 0; i < n; i += 8) std::memcpy(to + i, from + i, 8 * sizeof(double));
+}
+inline void fill_packs(Index n, double value, double* to) {
+  for (Index i = 0; i < n; i += 8)
+    for (Index k = 0; k < 8; ++k) to[i + k] = value;
+}
+
+/// Kernels on dense data for one processor family. Sums are taken in an order that is the same for all of
+/// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
+///
+/// A triangle is an ld×ld matrix by columns, ld = padded(n): L in the lower part, Lᵀ in the upper one, the
+/// unit matrix where it is padded; `inverse` has the inverse of each 8×8 block on the diagonal by columns,
+/// and its transpose, 128 numbers for a block. Vectors x are padded with zeros to ld. Eight vectors side by
+/// side, X: n packs, pack i has entry i of each.
+struct DenseKernels {
+  /// Factors W = L Lᵀ in place, W in the lower part of T. A pivot that is not positive leaves numbers that
+  /// are not finite.
+  void (*factor)(Index n, Index ld, double* T, double* inverse);
+  /// `inverse` of a triangle.
+  void (*invert_blocks)(Index n, Index ld, const double* T, double* inverse);
+  /// x := L⁻¹x.
+  void (*forward)(Index n, Index ld, const double* T, const double* inverse, double* x);
+  /// x := L⁻ᵀx.
+  void (*backward)(Index n, Index ld, const double* T, const double* inverse, double* x);
+  /// X := L⁻¹X for eight vectors side by side.
+  void (*forward_pack)(Index n, Index ld, const double* T, const double* inverse, double* X);
+  /// into[l·stride + k] := X_k·Y_l, k, l < 8.
+  void (*gram)(Index n, const double* X, const double* Y, double* into, Index stride);
+  /// into_k := X_k·y, k < 8.
+  void (*dots)(Index n, const double* X, const double* y, double* into);
+  /// w_i += Σ_k X_k[i] y_k over `count` blocks of eight vectors side by side, one after the other.
+  void (*combine)(Index n, Index count, const double* X, const double* y, double* w);
+  /// y += c x, n a multiple of 8.
+  void (*add_multiple)(Index n, double c, const double* x, double* y);
+  /// Σ x_i y_i, n a multiple of 8.
+  double (*dot)(Index n, const double* x, const double* y);
+  /// into_a := u_a·x - s_a for the m rows of U (m×n by rows).
+  void (*slacks)(Index m, Index n, const double* U, const double* x, const double* s, double* into);
+  /// into_a := Σ_i u_ai² weight_i.
+  void (*squares)(Index m, Index n, const double* U, const double* weight, double* into);
+  /// into := z + Σ_k lambda_k u_(row k) - A q, sums in twice the working precision, rounded once. A: n×n by
+  /// columns; U: m×n by rows.
+  void (*stationarity)(Index n, const double* A, const double* q, Index m, const double* U, Index count,
+                       const Index* rows, const double* lambda, const double* z, double* into);
+  /// into_k := X_k·q - s_k, k < 8, sums in twice the working precision, rounded once.
+  void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, double* into);
+};
+
+/// Those for the processor that the program runs on.
+const DenseKernels& dense_kernels();
+
+}  // namespace convex

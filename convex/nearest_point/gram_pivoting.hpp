@@ -1,0 +1,60 @@
+#pragma once
+
+#include "convex/nearest_point/gram_rows.hpp"
+
+namespace convex {
+
+/// Principal pivoting by blocks (Júdice and Pires 1994; Kunisch and Rendl 2003) on the Gram matrix of
+/// whitened rows: the deepest of the violated rows come in and rows with a multiplier that is not positive go
+/// out, all at once, until none is wrong. With few rows the Gram matrix has all of them; with many, those
+/// that came in.
+class GramPivoting {
+ public:
+  /// w_free = L⁻¹z, padded; row_scale: ||u_a||_(D⁻¹), D the diagonal of A, by which violations are compared.
+  GramPivoting(const NearestPointProblem& problem, Arena& arena, const double* w_free,
+               const double* row_scale);
+  /// Cache lines that it takes from the arena.
+  static Index lines(Index n, Index m);
+
+  /// False when it does not settle, or when rows held are nearly dependent. guess: rows to begin with.
+  bool settle(const std::vector<Index>& guess);
+
+  const GramRows& rows() const { return rows_; }
+  Index size() const { return size_; }           ///< rows held
+  Index place(Index j) const { return at_[j]; }  ///< of the j-th, increasing
+  Index row(Index j) const { return rows_.row(at_[j]); }
+  bool holds(Index a) const { return state_[a] == held || state_[a] == two_sided; }
+  bool is_two_sided(Index a) const { return state_[a] == two_sided; }
+  Index steps() const { return steps_; }            ///< rows taken in or dropped
+  const double* lambda() const { return lambda_; }  ///< multipliers at their places
+
+  /// x := (VᵀV)⁻¹x over the rows held; padded.
+  void solve(double* x) const;
+  /// w = w_free + V lambda and q = L⁻ᵀw, padded.
+  void find_point(double* w, double* q) const;
+  /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
+  double inverse_norm() const;
+
+ private:
+  enum State : Index { outside, held, two_sided, passed };
+
+  bool all_known() const;
+  bool start(const std::vector<Index>& guess);
+  void collect();
+  bool factor();
+  bool find_multipliers();
+  void find_slacks();
+
+  const NearestPointProblem& problem_;
+  const DenseKernels& kernels_;
+  const DenseFactor A_;
+  const Index n_, m_, capacity_;
+  GramRows rows_;
+  const double *w_free_, *row_scale_;
+  double *lambda_, *w_, *q_, *slack_, *C_, *C_inverse_, *load_;
+  Index *state_, *at_, *list_;
+  Index size_ = 0, steps_ = 0;
+  double force_norm_ = 0, energy_ = 0;
+};
+
+}  // namespace convex
