@@ -200,20 +200,24 @@ MOREAU_TABLE(Portable, , 2, false)
 MOREAU_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
 MOREAU_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
 
-const DenseKernels* choose() {
-  if (__builtin_cpu_supports("avx512f")) return &Widest::table;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return &Wide::table;
-  return &Portable::table;
+const DenseKernels* const tables[] = {&Portable::table, &Wide::table, &Widest::table};
+
+std::size_t usable() {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return 1;
+  return __builtin_cpu_supports("avx512f") ? 3 : 2;
 }
 #else
-const DenseKernels* choose() { return &Portable::table; }
+const DenseKernels* const tables[] = {&Portable::table};
+std::size_t usable() { return 1; }
 #endif
 
 constinit const DenseKernels* chosen = &Portable::table;  // until the choice is made, as the program starts
-[[maybe_unused]] const bool made = (chosen = choose(), true);
+[[maybe_unused]] const bool made = (chosen = tables[usable() - 1], true);
 
 }  // namespace
 
 const DenseKernels& dense_kernels() { return *chosen; }
+
+std::span<const DenseKernels* const> all_dense_kernels() { return {tables, usable()}; }
 
 }  // namespace convex

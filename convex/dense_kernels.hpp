@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstring>
+#include <span>
 
 #include "convex/vector.hpp"
 
@@ -61,5 +62,8 @@ struct DenseKernels {
 
 /// Those for the processor that the program runs on.
 const DenseKernels& dense_kernels();
+
+/// All that this processor can run.
+std::span<const DenseKernels* const> all_dense_kernels();
 
 }  // namespace convex

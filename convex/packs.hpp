@@ -83,15 +83,15 @@ struct Packs {
   /// hi + lo += x c in twice the working precision (Ogita, Rump and Oishi 2005; Dekker 1971 for the product).
   MOREAU_INLINE void add_precisely(Pack& hi, Pack& lo, const Pack& x, double c) {
     for (int k = 0; k < parts; ++k) {
-      const Part a = x.part[k], factor = Part{} + c, product = a * factor;
+      const Part a = x.part[k], product = a * c;
       Part error;
       if constexpr (Fused) {
         for (int l = 0; l < W; ++l) error[l] = __builtin_fma(a[l], c, -product[l]);
       } else {
         constexpr double splitter = 0x1p27 + 1;
         const Part ca = splitter * a, a_high = ca - (ca - a), a_low = a - a_high;
-        const Part cf = splitter * factor, f_high = cf - (cf - factor), f_low = factor - f_high;
-        error = a_low * f_low - (((product - a_high * f_high) - a_low * f_high) - a_high * f_low);
+        const double cc = splitter * c, c_high = cc - (cc - c), c_low = c - c_high;
+        error = a_low * c_low - (((product - a_high * c_high) - a_low * c_high) - a_high * c_low);
       }
       const Part sum = hi.part[k] + product, grown = sum - hi.part[k];
       lo.part[k] = lo.part[k] + (((hi.part[k] - (sum - grown)) + (product - grown)) + error);

@@ -1,13 +1,11 @@
 #include "convex/nearest_point/active_set.hpp"
 
 #include <cmath>
-#include <numeric>
 
 #include "convex/nearest_point/active_set_answer.hpp"
 #include "convex/nearest_point/block_guess.hpp"
 #include "convex/nearest_point/dependent_row.hpp"
-#include "convex/nearest_point/kkt_residual.hpp"
-#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/refined_slacks.hpp"
 #include "convex/nearest_point/well_conditioned.hpp"
 #include "convex/nearest_point/working_set.hpp"
 
@@ -16,15 +14,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// In doubles, w carries so many roundings of the terms that it is the sum of; a violation below that is left
-/// to the check in twice the precision.
+/// Roundings of the terms of w that it carries; a violation below is left to the check in twice the
+/// precision.
 constexpr double rounding_of_w = 8 * unit_roundoff;
 
-/// In the start by blocks a row this close to the span of the others is left to the careful steps.
+/// In a block a row this close to the span of the others is left to the careful steps.
 constexpr double block_dependence = 1e-7;
 
-/// Times that the working set is changed after a refinement before the method gives up, and before doubles
-/// are held to be the cause.
+/// Changes of the working set after a refinement before the method gives up, and before it blames doubles.
 constexpr int most_rounds = 100, patient_rounds = 4;
 
 template <int MaxSize>
@@ -105,8 +102,7 @@ class DualActiveSet {
     return true;
   }
 
-  /// Drops rows with negative multipliers, the most negative first, until none is left; then w and lambda are
-  /// dual feasible for what remains.
+  /// Drops rows with negative multipliers, the most negative first, until none is left.
   void drop_until_dual_feasible() {
     while (true) {
       set_.solve();
@@ -226,9 +222,10 @@ class DualActiveSet {
       if (dependent) {
         violation = contradiction(set_, p, split_);
         if (!(violation > 0)) {
-          // Consistent with W to rounding: it holds as well as W does, and cannot be told from it.
+          // Consistent with W to rounding: it holds as well as W does.
           passed_[static_cast<std::size_t>(p)] = true;
           flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, p, split_);
+          left_outside_ += split_.rest / split_.length;
           return changed ? finish_change() : Outcome::unchanged;
         }
       }
@@ -271,6 +268,7 @@ class DualActiveSet {
     drop_until_dual_feasible();
     std::fill(passed_.begin(), passed_.end(), false);
     flat_wedge_ = false;
+    left_outside_ = 0;
     return Outcome::changed;
   }
 
@@ -293,29 +291,18 @@ class DualActiveSet {
   }
 
   /// Takes in a row that the refined point violates.
-  Outcome admit_violated(const RefinedPoint& refined) {
-    constexpr double silence = 0x1p-95;  // of dot products in twice the precision
-    const double scale = set_.scale(), left = refined.remaining();
-    const Vector q_size = refined.q.hi.cwiseAbs();
-    const double plain_rounding = 2 * static_cast<double>(problem_.dimension()) * unit_roundoff;
-    slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+  Outcome admit_violated(RefinedPoint& refined) {
+    slack_ = refined_slacks(set_, refined, row_scale_);
+    const double left = refined.remaining();
     std::vector<Index> rows;
-    for (Index a = 0; a < problem_.rows(); ++a) {
-      const double s = std::abs(problem_.s[a]), length = row_scale_[a];
-      if (set_.holds(a)) {
-        slack_[a] = 0;
-      } else if (std::abs(slack_[a]) <= plain_rounding * (s + problem_.U.absolute_dot(a, q_size))) {
-        slack_[a] = slack(problem_, a, refined.q).value();
-        if (std::abs(slack_[a]) <= silence * (s + length * scale) + 2 * length * left) slack_[a] = 0;
-      }
+    for (Index a = 0; a < problem_.rows(); ++a)
       if (slack_[a] < 0 && !two_sided_[static_cast<std::size_t>(a)]) rows.push_back(a);
-    }
     sort_by_violation(rows);
     for (Index p : rows) {
       if (passed_[static_cast<std::size_t>(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0 && -slack_[p] <= 2 * left * split_.length) continue;
-      for (Index k = 0; k < set_.size(); ++k) set_.lambda()[k] = refined.lambda.hi[k];
+      set_.lambda().head(set_.size()) = refined.lambda.hi;
       const Outcome outcome = admit(p, -slack_[p], 0);
       if (outcome != Outcome::unchanged) return outcome;
     }
@@ -324,7 +311,8 @@ class DualActiveSet {
 
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
-    return judged_answer(set_, refined, slack_, row_scale_, finished && !flat_wedge_, accuracy_, steps_);
+    const double outside = finished && !flat_wedge_ ? left_outside_ : infinity;
+    return judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
   }
 
   const NearestPointProblem& problem_;
@@ -336,7 +324,8 @@ class DualActiveSet {
   Split split_;
   bool settled_ = false, flat_wedge_ = false;  // the start is right as far as doubles tell; a row is not
   Index steps_ = 0;
-  double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0;
+  // left_outside_: parts of the rows passed over that W does not span
+  double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0, left_outside_ = 0;
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
 
 template <int MaxSize>
 Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
-                       const Vector& row_scale, bool finished, const Accuracy& accuracy, Index steps) {
+                       const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps) {
   const NearestPointProblem& problem = set.problem();
   Solution solution;
   solution.method = method;
@@ -53,8 +53,12 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
   for (Index a : problem.two_sided)
     if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
   solution.rounding = rounding_norm(problem, refined.q.lo);
+  double forces = 0;
+  for (Index k = 0; k < set.size(); ++k) forces += std::abs(refined.lambda.hi[k]) * set.factor().length(k);
   solution.error_bound =
-      finished ? 2 * refined.remaining() + solution.rounding + worst * set.factor().inverse_norm() : infinity;
+      4 * enough * set.scale() + 2 * refined.remaining() + refined.silenced + solution.rounding +
+      worst * set.factor().inverse_norm() +
+      (left_outside > 0 ? left_outside * std::max(forces, std::numeric_limits<double>::min()) : 0);
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   solution.status = close ? Status::solved : Status::inaccurate;
   return solution;
@@ -73,9 +77,9 @@ Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights
 }
 
 template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&,
-                                const Vector&, bool, const Accuracy&, Index);
-template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&, bool,
-                                const Accuracy&, Index);
+                                const Vector&, double, const Accuracy&, Index);
+template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&,
+                                double, const Accuracy&, Index);
 template Solution infeasible_answer(const WorkingSet<Eigen::Dynamic>&, const Vector&, Index);
 template Solution infeasible_answer(const WorkingSet<8>&, const Vector&, Index);
 

@@ -11,9 +11,6 @@ constexpr double gap_roundings = 16;
 /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
 constexpr double coefficient_noise = 64 * unit_roundoff;
 
-/// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
-constexpr double exact_dependence = 0x1p-90;
-
 }  // namespace
 
 template <int MaxSize>

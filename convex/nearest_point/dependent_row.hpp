@@ -4,6 +4,9 @@
 
 namespace convex {
 
+/// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
+inline constexpr double exact_dependence = 0x1p-90;
+
 /// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
 template <int MaxSize>
 bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet<MaxSize>::Split& split);

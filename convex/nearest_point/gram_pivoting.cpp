@@ -53,7 +53,6 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
   state_ = arena.take_filled<Index>(m_, outside);
   at_ = arena.take<Index>(k);
   list_ = arena.take<Index>(m_);
-  force_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free, w_free));
 }
 
 Index GramPivoting::lines(Index n, Index m) {
@@ -79,6 +78,7 @@ bool GramPivoting::start(const std::vector<Index>& guess) {
 /// Lists the rows held by their places.
 void GramPivoting::collect() {
   size_ = 0;
+  factored_ = false;
   for (Index p = 0; p < rows_.count(); ++p)
     if (rows_.row(p) >= 0 && holds(rows_.row(p))) at_[size_++] = p;
 }
@@ -104,14 +104,33 @@ bool GramPivoting::factor() {
       part = pivot * pivot / rows_.square(at_[j]);
       if (!(part > near_dependence)) break;
     }
-    if (j == k) return true;
+    factored_ = j == k;
+    if (factored_) return true;
     const Index a = rows_.row(at_[j]);
     if (part > dependence || state_[a] == two_sided) return false;
     state_[a] = passed;
-    for (Index i = j; i + 1 < k; ++i) at_[i] = at_[i + 1];
-    --size_;
+    pass_parallel_rows(j);
+    Index kept = 0;
+    for (Index i = 0; i < k; ++i)
+      if (state_[row(i)] != passed) at_[kept++] = at_[i];
+    size_ = kept;
   }
   return true;
+}
+
+/// Where one row turns out to depend on others, as a rule others are repeated too: these are found all at
+/// once.
+void GramPivoting::pass_parallel_rows(Index first) {
+  for (Index i = first + 1; i < size_; ++i) {
+    if (state_[row(i)] == two_sided) continue;
+    const double* gram = rows_.gram(at_[i]);
+    const double least = (1 - dependence) * rows_.square(at_[i]);
+    for (Index j = 0; j < i; ++j)
+      if (gram[at_[j]] * gram[at_[j]] >= least * rows_.square(at_[j]) && state_[row(j)] != passed) {
+        state_[row(i)] = passed;
+        break;
+      }
+  }
 }
 
 void GramPivoting::solve(double* x) const {
@@ -122,7 +141,7 @@ void GramPivoting::solve(double* x) const {
 
 /// Multipliers with which the rows held hold with equality.
 bool GramPivoting::find_multipliers() {
-  if (!factor()) return false;
+  if (!factored_ && !factor()) return false;
   for (Index j = 0; j < padded(size_); ++j) load_[j] = j < size_ ? rows_.load()[at_[j]] : 0;
   energy_ = 0;
   solve(load_);
@@ -152,14 +171,30 @@ void GramPivoting::find_slacks() {
     kernels_.add_multiple(rows_.count(), lambda_[at_[j]], rows_.gram(at_[j]), slack_);
 }
 
-bool GramPivoting::settle(const std::vector<Index>& guess) {
-  if (!start(guess)) return false;
+bool GramPivoting::settle(const std::vector<Index>& guess) { return start(guess) && pivot(); }
+
+bool GramPivoting::settle_again() {
+  rows_.reload();
+  for (Index a = 0; a < m_; ++a)
+    if (state_[a] == passed) state_[a] = outside;
+  steps_ = 0;
+  return pivot();
+}
+
+void GramPivoting::point(double* w, double* q) const {
+  if (all_known()) return find_point(w, q);
+  copy_packs(A_.ld, w_, w);
+  copy_packs(A_.ld, q_, q);
+}
+
+bool GramPivoting::pivot() {
+  const double force_norm = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
   Index fewest = m_ + 1;
   Index* const entering = list_;
   for (int impatience = 0; impatience <= patience;) {
     if (!find_multipliers()) return false;
     find_slacks();
-    const double scale = violation * (force_norm_ + std::sqrt(std::abs(energy_)));
+    const double scale = violation * (force_norm + std::sqrt(std::abs(energy_)));
     Index leaving = 0, count = 0;
     for (Index j = 0; j < size_; ++j) {
       const Index a = rows_.row(at_[j]);

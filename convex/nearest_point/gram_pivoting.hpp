@@ -18,20 +18,23 @@ class GramPivoting {
 
   /// False when it does not settle, or when rows held are nearly dependent. guess: rows to begin with.
   bool settle(const std::vector<Index>& guess);
+  /// The same from the rows held now, after z and s of the problem have changed, and w_free with them.
+  bool settle_again();
 
   const GramRows& rows() const { return rows_; }
   Index size() const { return size_; }           ///< rows held
   Index place(Index j) const { return at_[j]; }  ///< of the j-th, increasing
   Index row(Index j) const { return rows_.row(at_[j]); }
   bool holds(Index a) const { return state_[a] == held || state_[a] == two_sided; }
+  bool has_passed(Index a) const { return state_[a] == passed; }  ///< left out as dependent
   bool is_two_sided(Index a) const { return state_[a] == two_sided; }
   Index steps() const { return steps_; }            ///< rows taken in or dropped
   const double* lambda() const { return lambda_; }  ///< multipliers at their places
 
   /// x := (VᵀV)⁻¹x over the rows held; padded.
   void solve(double* x) const;
-  /// w = w_free + V lambda and q = L⁻ᵀw, padded.
-  void find_point(double* w, double* q) const;
+  /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
+  void point(double* w, double* q) const;
   /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
   double inverse_norm() const;
 
@@ -40,8 +43,11 @@ class GramPivoting {
 
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
+  bool pivot();
+  void find_point(double* w, double* q) const;
   void collect();
   bool factor();
+  void pass_parallel_rows(Index first);
   bool find_multipliers();
   void find_slacks();
 
@@ -54,7 +60,8 @@ class GramPivoting {
   double *lambda_, *w_, *q_, *slack_, *C_, *C_inverse_, *load_;
   Index *state_, *at_, *list_;
   Index size_ = 0, steps_ = 0;
-  double force_norm_ = 0, energy_ = 0;
+  double energy_ = 0;
+  bool factored_ = false;
 };
 
 }  // namespace convex

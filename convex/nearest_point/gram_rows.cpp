@@ -24,6 +24,18 @@ void GramRows::copy_rows(const Index* rows, Index count, double* pack) const {
   }
 }
 
+void GramRows::load(Index first) {
+  dense_kernels().dots(n_, whitened_ + first * n_, w_free_, load_ + first);
+  for (Index place = first; place < first + 8; ++place) {
+    s_[place] = row_[place] < 0 ? 0 : problem_.s[row_[place]];
+    load_[place] = s_[place] - load_[place];
+  }
+}
+
+void GramRows::reload() {
+  for (Index first = 0; first < count_; first += 8) load(first);
+}
+
 bool GramRows::add(const Index* rows, Index count) {
   const DenseKernels& kernels = dense_kernels();
   const DenseFactor factor = problem_.A.dense_factor();
@@ -35,14 +47,11 @@ bool GramRows::add(const Index* rows, Index count) {
     copy_rows(rows + first, fresh, raw);
     copy_packs(8 * n_, raw, whitened);
     kernels.forward_pack(n_, factor.ld, factor.T, factor.inverse, whitened);
-    kernels.dots(n_, whitened, w_free_, load_ + count_);
     for (Index k = 0; k < 8; ++k) {
-      const Index a = k < fresh ? rows[first + k] : -1, place = count_ + k;
-      row_[place] = a;
-      s_[place] = a < 0 ? 0 : problem_.s[a];
-      load_[place] = s_[place] - load_[place];
-      if (a >= 0) place_[a] = place;
+      row_[count_ + k] = k < fresh ? rows[first + k] : -1;
+      if (k < fresh) place_[rows[first + k]] = count_ + k;
     }
+    load(count_);
     for (Index other = 0; other <= count_; other += 8) {
       kernels.gram(n_, whitened_ + other * n_, whitened, gram_ + count_ * most_ + other, most_);
       if (other < count_)

@@ -20,6 +20,9 @@ class GramRows {
   /// Takes rows in that are not there yet. False when there is no room for them.
   bool add(const Index* rows, Index count);
 
+  /// After z and s of the problem have changed, and w_free with them.
+  void reload();
+
   Index count() const { return count_; }                ///< places, a multiple of 8
   Index row(Index place) const { return row_[place]; }  ///< -1 for none
   Index place(Index row) const { return place_[row]; }  ///< -1 for none
@@ -31,6 +34,7 @@ class GramRows {
   const double* load() const { return load_; }  ///< s_a - v_a·w_free
 
  private:
+  void load(Index first);
   void copy_rows(const Index* rows, Index count, double* pack) const;
 
   const NearestPointProblem& problem_;

@@ -4,14 +4,10 @@
 #include <cmath>
 
 #include "convex/nearest_point/dependent_row.hpp"
-#include "convex/nearest_point/kkt_residual.hpp"
-#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/refined_slacks.hpp"
 
 namespace convex {
 namespace {
-
-/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
-constexpr double silence = 0x1p-95;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -35,10 +31,10 @@ class Polish {
     for (Index p : active(q, lambda)) take_in(p, lambda[p]);
     for (Index change = 0; change <= most_changes; ++change) {
       set_.solve();
-      const RefinedPoint refined = refine(set_);
+      RefinedPoint refined = refine(set_);
       if (!(refined.contraction < 1) || !std::isfinite(refined.remaining())) return found_;
       if (drop_negative(refined)) continue;
-      measure(refined);
+      slack_ = refined_slacks(set_, refined, row_scale_);
       if (admit_violated(refined)) continue;
       if (found_.farkas.size() == 0) found_.held = held(refined);
       return found_;
@@ -97,24 +93,6 @@ class Polish {
     }
     if (worst >= 0) set_.remove(worst);
     return worst >= 0;
-  }
-
-  /// Slacks at the refined point; those that cannot be told from 0 are 0.
-  void measure(const RefinedPoint& refined) {
-    const Vector size = refined.q.hi.cwiseAbs();
-    const double plain = 2 * static_cast<double>(problem_.dimension()) * unit_roundoff;
-    slack_ = problem_.U.times(refined.q.hi) - problem_.s;
-    for (Index a = 0; a < problem_.rows(); ++a) {
-      const double s = std::abs(problem_.s[a]);
-      if (set_.holds(a)) {
-        slack_[a] = 0;
-      } else if (std::abs(slack_[a]) <= plain * (s + problem_.U.absolute_dot(a, size))) {
-        slack_[a] = slack(problem_, a, refined.q).value();
-        const double noise =
-            silence * (s + row_scale_[a] * set_.scale()) + 2 * row_scale_[a] * refined.remaining();
-        if (std::abs(slack_[a]) <= noise) slack_[a] = 0;
-      }
-    }
   }
 
   /// Takes in the most violated row that W does not span.
@@ -176,7 +154,7 @@ class Polish {
     HeldRows found{set_.rows(), refined.q, Vector::Zero(problem_.rows()), slack_};
     for (Index k = 0; k < set_.size(); ++k)
       found.lambda[set_.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
-    found.remaining = refined.remaining();
+    found.remaining = refined.remaining() + refined.silenced;
     found.inverse_norm = set_.factor().inverse_norm();
     found.contradiction = contradiction_;
     return found;

@@ -5,10 +5,6 @@
 namespace convex {
 namespace {
 
-/// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
-/// rounded answer and the signs of its slacks can need.
-constexpr double enough = 0x1p-68;
-
 /// A correction below this is made of the rounding of the residuals, which the condition of A enlarges.
 constexpr double at_rounding = 0x1p-80;
 
@@ -26,10 +22,23 @@ constexpr double certain_contraction = 0x1p-44;
 constexpr double cancelled = 0x1p-24;
 
 /// An entry no larger than what may be missing in it is rounding noise about zero.
-template <class Noise>
-void silence_noise(DoubleDoubleVector& x, Noise noise) {
-  for (Index i = 0; i < x.size(); ++i)
-    if (std::abs(x.hi[i]) <= noise(i)) x.hi[i] = x.lo[i] = 0;
+template <class Noise, class Weight>
+double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
+  double silenced = 0;
+  for (Index i = 0; i < x.size(); ++i) {
+    if (!(std::abs(x.hi[i]) <= noise(i))) continue;
+    silenced += weight(i) * x.hi[i] * x.hi[i];
+    x.hi[i] = x.lo[i] = 0;
+  }
+  return silenced;
+}
+
+/// How much the factors of A and of W enlarge a residual.
+template <int MaxSize>
+double condition(const WorkingSet<MaxSize>& set) {
+  double longest = 0;
+  for (Index k = 0; k < set.size(); ++k) longest = std::max(longest, set.factor().length(k));
+  return set.problem().A.factor_condition() + set.factor().inverse_norm() * longest;
 }
 
 }  // namespace
@@ -41,9 +50,18 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   RefinedPoint point{DoubleDoubleVector(set.point()),
                      DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
   const double scale = set.scale();
+  const double enlarged = condition(set);  // a residual is rounded once, its terms in twice the precision
+  point.floor = 4 * unit_roundoff * unit_roundoff * enlarged * scale;
   double previous = scale;  // the first solve is the correction of nothing
   Column dw, dlambda, r2(set.size());
   Vector dq, step;
+  const auto silence_q = [&](auto noise) {
+    const double silenced = silence_noise(point.q, noise, [&](Index i) { return problem.A.diagonal()[i]; });
+    point.silenced = std::sqrt(static_cast<double>(problem.dimension()) * silenced);
+  };
+  const auto silence_lambda = [&](auto noise) {
+    silence_noise(point.lambda, noise, [](Index) { return 0; });
+  };
   for (int k = 0; k < most_corrections; ++k) {
     const Vector r1 = stationarity_residual(problem, point.q, set.rows(), point.lambda);
     for (Index j = 0; j < set.size(); ++j)
@@ -55,7 +73,8 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     // failure.
     const double floor = at_rounding * scale;
     if (k == 0)
-      point.contraction = point.last > 0 ? std::max(point.last / previous, unit_roundoff) : unit_roundoff;
+      point.contraction = std::max(point.last > 0 ? point.last / previous : 0,
+                                   std::min(slowest_contraction / 2, unit_roundoff * enlarged));
     else if (point.last > floor)
       point.contraction = std::max(point.contraction, point.last / previous);
     dq = problem.A.unwhiten(dw);
@@ -65,13 +84,12 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     point.lambda.add(step);
     if (k == 0 && point.contraction <= certain_contraction && point.last > 0) {
       const double missing = 4 * point.remaining() * problem.A.factor_condition();
-      silence_noise(point.q, [&](Index i) {
+      silence_q([&](Index i) {
         return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
       });
       const double inverse_norm = set.factor().inverse_norm();
-      silence_noise(point.lambda, [&](Index k_th) {
-        return std::max(missing * inverse_norm, cancelled * std::abs(step[k_th]));
-      });
+      silence_lambda(
+          [&](Index k_th) { return std::max(missing * inverse_norm, cancelled * std::abs(step[k_th])); });
       return point;
     }
     if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
@@ -79,8 +97,8 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   }
   if (point.contraction < slowest_contraction) {
     // The last correction of an entry is more than what is missing in it.
-    silence_noise(point.q, [&](Index i) { return 2 * std::abs(dq[i]); });
-    silence_noise(point.lambda, [&](Index k) { return 2 * std::abs(step[k]); });
+    silence_q([&](Index i) { return 2 * std::abs(dq[i]); });
+    silence_lambda([&](Index k) { return 2 * std::abs(step[k]); });
   }
   return point;
 }

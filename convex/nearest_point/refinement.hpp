@@ -4,6 +4,10 @@
 
 namespace convex {
 
+/// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
+/// rounded answer and the signs of its slacks can need.
+inline constexpr double enough = 0x1p-68;
+
 /// The point and multipliers of a working set, to twice the working precision where its conditioning allows.
 struct RefinedPoint {
   DoubleDoubleVector q;       ///< n
@@ -11,10 +15,15 @@ struct RefinedPoint {
   double first = 0;           ///< ||dq||_A of the first correction: the rounding of the plain solve
   double last = 0;            ///< ||dq||_A of the last correction
   double contraction =
-      0;  ///< by what each correction was smaller than the one before (about condition times u)
-  /// An estimate of what is still missing, ||q - q_W||_A, q_W the exact point of the working set.
+      0;  ///< by what each correction is smaller than the one before: as seen, and at least condition times u
+  double floor =
+      0;  ///< what the rounding of residuals in twice the precision leaves, enlarged by the condition
+  double silenced = 0;  ///< at least ||·||_A of what was taken for rounding noise about zero
+  /// An estimate of what is still missing, ||q - q_W||_A, q_W the exact point of the working set, but for
+  /// what was silenced.
   double remaining() const {
-    return contraction < 1 ? last * contraction / (1 - contraction) : std::numeric_limits<double>::infinity();
+    return contraction < 1 ? last * contraction / (1 - contraction) + floor
+                           : std::numeric_limits<double>::infinity();
   }
 };
 

@@ -17,4 +17,7 @@ namespace convex {
 std::optional<Solution> well_conditioned(const NearestPointProblem&, const Accuracy&,
                                          const std::vector<Index>& guess);
 
+/// Whether the short way is open to a problem of that size and kind.
+bool has_short_way(const NearestPointProblem&);
+
 }  // namespace convex

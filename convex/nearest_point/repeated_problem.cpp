@@ -1,0 +1,47 @@
+#include "convex/nearest_point/repeated_problem.hpp"
+
+#include "convex/invalid_input.hpp"
+#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/short_way.hpp"
+#include "convex/nearest_point/well_conditioned.hpp"
+
+namespace convex {
+
+struct RepeatedProblem::State {
+  NearestPointProblem problem;
+  Accuracy accuracy;
+  Arena arena;
+  std::optional<ShortWay> way;
+  bool settled = false;  // the short way ended with rows to begin from
+  Solution solution;
+};
+
+RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& accuracy) {
+  validate(problem);
+  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, false, {}});
+}
+
+RepeatedProblem::~RepeatedProblem() = default;
+RepeatedProblem::RepeatedProblem(RepeatedProblem&&) noexcept = default;
+RepeatedProblem& RepeatedProblem::operator=(RepeatedProblem&&) noexcept = default;
+
+const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
+  State& state = *state_;
+  if (z.size() != state.problem.dimension() || s.size() != state.problem.rows())
+    throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + std::to_string(s.size()) +
+                       " entries; give one per coordinate and one per row");
+  if (!z.allFinite() || !s.allFinite())
+    throw InvalidInput("z, s: an entry is not finite; give finite numbers");
+  state.problem.z = z;
+  state.problem.s = s;
+  if (has_short_way(state.problem) && state.accuracy.step_limit == 0) {
+    if (state.settled && state.way->solve_again(state.accuracy, state.solution)) return state.solution;
+    state.way.emplace(state.problem, state.arena);
+    state.settled = state.way->solve({}, state.accuracy, state.solution);
+    if (state.settled) return state.solution;
+  }
+  state.solution = active_set(state.problem, state.accuracy, state.solution.basis);
+  return state.solution;
+}
+
+}  // namespace convex

@@ -1,0 +1,256 @@
+#include "convex/nearest_point/short_way.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/residuals.hpp"
+
+namespace convex {
+namespace {
+
+/// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
+/// what is missing by this much.
+constexpr double largest_contraction = 0x1p-30;
+
+/// An entry that the correction takes to this part of it is 0 as far as that tells (`refine`).
+constexpr double cancelled = 0x1p-24;
+
+/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
+constexpr double silence = 0x1p-95;
+
+}  // namespace
+
+ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
+    : problem_(problem),
+      kernels_(dense_kernels()),
+      A_(problem.A.dense_factor()),
+      n_(problem.dimension()),
+      m_(problem.rows()),
+      ld_(A_.ld) {
+  const Index k = std::min(n_, m_), places = m_ + 64;
+  arena.start((9 * ld_ + 2 * padded(m_) + 3 * padded(k) + 2 * padded(places)) / 8 +
+              GramPivoting::lines(n_, m_));
+  z_ = arena.take_filled(n_, 0.0);
+  w_free_ = arena.take<double>(n_);
+  w_ = arena.take<double>(n_);
+  q_ = arena.take<double>(n_);
+  q_low_ = arena.take_filled(n_, 0.0);
+  r_ = arena.take<double>(n_);
+  dw_ = arena.take<double>(n_);
+  dq_ = arena.take<double>(n_);
+  inverse_diagonal_ = arena.take_filled(n_, 0.0);
+  row_scale_ = arena.take<double>(m_);
+  slack_ = arena.take<double>(m_);
+  load_ = arena.take<double>(k);
+  rows_ = arena.take<Index>(k);
+  lambda_ = arena.take<double>(k);
+  y_ = arena.take_filled(places, 0.0);
+  held_slack_ = arena.take<double>(places);
+  const double* diagonal = problem_.A.diagonal().data();
+  for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
+  kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
+  for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
+  set_.emplace(problem, arena, w_free_, row_scale_);
+}
+
+void ShortWay::whiten_force() {
+  for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
+  copy_packs(ld_, z_, w_free_);
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
+  force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
+}
+
+bool ShortWay::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
+  whiten_force();
+  return set_->settle(guess) && correct() && answer(accuracy, solution);
+}
+
+bool ShortWay::solve_again(const Accuracy& accuracy, Solution& solution) {
+  whiten_force();
+  return set_->settle_again() && correct() && answer(accuracy, solution);
+}
+
+/// One correction of q and lambda with residuals in twice the working precision. False when it is not
+/// small.
+bool ShortWay::correct() {
+  set_->point(w_, q_);
+  for (Index j = 0; j < set_->size(); ++j) {
+    rows_[j] = set_->row(j);
+    lambda_[j] = set_->lambda()[set_->place(j)];
+  }
+  residual();
+  copy_packs(ld_, r_, dw_);
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
+  precise_slacks();
+  for (Index j = 0; j < padded(set_->size()); ++j) load_[j] = 0;
+  Index last = -1;
+  alignas(64) double dots[8];
+  for (Index j = 0; j < set_->size(); ++j) {
+    if (set_->place(j) / 8 != last) {
+      last = set_->place(j) / 8;
+      kernels_.dots(n_, set_->rows().whitened() + 8 * last * n_, dw_, dots);
+    }
+    load_[j] = -held_slack_[set_->place(j)] - dots[set_->place(j) % 8];
+  }
+  set_->solve(load_);
+  fill_packs(set_->rows().count(), 0, y_);
+  for (Index j = 0; j < set_->size(); ++j) y_[set_->place(j)] = load_[j];
+  kernels_.combine(n_, set_->rows().count() / 8, set_->rows().whitened(), y_, dw_);
+  for (Index i = 0; i < n_; ++i) w_[i] += dw_[i];
+  first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_));
+  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
+  scale_ = std::max(acceleration_norm_, force_norm_);
+  // A residual is rounded once, and the factors of A and of the rows held enlarge that.
+  double longest = 0;
+  for (Index j = 0; j < set_->size(); ++j) longest = std::max(longest, set_->rows().square(set_->place(j)));
+  const double condition = problem_.A.factor_condition() + set_->inverse_norm() * std::sqrt(longest);
+  const double contraction = std::max(scale_ > 0 ? first_ / scale_ : 0, unit_roundoff * condition);
+  remaining_ =
+      first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition * scale_;
+  if (!(contraction <= largest_contraction && remaining_ <= enough * scale_)) return false;
+  copy_packs(ld_, dw_, dq_);
+  kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  return true;
+}
+
+void ShortWay::residual() {
+  kernels_.stationarity(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
+                        rows_, lambda_, z_, r_);
+}
+
+/// Slacks at q of the rows held, at their places.
+void ShortWay::precise_slacks() {
+  Index last = -1;
+  for (Index j = 0; j < set_->size(); ++j)
+    if (set_->place(j) / 8 != last) {
+      last = set_->place(j) / 8;
+      kernels_.precise_slacks(n_, set_->rows().raw() + 8 * last * n_, q_, set_->rows().s() + 8 * last,
+                              held_slack_ + 8 * last);
+    }
+}
+
+bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
+  const double missing = 4 * remaining_ * problem_.A.factor_condition();
+  double rounded = 0, silenced = 0;
+  for (Index i = 0; i < n_; ++i) {
+    const DoubleDouble sum = two_sum(q_[i], dq_[i]);
+    const double noise = std::max(missing * std::sqrt(inverse_diagonal_[i]), cancelled * std::abs(dq_[i]));
+    const bool is_zero = std::abs(sum.hi) <= noise;
+    if (is_zero) silenced += problem_.A.diagonal()[i] * sum.hi * sum.hi;
+    q_[i] = is_zero ? 0 : sum.hi;
+    q_low_[i] = is_zero ? 0 : sum.lo;
+    rounded += problem_.A.diagonal()[i] * q_low_[i] * q_low_[i];
+  }
+  const double inverse = set_->inverse_norm();
+  solution.lambda.setZero(m_);
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double step = y_[set_->place(j)], sum = lambda_[j] + step;
+    const bool is_zero = std::abs(sum) <= std::max(missing * inverse, cancelled * std::abs(step));
+    lambda_[j] = is_zero ? 0 : sum;
+    if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
+    solution.lambda[rows_[j]] = lambda_[j];
+  }
+  const bool clear = measure_slacks();
+  if (in_doubt_) return false;
+  solution.method = "active-set";
+  solution.steps = set_->steps();
+  solution.q = Eigen::Map<const Vector>(q_, n_);
+  solution.slack = Eigen::Map<const Vector>(slack_, m_);
+  solution.basis.assign(rows_, rows_ + set_->size());
+  solution.acceleration_norm = acceleration_norm_;
+  solution.force_norm = force_norm_;
+  solution.rounding = std::sqrt(static_cast<double>(n_) * rounded);
+  solution.error_bound = 4 * enough * scale_ + 2 * remaining_ +
+                         std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding;
+  solution.residuals = clear ? residuals_of_held() : general_residuals(solution);
+  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+  solution.status = close ? Status::solved : Status::inaccurate;
+  return true;
+}
+
+/// Slacks at the refined point. False when some row outside is so close that its slack matters to the
+/// residuals; in doubt when one may be violated.
+bool ShortWay::measure_slacks() {
+  in_doubt_ = false;
+  kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
+  constexpr double near = 1e-8;
+  double magnitude = 0;
+  for (Index i = 0; i < n_; ++i) magnitude += q_[i] * q_[i] / inverse_diagonal_[i];
+  magnitude = std::sqrt(magnitude);
+  const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
+  bool clear = true;
+  for (Index a = 0; a < m_; ++a) {
+    if (set_->holds(a)) {
+      slack_[a] = 0;
+      continue;
+    }
+    const double s = std::abs(problem_.s[a]), terms = s + row_scale_[a] * magnitude;
+    if (slack_[a] > near * terms) continue;
+    clear = false;
+    if (std::abs(slack_[a]) <= rounding * terms) {
+      DoubleDoubleVector q(n_);
+      std::copy_n(q_, n_, q.hi.data());
+      std::copy_n(q_low_, n_, q.lo.data());
+      slack_[a] = slack(problem_, a, q).value();
+      // A violation so small still moves the edge of rows at a small angle.
+      if (slack_[a] < 0 && !is_spanned_exactly(a)) in_doubt_ = true;
+      if (std::abs(slack_[a]) <= silence * (s + row_scale_[a] * scale_) + 2 * row_scale_[a] * remaining_)
+        slack_[a] = 0;
+    }
+    in_doubt_ = in_doubt_ || !(slack_[a] >= 0) || (set_->has_passed(a) && !is_spanned_exactly(a));
+  }
+  return clear;
+}
+
+/// Whether row a is a sum of rows held with short coefficients, not one bit left over. By less, its edge with
+/// them may lie elsewhere, and Gram matrices do not see it.
+bool ShortWay::is_spanned_exactly(Index a) {
+  constexpr double unit = 0x1p-10;  // coefficients are multiples of it
+  if (set_->rows().place(a) < 0) return false;
+  const double* gram = set_->rows().gram(set_->rows().place(a));
+  for (Index j = 0; j < padded(set_->size()); ++j) load_[j] = j < set_->size() ? gram[set_->place(j)] : 0;
+  set_->solve(load_);
+  DoubleDoubleVector rest(problem_.U.row(a));
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double coefficient = unit * std::round(load_[j] / unit);
+    if (coefficient != 0) problem_.U.add_multiple(rows_[j], {-coefficient, 0}, rest);
+  }
+  return rest.value().isZero(0);
+}
+
+/// `residuals` where only the rows held matter.
+Residuals ShortWay::residuals_of_held() {
+  residual();
+  precise_slacks();
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
+  const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
+  double gap = 0.5 * stationarity * stationarity, most = 0;
+  for (Index j = 0; j < set_->size(); ++j) most = std::max(most, std::abs(lambda_[j]));
+  Residuals found;
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double rest = held_slack_[set_->place(j)], length = std::sqrt(set_->rows().square(set_->place(j)));
+    const double row_scale = std::abs(problem_.s[rows_[j]]) + length * acceleration_norm_;
+    const double over = row_scale > 0 ? row_scale : length * scale_;
+    gap += lambda_[j] * rest;
+    if (!(over > 0)) continue;
+    const double off = set_->is_two_sided(rows_[j]) ? std::abs(rest) : std::max(0.0, -rest);
+    found.feasibility = std::max(found.feasibility, off / over);
+    if (most > 0)
+      found.complementarity = std::max(found.complementarity, std::abs(lambda_[j] / most * rest) / over);
+  }
+  if (scale_ > 0) {
+    found.stationarity = stationarity / scale_;
+    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale_;
+  }
+  return found;
+}
+
+Residuals ShortWay::general_residuals(const Solution& solution) const {
+  Vector length = Vector::Zero(m_);
+  for (Index j = 0; j < set_->size(); ++j) length[rows_[j]] = std::sqrt(set_->rows().square(set_->place(j)));
+  return residuals(problem_, solution.q, solution.lambda,
+                   KnownParts{std::move(length), solution.slack, {}, acceleration_norm_, force_norm_});
+}
+
+}  // namespace convex

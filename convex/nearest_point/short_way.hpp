@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/nearest_point/gram_pivoting.hpp"
+#include "convex/nearest_point/solution.hpp"
+
+namespace convex {
+
+/// The short way of the active-set method for dense A and U (`well_conditioned`): pivoting on the Gram
+/// matrix, one correction in twice the working precision, and an answer where nothing is in doubt.
+class ShortWay {
+ public:
+  /// The problem is referred to; its z and s may change from one solve to the next.
+  ShortWay(const NearestPointProblem& problem, Arena& arena);
+
+  /// False when something is in doubt; the solution is then not to be used.
+  bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
+  /// The same after a `solve` that was true, from the rows that it ended with.
+  bool solve_again(const Accuracy& accuracy, Solution& solution);
+
+ private:
+  void whiten_force();
+  bool correct();
+  void residual();
+  void precise_slacks();
+  bool answer(const Accuracy& accuracy, Solution& solution);
+  bool measure_slacks();
+  bool is_spanned_exactly(Index a);
+  Residuals residuals_of_held();
+  Residuals general_residuals(const Solution& solution) const;
+
+  const NearestPointProblem& problem_;
+  const DenseKernels& kernels_;
+  const DenseFactor A_;
+  const Index n_, m_, ld_;
+  std::optional<GramPivoting> set_;
+  double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *row_scale_, *slack_;
+  double *load_, *lambda_, *y_, *held_slack_;  // y_, held_slack_: at places; lambda_: of the rows held, rows_
+  Index* rows_;
+  double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
+  bool in_doubt_ = false;
+};
+
+}  // namespace convex

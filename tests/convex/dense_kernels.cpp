@@ -1,0 +1,137 @@
+#include "convex/dense_kernels.hpp"
+
+#include <doctest/doctest.h>
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+using convex::DenseKernels;
+using convex::Index;
+using convex::Matrix;
+using convex::padded;
+using convex::RowMatrix;
+using convex::Vector;
+
+namespace {
+
+struct Data {
+  Matrix A;
+  RowMatrix U;
+  Vector z, x, s;
+  std::vector<Index> rows;
+};
+
+Data draw(Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  const auto fill = [&](auto& M) {
+    for (Index i = 0; i < M.size(); ++i) M.data()[i] = normal(generator);
+  };
+  Matrix B(n, n);
+  Data data{{}, RowMatrix(n + 3, n), Vector(n), Vector::Zero(padded(n)), Vector(n + 3), {}};
+  fill(B);
+  fill(data.U);
+  fill(data.z);
+  fill(data.s);
+  for (Index i = 0; i < n; ++i) data.x[i] = normal(generator);
+  data.A = B * B.transpose() + Matrix::Identity(n, n);
+  for (Index a = 0; a < n + 3; a += 2) data.rows.push_back(a);
+  return data;
+}
+
+Matrix padded_matrix(const Matrix& A) {
+  const Index n = A.rows(), ld = padded(n);
+  Matrix T = Matrix::Identity(ld, ld);
+  T.topLeftCorner(n, n) = A;
+  return T;
+}
+
+/// All that the kernels make of the data, one after the other.
+std::vector<double> outcome(const DenseKernels& kernels, const Data& data) {
+  const Index n = data.z.size(), m = data.U.rows(), ld = padded(n);
+  std::vector<double> all;
+  const auto keep = [&](const auto& M) { all.insert(all.end(), M.data(), M.data() + M.size()); };
+  Matrix T = padded_matrix(data.A);
+  Vector inverse(16 * ld), x = data.x, z = Vector::Zero(ld), into(std::max(m, ld));
+  z.head(n) = data.z;
+  kernels.factor(n, ld, T.data(), inverse.data());
+  keep(T);
+  kernels.forward(n, ld, T.data(), inverse.data(), x.data());
+  keep(x);
+  kernels.backward(n, ld, T.data(), inverse.data(), x.data());
+  keep(x);
+  Matrix X(8, n), G(8, 8);
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < 8; ++k) X(k, i) = data.U(k % m, i);
+  kernels.precise_slacks(n, X.data(), data.x.data(), Vector(data.s.replicate(8, 1)).data(), into.data());
+  keep(Vector(into.head(8)));
+  kernels.forward_pack(n, ld, T.data(), inverse.data(), X.data());
+  keep(X);
+  kernels.gram(n, X.data(), X.data(), G.data(), 8);
+  keep(G);
+  kernels.slacks(m, n, data.U.data(), data.x.data(), data.s.data(), into.data());
+  keep(Vector(into.head(m)));
+  kernels.squares(m, n, data.U.data(), data.x.data(), into.data());
+  keep(Vector(into.head(m)));
+  kernels.stationarity(n, data.A.data(), data.x.data(), m, data.U.data(),
+                       static_cast<Index>(data.rows.size()), data.rows.data(), data.s.data(), z.data(),
+                       into.data());
+  keep(Vector(into.head(n)));
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the dense kernels give the same bytes for every processor family") {
+  for (Index n : {1, 2, 5, 7, 8, 9, 16, 23, 41}) {
+    const Data data = draw(n, static_cast<unsigned>(n));
+    const std::vector<double> reference = outcome(convex::dense_kernels(), data);
+    for (const DenseKernels* kernels : convex::all_dense_kernels())
+      CHECK(outcome(*kernels, data) == reference);
+  }
+}
+
+TEST_CASE("a dense factor times its transpose is the matrix, and solves with it are right to rounding") {
+  for (Index n : {1, 3, 8, 13, 40, 75}) {
+    const Data data = draw(n, 7);
+    Matrix T = padded_matrix(data.A);
+    const Index ld = padded(n);
+    Vector inverse(16 * ld), x = data.x;
+    const DenseKernels& kernels = convex::dense_kernels();
+    kernels.factor(n, ld, T.data(), inverse.data());
+    const Matrix L = T.topLeftCorner(n, n).triangularView<Eigen::Lower>();
+    CHECK((L * L.transpose() - data.A).norm() <= 1e-15 * static_cast<double>(n) * data.A.norm());
+    CHECK(T.topLeftCorner(n, n).isApprox(T.topLeftCorner(n, n).transpose(), 0));
+    kernels.forward(n, ld, T.data(), inverse.data(), x.data());
+    CHECK((L * x.head(n) - data.x.head(n)).norm() <= 1e-14 * L.norm() * x.norm());
+    CHECK(x.tail(ld - n).isZero(0));
+    const Vector y = x;
+    kernels.backward(n, ld, T.data(), inverse.data(), x.data());
+    CHECK((L.transpose() * x.head(n) - y.head(n)).norm() <= 1e-14 * L.norm() * x.norm());
+  }
+}
+
+TEST_CASE("residuals in twice the working precision are the exact ones, rounded") {
+  for (Index n : {1, 6, 8, 19}) {
+    Data data = draw(n, 5);
+    Vector z = Vector::Zero(padded(n)), lambda = data.s.head(static_cast<Index>(data.rows.size()));
+    // Near a solution: what is left is far below the terms.
+    z.head(n) = data.A * data.x.head(n);
+    for (std::size_t k = 0; k < data.rows.size(); ++k)
+      z.head(n) -= lambda[static_cast<Index>(k)] * data.U.row(data.rows[k]).transpose();
+    Vector found(padded(n));
+    convex::dense_kernels().stationarity(n, data.A.data(), data.x.data(), data.U.rows(), data.U.data(),
+                                         static_cast<Index>(data.rows.size()), data.rows.data(),
+                                         lambda.data(), z.data(), found.data());
+    for (Index i = 0; i < n; ++i) {
+      mpq_class exact(z[i]);
+      for (std::size_t k = 0; k < data.rows.size(); ++k)
+        exact += mpq_class(lambda[static_cast<Index>(k)]) * mpq_class(data.U(data.rows[k], i));
+      for (Index j = 0; j < n; ++j) exact -= mpq_class(data.A(i, j)) * mpq_class(data.x[j]);
+      const mpq_class difference = exact - mpq_class(found[i]);
+      CHECK(std::abs(difference.get_d()) <= 1e-15 * std::abs(exact.get_d()) + 1e-29);
+    }
+  }
+}

@@ -1,0 +1,84 @@
+#include "convex/nearest_point/well_conditioned.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "convex/nearest_point/gallery/gallery.hpp"
+#include "tests/oracles/planted_problem.hpp"
+
+using convex::Index;
+using convex::NearestPointProblem;
+using convex::Solution;
+using convex::Status;
+using convex::Vector;
+using oracles::Difficulty;
+
+namespace {
+
+constexpr double few_roundings = 4e-15;
+
+double scale(const NearestPointProblem& problem, const Vector& x) {
+  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
+}
+
+}  // namespace
+
+TEST_CASE("where the short way answers, it is right to rounding, and its bound holds") {
+  int answered = 0;
+  for (Difficulty difficulty :
+       {Difficulty::none, Difficulty::repeated_rows, Difficulty::sums_of_rows, Difficulty::at_rest,
+        Difficulty::two_sided_rows, Difficulty::opposite_rows, Difficulty::sparse_rows})
+    for (unsigned seed = 0; seed < 60; ++seed) {
+      CAPTURE(seed);
+      CAPTURE(static_cast<int>(difficulty));
+      const Index n = 1 + static_cast<Index>((5 * seed) % 37), m = 1 + static_cast<Index>((11 * seed) % 71);
+      const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
+      const std::optional<Solution> found = convex::well_conditioned(problem, {}, {});
+      if (!found) continue;
+      ++answered;
+      CHECK(found->status == Status::solved);
+      const double error = problem.A.norm(found->q - truth), unit = scale(problem, truth);
+      CHECK(error <= few_roundings * unit);
+      CHECK(error <= found->error_bound + few_roundings * unit);
+      CHECK(found->residuals.stationarity <= few_roundings);
+      CHECK(found->residuals.feasibility <= few_roundings);
+      CHECK(found->residuals.complementarity <= few_roundings);
+      CHECK(found->lambda.minCoeff() >=
+            (difficulty == Difficulty::two_sided_rows ? found->lambda.minCoeff() : 0));
+    }
+  CHECK(answered > 100);
+}
+
+TEST_CASE("the short way settles well-posed problems, whatever the rows it begins with") {
+  const convex::GalleryFamily& family = *convex::find_family("well-posed");
+  for (const Index n : {4, 9, 17, 33, 60}) {
+    const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
+    const std::optional<Solution> cold = convex::well_conditioned(instance.problem, {}, {});
+    REQUIRE(cold.has_value());
+    const std::optional<Solution> warm = convex::well_conditioned(instance.problem, {}, cold->basis);
+    REQUIRE(warm.has_value());
+    CHECK(warm->q == cold->q);
+    CHECK(warm->steps <= cold->steps);
+  }
+}
+
+TEST_CASE("the short way does not judge rows that are nearly parallel or opposite") {
+  for (const char* name : {"near-parallel", "near-opposite"}) {
+    const convex::GalleryFamily& family = *convex::find_family(name);
+    for (const double angle : {1e-4, 1e-8, 1e-12}) {
+      const convex::GalleryInstance instance = convex::gallery_instance(family, 12, angle);
+      const std::optional<Solution> found = convex::well_conditioned(instance.problem, {}, {});
+      if (found)
+        CHECK((found->q - instance.solution.hi).norm() <= few_roundings * instance.solution.hi.norm());
+    }
+  }
+}
+
+TEST_CASE("the short way leaves contradictory rows to the proof that they are") {
+  const convex::GalleryFamily& family = *convex::find_family("infeasible");
+  for (const double margin : family.ladder)
+    for (const std::uint32_t seed : {1U, 2U, 3U})
+      CHECK_FALSE(
+          convex::well_conditioned(convex::gallery_instance(family, 12, margin, seed).problem, {}, {}));
+}
