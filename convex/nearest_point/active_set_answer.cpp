@@ -56,8 +56,7 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
   double forces = 0;
   for (Index k = 0; k < set.size(); ++k) forces += std::abs(refined.lambda.hi[k]) * set.factor().length(k);
   solution.error_bound =
-      4 * enough * set.scale() + 2 * refined.remaining() + refined.silenced + solution.rounding +
-      worst * set.factor().inverse_norm() +
+      2 * refined.remaining() + refined.silenced + solution.rounding + worst * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(forces, std::numeric_limits<double>::min()) : 0);
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   solution.status = close ? Status::solved : Status::inaccurate;

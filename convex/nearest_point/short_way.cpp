@@ -161,8 +161,7 @@ bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
   solution.acceleration_norm = acceleration_norm_;
   solution.force_norm = force_norm_;
   solution.rounding = std::sqrt(static_cast<double>(n_) * rounded);
-  solution.error_bound = 4 * enough * scale_ + 2 * remaining_ +
-                         std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding;
+  solution.error_bound = 2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding;
   solution.residuals = clear ? residuals_of_held() : general_residuals(solution);
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
   solution.status = close ? Status::solved : Status::inaccurate;
