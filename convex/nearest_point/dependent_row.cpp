@@ -41,9 +41,13 @@ double contradiction(const WorkingSet<MaxSize>& set, Index p,
 template <int MaxSize>
 bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename WorkingSet<MaxSize>::Split& split) {
   if (split.rest <= exact_dependence * split.magnitude) return false;
-  for (Index k = 0; k < set.size(); ++k)
-    if (set.one_sided(k) && split.coefficients[k] < 0 && !is_noise(set, k, split)) return true;
-  return false;
+  bool can_give_way = false;
+  for (Index k = 0; k < set.size(); ++k) {
+    if (!set.one_sided(k) || is_noise(set, k, split)) continue;
+    if (split.coefficients[k] < 0) return true;
+    can_give_way = true;
+  }
+  return !can_give_way;
 }
 
 template <int MaxSize>

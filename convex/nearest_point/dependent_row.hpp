@@ -17,8 +17,9 @@ template <int MaxSize>
 double contradiction(const WorkingSet<MaxSize>& set, Index p,
                      const typename WorkingSet<MaxSize>::Split& split);
 
-/// Whether a row counts as dependent on W by rounding alone and is opposite to one-sided rows of W: as the
-/// numbers stand they leave a wedge, however flat, and its edge may be far from where W holds them.
+/// Whether a row counts as dependent on W by rounding alone and is opposite to one-sided rows of W, or to
+/// nothing that could give way to it: as the numbers stand they leave a wedge, however flat, and its edge may
+/// be far from where W holds them.
 template <int MaxSize>
 bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split);
 

@@ -4,10 +4,14 @@
 
 #include <random>
 
+#include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "tests/oracles/planted_problem.hpp"
 
+using convex::ConstraintRows;
 using convex::Index;
+using convex::Matrix;
+using convex::Metric;
 using convex::NearestPointProblem;
 using convex::Solution;
 using convex::Status;
@@ -81,4 +85,17 @@ TEST_CASE("the short way leaves contradictory rows to the proof that they are") 
     for (const std::uint32_t seed : {1U, 2U, 3U})
       CHECK_FALSE(
           convex::well_conditioned(convex::gallery_instance(family, 12, margin, seed).problem, {}, {}));
+}
+
+TEST_CASE(
+    "a row at an angle below rounding to one held with equality, which nothing lets give way, is not called "
+    "solved") {
+  // x = 0 and x + 2^-39 y >= 0 ask for y >= 0; y weighs so much that in its metric the two rows are one.
+  const Matrix A{{1, 0}, {0, 0x1p80}};
+  const Matrix U{{1, 0}, {1, 0x1p-39}};
+  const Vector z{{1, -0x1p80}};
+  const NearestPointProblem problem{Metric::dense(A), z, ConstraintRows(U), Vector::Zero(2), {0}};
+  const Solution found = convex::active_set(problem);
+  const bool right = std::abs(found.q[1]) <= 1e-15;
+  CHECK((right || found.status != Status::solved));
 }
