@@ -8,6 +8,9 @@ namespace {
 /// A gap of a dependent row of so many roundings of the s it is made of is a rounded s, not a contradiction.
 constexpr double gap_roundings = 16;
 
+/// What correct rounding of s can make of such a gap; the other half is for the coefficients.
+constexpr double rounded_s = 2;
+
 /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
 constexpr double coefficient_noise = 64 * unit_roundoff;
 
@@ -18,24 +21,50 @@ bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet
   return std::abs(split.coefficients[k]) * set.factor().length(k) <= coefficient_noise * split.magnitude;
 }
 
+namespace {
+
+/// s_p - Σ r_k s_k, the sum of the sizes of its terms, and of those whose r_k is noise.
+struct Gap {
+  double value = 0, magnitude = 0, silenced = 0;
+};
+
 template <int MaxSize>
-double contradiction(const WorkingSet<MaxSize>& set, Index p,
-                     const typename WorkingSet<MaxSize>::Split& split) {
+Gap gap_of(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split) {
   const Vector& s = set.problem().s;
-  DoubleDouble gap{s[p], 0};
-  double magnitude = std::abs(s[p]), silenced = 0;
+  DoubleDouble sum{s[p], 0};
+  Gap gap{0, std::abs(s[p]), 0};
   for (Index k = 0; k < set.size(); ++k) {
     const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[static_cast<std::size_t>(k)]]);
     if (is_noise(set, k, split)) {
-      silenced += std::abs(term.hi);
+      gap.silenced += std::abs(term.hi);
       continue;
     }
-    gap = add(gap, term);
-    magnitude += std::abs(term.hi);
+    sum = add(sum, term);
+    gap.magnitude += std::abs(term.hi);
   }
+  gap.value = sum.value();
+  return gap;
+}
+
+}  // namespace
+
+template <int MaxSize>
+double contradiction(const WorkingSet<MaxSize>& set, Index p,
+                     const typename WorkingSet<MaxSize>::Split& split) {
+  const Gap gap = gap_of(set, p, split);
   const double threshold =
-      gap_roundings * unit_roundoff * magnitude + silenced + 2 * split.direction.norm() * set.scale();
-  return std::abs(gap.value()) > threshold ? gap.value() : 0;
+      gap_roundings * unit_roundoff * gap.magnitude + gap.silenced + 2 * split.direction.norm() * set.scale();
+  return std::abs(gap.value) > threshold ? gap.value : 0;
+}
+
+template <int MaxSize>
+bool is_empty_wedge(const WorkingSet<MaxSize>& set, Index p,
+                    const typename WorkingSet<MaxSize>::Split& split) {
+  if (split.rest > exact_dependence * split.magnitude) return false;
+  for (Index k = 0; k < set.size(); ++k)
+    if (set.one_sided(k) && split.coefficients[k] > 0 && !is_noise(set, k, split)) return false;
+  const Gap gap = gap_of(set, p, split);
+  return gap.value > rounded_s * unit_roundoff * gap.magnitude + gap.silenced;
 }
 
 template <int MaxSize>
@@ -63,6 +92,7 @@ Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
 
 #define MOREAU_DEPENDENT_ROW(size)                                                                      \
   template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
+  template bool is_empty_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);         \
   template bool is_flat_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);          \
   template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
   template Vector contradiction_weights(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&, \

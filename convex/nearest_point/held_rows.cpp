@@ -108,8 +108,10 @@ class Polish {
       const bool spanned = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
         // Where rows that are flat to rounding meet, their edge may be far away.
-        contradiction_ =
-            is_flat_wedge(set_, p, split_) ? infinity : std::max(contradiction_, std::abs(slack_[p]));
+        const bool one_sided = !two_sided_[static_cast<std::size_t>(p)];
+        contradiction_ = is_flat_wedge(set_, p, split_) || (one_sided && is_empty_wedge(set_, p, split_))
+                             ? infinity
+                             : std::max(contradiction_, std::abs(slack_[p]));
         continue;
       }
       if (spanned && two_sided_[static_cast<std::size_t>(p)]) {

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <tuple>
 
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/judged.hpp"
@@ -95,8 +96,7 @@ TEST_CASE(
           CHECK_FALSE(instance.feasible);
           CHECK(oracles::is_farkas_witness(instance.problem, found.farkas, 1e-12));
         } else if (found.status == Status::solved) {
-          // A contradiction within the rounding of s is none.
-          CHECK((instance.feasible || difficulty < 1e-12));
+          CHECK(instance.feasible);
           if (!instance.feasible) continue;
           const Vector error = found.q - instance.solution.hi - instance.solution.lo;
           CHECK(instance.problem.A.norm(error) <= found.error_bound + few_roundings * unit);
@@ -121,6 +121,25 @@ TEST_CASE(
       const Solution found = method.solve(contradictory, {});
       REQUIRE(found.status == Status::infeasible);
       CHECK(oracles::is_farkas_witness(contradictory, found.farkas, 1e-12));
+    }
+  }
+}
+
+TEST_CASE(
+    "rows that exclude each other by ten roundings of s are never called solved, by less than one they are") {
+  // 0.1 + 0.2 is 0.3 and a rounding: x >= 0.1 + 0.2 and x <= 0.3 are meant to touch.
+  for (const auto& [least, most, touch] : {std::tuple{0.1 + 0.2, 0.3, true}, {0.3 + 0x1p-50, 0.3, false}}) {
+    const NearestPointProblem wedge{convex::Metric::identity(2),
+                                    Vector::Zero(2),
+                                    convex::ConstraintRows(RowMatrix(Eigen::Matrix2d{{1, 1}, {-1, -1}})),
+                                    Eigen::Vector2d(least, -most),
+                                    {}};
+    for (const Method& method : solvers(wedge)) {
+      CAPTURE(std::string(method.name));
+      if (method.name == "exact") continue;  // takes the numbers as they stand: no solution, in both
+      const Solution found = method.solve(wedge, {});
+      CHECK((found.status == Status::solved) == touch);
+      if (!touch && found.status != Status::infeasible) CHECK(std::isinf(found.error_bound));
     }
   }
 }
