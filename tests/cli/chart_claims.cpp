@@ -88,13 +88,15 @@ TEST_CASE("claim: refinement of the rows found gives an iteration, or a pivoting
   }
 }
 
-TEST_CASE("claim: heavy on light, the default, ceres and exact keep all digits at a mass ratio of 1e16") {
+TEST_CASE(
+    "claim: heavy on light, the default, block-pivoting's finite steps, ceres and exact keep all digits at a "
+    "mass ratio of 1e16") {
+  CHECK(own_digits("heavy-on-light", 1e16, "block-pivoting") >= all_digits);
   for (const char* method : {"auto", "active-set", "ceres", "exact", "certified"})
     for (const double ratio : {1e4, 1e10, 1e16})
       CHECK(own_digits("heavy-on-light", ratio, method) >= all_digits);
   for (const char* method : iterations) CHECK(own_digits("heavy-on-light", 1e16, method) == failed);
-  for (const char* method : {"lemke", "block-pivoting"})
-    CHECK(own_digits("heavy-on-light", 1e16, method) == failed);
+  CHECK(own_digits("heavy-on-light", 1e16, "lemke") == failed);
   CHECK(own_digits("heavy-on-light", 1e16, "nnls") < 5);
   CHECK(own_digits("heavy-on-light", 1e2, "nnls") > 12);
   CHECK(own_digits("heavy-on-light", 1e10, "projected-gauss-seidel") == failed);
@@ -111,6 +113,13 @@ TEST_CASE("claim: a flat wedge stops the default below 1e-12 and it says so, fra
   CHECK(own_digits("near-opposite", 1e-16, "exact") >= all_digits);
   CHECK(own_digits("near-opposite", 1e-16, "certified") >= all_digits);
   CHECK(own_digits("near-opposite", 1e-12, "nnls") < own_digits("near-opposite", 1e-4, "nnls"));
+}
+
+TEST_CASE("claim: pivoting by blocks ends, whatever the condition of A and however many the rows") {
+  for (const double condition : {1e10, 1e12, 1e14, 1e16})
+    CHECK(own_digits("ill-conditioned", condition, "block-pivoting") >= all_digits);
+  for (const double rows : {10.0, 100.0, 200.0}) CHECK(own_digits("tall", rows, "block-pivoting") >= 9);
+  for (const double angle : {1e-6, 1e-12}) CHECK(own_digits("near-opposite", angle, "block-pivoting") >= 9);
 }
 
 TEST_CASE("claim: an ill-conditioned A costs the default nothing, first-order iterations the answer") {
