@@ -42,12 +42,14 @@ class SparsePolish {
       double delta = first_delta;
       bool refined = false;
       for (int k = 0; k < most_deltas && !refined; ++k, delta *= smaller) {
-        if (!refine_rows(problem_, scaled_, system_, rows_, delta, 0, point_)) return found;
-        refined = point_.converged;
+        if (!refine_rows(problem_, scaled_, system_, rows_, even_weights(problem_.rows(), rows_, delta), 0,
+                         point_))
+          return found;
+        refined = point_.converged || point_.wrong_signs;
         delta_ = delta;
       }
       if (!refined) return found;
-      if (exchange_wrong(active)) continue;
+      if (exchange_wrong(active) || point_.wrong_signs) continue;
       found.held = held();
       return found;
     }

@@ -10,15 +10,19 @@ namespace {
 /// Added to 1/weight, so that systems stay solvable where slacks vanish (relative to rows of length 1).
 constexpr double regularisation = 1e-9;
 
-/// How stiffly the first system holds all rows, to see whether and with which multipliers they can all
-/// persist.
-constexpr double first_regularisation = 1e-7;
-/// All rows can nearly persist when what is left of them is this part of what the free motion violates them
-/// by.
-constexpr double nearly_consistent = 1e-2;
+/// The weight of the violations in the first system, which takes A as seriously as the rows, as long as
+/// they are not many in series. With stiff rows the multipliers of those that cannot persist would be huge.
+constexpr double first_weight = 100;
 
-/// Multipliers add up along a pile: they begin no smaller than this for each row that there is, in the scaled
-/// units.
+/// Slacks begin no smaller than this part of the violations of the free motion (root mean square); nothing
+/// begins below the other, in the scaled units.
+constexpr double part_of_free = 0.1, smallest = 1e-3;
+
+/// The equations are met well enough for a look at the rows when this part of the first residual is left.
+constexpr double part_left = 0.1;
+
+/// Multipliers add up along a pile: a start from the free motion begins no smaller than this for each row
+/// that there is, in the scaled units.
 constexpr double load_of_a_row = 1e-4;
 
 /// A part of the way to the boundary.
@@ -34,27 +38,36 @@ constexpr double hopeless = 1e-6;
 /// Multipliers beyond this belong to rows that contradict each other.
 constexpr double largest_multiplier = 1e10;
 
+double root_mean_square(const Vector& x) {
+  return x.size() > 0 ? x.norm() / std::sqrt(static_cast<double>(x.size())) : 0;
+}
+
 }  // namespace
 
-InteriorPointStart::InteriorPointStart(const BalancedProblem& problem, RowSystem& system)
-    : problem_(problem), system_(system), weight_(Vector::Ones(problem.s.size())) {
+InteriorPointStart::InteriorPointStart(const BalancedProblem& problem, RowSystem& system, const Vector& free)
+    : problem_(problem),
+      system_(system),
+      weight_(Vector::Ones(problem.s.size())),
+      side_(static_cast<std::size_t>(problem.s.size()), true),
+      usual_slack_(std::max(smallest, part_of_free * root_mean_square(problem.U * free - problem.s))) {
   for (Index a = 0; a < problem.s.size(); ++a) one_sided_count_ += one_sided(a);
 }
 
+/// Rows as springs: what they push and how far they open tell the sizes of multipliers and slacks, and
+/// nothing starts below its usual size.
 void InteriorPointStart::start() {
   started_ = true;
-  const Index m = problem_.s.size();
-  weight_.setConstant(1 / first_regularisation);
+  weight_.setConstant(first_weight);
   if (!system_.factor(weight_)) return;
   q_ = system_.solve(problem_.z + problem_.U.transpose() * weight_.cwiseProduct(problem_.s));
-  const Vector rest = problem_.s - problem_.U * q_;
-  const Vector violated = (problem_.s - problem_.U * problem_.z).cwiseMax(0);
-  const bool consistent = rest.norm() <= nearly_consistent * violated.norm();
-  lambda_ = consistent ? Vector(rest / first_regularisation) : rest;
-  slack_ = -rest;
-  for (Index a = 0; a < m; ++a)
-    if (!one_sided(a)) slack_[a] = 0;
-  make_interior();
+  slack_ = problem_.U * q_ - problem_.s;
+  lambda_ = -first_weight * slack_;
+  const double push = std::max(smallest, root_mean_square(lambda_.cwiseMax(0)));
+  const double open = std::max(usual_slack_, root_mean_square(slack_.cwiseMax(0)));
+  for (Index a = 0; a < slack_.size(); ++a) {
+    if (one_sided(a)) lambda_[a] = std::max(0.0, lambda_[a]) + push;
+    slack_[a] = one_sided(a) ? std::max(0.0, slack_[a]) + open : 0;
+  }
 }
 
 void InteriorPointStart::start_from_free_motion() {
@@ -122,7 +135,18 @@ double InteriorPointStart::longest_step(const Direction& to) const {
   return step;
 }
 
-InteriorPointStart::End InteriorPointStart::approach(double gap) {
+Index InteriorPointStart::changes_of_sides() {
+  Index changes = 0;
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (side_[k] == looks_active(a)) continue;
+    side_[k] = !side_[k];
+    ++changes;
+  }
+  return changes;
+}
+
+InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_steady) {
   if (!started_) start();
   const Index m = lambda_.size();
   const double count = static_cast<double>(std::max<Index>(1, one_sided_count_));
@@ -133,9 +157,11 @@ InteriorPointStart::End InteriorPointStart::approach(double gap) {
     const Vector dual_rest = problem_.z - problem_.A * q_ + problem_.U.transpose() * lambda_;
     const Vector primal_rest = problem_.s - problem_.U * q_ + slack_;
     const double mean = slack_.dot(lambda_) / count;
-    if (mean <= gap && primal_rest.cwiseAbs().maxCoeff() <= std::sqrt(gap) &&
-        dual_rest.cwiseAbs().maxCoeff() <= std::sqrt(gap))
-      return End::close;
+    const double rest = std::max(primal_rest.cwiseAbs().maxCoeff(), dual_rest.cwiseAbs().maxCoeff());
+    if (mean <= gap && rest <= std::sqrt(gap)) return End::close;
+    if (k == 0) first_rest_ = rest;
+    if (changes_of_sides() == 0 && until_steady && k > 0 && rest <= part_left * first_rest_)
+      return End::steady;
     if (lambda_.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap) return End::unbounded;
     for (Index a = 0; a < m; ++a)
       weight_[a] = 1 / ((one_sided(a) ? slack_[a] / lambda_[a] : 0) + regularisation);

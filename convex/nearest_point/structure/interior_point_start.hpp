@@ -9,12 +9,14 @@ namespace convex {
 /// 1/regularisation. Redundant rows and rows without a strictly feasible point only cost some steps.
 class InteriorPointStart {
  public:
-  InteriorPointStart(const BalancedProblem&, RowSystem&);
+  /// free: A⁻¹z, scaled; the violations of the rows there tell how large slacks may be.
+  InteriorPointStart(const BalancedProblem&, RowSystem&, const Vector& free);
 
-  enum class End { close, stalled, unbounded };
-  /// Steps until the mean of lambda ∘ slack is at most `gap`. unbounded: multipliers grow beyond all bounds,
-  /// as where rows contradict each other.
-  End approach(double gap);
+  enum class End { steady, close, stalled, unbounded };
+  /// Steps until the mean of lambda ∘ slack is at most `gap`. steady, where that is asked for: no row changed
+  /// sides in the last step, and the equations are met ten times better than at the start. unbounded:
+  /// multipliers grow beyond all bounds, as where rows contradict each other.
+  End approach(double gap, bool until_steady = false);
   /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
   /// problems in which rows held together are far from the answer.
   void start_from_free_motion();
@@ -35,11 +37,14 @@ class InteriorPointStart {
   void make_interior();
   void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target, Direction&) const;
   double longest_step(const Direction&) const;
+  Index changes_of_sides();
   bool one_sided(Index a) const { return !problem_.two_sided[static_cast<std::size_t>(a)]; }
 
   const BalancedProblem& problem_;
   RowSystem& system_;
   Vector q_, slack_, lambda_, weight_;
+  std::vector<bool> side_;  ///< of each row, as it looked before the last step
+  double usual_slack_, first_rest_ = 0;
   Index one_sided_count_ = 0, steps_ = 0;
   bool started_ = false;
 };

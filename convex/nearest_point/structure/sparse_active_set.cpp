@@ -18,9 +18,11 @@ namespace {
 constexpr std::string_view method = "sparse-active-set";
 
 /// What the start is asked for, scaled: mean of multiplier times slack. Each time the rows that it shows
-/// prove wrong it is taken closer. The first is a try, which `few_exchanges` must bring to its end.
+/// prove wrong it is taken closer. The first is a try, made as soon as the rows look steady, which
+/// `few_exchanges` of few rows must bring to its end.
 constexpr std::array gaps{1e-7, 1e-9, 1e-12, 1e-15, 1e-18};
 constexpr int few_exchanges = 3;
+constexpr double few_rows = 0.01;
 
 /// The weight on the multipliers, and how it shrinks where it makes corrections slow.
 constexpr double first_delta = 1e-7, smaller = 1e-2;
@@ -50,13 +52,14 @@ class SparseActiveSet {
       for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
       point_.q = DoubleDoubleVector(problem_.dimension());
       point_.lambda = DoubleDoubleVector(problem_.rows());
-      if (exchange(most_exchanges)) return answer();
+      if (exchange(most_exchanges, 1)) return answer();
       if (all_two_sided) return infeasible(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
     }
-    InteriorPointStart start(scaled_, system_);
+    InteriorPointStart start(scaled_, system_,
+                             problem_.A.solve(problem_.z).cwiseQuotient(scaled_.coordinate));
     for (std::size_t k = 0; k < gaps.size(); ++k) {
       const Index before = start.steps();
-      InteriorPointStart::End end = start.approach(gaps[k]);
+      InteriorPointStart::End end = start.approach(gaps[k], k == 0);
       if (end == InteriorPointStart::End::stalled && k == 0) {
         start.start_from_free_motion();
         end = start.approach(gaps[k]);
@@ -70,11 +73,12 @@ class SparseActiveSet {
       for (const double part : {0.0, data_roundings * unit_roundoff}) {
         silence_ = part;
         take_over(start);
-        if (exchange(k == 0 ? few_exchanges : most_exchanges)) return answer();
+        central_ = silence_ == 0;
+        if (exchange(k == 0 ? few_exchanges : most_exchanges, k == 0 ? few_rows : 1)) return answer();
         if (k == 0) break;
       }
       silence_ = 0;
-      if (end != InteriorPointStart::End::close) break;
+      if (end == InteriorPointStart::End::stalled || end == InteriorPointStart::End::unbounded) break;
     }
     Solution solution;
     solution.method = method;
@@ -96,27 +100,45 @@ class SparseActiveSet {
 
   bool one_sided(Index a) const { return !scaled_.two_sided[static_cast<std::size_t>(a)]; }
 
+  /// Corrects the point on the active rows, with weights that grow where corrections are slow. False when the
+  /// factorisation breaks down.
+  bool refine() {
+    double delta = first_delta;
+    for (int j = 0; j < most_deltas; ++j, delta *= smaller) {
+      const bool central = central_ && j == 0;
+      const Vector weight = central ? central_weights(scaled_, rows_, delta, point_)
+                                    : even_weights(problem_.rows(), rows_, delta);
+      delta_ = 1 / std::max(1.0, weight.maxCoeff());
+      if (!refine_rows(problem_, scaled_, system_, rows_, weight, silence_, point_)) return false;
+      if (point_.converged || point_.wrong_signs) return true;
+    }
+    return true;
+  }
+
   /// Refines on the active rows and exchanges those of the wrong sign until none is left; false when that
-  /// does not lead anywhere.
-  bool exchange(int most) {
+  /// does not lead anywhere, or when more than this part of the rows has the wrong sign.
+  bool exchange(int most, double part) {
+    const auto bearable = static_cast<Index>(part * static_cast<double>(problem_.rows()));
     Index fewest = problem_.rows() + 1;
     int idle = 0;
     for (int k = 0; k < most; ++k) {
       rows_.clear();
       for (Index a = 0; a < problem_.rows(); ++a)
         if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);
-      double delta = first_delta;
-      bool refined = false;
-      for (int j = 0; j < most_deltas && !refined; ++j, delta *= smaller) {
-        delta_ = delta;
-        if (!refine_rows(problem_, scaled_, system_, rows_, delta, silence_, point_)) return false;
-        refined = point_.converged;
-      }
+      if (!refine()) return false;
+      const bool refined = point_.converged;
       const Index wrong = judge();
       if (wrong == 0) return refined;
+      if (wrong > bearable) return false;
       // Rows that contradict each other by rounding have no right signs.
-      if (wrong >= fewest && serious_ == 0 && refined) return true;
+      if (wrong >= fewest && serious_ == 0 && refined) {
+        if (!central_) return true;
+        central_ = false;  // or rows that count little are not held well enough
+        fewest = problem_.rows() + 1;
+        continue;
+      }
       if (wrong >= fewest && ++idle > patience + most_single) return false;
+      if (idle > patience && wrong > most_single) return false;
       if (idle > patience) {  // one row at a time, the last, which never returns to a set (Murty 1974)
         for (std::size_t j = 0; j + 1 < wrong_.size(); ++j)
           active_[static_cast<std::size_t>(wrong_[j])] = !active_[static_cast<std::size_t>(wrong_[j])];
@@ -258,6 +280,7 @@ class SparseActiveSet {
   std::vector<Index> rows_, wrong_;
   Vector slack_;
   Index steps_ = 0, serious_ = 0;
+  bool central_ = false;
   double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
 };
 

@@ -1,5 +1,6 @@
 #include "convex/nearest_point/structure/sparse_refinement.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/nearest_point/kkt_residual.hpp"
@@ -22,12 +23,52 @@ constexpr double fastest = 0x1p-10;
 /// So many corrections may be slow at the beginning: the multipliers of a start are far from the equations.
 constexpr int first_corrections = 3;
 
+constexpr double rounding = 0x1p-52;
+
+/// A multiplier is plainly negative when this many times what corrections may still do to it.
+constexpr double plainly = 100;
+
+bool plainly_negative(const BalancedProblem& scaled, const std::vector<Index>& rows,
+                      const DoubleDoubleVector& lambda, const SparsePoint& point) {
+  double push = 0;
+  for (Index k = 0; k < static_cast<Index>(rows.size()); ++k)
+    push = std::max(push, std::abs(lambda.hi[k] / scaled.multiplier[rows[static_cast<std::size_t>(k)]]));
+  for (Index k = 0; k < static_cast<Index>(rows.size()); ++k) {
+    const Index a = rows[static_cast<std::size_t>(k)];
+    if (scaled.two_sided[static_cast<std::size_t>(a)]) continue;
+    if (lambda.hi[k] / scaled.multiplier[a] <
+        -plainly * (point.last_lambda[a] + point.remaining() + rounding * push))
+      return true;
+  }
+  return false;
+}
+
+/// Weights of `central_weights` reach from this part of the largest to it.
+constexpr double least_part = 1e-2;
+
 }  // namespace
 
-bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scaled, RowSystem& system,
-                 const std::vector<Index>& rows, double delta, double silence, SparsePoint& point) {
-  Vector weight = Vector::Zero(problem.rows());
+Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta) {
+  Vector weight = Vector::Zero(row_count);
   for (Index a : rows) weight[a] = 1 / delta;
+  return weight;
+}
+
+Vector central_weights(const BalancedProblem& scaled, const std::vector<Index>& rows, double delta,
+                       const SparsePoint& point) {
+  Vector weight = Vector::Zero(scaled.s.size());
+  double mean = 0;
+  for (Index a : rows) mean += std::abs(point.lambda.hi[a]) / scaled.multiplier[a];
+  mean /= static_cast<double>(std::max<std::size_t>(1, rows.size()));
+  for (Index a : rows) {
+    const double part = mean > 0 ? point.lambda.hi[a] / scaled.multiplier[a] / mean : 0;
+    weight[a] = std::clamp(part * part, least_part, 1.0) / (least_part * delta);
+  }
+  return weight;
+}
+
+bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scaled, RowSystem& system,
+                 const std::vector<Index>& rows, const Vector& weight, double silence, SparsePoint& point) {
   if (!system.factor(weight)) return false;
   const Index count = static_cast<Index>(rows.size());
   DoubleDoubleVector lambda(count);
@@ -40,7 +81,7 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   }
   double previous = 0;
   const double scale = std::max(1.0, point.q.hi.cwiseQuotient(scaled.coordinate).norm());
-  point.converged = false;
+  point.converged = point.wrong_signs = false;
   point.contraction = fastest;
   point.last_lambda = Vector::Zero(problem.rows());
   for (int k = 0; k < most_corrections; ++k) {
@@ -53,13 +94,13 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
         const double terms = std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude);
         if (std::abs(r2[j]) * scaled.bound[a] <= silence * terms) r2[j] = 0;
       }
-      push[a] = r2[j] / delta;
+      push[a] = r2[j] * weight[a];
     }
     const Vector dq = system.solve(r1 + scaled.U.transpose() * push);
     const Vector along = scaled.U * dq;
     for (Index j = 0; j < count; ++j) {
       const Index a = rows[static_cast<std::size_t>(j)];
-      const double step = (r2[j] - along[a]) / delta;
+      const double step = (r2[j] - along[a]) * weight[a];
       point.last_lambda[a] = std::abs(step);
       dlambda[j] = step * scaled.multiplier[a];
     }
@@ -78,6 +119,10 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
     const bool held = point.rest <= held_to * scale;
     if (k > 0 && held && (point.last <= floor || point.remaining() <= enough * scale)) {
       point.converged = true;
+      break;
+    }
+    if (k > 0 && point.contraction < slowest && plainly_negative(scaled, rows, lambda, point)) {
+      point.wrong_signs = true;
       break;
     }
     previous = point.last;
