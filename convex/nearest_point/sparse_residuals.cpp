@@ -1,5 +1,6 @@
 #include "convex/nearest_point/sparse_residuals.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/double_double.hpp"
@@ -67,25 +68,30 @@ double unbalanced(const NearestPointProblem& problem, const Vector& q, const Vec
 
 Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
                            const KnownParts& known) {
+  const KnownNorms norms{known.q_norm, known.force_norm, unbalanced(problem, q, lambda)};
+  return sparse_residuals(problem, q, lambda, known.slack, norms, 0, problem.rows());
+}
+
+Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                           const Vector& slack, const KnownNorms& known, Index first, Index end) {
   constexpr double near = 1e-8;  // as in `residuals`
   const SparseRows& U = problem.U.sparse();
   const Vector& d = problem.A.diagonal();
-  const double stationarity = unbalanced(problem, q, lambda);
-  const double q_norm = known.q_norm, scale = std::max(q_norm, known.force_norm);
-  const double largest = lambda.size() > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
+  const double stationarity = known.unbalanced, q_norm = known.q, scale = std::max(q_norm, known.force);
+  const double largest = end > first ? lambda.cwiseAbs().maxCoeff() : 0;
   Residuals found;
   double gap = 0.5 * stationarity * stationarity;
-  auto next_two_sided = problem.two_sided.begin();
-  for (Index a = 0; a < U.rows(); ++a) {
+  auto next_two_sided = std::lower_bound(problem.two_sided.begin(), problem.two_sided.end(), first);
+  for (Index a = first; a < end; ++a) {
     const bool two_sided = next_two_sided != problem.two_sided.end() && *next_two_sided == a;
     next_two_sided += two_sided;
     const bool loaded = std::abs(lambda[a]) > 0;
     const StoredRow row = stored_row(U, a);
     const double size = std::abs(problem.s[a]);
-    double rest = known.slack[a];
+    double rest = slack[a];
     if (rest > 0 && !two_sided && !loaded && rest > near * (size + terms(row, q))) continue;
     rest = precise_slack(row, q, problem.s[a]);
-    if (!loaded && rest >= 0 && !two_sided) continue;
+    if ((!loaded && rest >= 0 && !two_sided) || !(std::abs(rest) > 0)) continue;
     double square = 0;
     for (Index k = 0; k < row.count; ++k) square += row.value[k] * row.value[k] / d[row.place[k]];
     const double length = std::sqrt(square);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/nearest_point/structure/chain_pools.hpp"
+
 namespace convex {
 namespace {
 
@@ -10,15 +12,6 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 /// A multiplier below this part of the largest sum it was made of is 0.
 constexpr double silence = 0x1p-90;
-
-bool less(DoubleDouble x, DoubleDouble y) { return x.hi < y.hi || (x.hi <= y.hi && x.lo < y.lo); }
-
-/// x y for pairs.
-DoubleDouble product_of_pairs(DoubleDouble x, DoubleDouble y) {
-  DoubleDouble p = two_product(x.hi, y.hi);
-  p.lo += x.lo * y.hi + x.hi * y.lo;
-  return two_sum(p.hi, p.lo);
-}
 
 }  // namespace
 
