@@ -5,6 +5,7 @@
 
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/empty_wedge.hpp"
+#include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/methods/proximal_point.hpp"
 #include "convex/nearest_point/residuals.hpp"
@@ -183,6 +184,7 @@ bool has_contradiction(const NearestPointProblem& problem, const Islands& island
 
 Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
                    const std::vector<Index>& guess) {
+  validate_guess(problem, guess);
   if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
   if (plainly_connected(problem) || problem.dimension() == 0) {
     validate(problem);

@@ -21,8 +21,9 @@ constexpr double farthest = 1e3;
 /// Up to so many numbers, a factor is dense.
 constexpr double most_dense_numbers = 4e6;
 
-/// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open.
-Index most_changes(Index held) { return std::min<Index>(8, 1 + held / 8); }
+/// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open,
+/// many where multipliers and slacks are both small.
+Index most_changes(Index held) { return std::min<Index>(32, 2 + held / 2); }
 
 /// Weights of two-sided rows that contradict each other.
 std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& problem) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/gallery/gallery.hpp"
 #include "tests/oracles/nearest_point_error.hpp"
 #include "tests/oracles/planted_problem.hpp"
 
@@ -200,6 +202,15 @@ TEST_CASE("one contact is solved by its formula, free coordinates are one island
   // lambda (1/1 + 4/7) = 1 + 6/7.
   CHECK(found.lambda[0] == doctest::Approx(13.0 / 11).epsilon(1e-15));
   CHECK(std::abs(found.q[0] + 2 * found.q[2]) <= 1e-15);
+}
+
+TEST_CASE("a warm start that names no row is refused, not followed") {
+  const auto sea = convex::gallery_instance(*convex::find_family("well-posed"), 9, 0.5);
+  for (const Index row : {Index{-1}, sea.problem.rows(), Index{1} << 40})
+    CHECK_THROWS_AS(convex::automatic(sea.problem, {}, {0, row}), convex::InvalidInput);
+  const Solution cold = convex::automatic(sea.problem),
+                 twice = convex::automatic(sea.problem, {}, {1, 0, 1, 1});
+  CHECK(twice.q == cold.q);
 }
 
 TEST_CASE("a warm start from the active rows, or from wrong ones, ends at the same answer") {
