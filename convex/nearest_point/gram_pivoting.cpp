@@ -11,22 +11,22 @@ constexpr Index few_rows = 32;
 /// Places for rows that come in later: so many per coordinate, and for blocks of eight that are not filled.
 constexpr Index rooms = 2, unfilled = 64;
 
-/// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
-/// left to the long way; or dependent as far as doubles tell, and left out of the rows held.
-constexpr double near_dependence = 1e-6, dependence = 1e-13;
-
 /// A smaller violation than this part of the scale does not count.
 constexpr double violation = 1e-12;
 
 /// Blocks that do not lower the number of wrong rows before pivoting has lost its way.
 constexpr int patience = 4;
 
+/// Up to so many rows a coordinate all rows are looked at again after each block; beyond, parts of them are
+/// settled first.
+constexpr Index few_per_coordinate = 4;
+
 /// The part of the violated rows that comes in at once, up to `small` coordinates and beyond.
 constexpr Index small = 50;
 constexpr double part_when_small = 0.4, part_when_large = 0.25;
 
 Index places(Index n, Index m) {
-  return m <= few_rows ? padded(m) : std::min(padded(m), rooms * padded(n)) + unfilled;
+  return m <= few_rows ? padded(m) : std::min(padded(m), (n <= 200 ? 3 : rooms) * padded(n)) + unfilled;
 }
 
 }  // namespace
@@ -47,6 +47,7 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
   w_ = arena.take<double>(n_);
   q_ = arena.take<double>(n_);
   slack_ = arena.take<double>(std::max(m_, most));
+  known_slack_ = arena.take<double>(most);
   C_ = arena.take<double>(k * k);
   C_inverse_ = arena.take<double>(16 * k);
   load_ = arena.take<double>(k);
@@ -57,7 +58,7 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
 
 Index GramPivoting::lines(Index n, Index m) {
   const Index most = places(n, m), k = padded(std::min(n, m));
-  return GramRows::lines(n, m, most) + (2 * most + 2 * padded(n) + 3 * padded(m) + k * (k + 18)) / 8;
+  return GramRows::lines(n, m, most) + (3 * most + 2 * padded(n) + 3 * padded(m) + k * (k + 18)) / 8;
 }
 
 bool GramPivoting::all_known() const { return m_ <= few_rows; }
@@ -83,54 +84,59 @@ void GramPivoting::collect() {
     if (rows_.row(p) >= 0 && holds(rows_.row(p))) at_[size_++] = p;
 }
 
-/// Factors the Gram matrix of the rows held, leaving dependent ones out; false when there is doubt.
+/// C := the Gram matrix of the rows held, its lower part.
+void GramPivoting::gather() {
+  const Index k = size_, ld = padded(k);
+  for (Index j = 0; j < k; ++j) {
+    const double* from = rows_.gram(at_[j]);
+    for (Index i = j; i < k; ++i) C_[j * ld + i] = from[at_[i]];
+    for (Index i = k; i < ld; ++i) C_[j * ld + i] = 0;
+  }
+  for (Index j = k; j < ld; ++j) {
+    fill_packs(ld, 0, C_ + j * ld);
+    C_[j * ld + j] = 1;
+  }
+}
+
+/// Factors the Gram matrix of the rows held, leaving dependent ones out; false when those are two-sided.
 bool GramPivoting::factor() {
   while (size_ > 0) {
     const Index k = size_, ld = padded(k);
-    for (Index j = 0; j < k; ++j) {
-      const double* from = rows_.gram(at_[j]);
-      for (Index i = j; i < k; ++i) C_[j * ld + i] = from[at_[i]];
-      for (Index i = k; i < ld; ++i) C_[j * ld + i] = 0;
-    }
-    for (Index j = k; j < ld; ++j) {
-      fill_packs(ld, 0, C_ + j * ld);
-      C_[j * ld + j] = 1;
-    }
+    gather();
     kernels_.factor(k, ld, C_, C_inverse_);
-    Index j = 0;
-    double part = 1;
-    for (; j < k; ++j) {
+    factored_ = true;
+    for (Index j = 0; j < k && factored_; ++j) {
       const double pivot = C_[j * ld + j];
-      part = pivot * pivot / rows_.square(at_[j]);
-      if (!(part > near_dependence)) break;
+      factored_ = pivot * pivot > near_dependence * rows_.square(at_[j]);
     }
-    factored_ = j == k;
     if (factored_) return true;
-    const Index a = rows_.row(at_[j]);
-    if (part > dependence || state_[a] == two_sided) return false;
-    state_[a] = passed;
-    pass_parallel_rows(j);
-    Index kept = 0;
-    for (Index i = 0; i < k; ++i)
-      if (state_[row(i)] != passed) at_[kept++] = at_[i];
-    size_ = kept;
+    if (!pass_dependent_rows()) return false;
   }
   return true;
 }
 
-/// Where one row turns out to depend on others, as a rule others are repeated too: these are found all at
-/// once.
-void GramPivoting::pass_parallel_rows(Index first) {
-  for (Index i = first + 1; i < size_; ++i) {
-    if (state_[row(i)] == two_sided) continue;
-    const double* gram = rows_.gram(at_[i]);
-    const double least = (1 - dependence) * rows_.square(at_[i]);
-    for (Index j = 0; j < i; ++j)
-      if (gram[at_[j]] * gram[at_[j]] >= least * rows_.square(at_[j]) && state_[row(j)] != passed) {
-        state_[row(i)] = passed;
-        break;
-      }
+/// Leaves out all rows held that depend on those before them.
+bool GramPivoting::pass_dependent_rows() {
+  const Index k = size_, ld = padded(k);
+  gather();
+  Index kept = 0;
+  for (Index j = 0; j < k; ++j) {
+    const double* const column = C_ + j * ld;
+    if (!(column[j] > 2 * near_dependence * rows_.square(at_[j]))) {
+      if (state_[row(j)] == two_sided || j < firm_) return false;
+      state_[row(j)] = passed;
+      has_dependent_rows_ = true;
+      continue;
+    }
+    for (Index i = j + 1; i < k; ++i) {
+      const Index first = i / 8 * 8;
+      kernels_.add_multiple(ld - first, -column[i] / column[j], column + first, C_ + i * ld + first);
+    }
+    at_[kept++] = at_[j];
   }
+  if (kept == k) return false;
+  size_ = kept;
+  return true;
 }
 
 void GramPivoting::solve(double* x) const {
@@ -161,14 +167,15 @@ void GramPivoting::find_point(double* w, double* q) const {
 }
 
 void GramPivoting::find_slacks() {
-  if (!all_known()) {
-    find_point(w_, q_);
-    kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
-    return;
-  }
-  for (Index p = 0; p < rows_.count(); ++p) slack_[p] = -rows_.load()[p];  // row a has place a
+  if (all_known()) return find_known_slacks(slack_);  // row a has place a
+  find_point(w_, q_);
+  kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
+}
+
+void GramPivoting::find_known_slacks(double* at_places) const {
+  for (Index p = 0; p < rows_.count(); ++p) at_places[p] = -rows_.load()[p];
   for (Index j = 0; j < size_; ++j)
-    kernels_.add_multiple(rows_.count(), lambda_[at_[j]], rows_.gram(at_[j]), slack_);
+    kernels_.add_multiple(rows_.count(), lambda_[at_[j]], rows_.gram(at_[j]), at_places);
 }
 
 bool GramPivoting::settle(const std::vector<Index>& guess) { return start(guess) && pivot(); }
@@ -187,48 +194,92 @@ void GramPivoting::point(double* w, double* q) const {
   copy_packs(A_.ld, q_, q);
 }
 
+Index GramPivoting::block_of(Index violated) const {
+  const double part = n_ <= small ? part_when_small : part_when_large;
+  return std::max<Index>(2, static_cast<Index>(std::ceil(part * static_cast<double>(violated))));
+}
+
 bool GramPivoting::pivot() {
-  const double force_norm = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
+  force_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
+  return (m_ <= few_per_coordinate * n_ && pivot_at_once()) || pivot_by_parts();
+}
+
+bool GramPivoting::pivot_at_once() {
   Index fewest = m_ + 1;
-  Index* const entering = list_;
   for (int impatience = 0; impatience <= patience;) {
     if (!find_multipliers()) return false;
     find_slacks();
-    const double scale = violation * (force_norm + std::sqrt(std::abs(energy_)));
-    Index leaving = 0, count = 0;
-    for (Index j = 0; j < size_; ++j) {
-      const Index a = rows_.row(at_[j]);
-      if (state_[a] == two_sided || lambda_[at_[j]] > 0) continue;
-      state_[a] = outside;
-      leaving += 1;
-      slack_[a] = 0;  // not at once again
-    }
-    for (Index a = 0; a < m_; ++a)
-      if (state_[a] == outside && slack_[a] < -row_scale_[a] * scale) entering[count++] = a;
-    if (leaving + count == 0) return true;
+    Index count = list_violated(outside);
+    const Index leaving = drop_negative();
+    if (leaving + count == 0) return list_violated(passed) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
     fewest = std::min(fewest, leaving + count);
-    steps_ += leaving;
-    const double part = n_ <= small ? part_when_small : part_when_large;
-    Index room = std::max<Index>(2, static_cast<Index>(std::ceil(part * static_cast<double>(count))));
-    room = std::min(room, capacity_ - (size_ - leaving));
-    if (count > room) {
-      const auto deeper = [&](Index a, Index b) {
-        return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a];
-      };
-      std::nth_element(entering, entering + room, entering + count, deeper);
-      count = room;
-    }
-    steps_ += count;
-    Index fresh = 0;
-    for (Index k = 0; k < count; ++k) {
-      state_[entering[k]] = held;
-      if (rows_.place(entering[k]) < 0) entering[fresh++] = entering[k];
-    }
-    if (fresh > 0 && !rows_.add(entering, fresh)) return false;
-    collect();
+    if (!take_in(choose_deepest(count, std::min(block_of(count), capacity_ - (size_ - leaving)))))
+      return false;
   }
   return false;
+}
+
+double GramPivoting::counted_violation() const {
+  return violation * (force_norm_ + std::sqrt(std::abs(energy_)));
+}
+
+/// Lists the rows in that state that the point found violates.
+Index GramPivoting::list_violated(State state) {
+  const double scale = counted_violation();
+  Index count = 0;
+  for (Index a = 0; a < m_; ++a)
+    if (state_[a] == state && slack_[a] < -row_scale_[a] * scale) list_[count++] = a;
+  return count;
+}
+
+/// Lets go of the one-sided rows whose multiplier is not positive; `collect` is to follow.
+Index GramPivoting::drop_negative() {
+  Index leaving = 0;
+  for (Index j = 0; j < size_; ++j) {
+    if (is_two_sided(row(j)) || lambda_[at_[j]] > 0) continue;
+    state_[row(j)] = outside;
+    leaving += 1;
+  }
+  steps_ += leaving;
+  return leaving;
+}
+
+/// Leaves `room` of the rows listed, those deepest below their edge.
+Index GramPivoting::choose_deepest(Index count, Index room) {
+  const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
+  if (count > room) std::nth_element(list_, list_ + room, list_ + count, deeper);
+  count = std::min(count, room);
+  return has_dependent_rows_ ? skip_parallel_rows(count) : count;
+}
+
+/// Holds the first `count` rows of the list.
+bool GramPivoting::take_in(Index count) {
+  steps_ += count;
+  Index fresh = 0;
+  for (Index k = 0; k < count; ++k) {
+    state_[list_[k]] = held;
+    if (rows_.place(list_[k]) < 0) list_[fresh++] = list_[k];
+  }
+  if (fresh > 0 && !rows_.add(list_, fresh)) return false;
+  collect();
+  return true;
+}
+
+bool GramPivoting::hold_also(const Index* rows, Index count) {
+  firm_ = size_;
+  for (Index k = 0; k < count && size_ < capacity_;) {
+    while (k < count && size_ < capacity_) at_[size_++] = rows_.place(rows[k++]);
+    if (!factor()) return false;
+  }
+  return true;
+}
+
+void GramPivoting::hold_no_more() {
+  if (firm_ < 0) return;
+  size_ = firm_;
+  firm_ = -1;
+  factored_ = false;
 }
 
 double GramPivoting::inverse_norm() const {

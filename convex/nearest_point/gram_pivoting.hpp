@@ -10,6 +10,10 @@ namespace convex {
 /// that came in.
 class GramPivoting {
  public:
+  /// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
+  /// left to the long way; or dependent as far as doubles tell, and left out of the rows held.
+  static constexpr double near_dependence = 1e-6, dependence = 1e-13;
+
   /// w_free = L⁻¹z, padded; row_scale: ||u_a||_(D⁻¹), D the diagonal of A, by which violations are compared.
   GramPivoting(const NearestPointProblem& problem, Arena& arena, const double* w_free,
                const double* row_scale);
@@ -31,6 +35,14 @@ class GramPivoting {
   Index steps() const { return steps_; }            ///< rows taken in or dropped
   const double* lambda() const { return lambda_; }  ///< multipliers at their places
 
+  /// Takes rows into `rows`, without holding them. False when there is no room.
+  bool look_at(const Index* rows, Index count) { return rows_.add(rows, count); }
+
+  /// Holds more rows that have been looked at behind those held, as far as they are independent; they do not
+  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them.
+  bool hold_also(const Index* rows, Index count);
+  void hold_no_more();
+
   /// x := (VᵀV)⁻¹x over the rows held; padded.
   void solve(double* x) const;
   /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
@@ -44,12 +56,28 @@ class GramPivoting {
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
   bool pivot();
+  bool pivot_at_once();
+  Index block_of(Index violated) const;
+  double counted_violation() const;
+  Index list_violated(State state);
+  Index drop_negative();
+  Index choose_deepest(Index count, Index room);
+  Index skip_parallel_rows(Index count);
+  bool take_in(Index count);
+  bool pivot_by_parts();
+  void find_slacks_of_known();
+  Index list_violated_known(State state);
+  bool settle_known();
+  bool descend_known();
+  bool raise(Index a);
   void find_point(double* w, double* q) const;
   void collect();
   bool factor();
-  void pass_parallel_rows(Index first);
+  void gather();
+  bool pass_dependent_rows();
   bool find_multipliers();
   void find_slacks();
+  void find_known_slacks(double* at_places) const;
 
   const NearestPointProblem& problem_;
   const DenseKernels& kernels_;
@@ -57,11 +85,12 @@ class GramPivoting {
   const Index n_, m_, capacity_;
   GramRows rows_;
   const double *w_free_, *row_scale_;
-  double *lambda_, *w_, *q_, *slack_, *C_, *C_inverse_, *load_;
+  double *lambda_, *w_, *q_, *slack_, *known_slack_, *C_, *C_inverse_, *load_;
   Index *state_, *at_, *list_;
   Index size_ = 0, steps_ = 0;
-  double energy_ = 0;
-  bool factored_ = false;
+  Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
+  double energy_ = 0, force_norm_ = 0;
+  bool factored_ = false, has_dependent_rows_ = false;
 };
 
 }  // namespace convex

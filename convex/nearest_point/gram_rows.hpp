@@ -20,6 +20,9 @@ class GramRows {
   /// Takes rows in that are not there yet. False when there is no room for them.
   bool add(const Index* rows, Index count);
 
+  /// Up to eight rows side by side, n packs, as they are.
+  void copy_rows(const Index* rows, Index count, double* pack) const;
+
   /// After z and s of the problem have changed, and w_free with them.
   void reload();
 
@@ -35,7 +38,6 @@ class GramRows {
 
  private:
   void load(Index first);
-  void copy_rows(const Index* rows, Index count, double* pack) const;
 
   const NearestPointProblem& problem_;
   Index n_, most_, count_ = 0;

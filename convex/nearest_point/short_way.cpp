@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/refinement.hpp"
-#include "convex/nearest_point/residuals.hpp"
 
 namespace convex {
 namespace {
@@ -16,9 +14,6 @@ constexpr double largest_contraction = 0x1p-30;
 /// An entry that the correction takes to this part of it is 0 as far as that tells (`refine`).
 constexpr double cancelled = 0x1p-24;
 
-/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
-constexpr double silence = 0x1p-95;
-
 }  // namespace
 
 ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
@@ -29,7 +24,7 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 64;
-  arena.start((9 * ld_ + 2 * padded(m_) + 3 * padded(k) + 2 * padded(places)) / 8 +
+  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 3 * padded(k) + 2 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   z_ = arena.take_filled(n_, 0.0);
   w_free_ = arena.take<double>(n_);
@@ -47,6 +42,11 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
   lambda_ = arena.take<double>(k);
   y_ = arena.take_filled(places, 0.0);
   held_slack_ = arena.take<double>(places);
+  touched_ = arena.take<Index>(m_);
+  close_ = arena.take<Index>(m_);
+  fresh_ = arena.take<Index>(m_);
+  touched_slack_ = arena.take<double>(m_);
+  pack_ = arena.take<double>(8 * n_);
   const double* diagonal = problem_.A.diagonal().data();
   for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
   kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
@@ -151,8 +151,7 @@ bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
     if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
     solution.lambda[rows_[j]] = lambda_[j];
   }
-  const bool clear = measure_slacks();
-  if (in_doubt_) return false;
+  if (!measure_slacks()) return false;
   solution.method = "active-set";
   solution.steps = set_->steps();
   solution.q = Eigen::Map<const Vector>(q_, n_);
@@ -161,65 +160,37 @@ bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
   solution.acceleration_norm = acceleration_norm_;
   solution.force_norm = force_norm_;
   solution.rounding = std::sqrt(static_cast<double>(n_) * rounded);
-  solution.error_bound = 2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding;
-  solution.residuals = clear ? residuals_of_held() : general_residuals(solution);
+  solution.error_bound =
+      2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding + moved_;
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+  solution.residuals = residuals_of_active();
   solution.status = close ? Status::solved : Status::inaccurate;
   return true;
 }
 
-/// Slacks at the refined point. False when some row outside is so close that its slack matters to the
-/// residuals; in doubt when one may be violated.
+/// Slacks at the refined point. False when one may be negative.
 bool ShortWay::measure_slacks() {
-  in_doubt_ = false;
   kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
-  constexpr double near = 1e-8;
   double magnitude = 0;
   for (Index i = 0; i < n_; ++i) magnitude += q_[i] * q_[i] / inverse_diagonal_[i];
   magnitude = std::sqrt(magnitude);
   const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
-  bool clear = true;
+  touched_count_ = 0;
   for (Index a = 0; a < m_; ++a) {
     if (set_->holds(a)) {
       slack_[a] = 0;
       continue;
     }
-    const double s = std::abs(problem_.s[a]), terms = s + row_scale_[a] * magnitude;
-    if (slack_[a] > near * terms) continue;
-    clear = false;
-    if (std::abs(slack_[a]) <= rounding * terms) {
-      DoubleDoubleVector q(n_);
-      std::copy_n(q_, n_, q.hi.data());
-      std::copy_n(q_low_, n_, q.lo.data());
-      slack_[a] = slack(problem_, a, q).value();
-      // A violation so small still moves the edge of rows at a small angle.
-      if (slack_[a] < 0 && !is_spanned_exactly(a)) in_doubt_ = true;
-      if (std::abs(slack_[a]) <= silence * (s + row_scale_[a] * scale_) + 2 * row_scale_[a] * remaining_)
-        slack_[a] = 0;
-    }
-    in_doubt_ = in_doubt_ || !(slack_[a] >= 0) || (set_->has_passed(a) && !is_spanned_exactly(a));
+    if (slack_[a] > rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude)) continue;
+    if (slack_[a] < -rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude)) return false;
+    touched_[touched_count_++] = a;
   }
-  return clear;
+  moved_ = 0;
+  return touched_count_ == 0 || judge_touched_rows();
 }
 
-/// Whether row a is a sum of rows held with short coefficients, not one bit left over. By less, its edge with
-/// them may lie elsewhere, and Gram matrices do not see it.
-bool ShortWay::is_spanned_exactly(Index a) {
-  constexpr double unit = 0x1p-10;  // coefficients are multiples of it
-  if (set_->rows().place(a) < 0) return false;
-  const double* gram = set_->rows().gram(set_->rows().place(a));
-  for (Index j = 0; j < padded(set_->size()); ++j) load_[j] = j < set_->size() ? gram[set_->place(j)] : 0;
-  set_->solve(load_);
-  DoubleDoubleVector rest(problem_.U.row(a));
-  for (Index j = 0; j < set_->size(); ++j) {
-    const double coefficient = unit * std::round(load_[j] / unit);
-    if (coefficient != 0) problem_.U.add_multiple(rows_[j], {-coefficient, 0}, rest);
-  }
-  return rest.value().isZero(0);
-}
-
-/// `residuals` where only the rows held matter.
-Residuals ShortWay::residuals_of_held() {
+/// `residuals`, to which only the rows held and touched matter.
+Residuals ShortWay::residuals_of_active() {
   residual();
   precise_slacks();
   kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
@@ -238,18 +209,12 @@ Residuals ShortWay::residuals_of_held() {
     if (most > 0)
       found.complementarity = std::max(found.complementarity, std::abs(lambda_[j] / most * rest) / over);
   }
+  found.feasibility = violation_of_touched_rows(found.feasibility);
   if (scale_ > 0) {
     found.stationarity = stationarity / scale_;
     found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale_;
   }
   return found;
-}
-
-Residuals ShortWay::general_residuals(const Solution& solution) const {
-  Vector length = Vector::Zero(m_);
-  for (Index j = 0; j < set_->size(); ++j) length[rows_[j]] = std::sqrt(set_->rows().square(set_->place(j)));
-  return residuals(problem_, solution.q, solution.lambda,
-                   KnownParts{std::move(length), solution.slack, {}, acceleration_norm_, force_norm_});
 }
 
 }  // namespace convex

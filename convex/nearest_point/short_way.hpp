@@ -26,9 +26,16 @@ class ShortWay {
   void precise_slacks();
   bool answer(const Accuracy& accuracy, Solution& solution);
   bool measure_slacks();
+  bool judge_touched_rows();
+  bool measure_touched_slacks();
+  double slack_noise(Index a) const;
+  double rise(Index a) const;
+  bool is_parallel_to_held(Index a) const;
+  bool split(Index a);
+  bool find_way_up(Index count);
   bool is_spanned_exactly(Index a);
-  Residuals residuals_of_held();
-  Residuals general_residuals(const Solution& solution) const;
+  double violation_of_touched_rows(double known);
+  Residuals residuals_of_active();
 
   const NearestPointProblem& problem_;
   const DenseKernels& kernels_;
@@ -37,9 +44,11 @@ class ShortWay {
   std::optional<GramPivoting> set_;
   double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *row_scale_, *slack_;
   double *load_, *lambda_, *y_, *held_slack_;  // y_, held_slack_: at places; lambda_: of the rows held, rows_
-  Index* rows_;
+  double *touched_slack_, *pack_;              // touched_slack_: at q rounded
+  Index *rows_, *touched_, *close_, *fresh_;
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
-  bool in_doubt_ = false;
+  double moved_ = 0;  ///< how far rows that the point touches may move the answer
+  Index touched_count_ = 0;
 };
 
 }  // namespace convex

@@ -1,0 +1,185 @@
+#include <cmath>
+
+#include "convex/nearest_point/short_way.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
+constexpr double silence = 0x1p-95;
+
+/// A way up is one for a row that it raises by more than this part of the row's length.
+constexpr double least_rise = 1e-3;
+
+/// Coefficients of an exact sum are fractions with a denominator up to this; doubles tell them apart from
+/// others by `close`, and from 0 by `noise`.
+constexpr double largest_denominator = 4096, close = 1e-9, noise = 1e-9;
+
+/// The smallest k with x k whole as far as doubles tell, by continued fractions; 0 when it is too large.
+double denominator(double x) {
+  double before = 0, k = 1, rest = x;
+  while (std::abs(x * k - std::round(x * k)) > close * std::max(1.0, std::abs(x)) * k) {
+    rest = 1 / (rest - std::floor(rest));
+    const double next = std::floor(rest) * k + before;
+    before = k;
+    k = next;
+    if (!(k <= largest_denominator)) return 0;
+  }
+  return k;
+}
+
+}  // namespace
+
+/// Rounding alone may hide that the exact point p of the rows held violates a row outside by 2⁻⁹⁵ or so. What
+/// is a sum of rows held, not one bit left over, it keeps. Where a motion e along the rows held raises all
+/// others that p touches, p + t e keeps all rows for a tiny t. Then ||q* - p|| <= t ||e||, q* the solution,
+/// since f grows by the square of that: a bound (`moved_`), whatever the angles are at which the rows meet.
+/// False when there is doubt.
+bool ShortWay::judge_touched_rows() {
+  if (!measure_touched_slacks()) return false;
+  Index count = 0, fresh = 0;  // close_ has `count` rows that are not parallel to rows held
+  for (Index k = 0; k < touched_count_; ++k) {
+    const Index a = touched_[k];
+    if (slack_[a] > 0 || is_parallel_to_held(a)) continue;
+    close_[count++] = a;
+    if (set_->rows().place(a) < 0) fresh_[fresh++] = a;
+  }
+  if (count == 0) return true;
+  if (fresh > 0 && !set_->look_at(fresh_, fresh)) return false;
+  Index independent = 0;
+  for (Index k = 0; k < count; ++k) {
+    if (split(close_[k]))
+      close_[independent++] = close_[k];
+    else if (!is_spanned_exactly(close_[k]))
+      return false;
+  }
+  return independent == 0 || find_way_up(independent);
+}
+
+/// Slacks of the rows touched in twice the precision. False when one is negative beyond rounding.
+bool ShortWay::measure_touched_slacks() {
+  alignas(64) double s[8] = {}, rest[8], low[8];
+  for (Index first = 0; first < touched_count_; first += 8) {
+    const Index count = std::min<Index>(8, touched_count_ - first);
+    for (Index k = 0; k < count; ++k) s[k] = problem_.s[touched_[first + k]];
+    set_->rows().copy_rows(touched_ + first, count, pack_);
+    kernels_.precise_slacks(n_, pack_, q_, s, rest);
+    kernels_.dots(n_, pack_, q_low_, low);
+    for (Index k = 0; k < count; ++k) {
+      const Index a = touched_[first + k];
+      const double sum = rest[k] + low[k], rounding = slack_noise(a);
+      if (!(sum >= -rounding)) return false;
+      touched_slack_[first + k] = rest[k];
+      slack_[a] = sum <= rounding ? 0 : sum;
+    }
+  }
+  return true;
+}
+
+double ShortWay::slack_noise(Index a) const {
+  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) + 2 * row_scale_[a] * remaining_;
+}
+
+bool ShortWay::is_parallel_to_held(Index a) const {
+  const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double* const v = U + rows_[j] * n_;
+    const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
+    Index i = 0;
+    while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
+    if (i < n_) continue;
+    for (i = 0; i < n_; ++i)
+      if (two_product(u[i], v[p]).lo != two_product(u[p], v[i]).lo) break;
+    if (i == n_ && u[p] * v[p] != 0) return true;
+  }
+  return false;
+}
+
+/// load_ := the coefficients of row a, which has been looked at, in terms of the rows held. Whether it is
+/// independent of them.
+bool ShortWay::split(Index a) {
+  const Index place = set_->rows().place(a), k = set_->size();
+  const double* const gram = set_->rows().gram(place);
+  for (Index j = 0; j < padded(k); ++j) load_[j] = j < k ? gram[set_->place(j)] : 0;
+  set_->solve(load_);
+  double rest = set_->rows().square(place);
+  for (Index j = 0; j < k; ++j) rest -= load_[j] * gram[set_->place(j)];
+  return rest > GramPivoting::near_dependence * set_->rows().square(place);
+}
+
+/// Looks for the motion e for the first `count` rows of close_. False when some of them do not rise.
+bool ShortWay::find_way_up(Index count) {
+  const Index held = set_->size();
+  if (!set_->hold_also(close_, count)) return false;
+  const Index k = set_->size(), blocks = set_->rows().count() / 8;
+  for (Index j = 0; j < padded(k); ++j)
+    load_[j] = held <= j && j < k ? std::sqrt(set_->rows().square(set_->place(j))) : 0;
+  set_->solve(load_);
+  fill_packs(8 * blocks, 0, y_);
+  for (Index j = 0; j < k; ++j) y_[set_->place(j)] = load_[j];
+  set_->hold_no_more();
+  fill_packs(ld_, 0, dw_);
+  kernels_.combine(n_, blocks, set_->rows().whitened(), y_, dw_);
+  copy_packs(ld_, dw_, dq_);
+  kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  double t = 0, length = 0;  // ||e||_D, D the diagonal of A
+  for (Index l = 0; l < count; ++l) {
+    const double up = rise(close_[l]);
+    if (!(up > least_rise * row_scale_[close_[l]])) return false;
+    t = std::max(t, slack_noise(close_[l]) / up);
+  }
+  for (Index i = 0; i < n_; ++i) length += dq_[i] * dq_[i] / inverse_diagonal_[i];
+  length = std::sqrt(length);
+  moved_ = t * std::sqrt(kernels_.dot(ld_, dw_, dw_));
+  for (Index a = 0; a < m_; ++a)
+    if (slack_[a] > 0 && slack_[a] < t * row_scale_[a] * length) return false;
+  return true;
+}
+
+double ShortWay::rise(Index a) const {
+  constexpr double zero = 0;
+  double up = 0;
+  kernels_.slacks(1, n_, problem_.U.dense().data() + a * n_, dq_, &zero, &up);
+  return up;
+}
+
+/// Whether row a, split just now, is a sum of rows held with short fractions as coefficients, not one bit
+/// left over.
+bool ShortWay::is_spanned_exactly(Index a) {
+  double whole = 1;
+  const double square = set_->rows().square(set_->rows().place(a));
+  for (Index j = 0; j < set_->size(); ++j) {
+    if (load_[j] * load_[j] * set_->rows().square(set_->place(j)) <= noise * noise * square) load_[j] = 0;
+    whole *= denominator(load_[j] * whole);
+    if (!(whole > 0 && whole <= largest_denominator)) return false;
+  }
+  DoubleDoubleVector rest(n_);
+  problem_.U.add_multiple(a, {whole, 0}, rest);
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double coefficient = std::round(load_[j] * whole);
+    if (coefficient != 0) problem_.U.add_multiple(rows_[j], {-coefficient, 0}, rest);
+  }
+  return rest.hi.isZero(0) && rest.lo.isZero(0);
+}
+
+/// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
+/// what is known.
+double ShortWay::violation_of_touched_rows(double known) {
+  for (Index k = 0; k < touched_count_; ++k) {
+    const Index a = touched_[k];
+    const double violation = -touched_slack_[k], s = std::abs(problem_.s[a]);
+    // ||u||_(A⁻¹) is at least this
+    const double shortest = row_scale_[a] / std::sqrt(static_cast<double>(n_));
+    if (!(violation > known * (s + shortest * acceleration_norm_))) continue;
+    fill_packs(ld_, 0, dw_);
+    std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
+    kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
+    const double length = std::sqrt(kernels_.dot(ld_, dw_, dw_)), size = s + length * acceleration_norm_;
+    known = std::max(known, violation / (size > 0 ? size : length * scale_));
+  }
+  return known;
+}
+
+}  // namespace convex
