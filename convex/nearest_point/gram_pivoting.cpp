@@ -282,6 +282,16 @@ void GramPivoting::hold_no_more() {
   factored_ = false;
 }
 
+bool GramPivoting::keep_holding() {
+  for (Index j = firm_; j < size_; ++j) state_[row(j)] = held;
+  const Index count = size_;
+  hold_no_more();
+  collect();
+  if (!find_multipliers() || size_ < count) return false;
+  if (!all_known()) find_point(w_, q_);
+  return true;
+}
+
 double GramPivoting::inverse_norm() const {
   double square = 0;
   for (Index j = 0; j < size_; ++j) {

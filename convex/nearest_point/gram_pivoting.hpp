@@ -39,9 +39,12 @@ class GramPivoting {
   bool look_at(const Index* rows, Index count) { return rows_.add(rows, count); }
 
   /// Holds more rows that have been looked at behind those held, as far as they are independent; they do not
-  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them.
+  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them, `keep_holding`
+  /// takes them in for good, with multipliers of any sign; false when there is doubt.
   bool hold_also(const Index* rows, Index count);
   void hold_no_more();
+  bool keep_holding();
+  Index firm() const { return firm_; }  ///< so many of the rows held come before those
 
   /// x := (VᵀV)⁻¹x over the rows held; padded.
   void solve(double* x) const;

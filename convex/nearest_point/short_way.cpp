@@ -63,12 +63,20 @@ void ShortWay::whiten_force() {
 
 bool ShortWay::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
   whiten_force();
-  return set_->settle(guess) && correct() && answer(accuracy, solution);
+  return set_->settle(guess) && finish(accuracy, solution);
 }
 
 bool ShortWay::solve_again(const Accuracy& accuracy, Solution& solution) {
   whiten_force();
-  return set_->settle_again() && correct() && answer(accuracy, solution);
+  return set_->settle_again() && finish(accuracy, solution);
+}
+
+bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
+  do {
+    once_more_ = false;
+    if (correct() && answer(accuracy, solution)) return true;
+  } while (once_more_);
+  return false;
 }
 
 /// One correction of q and lambda with residuals in twice the working precision. False when it is not

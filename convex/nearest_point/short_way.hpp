@@ -21,6 +21,7 @@ class ShortWay {
 
  private:
   void whiten_force();
+  bool finish(const Accuracy& accuracy, Solution& solution);
   bool correct();
   void residual();
   void precise_slacks();
@@ -49,6 +50,7 @@ class ShortWay {
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
   double moved_ = 0;  ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
+  bool once_more_ = false;  // with rows held that the point only touched
 };
 
 }  // namespace convex

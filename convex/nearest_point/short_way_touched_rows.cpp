@@ -55,7 +55,15 @@ bool ShortWay::judge_touched_rows() {
     else if (!is_spanned_exactly(close_[k]))
       return false;
   }
-  return independent == 0 || find_way_up(independent);
+  if (independent == 0) return true;
+  if (!set_->hold_also(close_, independent)) return false;
+  if (find_way_up(independent)) {
+    set_->hold_no_more();
+    return true;
+  }
+  // What cannot rise is held, with multipliers of 0.
+  once_more_ = set_->keep_holding();
+  return false;
 }
 
 /// Slacks of the rows touched in twice the precision. False when one is negative beyond rounding.
@@ -109,17 +117,15 @@ bool ShortWay::split(Index a) {
   return rest > GramPivoting::near_dependence * set_->rows().square(place);
 }
 
-/// Looks for the motion e for the first `count` rows of close_. False when some of them do not rise.
+/// Looks for the motion e that raises the first `count` rows of close_, as far as independent held as well.
+/// False when there is none such.
 bool ShortWay::find_way_up(Index count) {
-  const Index held = set_->size();
-  if (!set_->hold_also(close_, count)) return false;
   const Index k = set_->size(), blocks = set_->rows().count() / 8;
   for (Index j = 0; j < padded(k); ++j)
-    load_[j] = held <= j && j < k ? std::sqrt(set_->rows().square(set_->place(j))) : 0;
+    load_[j] = set_->firm() <= j && j < k ? std::sqrt(set_->rows().square(set_->place(j))) : 0;
   set_->solve(load_);
   fill_packs(8 * blocks, 0, y_);
   for (Index j = 0; j < k; ++j) y_[set_->place(j)] = load_[j];
-  set_->hold_no_more();
   fill_packs(ld_, 0, dw_);
   kernels_.combine(n_, blocks, set_->rows().whitened(), y_, dw_);
   copy_packs(ld_, dw_, dq_);
