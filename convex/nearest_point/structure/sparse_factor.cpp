@@ -1,6 +1,5 @@
 #include "convex/nearest_point/structure/sparse_factor.hpp"
 
-#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <numeric>
 
@@ -16,123 +15,14 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr Index narrow = 8;
 constexpr double zero_part = 0.15;
 
-/// The elimination tree (Liu 1990): the first row below the diagonal of each column of L, or -1. upper: for
-/// each column the rows above the diagonal.
-std::vector<Index> elimination_tree(const std::vector<std::vector<int>>& upper) {
-  const std::size_t n = upper.size();
-  std::vector<Index> parent(n, -1), ancestor(n, -1);
-  for (std::size_t j = 0; j < n; ++j)
-    for (int row : upper[j]) {
-      Index i = row;
-      while (i >= 0 && i != static_cast<Index>(j)) {
-        const Index next = ancestor[at(i)];
-        ancestor[at(i)] = static_cast<Index>(j);
-        if (next < 0) parent[at(i)] = static_cast<Index>(j);
-        i = next;
-      }
-    }
-  return parent;
-}
-
-/// The columns in the order in which children come before parents, one subtree after the other.
-std::vector<int> postorder(const std::vector<Index>& parent) {
-  const std::size_t n = parent.size();
-  std::vector<Index> head(n, -1), next(n, -1), stack;
-  for (std::size_t k = n; k-- > 0;)
-    if (parent[k] >= 0) {
-      next[k] = head[at(parent[k])];
-      head[at(parent[k])] = static_cast<Index>(k);
-    }
-  std::vector<int> order;
-  order.reserve(n);
-  for (std::size_t root = 0; root < n; ++root) {
-    if (parent[root] >= 0) continue;
-    stack.push_back(static_cast<Index>(root));
-    while (!stack.empty()) {
-      const Index k = stack.back();
-      if (head[at(k)] >= 0) {
-        stack.push_back(head[at(k)]);
-        head[at(k)] = next[at(head[at(k)])];
-      } else {
-        order.push_back(static_cast<int>(k));
-        stack.pop_back();
-      }
-    }
-  }
-  return order;
-}
-
-/// Numbers in each column of L, its diagonal included: row i of L is the part of the tree above the entries
-/// of row i.
-std::vector<Index> column_counts(const std::vector<std::vector<int>>& upper,
-                                 const std::vector<Index>& parent) {
-  const std::size_t n = upper.size();
-  std::vector<Index> count(n, 1), seen(n, -1);
-  for (std::size_t i = 0; i < n; ++i) {
-    seen[i] = static_cast<Index>(i);
-    for (int entry : upper[i])
-      for (Index j = entry; seen[at(j)] != static_cast<Index>(i); j = parent[at(j)]) {
-        ++count[at(j)];
-        seen[at(j)] = static_cast<Index>(i);
-      }
-  }
-  return count;
-}
-
-/// For each column the rows above the diagonal, in the order `place`.
-std::vector<std::vector<int>> upper_pattern(const std::vector<SparseFactor::Place>& places,
-                                            const std::vector<int>& place) {
-  std::vector<std::vector<int>> upper(place.size());
-  for (const auto& [i, j] : places) {
-    const int a = place[at(i)], b = place[at(j)];
-    if (a != b) upper[at(std::max(a, b))].push_back(std::min(a, b));
-  }
-  for (std::vector<int>& rows : upper) {
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  }
-  return upper;
-}
-
-std::vector<int> minimum_degree(Index n, const std::vector<SparseFactor::Place>& places) {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(2 * places.size() + at(n));
-  for (const auto& [i, j] : places) {
-    entries.emplace_back(i, j, 1.0);
-    if (i != j) entries.emplace_back(j, i, 1.0);
-  }
-  for (Index i = 0; i < n; ++i) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-  SparseMatrix pattern(n, n);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> old_place;
-  Eigen::AMDOrdering<int>()(pattern.selfadjointView<Eigen::Lower>(), old_place);
-  std::vector<int> place(at(n));
-  for (Index k = 0; k < n; ++k) place[at(old_place.indices()[k])] = static_cast<int>(k);
-  return place;
-}
-
 }  // namespace
 
 SparseFactor::SparseFactor(Index n, const std::vector<Place>& places) {
-  order(n, places);
-  pattern_.clear();
-  pattern_.shrink_to_fit();
-}
-
-void SparseFactor::order(Index n, const std::vector<Place>& places) {
-  new_place_ = minimum_degree(n, places);
-  std::vector<std::vector<int>> upper = upper_pattern(places, new_place_);
-  const std::vector<int> old_of_new = postorder(elimination_tree(upper));
-  std::vector<int> renumber(at(n));
-  for (std::size_t k = 0; k < old_of_new.size(); ++k) renumber[at(old_of_new[k])] = static_cast<int>(k);
-  for (int& place : new_place_) place = renumber[at(place)];
-  upper = upper_pattern(places, new_place_);
-  const std::vector<Index> parent = elimination_tree(upper);
-  find_panels(parent, column_counts(upper, parent));
-  std::vector<std::vector<int>> lower(at(n));
-  for (Index j = 0; j < n; ++j)
-    for (int i : upper[at(j)]) lower[at(i)].push_back(static_cast<int>(j));
-  find_rows(lower);
+  const Neighbours graph(n, static_cast<Index>(places.size()), [&](Index k) { return places[at(k)]; });
+  const Elimination order = elimination_order(graph);
+  new_place_ = order.new_place;
+  find_panels(order.parent, order.count);
+  find_rows(graph, order.old_place);
 }
 
 void SparseFactor::find_panels(const std::vector<Index>& parent, const std::vector<Index>& count) {
@@ -188,9 +78,9 @@ void SparseFactor::find_panels(const std::vector<Index>& parent, const std::vect
   rows_.assign(at(rows), 0);
 }
 
-void SparseFactor::find_rows(const std::vector<std::vector<int>>& lower) {
+void SparseFactor::find_rows(const Neighbours& graph, const std::vector<int>& old_place) {
   std::vector<std::vector<int>> children(panels_.size());
-  std::vector<Index> seen(lower.size(), -1), position(lower.size(), 0);
+  std::vector<Index> seen(old_place.size(), -1), position(old_place.size(), 0);
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     Panel& panel = panels_[p];
     const Index end = panel.first + panel.columns;
@@ -203,8 +93,11 @@ void SparseFactor::find_rows(const std::vector<std::vector<int>>& lower) {
       if (used < panel.rows) list[used] = i;
       ++used;
     };
-    for (Index j = panel.first; j < end; ++j)
-      for (int i : lower[at(j)]) take(i);
+    for (Index j = panel.first; j < end; ++j) {
+      const Index vertex = old_place[at(j)];
+      for (int k = graph.first[at(vertex)]; k < graph.first[at(vertex) + 1]; ++k)
+        take(new_place_[at(graph.list[at(k)])]);
+    }
     for (int child : children[p]) {
       const Panel& below = panels_[at(child)];
       for (Index k = below.columns; k < below.rows; ++k) take(rows_[at(below.row_list + k)]);
@@ -222,15 +115,26 @@ void SparseFactor::find_rows(const std::vector<std::vector<int>>& lower) {
 }
 
 std::vector<Index> SparseFactor::slots(const std::vector<Place>& places) const {
-  std::vector<Index> found;
-  found.reserve(places.size());
-  for (const auto& [i, j] : places) {
-    const int row = std::max(new_place_[at(i)], new_place_[at(j)]),
-              column = std::min(new_place_[at(i)], new_place_[at(j)]);
-    const Panel& panel = panels_[at(panel_of_[at(column)])];
-    const int* list = rows_.data() + panel.row_list;
-    const Index k = std::lower_bound(list, list + panel.rows, row) - list;
-    found.push_back(panel.values + (column - panel.first) * panel.rows + k);
+  // Panel by panel, so that where a row stands in its list is looked up in a table.
+  std::vector<int> first(panels_.size() + 1, 0), of_panel(places.size()), position(new_place_.size());
+  const auto column = [&](const Place& place) {
+    return std::min(new_place_[at(place.i)], new_place_[at(place.j)]);
+  };
+  for (const Place& place : places) ++first[at(panel_of_[at(column(place))]) + 1];
+  for (std::size_t p = 0; p < panels_.size(); ++p) first[p + 1] += first[p];
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    of_panel[at(next[at(panel_of_[at(column(places[k]))])]++)] = static_cast<int>(k);
+  std::vector<Index> found(places.size());
+  for (std::size_t p = 0; p < panels_.size(); ++p) {
+    const Panel& panel = panels_[p];
+    for (Index k = 0; k < panel.rows; ++k) position[at(rows_[at(panel.row_list + k)])] = static_cast<int>(k);
+    for (int k = first[p]; k < first[p + 1]; ++k) {
+      const Place& place = places[at(of_panel[at(k)])];
+      const int row = std::max(new_place_[at(place.i)], new_place_[at(place.j)]);
+      found[at(of_panel[at(k)])] =
+          panel.values + (column(place) - panel.first) * panel.rows + position[at(row)];
+    }
   }
   return found;
 }

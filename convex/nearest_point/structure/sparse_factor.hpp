@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "convex/vector.hpp"
+#include "convex/nearest_point/structure/elimination_order.hpp"
 
 namespace convex {
 
 /// L D Lᵀ of a symmetric matrix of fixed pattern whose values change: positive definite, or quasi-definite
 /// (Vanderbei 1995: blocks E and -F, both positive definite), which has such a factor in every order.
-/// Multifrontal (Duff and Reid 1983): approximate minimum degree (Amestoy, Davis and Duff 1996), columns of
-/// like structure gathered in dense panels (Ashcraft and Grimes 1989).
+/// Multifrontal (Duff and Reid 1983), in an `elimination_order`, columns of like structure gathered in dense
+/// panels (Ashcraft and Grimes 1989).
 class SparseFactor {
  public:
   /// One place (i, j) of the matrix or of its mirror image.
@@ -47,20 +47,16 @@ class SparseFactor {
     Index below() const { return rows - columns; }
   };
 
-  void order(Index n, const std::vector<Place>& places);
   void find_panels(const std::vector<Index>& parent, const std::vector<Index>& count);
-  void find_rows(const std::vector<std::vector<int>>& lower);
+  void find_rows(const Neighbours&, const std::vector<int>& old_place);
   void add_update(const Panel& child, const double* update, const Panel& parent, double* parent_update);
 
   std::vector<int> new_place_;  // of a coordinate
-  std::vector<std::vector<int>>
-      pattern_;  // during the analysis: rows below the diagonal, by column, in the new order
   std::vector<Panel> panels_;
   std::vector<int> panel_of_;         // of a column
   std::vector<int> rows_;             // row lists of the panels
   std::vector<int> below_in_parent_;  // where the rows below a panel are among those of its parent
   std::vector<double> values_;
-  std::vector<double> pivots_;
   std::vector<double> updates_;  // the stack of update matrices
   double flops_ = 0;
 };
