@@ -46,7 +46,7 @@ std::string damage(const SolvedScene& solved) {
                        number_text(rates[deepest]));
   std::vector<std::string> pulling;
   for (Index row = 0; row < solved.scene.problem.rows(); ++row)
-    if (std::find(hypothesis.negative.begin(), hypothesis.negative.end(), row) == hypothesis.negative.end() &&
+    if (!std::binary_search(hypothesis.negative.begin(), hypothesis.negative.end(), row) &&
         solved.states[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(row)])] ==
             ConstraintState::opens)
       pulling.push_back(solved.scene.contact_name(row));

@@ -26,8 +26,7 @@ Vector on_grid(const GridOperator& A, const Vector& x) {
 
 std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   constexpr Index smallest = 8;
-  if (problem.A.kind() != MetricKind::sparse || !problem.U.is_sparse() || !problem.two_sided.empty())
-    return std::nullopt;
+  if (problem.A.kind() != MetricKind::sparse || !problem.U.is_sparse()) return std::nullopt;
   const SparseMatrix& W = problem.A.sparse_gram();
   const Index n = W.rows();
   SparseMatrix::InnerIterator first(W, 0);
@@ -56,10 +55,17 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   }
   grid.z = on_grid(grid.A, problem.z);
   grid.lower = Vector::Constant(grid.A.size(), none);
+  if (!problem.two_sided.empty()) grid.held = grid.A.field();
+  auto next_two_sided = problem.two_sided.begin();
   for (Index a = 0; a < problem.rows(); ++a) {
     SparseRows::InnerIterator it(problem.U.sparse(), a);
     if (!it || !(it.value() > 0)) return std::nullopt;
-    double& lower = grid.lower[grid.A.at(it.col() % width, it.col() / width)];
+    const Index point = grid.A.at(it.col() % width, it.col() / width);
+    if (next_two_sided != problem.two_sided.end() && *next_two_sided == a) {
+      grid.held[point] = 1;
+      ++next_two_sided;
+    }
+    double& lower = grid.lower[point];
     if (lower > none) return std::nullopt;
     lower = problem.s[a] / it.value();
     if (lower * it.value() != problem.s[a]) return std::nullopt;
@@ -120,8 +126,9 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
     const SparseRows::InnerIterator it(problem.U.sparse(), a);
     length[a] = it.value() / std::sqrt(grid->A.d);  // a lower bound, (u·v)/||v||_A with v = u, is enough
     const Index k = place(it.col());
-    if (point.q.hi[k] <= grid->lower[k]) {
-      found.lambda[a] = std::max(0.0, -point.rest[k] / it.value());
+    if (grid->holds(k) || point.q.hi[k] <= grid->lower[k]) {
+      const double push = -point.rest[k] / it.value();
+      found.lambda[a] = grid->holds(k) ? push : std::max(0.0, push);
       found.basis.push_back(a);
     } else {
       found.slack[a] = it.value() * found.q[it.col()] - problem.s[a];

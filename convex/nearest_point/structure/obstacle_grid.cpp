@@ -55,19 +55,24 @@ class GridSolver {
   void start() {
     constexpr Index coarsest = 8;
     if (std::min(A_.width, A_.height) >= 2 * coarsest) {
-      ObstacleGrid coarse{coarsened(A_), {}, {}};
+      ObstacleGrid coarse{coarsened(A_), {}, {}, {}};
       coarse.z = coarse.A.field();
       restrict_to(A_, grid_.z, coarse.A, coarse.z);
       coarse.lower = Vector::Constant(coarse.A.size(), none);
+      if (grid_.held.size() > 0) coarse.held = coarse.A.field();
       for (Index j = 0; j < coarse.A.height; ++j)
-        for (Index i = 0; i < coarse.A.width; ++i)
-          coarse.lower[coarse.A.at(i, j)] = grid_.lower[A_.at(2 * i + 1, 2 * j + 1)];
+        for (Index i = 0; i < coarse.A.width; ++i) {
+          const Index here = coarse.A.at(i, j), there = A_.at(2 * i + 1, 2 * j + 1);
+          coarse.lower[here] = grid_.lower[there];
+          if (grid_.holds(there)) coarse.held[here] = 1;
+        }
       const ObstaclePoint below = GridSolver(coarse, false).solve();
       point_.steps = below.steps;
       interpolate(coarse.A, below.q.hi, A_, point_.q.hi);
     }
     for_rows([&](Index k) {
-      for (Index i = k; i < k + A_.width; ++i) point_.q.hi[i] = std::max(point_.q.hi[i], grid_.lower[i]);
+      for (Index i = k; i < k + A_.width; ++i)
+        point_.q.hi[i] = grid_.holds(i) ? grid_.lower[i] : std::max(point_.q.hi[i], grid_.lower[i]);
     });
   }
 
@@ -89,6 +94,8 @@ class GridSolver {
     grid_kernels::relax_above(A_.width, A_.stride(), A_.c, 1 / A_.d, (first == 0 ? even_ : odd_).data(),
                               grid_.lower.data() + k, grid_.z.data() + k, point_.q.hi.data() + k,
                               row_.data());
+    for (Index i = 0; i < A_.width && grid_.held.size() > 0; ++i)
+      if (grid_.holds(k + i)) row_[i] = grid_.lower[k + i];
     point_.q.hi.segment(k, A_.width) = row_;
   }
 
@@ -110,7 +117,8 @@ class GridSolver {
     Index changed = 0;
     for_rows([&](Index row) {
       for (Index k = row; k < row + A_.width; ++k) {
-        const double next = A_.d * (grid_.lower[k] - point_.q.hi[k]) > point_.rest[k] ? 0 : 1;
+        const bool rests = A_.d * (grid_.lower[k] - point_.q.hi[k]) > point_.rest[k] || grid_.holds(k);
+        const double next = rests ? 0 : 1;
         changed += next != free_[k];
         free_[k] = next;
       }
@@ -148,7 +156,7 @@ class GridSolver {
         double& rest = point_.rest[k];
         if (!(free_[k] > 0)) {
           if (std::abs(rest) <= noise) rest = 0;
-          if (rest > 0) free_[k] = 1, ++wrong;
+          if (rest > 0 && !grid_.holds(k)) free_[k] = 1, ++wrong;
         } else if (point_.q.hi[k] - grid_.lower[k] < -4 * point_.missing) {
           free_[k] = 0;
           ++wrong;

@@ -6,10 +6,11 @@
 namespace convex {
 
 /// An obstacle problem on one grid, fields with frames: minimise ½ q·Aq - z·q over q >= lower, which is -inf
-/// where there is no bound.
+/// where there is no bound, with q = lower on the points `held`: 1 there, else 0; empty when none is.
 struct ObstacleGrid {
   GridOperator A;
-  Vector z, lower;
+  Vector z, lower, held = Vector();
+  bool holds(Index k) const { return held.size() > 0 && held[k] > 0; }
 };
 
 /// q = hi + lo and z - Aq; `missing` bounds what it lacks in the norm of A as far as the shrinking of

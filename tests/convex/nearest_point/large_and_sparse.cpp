@@ -129,6 +129,35 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "a membrane held at some points, down or up, keeps to the rest of the obstacle: no factor is needed") {
+  for (unsigned seed = 0; seed < 6; ++seed)
+    for (bool all : {false, true}) {
+      CAPTURE(seed);
+      CAPTURE(all);
+      NearestPointProblem problem =
+          convex::gallery_instance(*convex::find_family("obstacle"), 18, 0.5).problem;
+      std::mt19937 generator(seed);
+      std::normal_distribution<double> normal;
+      for (Index a = 0; a < problem.rows(); ++a)
+        if (all || generator() % 3 == 0) {
+          problem.two_sided.push_back(a);
+          problem.s[a] += 0.01 * normal(generator);
+        }
+      const std::optional<Solution> found = convex::solve_obstacle(problem);
+      REQUIRE(found.has_value());
+      CHECK(found->status == Status::solved);
+      const Solution general = convex::active_set(problem);
+      REQUIRE(general.status == Status::solved);
+      const double scale = oracles::scale(problem, general.q);
+      CHECK(problem.A.norm(found->q - general.q) <= few_roundings * scale);
+      CHECK((found->lambda - general.lambda).cwiseAbs().maxCoeff() <=
+            few_roundings * (1 + general.lambda.cwiseAbs().maxCoeff()));
+      CHECK(found->residuals.feasibility <= few_roundings);
+      CHECK(found->residuals.stationarity <= few_roundings);
+    }
+}
+
 TEST_CASE("a grid is told from what is nearly one") {
   GalleryInstance instance = convex::gallery_instance(*convex::find_family("obstacle"), 10, 0.5);
   convex::SparseMatrix A = instance.problem.A.sparse_gram();
