@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "cli/problem_file/problem.hpp"
@@ -27,7 +28,7 @@ class Reader {
   }
 
   convex::SparseMatrix read() {
-    std::string first = next_line();
+    std::string first(next_line());
     std::transform(first.begin(), first.end(), first.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::istringstream header(first);
@@ -38,7 +39,7 @@ class Reader {
         (field != "real" && field != "integer") || (symmetry != "general" && symmetry != "symmetric"))
       fail("the first line is not \"%%MatrixMarket matrix coordinate|array real|integer general|symmetric\"");
     const bool symmetric = symmetry == "symmetric";
-    std::string line = next_line();
+    std::string_view line = next_line();
     while (!line.empty() && line[0] == '%') line = next_line();
     start(line);
     const Index rows = integer(), columns = integer();
@@ -53,6 +54,8 @@ class Reader {
            std::to_string(expected_columns_) + " is needed, one column per entry of z");
     end_line();
     std::vector<Eigen::Triplet<double>> entries;
+    // A line has six characters at least: a wrong count asks for no more than that.
+    entries.reserve(std::min(static_cast<std::size_t>(count), text_.size() / 6 + 1) * (symmetric ? 2 : 1));
     const auto put = [&](Index i, Index j, double value) {
       entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
       if (symmetric && i != j) entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
@@ -88,28 +91,28 @@ class Reader {
                                "; correct the matrix file");
   }
 
-  std::string next_line() {
+  std::string_view next_line() {
     while (true) {
       if (at_ >= text_.size()) {
         ++line_;
         fail("the file ends too early");
       }
       const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-      std::string line = text_.substr(at_, end - at_);
+      std::string_view line = std::string_view(text_).substr(at_, end - at_);
       at_ = end + 1;
       ++line_;
-      if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (line.find_first_not_of(" \t") != std::string::npos) return line;
+      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+      if (line.find_first_not_of(" \t") != std::string_view::npos) return line;
     }
   }
 
-  void start(std::string line) {
-    current_ = std::move(line);
+  void start(std::string_view line) {
+    current_ = line;
     place_ = 0;
   }
 
   void end_line() const {
-    if (current_.find_first_not_of(" \t", place_) != std::string::npos)
+    if (current_.find_first_not_of(" \t", place_) != std::string_view::npos)
       fail("more on the line than belongs there");
   }
 
@@ -132,7 +135,8 @@ class Reader {
     return value;
   }
 
-  std::string path_, text_, current_;
+  std::string path_, text_;
+  std::string_view current_;
   std::size_t at_ = 0, place_ = 0;
   int line_ = 0;
   Index expected_rows_, expected_columns_;

@@ -1,22 +1,40 @@
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 
 #include "cli/problem_file/problem.hpp"
 
 namespace cli {
+namespace {
+
+/// All there is, in large pieces.
+std::string read_all(std::istream& in, std::uintmax_t expected) {
+  std::string text;
+  constexpr std::uintmax_t largest = std::uintmax_t{1} << 33;
+  if (expected < largest) text.reserve(static_cast<std::size_t>(expected));
+  std::array<char, 65536> piece;
+  while (in.read(piece.data(), piece.size()), in.gcount() > 0)
+    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+}  // namespace
 
 std::string read_file(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  if (path == "-") return read_all(std::cin, 0);
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw convex::InvalidInput("no such file; check the path");
   if (std::filesystem::is_directory(status))
     throw convex::InvalidInput("this is a directory; name the problem files in it");
   std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw convex::InvalidInput("cannot be read; check its permissions");
+  std::string text;
+  if (file)
+    text = read_all(file,
+                    std::filesystem::is_regular_file(status) ? std::filesystem::file_size(path, error) : 0);
+  if (!file.is_open() || file.bad()) throw convex::InvalidInput("cannot be read; check its permissions");
   return text;
 }
 
