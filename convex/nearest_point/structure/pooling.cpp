@@ -23,7 +23,8 @@ Pooling::Pooling(const NearestPointProblem& problem, const Strings& strings)
       q_(problem.dimension()),
       lambda_(Vector::Zero(problem.rows())) {
   find_offsets();
-  pools_.reserve(at(problem.dimension()) / 4);
+  find_parts(problem);
+  pools_.reserve(parts_.size());
 }
 
 double Pooling::factor(int row) const { return std::abs(U_.valuePtr()[U_.outerIndexPtr()[row]]); }
@@ -49,26 +50,60 @@ void Pooling::find_offsets() {
       offset_[at(k)] = add(offset_[at(k - 1)], bound(strings_.row[at(k)]));
 }
 
+Pooling::Pool Pooling::member(int k, const Vector& force) const {
+  Pool pool{k, k + 1, mass(k), force[strings_.coordinate[at(k)]], 0};
+  if (!offset_.empty()) pool.sum -= offset_[at(k)].hi * pool.weight;
+  pool.mean = pool.sum / pool.weight;
+  return pool;
+}
+
+/// Puts a pool on those from `bottom` on, and pools it with them while means do not rise.
+void Pooling::put(std::vector<Pool>& pools, std::size_t bottom, Pool pool) {
+  while (pools.size() > bottom && pools.back().mean >= pool.mean) {
+    const Pool& last = pools.back();
+    pool.begin = last.begin;
+    pool.weight += last.weight;
+    pool.sum += last.sum;
+    pool.mean = pool.sum / pool.weight;
+    pools.pop_back();
+  }
+  pools.push_back(pool);
+}
+
+void Pooling::find_parts(const NearestPointProblem& problem) {
+  std::vector<bool> moves(strings_.coordinate.size(), false);
+  for (Index a : strings_.border)
+    for (SparseRows::InnerIterator it(U_, a); it; ++it) moves[at(it.col())] = true;
+  std::vector<Pool> between;
+  const auto end_part = [&] {
+    parts_.insert(parts_.end(), between.begin(), between.end());
+    stays_.resize(parts_.size(), true);
+    between.clear();
+  };
+  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+    first_part_.push_back(parts_.size());
+    for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
+      const Pool one = member(k, problem.z);
+      if (!moves[at(strings_.coordinate[at(k)])]) {
+        put(between, 0, one);
+        continue;
+      }
+      end_part();
+      parts_.push_back(one);
+      stays_.push_back(false);
+    }
+    end_part();
+  }
+  first_part_.push_back(parts_.size());
+}
+
 void Pooling::pool(const Vector& force) {
   pools_.clear();
   first_pool_.clear();
-  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+  for (std::size_t t = 0; t + 1 < first_part_.size(); ++t) {
     first_pool_.push_back(pools_.size());
-    for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
-      const double weight = mass(k), push = force[strings_.coordinate[at(k)]];
-      Pool pool{k, k + 1, weight, push, 0};
-      if (!offset_.empty()) pool.sum -= offset_[at(k)].hi * weight;
-      pool.mean = pool.sum / weight;
-      while (pools_.size() > first_pool_.back() && pools_.back().mean >= pool.mean) {
-        const Pool& last = pools_.back();
-        pool.begin = last.begin;
-        pool.weight += last.weight;
-        pool.sum += last.sum;
-        pool.mean = pool.sum / pool.weight;
-        pools_.pop_back();
-      }
-      pools_.push_back(pool);
-    }
+    for (std::size_t p = first_part_[t]; p < first_part_[t + 1]; ++p)
+      put(pools_, first_pool_.back(), stays_[p] ? parts_[p] : member(parts_[p].begin, force));
   }
   first_pool_.push_back(pools_.size());
 }

@@ -5,10 +5,10 @@
 
 namespace convex {
 
-/// The nearest point over the rows of strings alone, for forces that change. With q_i = y_i + (the gaps
-/// below) each string is an isotonic regression, solved by pooling adjacent violators (Ayer, Brunk, Ewing,
-/// Reid and Silverman 1955), coordinates of a pool having one y; pools below the floor are lifted to it.
-/// O(n).
+/// The nearest point over the rows of strings alone, for forces that change where rows of the border act, and
+/// are z elsewhere. With q_i = y_i + (the gaps below) each string is an isotonic regression, solved by
+/// pooling adjacent violators (Ayer, Brunk, Ewing, Reid and Silverman 1955), coordinates of a pool having one
+/// y; pools below the floor are lifted to it. O(n); what the changes cannot reach is pooled once.
 class Pooling {
  public:
   /// Coordinates that move together: members begin … end - 1 in the order of the strings.
@@ -45,6 +45,9 @@ class Pooling {
   DoubleDouble bound(int row) const;
   int floor_of(int first) const { return strings_.row[static_cast<std::size_t>(first)]; }
   void find_offsets();
+  void find_parts(const NearestPointProblem&);
+  Pool member(int k, const Vector& force) const;
+  static void put(std::vector<Pool>& pools, std::size_t bottom, Pool pool);
   void pool_carefully(const Vector& force, const Vector& rest);
   bool place_all(const Vector& force, const Vector& rest, bool careful);
   bool place_string(const Vector& force, const Vector& rest, bool careful, std::size_t string);
@@ -58,6 +61,9 @@ class Pooling {
   std::vector<DoubleDouble> offset_;     ///< of a member over the first of its string; empty when all are 0
   std::vector<double> floor_;            ///< the bound of a string's floor, -inf for none
   std::vector<std::size_t> first_pool_;  ///< of each string, and their number
+  std::vector<Pool> parts_;              ///< pools of what stays between the border's coordinates, and those
+  std::vector<bool> stays_;              ///< of each part: its force does
+  std::vector<std::size_t> first_part_;  ///< of each string, and their number
   std::vector<Pool> pools_;
   DoubleDoubleVector q_;
   Vector lambda_;
