@@ -5,6 +5,7 @@
 #include "convex/nearest_point/active_set_answer.hpp"
 #include "convex/nearest_point/block_guess.hpp"
 #include "convex/nearest_point/dependent_row.hpp"
+#include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/refined_slacks.hpp"
 #include "convex/nearest_point/well_conditioned.hpp"
 #include "convex/nearest_point/working_set.hpp"
@@ -21,8 +22,9 @@ constexpr double rounding_of_w = 8 * unit_roundoff;
 /// In a block a row this close to the span of the others is left to the careful steps.
 constexpr double block_dependence = 1e-7;
 
-/// Changes of the working set after a refinement before the method gives up, and before it blames doubles.
-constexpr int most_rounds = 100, patient_rounds = 4;
+/// Changes of the working set after a refinement before the method gives up, beyond one for each row, and
+/// before it blames doubles.
+constexpr Index most_rounds = 100, patient_rounds = 4;
 
 template <int MaxSize>
 class DualActiveSet {
@@ -46,7 +48,7 @@ class DualActiveSet {
     const Index limit =
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (Index round = 0; round < most_rounds + problem_.rows(); ++round) {
       if ((round > 0 || !settled_) && !descend(limit)) return infeasible_answer(set_, farkas_, steps_);
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
@@ -333,6 +335,7 @@ class DualActiveSet {
 Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                     const std::vector<Index>& guess) {
   validate(problem);
+  validate_guess(problem, guess);
   if (std::optional<Solution> found = well_conditioned(problem, accuracy, guess)) return *std::move(found);
   if (problem.dimension() <= 8) return DualActiveSet<8>(problem, accuracy).run(guess);
   return DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);

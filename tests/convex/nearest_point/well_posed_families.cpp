@@ -60,3 +60,11 @@ TEST_CASE("no method gives up on a well-posed family, whatever the setting of it
       }
   }
 }
+
+TEST_CASE("a long chain of masses far apart is solved by the dense method too, in as many rounds as it takes") {
+  const GalleryInstance chain = convex::gallery_instance(*convex::find_family("chain"), 300, 1e14);
+  const Solution found = convex::find_method("active-set")->solve(chain.problem, {});
+  REQUIRE(found.status == Status::solved);
+  const double error = chain.problem.A.norm((found.q - chain.solution.hi) - chain.solution.lo);
+  CHECK(error <= few_roundings * scale(chain.problem, chain.solution.hi));
+}
