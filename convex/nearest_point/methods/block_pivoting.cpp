@@ -78,6 +78,7 @@ class Pivoting {
 
   std::vector<Index> wrong_rows(const Vector& c, const Vector& y) const {
     std::vector<Index> rows;
+    if (c.size() == 0) return rows;
     const double least = noise * (c.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
     for (Index a = 0; a < c.size(); ++a)
       if (in_[static_cast<std::size_t>(a)] ? y[a] < 0 : w_[a] < -least) rows.push_back(a);

@@ -38,7 +38,7 @@ class Tableau {
     Pivoting found;
     const Index cover = 2 * size_;
     Index entering = cover, row = -1;
-    if (T_.col(cover + 1).minCoeff() >= 0) {
+    if (size_ == 0 || T_.col(cover + 1).minCoeff() >= 0) {
       found.end = End::solution;
       found.y = Vector::Zero(size_);
       return found;

@@ -144,6 +144,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("where all rows are two-sided every method holds them all, the dependent ones too") {
+  // Of the points of the line x + y = 2 in the plane (1, 1) is nearest to the origin.
+  const NearestPointProblem line{convex::Metric::identity(2),
+                                 Vector::Zero(2),
+                                 convex::ConstraintRows(RowMatrix(Eigen::Matrix2d{{1, 1}, {2, 2}})),
+                                 Eigen::Vector2d(2, 4),
+                                 {0, 1}};
+  const NearestPointProblem point{convex::Metric::identity(1),
+                                  Vector::Ones(1),
+                                  convex::ConstraintRows(RowMatrix::Ones(1, 1)),
+                                  Vector::Constant(1, -3),
+                                  {0}};
+  expect_right(line, Eigen::Vector2d(1, 1));
+  expect_right(point, Vector::Constant(1, -3));
+}
+
 TEST_CASE("the rejected rule is never called solved where Delassus' examples refute it") {
   const Method& rule = *convex::find_method("drop-negative");
   // docs/theory.md, B.4: it drops too much, it drops too little.
