@@ -90,6 +90,7 @@ class DualActiveSet {
     set_.append_block(problem_.two_sided, whitened, block_dependence);
     for (Index p : problem_.two_sided) {
       if (set_.holds(p)) continue;
+      if (passed_[static_cast<std::size_t>(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0) {
         set_.append(p, split_, 0);
@@ -222,7 +223,11 @@ class DualActiveSet {
     while (true) {
       const bool dependent = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
       if (dependent) {
-        violation = contradiction(set_, p, split_);
+        const double gap = contradiction(set_, p, split_);
+        // A row that is not quite a combination of W takes the place of one that can give way: where nothing
+        // else stops them that is a step of rounding, else the next rows tell.
+        const bool takes_place = w_noise == 0 && !changed && !is_exact_combination(set_, split_);
+        if (gap > 0 || !takes_place || blocking_row(set_, split_) < 0) violation = gap;
         if (!(violation > 0)) {
           // Consistent with W to rounding: it holds as well as W does.
           passed_[static_cast<std::size_t>(p)] = true;
@@ -232,17 +237,9 @@ class DualActiveSet {
         }
       }
       const double full = dependent ? infinity : violation / (split_.rho * split_.rho);
-      double partial = infinity;
-      Index blocking = -1;
-      for (Index k = 0; k < set_.size(); ++k) {
-        const double r = split_.coefficients[k];
-        if (!set_.one_sided(k) || r <= 0 || is_noise(set_, k, split_)) continue;
-        const double ratio = std::max(0.0, set_.lambda()[k]) / r;
-        if (ratio < partial) {
-          partial = ratio;
-          blocking = k;
-        }
-      }
+      const Index blocking = blocking_row(set_, split_);
+      const double partial =
+          blocking < 0 ? infinity : std::max(0.0, set_.lambda()[blocking]) / split_.coefficients[blocking];
       if (full == infinity && partial == infinity) {
         farkas_ = contradiction_weights(set_, p, split_, 1);
         return Outcome::infeasible;

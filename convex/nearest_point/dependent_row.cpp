@@ -58,6 +58,31 @@ double contradiction(const WorkingSet<MaxSize>& set, Index p,
 }
 
 template <int MaxSize>
+Index blocking_row(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split) {
+  Index blocking = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < set.size(); ++k) {
+    const double r = split.coefficients[k];
+    if (!set.one_sided(k) || r <= 0 || is_noise(set, k, split)) continue;
+    const double ratio = std::max(0.0, set.lambda()[k]) / r;
+    if (!(ratio < least)) continue;
+    least = ratio;
+    blocking = k;
+  }
+  return blocking;
+}
+
+template <int MaxSize>
+bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split) {
+  const double nothing = exact_dependence * split.magnitude;
+  if (split.rest > nothing) return false;
+  for (Index k = 0; k < set.size(); ++k)
+    if (is_noise(set, k, split) && std::abs(split.coefficients[k]) * set.factor().length(k) > nothing)
+      return false;
+  return true;
+}
+
+template <int MaxSize>
 bool is_empty_wedge(const WorkingSet<MaxSize>& set, Index p,
                     const typename WorkingSet<MaxSize>::Split& split) {
   if (split.rest > exact_dependence * split.magnitude) return false;
@@ -69,7 +94,7 @@ bool is_empty_wedge(const WorkingSet<MaxSize>& set, Index p,
 
 template <int MaxSize>
 bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename WorkingSet<MaxSize>::Split& split) {
-  if (split.rest <= exact_dependence * split.magnitude) return false;
+  if (is_exact_combination(set, split)) return false;
   bool can_give_way = false;
   for (Index k = 0; k < set.size(); ++k) {
     if (!set.one_sided(k) || is_noise(set, k, split)) continue;
@@ -92,6 +117,8 @@ Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
 
 #define MOREAU_DEPENDENT_ROW(size)                                                                      \
   template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
+  template Index blocking_row(const WorkingSet<size>&, const WorkingSet<size>::Split&);                 \
+  template bool is_exact_combination(const WorkingSet<size>&, const WorkingSet<size>::Split&);          \
   template bool is_empty_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);         \
   template bool is_flat_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);          \
   template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
