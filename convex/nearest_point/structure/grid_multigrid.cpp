@@ -12,6 +12,11 @@ constexpr Index smallest = 3, most_steps = 200;
 /// Sweeps in each direction that solve the coarsest grid well enough.
 constexpr int coarsest_sweeps = 12;
 
+/// For grids whose rows nobody waits for.
+struct Unheard {
+  void operator()(Index) const {}
+};
+
 }  // namespace
 
 GridOperator coarsened(const GridOperator& fine) {
@@ -98,8 +103,10 @@ void GridMultigrid::descend(Level& fine, Level& coarse) {
   relax_to(fine.height);
 }
 
-/// The correction interpolated, and a black-red sweep, each row as soon as those beside it are ready.
-void GridMultigrid::ascend(const Level& coarse, Level& fine) {
+/// The correction interpolated, and a black-red sweep, each row as soon as those beside it are ready;
+/// row_done(j) hears of rows that are through.
+template <class RowDone>
+void GridMultigrid::ascend(const Level& coarse, Level& fine, RowDone row_done) {
   const float* e = coarse.u.data();
   for (Index j = 0; j < fine.height + 2; ++j) {
     if (j < fine.height) {
@@ -109,22 +116,27 @@ void GridMultigrid::ascend(const Level& coarse, Level& fine) {
                            fine.free.data() + fine.at(j), fine.mean.data() + 1, fine.u.data() + fine.at(j));
     }
     if (j >= 1 && j - 1 < fine.height) sweep_row(fine, j - 1, false);
-    if (j >= 2) sweep_row(fine, j - 2, true);
+    if (j < 2) continue;
+    sweep_row(fine, j - 2, true);
+    if (j >= 3) row_done(j - 3);
   }
+  row_done(fine.height - 1);
 }
 
-void GridMultigrid::cycle(std::size_t level) {
+template <class RowDone>
+void GridMultigrid::cycle(std::size_t level, RowDone row_done) {
   Level& grid = levels_[level];
   if (level + 1 == levels_.size()) {
     std::fill(grid.u.begin(), grid.u.end(), 0.0F);
     for (int k = 0; k < 2 * coarsest_sweeps; ++k)
       for (const bool red : {k < coarsest_sweeps, k >= coarsest_sweeps})
         for (Index j = 0; j < grid.height; ++j) sweep_row(grid, j, red);
+    for (Index j = 0; j < grid.height; ++j) row_done(j);
     return;
   }
   descend(grid, levels_[level + 1]);
-  cycle(level + 1);
-  ascend(levels_[level + 1], grid);
+  cycle(level + 1, Unheard{});
+  ascend(levels_[level + 1], grid, row_done);
 }
 
 GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vector& u, double absolute) {
@@ -146,16 +158,18 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   const double energy_unit = unit * unit / finest_.c;
   double energy = 0, previous = 0, step = 0;
   for (Index count = 0; count < most_steps; ++count) {
-    cycle(0);
     grid_kernels::Products with;
-    for (Index j = 0; j < grid.height; ++j) {
+    cycle(0, [&](Index j) {
       const Index k = grid.at(j);
       grid_kernels::add_products(n, grid.r.data() + k, Ap_.data() + k, grid.u.data() + k, with);
-    }
+    });
     const double beta = count == 0 ? 0 : -step * with.of_Ap / previous;
-    grid_kernels::turn(size, static_cast<float>(beta), grid.u.data(), p_.data());
     double curvature = 0;
-    for (Index j = 0; j < grid.height; ++j) {
+    for (Index j = -1; j < grid.height; ++j) {  // a row is turned before the one below it is applied
+      if (j + 1 < grid.height)
+        grid_kernels::turn(n, static_cast<float>(beta), grid.u.data() + grid.at(j + 1),
+                           p_.data() + grid.at(j + 1));
+      if (j < 0) continue;
       const Index k = grid.at(j);
       curvature += grid_kernels::apply(n, grid.stride(), grid.d, grid.c, grid.free.data() + k, p_.data() + k,
                                        Ap_.data() + k);

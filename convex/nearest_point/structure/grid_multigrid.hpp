@@ -56,8 +56,10 @@ class GridMultigrid {
   static Level level(const GridOperator&);
   static void sweep_row(Level&, Index j, bool red);
   static void descend(Level& fine, Level& coarse);
-  static void ascend(const Level& coarse, Level& fine);
-  void cycle(std::size_t level);
+  template <class RowDone>
+  static void ascend(const Level& coarse, Level& fine, RowDone row_done);
+  template <class RowDone>
+  void cycle(std::size_t level, RowDone row_done);
 
   GridOperator finest_;
   std::vector<Level> levels_;
