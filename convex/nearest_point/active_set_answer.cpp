@@ -53,10 +53,15 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
   for (Index a : problem.two_sided)
     if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
   solution.rounding = rounding_norm(problem, refined.q.lo);
-  double forces = 0;
-  for (Index k = 0; k < set.size(); ++k) forces += std::abs(refined.lambda.hi[k]) * set.factor().length(k);
+  double forces = 0, taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
+  for (Index k = 0; k < set.size(); ++k) {
+    const double force = refined.lambda.hi[k] * set.factor().length(k);
+    forces += std::abs(force);
+    if (set.one_sided(k)) taken_for_zero += std::max(0.0, -force);
+  }
   solution.error_bound =
-      2 * refined.remaining() + refined.silenced + solution.rounding + worst * set.factor().inverse_norm() +
+      2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
+      worst * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(forces, std::numeric_limits<double>::min()) : 0);
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   solution.status = close ? Status::solved : Status::inaccurate;

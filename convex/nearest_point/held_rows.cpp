@@ -98,7 +98,7 @@ class Polish {
   /// Takes in the most violated row that W does not span.
   bool admit_violated(const RefinedPoint& refined) {
     std::vector<Index> rows;
-    contradiction_ = 0;
+    contradiction_ = moved_edge_ = 0;
     for (Index a = 0; a < problem_.rows(); ++a)
       if (slack_[a] < 0 || (two_sided_[static_cast<std::size_t>(a)] && slack_[a] != 0)) rows.push_back(a);
     std::sort(rows.begin(), rows.end(),
@@ -112,6 +112,7 @@ class Polish {
         contradiction_ = is_flat_wedge(set_, p, split_) || (one_sided && is_empty_wedge(set_, p, split_))
                              ? infinity
                              : std::max(contradiction_, std::abs(slack_[p]));
+        count_moved_edge(p);
         continue;
       }
       if (spanned && two_sided_[static_cast<std::size_t>(p)]) {
@@ -119,12 +120,21 @@ class Polish {
         return false;
       }
       if (two_sided_[static_cast<std::size_t>(p)]) continue;
-      if (!spanned && -slack_[p] <= 2 * refined.remaining() * split_.length) continue;
+      if (!spanned && -slack_[p] <= 2 * refined.remaining() * split_.length) {
+        count_moved_edge(p);
+        continue;
+      }
       for (Index k = 0; k < set_.size(); ++k)
         set_.lambda()[k] = set_.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
       return exchange(p);
     }
     return false;
+  }
+
+  /// How far the violation of row p, taken for 0, leaves the point from the edge of that row and W.
+  void count_moved_edge(Index p) {
+    if (split_.rest > exact_dependence * split_.magnitude)
+      moved_edge_ = std::max(moved_edge_, std::abs(slack_[p]) / split_.rest);
   }
 
   /// Takes in the violated row p; where W spans it, the row that blocks first goes. False when none does:
@@ -156,7 +166,7 @@ class Polish {
     HeldRows found{set_.rows(), refined.q, Vector::Zero(problem_.rows()), slack_};
     for (Index k = 0; k < set_.size(); ++k)
       found.lambda[set_.rows()[static_cast<std::size_t>(k)]] = refined.lambda.hi[k];
-    found.remaining = refined.remaining() + refined.silenced;
+    found.remaining = refined.remaining() + refined.silenced + moved_edge_;
     found.inverse_norm = set_.factor().inverse_norm();
     found.contradiction = contradiction_;
     return found;
@@ -168,7 +178,7 @@ class Polish {
   Split split_;
   std::vector<bool> two_sided_;
   Vector slack_;
-  double contradiction_ = 0;
+  double contradiction_ = 0, moved_edge_ = 0;
   Holding found_;
 };
 

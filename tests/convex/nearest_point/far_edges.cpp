@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "convex/nearest_point/methods.hpp"
+#include "tests/oracles/nearest_point_error.hpp"
+
+using convex::Index;
+using convex::Matrix;
+using convex::NearestPointProblem;
+using convex::RowMatrix;
+using convex::Solution;
+using convex::Status;
+using convex::Vector;
+using oracles::few_roundings;
+
+namespace {
+
+/// Rows that are opposite to others but for 2⁻⁴⁵: what they leave lies 1e14 away, with multipliers of 1e28,
+/// whose rounding is larger than many others.
+NearestPointProblem opposite_to_a_two_sided_row() {
+  Matrix A(5, 5);
+  A << 2, 2, 1, 2, 2, 2, 14, 3, 6, 8, 1, 3, 8, 0, 3, 2, 6, 0, 10, 6, 2, 8, 3, 6, 11;
+  RowMatrix U(5, 5);
+  U << 0, 1, -1, 1, -2, 1, 2, 0, 0, -2, 0, 1, -1, 1, -2, 1, 1, -1, 2, -1, 0, -1, 1, 0x1p-45 - 1, 2;
+  Vector z(5), s(5);
+  z << -3, -3, 3, 1, 0;
+  s << 2, -2, 2, 0, 2;
+  return {convex::Metric::dense(A), z, convex::ConstraintRows(U), s, {0, 1}};
+}
+
+NearestPointProblem five_rows_nearly_one() {
+  Matrix A(5, 5);
+  A << 14, -10, -4, 2, -11, -10, 12, 5, -1, 10, -4, 5, 7, 2, 7, 2, -1, 2, 5, 1, -11, 10, 7, 1, 15;
+  const double off = 0x1p-40;
+  RowMatrix U(8, 5);
+  U << -1, -1, -1, 0, -1, -1, 1, 1, -1, -1, 2, 1, 0, -1, 1, 0, 0, 0, 0, 1, 1, -1, -1 - off, 1, 1, -1,
+      1 + off / 4, 1 + off, -1, -1, -1, 1, 1 + off, -1, -1, -1, 1, 1, 0x1p-26 - 1, -1;
+  Vector z(5), s(8);
+  z << 0, 192, -64, 0, 0;
+  s << -128, 0, 0, 64, 64, 0, -64, 0;
+  return {convex::Metric::dense(A), z, convex::ConstraintRows(U), s, {}};
+}
+
+}  // namespace
+
+TEST_CASE("where rows meet far away at a small angle, no method calls solved what is not") {
+  for (const NearestPointProblem& problem : {opposite_to_a_two_sided_row(), five_rows_nearly_one()}) {
+    const Solution truth = convex::find_method("exact")->solve(problem, {});
+    REQUIRE(truth.status == Status::solved);
+    for (const convex::Method& method : convex::methods()) {
+      if (!method.applies(problem).empty()) continue;
+      CAPTURE(std::string(method.name));
+      const Solution found = method.solve(problem, {});
+      CHECK(found.status != Status::infeasible);
+      if (found.status != Status::solved) continue;
+      const double error = problem.A.norm(found.q - truth.q);
+      CHECK(error <= found.error_bound + few_roundings * oracles::scale(problem, truth.q));
+    }
+  }
+}
