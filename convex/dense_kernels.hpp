@@ -56,6 +56,9 @@ struct DenseKernels {
   /// columns; U: m×n by rows.
   void (*stationarity)(Index n, const double* A, const double* q, Index m, const double* U, Index count,
                        const Index* rows, const double* lambda, const double* z, double* into);
+  /// The same in doubles alone.
+  void (*residual)(Index n, const double* A, const double* q, Index m, const double* U, Index count,
+                   const Index* rows, const double* lambda, const double* z, double* into);
   /// into_k := X_k·q - s_k, k < 8, sums in twice the working precision, rounded once.
   void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, double* into);
 };

@@ -56,6 +56,16 @@ struct Packs {
     for (int k = 0; k < parts; ++k) sum.part[k] = x.part[k] + y.part[k];
     return sum;
   }
+  MOREAU_INLINE Pack minus(const Pack& x, const Pack& y) {
+    Pack difference;
+    for (int k = 0; k < parts; ++k) difference.part[k] = x.part[k] - y.part[k];
+    return difference;
+  }
+  MOREAU_INLINE Pack larger(const Pack& x, const Pack& y) {
+    Pack most;
+    for (int k = 0; k < parts; ++k) most.part[k] = x.part[k] > y.part[k] ? x.part[k] : y.part[k];
+    return most;
+  }
   MOREAU_INLINE void add_product(Pack& sum, const Pack& x, double c) {
     for (int k = 0; k < parts; ++k) sum.part[k] = sum.part[k] + x.part[k] * c;
   }
@@ -80,13 +90,23 @@ struct Packs {
     return plus(a, b);
   }
 
+  /// a c - b rounded once. Written in the machine's own words: there is no other that a function compiled for
+  /// several machines may use, and entry by entry it is several times slower.
+  MOREAU_INLINE Part fused_difference(Part a, const Part& c, const Part& b) {
+    if constexpr (W == 8)
+      asm("vfmsub132pd %2, %1, %0" : "+v"(a) : "v"(b), "v"(c));
+    else
+      asm("vfmsub132pd %2, %1, %0" : "+x"(a) : "x"(b), "x"(c));
+    return a;
+  }
+
   /// hi + lo += x c in twice the working precision (Ogita, Rump and Oishi 2005; Dekker 1971 for the product).
   MOREAU_INLINE void add_precisely(Pack& hi, Pack& lo, const Pack& x, double c) {
     for (int k = 0; k < parts; ++k) {
       const Part a = x.part[k], product = a * c;
       Part error;
       if constexpr (Fused) {
-        for (int l = 0; l < W; ++l) error[l] = __builtin_fma(a[l], c, -product[l]);
+        error = fused_difference(a, c - Part{}, product);
       } else {
         constexpr double splitter = 0x1p27 + 1;
         const Part ca = splitter * a, a_high = ca - (ca - a), a_low = a - a_high;

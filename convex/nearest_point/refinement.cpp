@@ -17,10 +17,6 @@ constexpr int most_corrections = 40;
 /// far: the first is then the last.
 constexpr double certain_contraction = 0x1p-44;
 
-/// An entry that the first correction takes to this part of the correction is 0 as far as it can tell; with
-/// `certain_contraction` that is far below `enough`.
-constexpr double cancelled = 0x1p-24;
-
 /// An entry no larger than what may be missing in it is rounding noise about zero.
 template <class Noise, class Weight>
 double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -7,6 +9,20 @@ namespace convex {
 /// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
 /// rounded answer and the signs of its slacks can need.
 inline constexpr double enough = 0x1p-68;
+
+/// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
+/// what is missing by this much.
+inline constexpr double largest_contraction = 0x1p-30;
+
+/// An entry that the correction takes to this part of it is 0 as far as that tells.
+inline constexpr double cancelled = 0x1p-24;
+
+/// An estimate of ||q - q_W||_A for a point found and judged in doubles. stationarity: ||Aq - z -
+/// Uᵀlambda||_(A⁻¹) and held: |slacks of the k rows held| times the norm of the inverse of their factor, as
+/// measured; scale: the size of what was summed, times the condition; each of n + k terms is rounded.
+inline double bound_of_doubles(Index n, Index k, double stationarity, double held, double scale) {
+  return std::hypot(stationarity, held) + 2 * static_cast<double>(n + k) * unit_roundoff * scale;
+}
 
 /// The point and multipliers of a working set, to twice the working precision where its conditioning allows.
 struct RefinedPoint {

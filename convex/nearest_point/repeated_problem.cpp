@@ -3,6 +3,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/short_way.hpp"
+#include "convex/nearest_point/small_way.hpp"
 #include "convex/nearest_point/well_conditioned.hpp"
 
 namespace convex {
@@ -12,13 +13,15 @@ struct RepeatedProblem::State {
   Accuracy accuracy;
   Arena arena;
   std::optional<ShortWay> way;
-  bool settled = false;  // the short way ended with rows to begin from
+  std::unique_ptr<SmallScene> scene;
+  std::optional<SmallWay> small_way;
+  bool settled = false, small_settled = false;  // each way ended with rows to begin from
   Solution solution;
 };
 
 RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& accuracy) {
   validate(problem);
-  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, false, {}});
+  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, false, false, {}});
 }
 
 RepeatedProblem::~RepeatedProblem() = default;
@@ -35,6 +38,14 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.z = z;
   state.problem.s = s;
   if (has_short_way(state.problem) && state.accuracy.step_limit == 0) {
+    if (SmallWay::fits(state.problem)) {
+      if (state.small_settled && state.small_way->solve_again(state.accuracy, state.solution))
+        return state.solution;
+      if (!state.scene) state.scene = std::make_unique<SmallScene>();
+      state.small_way.emplace(state.problem, *state.scene);
+      state.small_settled = state.small_way->solve({}, state.accuracy, state.solution);
+      if (state.small_settled) return state.solution;
+    }
     if (state.settled && state.way->solve_again(state.accuracy, state.solution)) return state.solution;
     state.way.emplace(state.problem, state.arena);
     state.settled = state.way->solve({}, state.accuracy, state.solution);

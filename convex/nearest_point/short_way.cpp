@@ -7,12 +7,9 @@
 namespace convex {
 namespace {
 
-/// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
-/// what is missing by this much.
-constexpr double largest_contraction = 0x1p-30;
-
-/// An entry that the correction takes to this part of it is 0 as far as that tells (`refine`).
-constexpr double cancelled = 0x1p-24;
+/// A row closer than this part of its terms to being taken in or left keeps an answer from being left in
+/// doubles.
+constexpr double near = 1e-8;
 
 }  // namespace
 
@@ -74,19 +71,38 @@ bool ShortWay::solve_again(const Accuracy& accuracy, Solution& solution) {
 bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
   do {
     once_more_ = false;
-    if (correct() && answer(accuracy, solution)) return true;
+    take_point();
+    if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
+    if (correct() && round() && measure_slacks()) {
+      write(solution);
+      solution.residuals = residuals_of_active();
+      solution.error_bound = bound_ + moved_;
+      const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+      solution.status = close ? Status::solved : Status::inaccurate;
+      return true;
+    }
   } while (once_more_);
   return false;
+}
+
+/// q and lambda of the rows held, in doubles.
+void ShortWay::take_point() {
+  set_->point(w_, q_);
+  double longest = 0;
+  for (Index j = 0; j < set_->size(); ++j) {
+    rows_[j] = set_->row(j);
+    lambda_[j] = set_->lambda()[set_->place(j)];
+    longest = std::max(longest, set_->rows().square(set_->place(j)));
+  }
+  inverse_norm_ = set_->inverse_norm();
+  condition_ = problem_.A.factor_condition() + inverse_norm_ * std::sqrt(longest);
+  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
+  scale_ = std::max(acceleration_norm_, force_norm_);
 }
 
 /// One correction of q and lambda with residuals in twice the working precision. False when it is not
 /// small.
 bool ShortWay::correct() {
-  set_->point(w_, q_);
-  for (Index j = 0; j < set_->size(); ++j) {
-    rows_[j] = set_->row(j);
-    lambda_[j] = set_->lambda()[set_->place(j)];
-  }
   residual();
   copy_packs(ld_, r_, dw_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
@@ -110,12 +126,9 @@ bool ShortWay::correct() {
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
   // A residual is rounded once, and the factors of A and of the rows held enlarge that.
-  double longest = 0;
-  for (Index j = 0; j < set_->size(); ++j) longest = std::max(longest, set_->rows().square(set_->place(j)));
-  const double condition = problem_.A.factor_condition() + set_->inverse_norm() * std::sqrt(longest);
-  const double contraction = std::max(scale_ > 0 ? first_ / scale_ : 0, unit_roundoff * condition);
+  const double contraction = std::max(scale_ > 0 ? first_ / scale_ : 0, unit_roundoff * condition_);
   remaining_ =
-      first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition * scale_;
+      first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
   if (!(contraction <= largest_contraction && remaining_ <= enough * scale_)) return false;
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
@@ -138,7 +151,8 @@ void ShortWay::precise_slacks() {
     }
 }
 
-bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
+/// Takes the correction in, and what cancels for 0; false when a multiplier turns out negative.
+bool ShortWay::round() {
   const double missing = 4 * remaining_ * problem_.A.factor_condition();
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
@@ -150,57 +164,81 @@ bool ShortWay::answer(const Accuracy& accuracy, Solution& solution) {
     q_low_[i] = is_zero ? 0 : sum.lo;
     rounded += problem_.A.diagonal()[i] * q_low_[i] * q_low_[i];
   }
-  const double inverse = set_->inverse_norm();
-  solution.lambda.setZero(m_);
   for (Index j = 0; j < set_->size(); ++j) {
     const double step = y_[set_->place(j)], sum = lambda_[j] + step;
-    const bool is_zero = std::abs(sum) <= std::max(missing * inverse, cancelled * std::abs(step));
+    const bool is_zero = std::abs(sum) <= std::max(missing * inverse_norm_, cancelled * std::abs(step));
     lambda_[j] = is_zero ? 0 : sum;
     if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
-    solution.lambda[rows_[j]] = lambda_[j];
   }
-  if (!measure_slacks()) return false;
+  rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
+  bound_ = 2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + rounding_;
+  return true;
+}
+
+/// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing
+/// of the equations does not do.
+bool ShortWay::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
+  fill_packs(ld_, 0, q_low_);
+  remaining_ = rounding_ = 0;
+  for (Index j = 0; j < set_->size(); ++j)
+    if (!set_->is_two_sided(rows_[j]) &&
+        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * scale_))
+      return false;
+  if (!measure_slacks() || touched_count_ > 0) return false;
+  for (Index a = 0; a < m_; ++a)
+    if (!set_->holds(a) && !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)))
+      return false;
+  double missing = 0;
+  for (Index j = 0; j < set_->size(); ++j)
+    missing += held_slack_[set_->place(j)] * held_slack_[set_->place(j)];
+  solution.residuals = residuals_of_active();
+  bound_ = bound_of_doubles(n_, set_->size(), solution.residuals.stationarity * scale_,
+                            inverse_norm_ * std::sqrt(missing), condition_ * (scale_ + magnitude_));
+  write(solution);
+  solution.status = Status::solved;
+  return bound_ <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+}
+
+void ShortWay::write(Solution& solution) const {
   solution.method = "active-set";
   solution.steps = set_->steps();
   solution.q = Eigen::Map<const Vector>(q_, n_);
+  solution.lambda.setZero(m_);
+  for (Index j = 0; j < set_->size(); ++j) solution.lambda[rows_[j]] = lambda_[j];
   solution.slack = Eigen::Map<const Vector>(slack_, m_);
   solution.basis.assign(rows_, rows_ + set_->size());
   solution.acceleration_norm = acceleration_norm_;
   solution.force_norm = force_norm_;
-  solution.rounding = std::sqrt(static_cast<double>(n_) * rounded);
-  solution.error_bound =
-      2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + solution.rounding + moved_;
-  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
-  solution.residuals = residuals_of_active();
-  solution.status = close ? Status::solved : Status::inaccurate;
-  return true;
+  solution.rounding = rounding_;
+  solution.error_bound = bound_;
 }
 
 /// Slacks at the refined point. False when one may be negative.
 bool ShortWay::measure_slacks() {
   kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
-  double magnitude = 0;
-  for (Index i = 0; i < n_; ++i) magnitude += q_[i] * q_[i] / inverse_diagonal_[i];
-  magnitude = std::sqrt(magnitude);
+  magnitude_ = 0;
+  for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
+  magnitude_ = std::sqrt(magnitude_);
   const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
   touched_count_ = 0;
   for (Index a = 0; a < m_; ++a) {
     if (set_->holds(a)) {
+      held_slack_[set_->rows().place(a)] = slack_[a];
       slack_[a] = 0;
       continue;
     }
-    if (slack_[a] > rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude)) continue;
-    if (slack_[a] < -rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude)) return false;
+    if (slack_[a] > rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)) continue;
+    if (slack_[a] < -rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)) return false;
     touched_[touched_count_++] = a;
   }
   moved_ = 0;
   return touched_count_ == 0 || judge_touched_rows();
 }
 
-/// `residuals`, to which only the rows held and touched matter.
+/// `residuals`, to which only the rows held and touched matter; measured in doubles.
 Residuals ShortWay::residuals_of_active() {
-  residual();
-  precise_slacks();
+  kernels_.residual(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
+                    rows_, lambda_, z_, r_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
   const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
   double gap = 0.5 * stationarity * stationarity, most = 0;

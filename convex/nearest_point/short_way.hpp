@@ -22,10 +22,13 @@ class ShortWay {
  private:
   void whiten_force();
   bool finish(const Accuracy& accuracy, Solution& solution);
+  void take_point();
   bool correct();
+  bool round();
   void residual();
   void precise_slacks();
-  bool answer(const Accuracy& accuracy, Solution& solution);
+  bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
+  void write(Solution& solution) const;
   bool measure_slacks();
   bool judge_touched_rows();
   bool measure_touched_slacks();
@@ -48,6 +51,7 @@ class ShortWay {
   double *touched_slack_, *pack_;              // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
+  double inverse_norm_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
   double moved_ = 0;  ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
   bool once_more_ = false;  // with rows held that the point only touched

@@ -1,6 +1,7 @@
 #include "convex/nearest_point/well_conditioned.hpp"
 
 #include "convex/nearest_point/short_way.hpp"
+#include "convex/nearest_point/small_way.hpp"
 
 namespace convex {
 namespace {
@@ -21,8 +22,12 @@ bool has_short_way(const NearestPointProblem& problem) {
 std::optional<Solution> well_conditioned(const NearestPointProblem& problem, const Accuracy& accuracy,
                                          const std::vector<Index>& guess) {
   if (!has_short_way(problem) || accuracy.step_limit > 0) return std::nullopt;
-  thread_local Arena arena;
   std::optional<Solution> found(std::in_place);
+  if (SmallWay::fits(problem)) {
+    SmallScene scene;
+    if (SmallWay(problem, scene).solve(guess, accuracy, *found)) return found;
+  }
+  thread_local Arena arena;
   if (!ShortWay(problem, arena).solve(guess, accuracy, *found)) found.reset();
   if (arena.lines() > most_kept_lines) arena.give_back();
   return found;

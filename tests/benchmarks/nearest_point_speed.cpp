@@ -1,5 +1,5 @@
 // Time of the default method from raw (A, z, U, s), cold, beside the floor: one factorisation with the active
-// set known.
+// set known. Then warm: `RepeatedProblem`, z and s moved by 1 % each time. In doubles: with `refine` off.
 //   nearest_point_speed [--smoke]
 // Problems are planted: A = BBᵀ/n + I and U Gaussian, min(n, m)/2 active rows with random positive
 // multipliers, the others apart. Processor time, the least of 15 batches taken in turn, the mean of five
@@ -14,9 +14,13 @@
 #include <vector>
 
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/repeated_problem.hpp"
 
 #ifdef MOREAU_HAS_DAQP
 #include <daqp/api.h>
+extern "C" {
+#include <daqp/utils.h>
+}
 #endif
 
 namespace {
@@ -86,14 +90,46 @@ Vector floor_solve(const RawProblem& raw) {
   return factor.matrixU().solve(w);
 }
 
+convex::NearestPointProblem assembled(const RawProblem& raw) {
+  return {convex::Metric::dense(raw.A), raw.z, convex::ConstraintRows(raw.U), raw.s, {}};
+}
+
 /// From raw data: the metric factored, the problem assembled and solved.
-Vector solve(const RawProblem& raw, convex::Status& status) {
-  const convex::NearestPointProblem problem{
-      convex::Metric::dense(raw.A), raw.z, convex::ConstraintRows(raw.U), raw.s, {}};
-  const convex::Solution solution = convex::automatic(problem);
+Vector solve(const RawProblem& raw, convex::Status& status, const convex::Accuracy& accuracy = {}) {
+  const convex::Solution solution = convex::automatic(assembled(raw), accuracy);
   status = solution.status;
   return solution.q;
 }
+
+convex::Accuracy in_doubles() {
+  convex::Accuracy accuracy;
+  accuracy.refine = false;
+  return accuracy;
+}
+
+/// z and s of a problem, moved a little, one after the other and round again.
+class Moved {
+ public:
+  explicit Moved(const RawProblem& raw) {
+    std::mt19937 generator(7);
+    std::normal_distribution<double> normal;
+    const auto moved = [&](Vector x) {
+      for (Index i = 0; i < x.size(); ++i) x[i] *= 1 + 0.01 * normal(generator);
+      return x;
+    };
+    for (int k = 0; k < 16; ++k) {
+      z_.push_back(moved(raw.z));
+      s_.push_back(moved(raw.s));
+    }
+  }
+  void next() { at_ = (at_ + 1) % z_.size(); }
+  const Vector& z() const { return z_[at_]; }
+  const Vector& s() const { return s_[at_]; }
+
+ private:
+  std::vector<Vector> z_, s_;
+  std::size_t at_ = 0;
+};
 
 #ifdef MOREAU_HAS_DAQP
 /// DAQP (Arnström, Bemporad and Axehill 2022) from the same data, with its default settings.
@@ -124,8 +160,19 @@ class Daqp {
     daqp_quadprog(&result_, &problem_, nullptr);
     return x_;
   }
+  void set_up() {
+    setup_daqp(&problem_, &work_, nullptr);
+    daqp_solve(&result_, &work_);
+  }
+  void warm(const Vector& z, const Vector& s) {
+    f_ = -z;
+    lower_ = s;
+    daqp_update_ldp(DAQP_UPDATE_v | DAQP_UPDATE_d, &work_, &problem_);
+    daqp_solve(&result_, &work_);
+  }
 
  private:
+  DAQPWorkspace work_{};
   Matrix A_;
   RowMatrix U_;
   Vector f_, upper_, lower_, x_, lambda_;
@@ -155,11 +202,12 @@ int main(int argc, char** argv) {
   std::vector<std::pair<Index, Index>> sizes{{6, 4},   {9, 7},    {12, 10},   {17, 20},   {30, 30},
                                              {45, 60}, {60, 120}, {100, 200}, {140, 280}, {200, 400}};
   if (smoke) sizes = {{6, 4}, {30, 30}};
-  std::printf("%5s %5s %12s %12s %12s %10s  %s\n", "n", "m", "solve (us)", "floor (us)", "DAQP (us)", "error",
-              "status");
+  std::printf("%5s %5s %10s %10s %10s %10s %10s %10s %10s %10s  %s\n", "n", "m", "solve (us)", "in doubles",
+              "floor", "DAQP", "warm", "in doubles", "DAQP", "error", "status");
   for (const auto& [n, m] : sizes) {
     constexpr unsigned problems = 5;
-    double solve_time = 0, floor_time = 0, daqp_time = 0, error = 0;
+    constexpr double never = 1e9;
+    double times[7] = {}, error = 0;
     bool solved = true;
     for (unsigned seed = 0; seed < problems; ++seed) {
       const RawProblem raw = planted(n, m, 100 * static_cast<unsigned>(n) + seed);
@@ -168,23 +216,41 @@ int main(int argc, char** argv) {
       solved = solved && status == convex::Status::solved;
       error = std::max(error, (q - raw.solution).norm() / raw.solution.norm());
       const double once = seconds_per_call([&] { solve(raw, status); }, 1);
-      const int calls = smoke ? 1 : std::max(1, static_cast<int>(2e-3 / once));
-      constexpr double never = 1e9;
-      double best = never, best_floor = never, best_daqp = never;
-      for (int batch = 0; batch < (smoke ? 1 : 15); ++batch) {
-        best = std::min(best, seconds_per_call([&] { solve(raw, status); }, calls));
-        best_floor = std::min(best_floor, seconds_per_call([&] { floor_solve(raw); }, calls));
+      const int calls = smoke ? 1 : std::max(1, static_cast<int>(1e-3 / once));
+      double best[7];
+      std::fill(best, best + 7, never);
+      const auto time = [&](int k, auto work) { best[k] = std::min(best[k], seconds_per_call(work, calls)); };
+      Moved moved(raw);
+      convex::RepeatedProblem repeated(assembled(raw)), coarse(assembled(raw), in_doubles());
+      repeated.solve(raw.z, raw.s);
+      coarse.solve(raw.z, raw.s);
+      const auto warm = [&](convex::RepeatedProblem& problem) {
+        moved.next();
+        solved = problem.solve(moved.z(), moved.s()).status == convex::Status::solved && solved;
+      };
 #ifdef MOREAU_HAS_DAQP
-        Daqp daqp(raw);
-        best_daqp = std::min(best_daqp, seconds_per_call([&] { daqp.cold(); }, calls));
+      Daqp daqp(raw), warm_daqp(raw);
+      warm_daqp.set_up();
+#endif
+      for (int batch = 0; batch < (smoke ? 1 : 25); ++batch) {
+        time(0, [&] { solve(raw, status); });
+        time(1, [&] { solve(raw, status, in_doubles()); });
+        time(2, [&] { floor_solve(raw); });
+        time(4, [&] { warm(repeated); });
+        time(5, [&] { warm(coarse); });
+#ifdef MOREAU_HAS_DAQP
+        time(3, [&] { daqp.cold(); });
+        time(6, [&] {
+          moved.next();
+          warm_daqp.warm(moved.z(), moved.s());
+        });
 #endif
       }
-      solve_time += best / problems;
-      floor_time += best_floor / problems;
-      daqp_time += best_daqp < never ? best_daqp / problems : 0;
+      for (int k = 0; k < 7; ++k) times[k] += best[k] < never ? best[k] / problems : 0;
     }
-    std::printf("%5ld %5ld %12.2f %12.2f %12.2f %10.1e  %s\n", static_cast<long>(n), static_cast<long>(m),
-                solve_time * 1e6, floor_time * 1e6, daqp_time * 1e6, error, solved ? "solved" : "NOT SOLVED");
+    std::printf("%5ld %5ld", static_cast<long>(n), static_cast<long>(m));
+    for (const double time : times) std::printf(" %10.2f", time * 1e6);
+    std::printf(" %10.1e  %s\n", error, solved ? "solved" : "NOT SOLVED");
   }
   return 0;
 }

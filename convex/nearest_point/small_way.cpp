@@ -1,0 +1,218 @@
+#include "convex/nearest_point/small_way.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/small_steps.hpp"
+
+namespace convex {
+namespace {
+
+/// A row outside with a smaller slack than this part of its terms is close enough to matter.
+constexpr double near = 1e-8;
+
+/// Sweeps add up their rounding: after so many a row, all is swept anew.
+constexpr Index sweeps_kept = 16;
+
+bool one_pack(const SmallScene& t) { return t.ld == 8 && t.stride == 8; }
+
+#define MOREAU_SMALL_TABLE(name, target, W, fused)                                                         \
+  struct name {                                                                                            \
+    using One = SmallSteps<W, fused, 1>;                                                                   \
+    using Four = SmallSteps<W, fused, 4>;                                                                  \
+    target static bool begin(SmallScene& t) { return one_pack(t) ? One::begin(t) : Four::begin(t); }       \
+    target static bool begin_again(SmallScene& t) {                                                        \
+      return one_pack(t) ? One::begin_again(t) : Four::begin_again(t);                                     \
+    }                                                                                                      \
+    target static bool settle(SmallScene& t) { return one_pack(t) ? One::settle(t) : Four::settle(t); }    \
+    target static void correct(SmallScene& t) { return one_pack(t) ? One::correct(t) : Four::correct(t); } \
+    target static void measure(SmallScene& t) { return one_pack(t) ? One::measure(t) : Four::measure(t); } \
+    static constexpr SmallKernels table{begin, begin_again, settle, correct, measure};                     \
+  };
+
+MOREAU_SMALL_TABLE(Portable, , 2, false)
+#if defined(__x86_64__) && defined(__GNUC__)
+MOREAU_SMALL_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
+MOREAU_SMALL_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
+constexpr const SmallKernels* tables[] = {&Portable::table, &Wide::table, &Widest::table};
+#else
+constexpr const SmallKernels* tables[] = {&Portable::table};
+#endif
+
+}  // namespace
+
+std::span<const SmallKernels* const> all_small_kernels() { return {tables, all_dense_kernels().size()}; }
+
+const SmallKernels& small_kernels() { return *all_small_kernels().back(); }
+
+bool SmallWay::fits(const NearestPointProblem& problem) {
+  return problem.dimension() <= SmallScene::most && problem.rows() <= SmallScene::most;
+}
+
+SmallWay::SmallWay(const NearestPointProblem& problem, SmallScene& scene) : problem_(problem), scene_(scene) {
+  const DenseFactor factor = problem.A.dense_factor();
+  scene.n = problem.dimension();
+  scene.m = problem.rows();
+  scene.ld = factor.ld;
+  scene.stride = padded(scene.m);
+  scene.T = factor.T;
+  scene.inverse = factor.inverse;
+  scene.A = problem.A.dense_gram().data();
+  scene.U = problem.U.dense().data();
+  const double* const diagonal = problem.A.diagonal().data();
+  for (Index i = 0; i < scene.n; ++i) scene.inverse_diagonal[i] = 1 / diagonal[i];
+}
+
+void SmallWay::take_force() {
+  for (Index i = 0; i < scene_.n; ++i) scene_.z[i] = problem_.z[i];
+  for (Index i = scene_.n; i < scene_.ld; ++i) scene_.z[i] = 0;
+  for (Index a = 0; a < scene_.m; ++a) scene_.level[a] = problem_.s[a];
+  for (Index a = scene_.m; a < scene_.stride; ++a) scene_.level[a] = 0;
+}
+
+void SmallWay::begin(const std::vector<Index>& guess) {
+  take_force();
+  for (Index a = 0; a < scene_.stride; ++a) scene_.held[a] = scene_.two_sided[a] = false;
+  for (Index a : problem_.two_sided) scene_.two_sided[a] = true;
+  for (Index a : guess) scene_.held[a] = true;
+}
+
+bool SmallWay::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
+  begin(guess);
+  const SmallKernels& kernels = small_kernels();
+  const bool settled = kernels.begin(scene_) && kernels.settle(scene_);
+  sweeps_ = 0;
+  return settled && answer(accuracy, solution);
+}
+
+bool SmallWay::solve_again(const Accuracy& accuracy, Solution& solution) {
+  if (sweeps_ > sweeps_kept * scene_.m) return solve(solution.basis, accuracy, solution);
+  take_force();
+  const SmallKernels& kernels = small_kernels();
+  const bool settled = kernels.begin_again(scene_) && kernels.settle(scene_);
+  sweeps_ += scene_.steps;
+  return settled && answer(accuracy, solution);
+}
+
+/// False when one correction does not do.
+bool SmallWay::correct() {
+  small_kernels().correct(scene_);
+  const double contraction = std::max(scale_ > 0 ? scene_.first / scale_ : 0, unit_roundoff * condition_);
+  remaining_ = scene_.first * contraction / (1 - contraction) +
+               4 * unit_roundoff * unit_roundoff * condition_ * scale_;
+  return contraction <= largest_contraction && remaining_ <= enough * scale_;
+}
+
+/// Takes the correction in, and what cancels for 0; false when a multiplier turns out negative.
+bool SmallWay::round() {
+  SmallScene& t = scene_;
+  const double missing = 4 * remaining_ * t.factor_condition;
+  const double* const diagonal = problem_.A.diagonal().data();
+  double rounded = 0, silenced = 0;
+  for (Index i = 0; i < t.n; ++i) {
+    const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
+    const double noise = std::max(missing * std::sqrt(t.inverse_diagonal[i]), cancelled * std::abs(t.dq[i]));
+    const bool is_zero = std::abs(sum.hi) <= noise;
+    silenced += is_zero ? diagonal[i] * sum.hi * sum.hi : 0;
+    t.q[i] = is_zero ? 0 : sum.hi;
+    t.q_low[i] = is_zero ? 0 : sum.lo;
+    rounded += diagonal[i] * t.q_low[i] * t.q_low[i];
+  }
+  for (Index k = 0; k < t.size; ++k) {
+    const double step = t.correction[k], sum = t.held_lambda[k] + step;
+    const bool is_zero = std::abs(sum) <= std::max(missing * t.inverse_norm, cancelled * std::abs(step));
+    t.held_lambda[k] = is_zero ? 0 : sum;
+    if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
+  }
+  rounding_ = std::sqrt(static_cast<double>(t.n) * rounded);
+  bound_ = 2 * remaining_ + std::sqrt(static_cast<double>(t.n) * silenced) + rounding_;
+  return true;
+}
+
+/// Whether no row outside is close.
+bool SmallWay::is_clear() {
+  const SmallScene& t = scene_;
+  magnitude_ = 0;
+  for (Index i = 0; i < t.n; ++i) magnitude_ += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
+  magnitude_ = std::sqrt(magnitude_);
+  Index close = 0;
+  for (Index a = 0; a < t.m; ++a)
+    close += !t.held[a] && !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_));
+  return close == 0;
+}
+
+/// Whether the answer in doubles is within so much, no row close to tipping over.
+bool SmallWay::doubles_do(double close) {
+  const SmallScene& t = scene_;
+  small_kernels().measure(scene_);
+  Index weak = 0;
+  double missing = 0;
+  for (Index k = 0; k < t.size; ++k) {
+    const Index a = t.rows[k];
+    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near * scale_);
+    missing += t.slack[a] * t.slack[a];
+  }
+  if (weak > 0 || !is_clear()) return false;
+  rounding_ = 0;
+  bound_ = bound_of_doubles(t.n, t.size, t.stationarity, t.inverse_norm * std::sqrt(missing),
+                            condition_ * (scale_ + magnitude_));
+  return bound_ <= close;
+}
+
+bool SmallWay::answer(const Accuracy& accuracy, Solution& solution) {
+  SmallScene& t = scene_;
+  t.factor_condition = problem_.A.factor_condition();
+  condition_ = t.factor_condition + t.inverse_norm * std::sqrt(t.longest);
+  scale_ = std::max(t.acceleration_norm, t.force_norm);
+  const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
+  if (accuracy.refine || !doubles_do(close)) {
+    if (!correct() || !round()) return false;
+    small_kernels().measure(t);
+    if (!is_clear()) return false;
+  }
+  solution.residuals = residuals();
+  solution.method = "active-set";
+  solution.steps = t.steps;
+  solution.q = Eigen::Map<const Vector>(t.q, t.n);
+  solution.lambda.setZero(t.m);
+  solution.slack = Eigen::Map<const Vector>(t.slack, t.m);
+  for (Index k = 0; k < t.size; ++k) {
+    solution.lambda[t.rows[k]] = t.held_lambda[k];
+    solution.slack[t.rows[k]] = 0;
+  }
+  solution.basis.assign(t.rows, t.rows + t.size);
+  solution.acceleration_norm = t.acceleration_norm;
+  solution.force_norm = t.force_norm;
+  solution.rounding = rounding_;
+  solution.error_bound = bound_;
+  solution.status = bound_ <= close ? Status::solved : Status::inaccurate;
+  return true;
+}
+
+/// `convex::residuals` where only the rows held matter, measured in doubles.
+Residuals SmallWay::residuals() const {
+  const SmallScene& t = scene_;
+  double gap = 0.5 * t.stationarity * t.stationarity, most = 0;
+  for (Index k = 0; k < t.size; ++k) most = std::max(most, std::abs(t.held_lambda[k]));
+  Residuals found;
+  for (Index k = 0; k < t.size; ++k) {
+    const Index a = t.rows[k];
+    const double rest = t.slack[a], length = std::sqrt(t.square[a]);
+    const double row_scale = std::abs(t.level[a]) + length * t.acceleration_norm;
+    const double over = row_scale > 0 ? row_scale : length * scale_;
+    gap += t.held_lambda[k] * rest;
+    if (!(over > 0)) continue;
+    const double off = t.two_sided[a] ? std::abs(rest) : std::max(0.0, -rest);
+    found.feasibility = std::max(found.feasibility, off / over);
+    if (most > 0)
+      found.complementarity =
+          std::max(found.complementarity, std::abs(t.held_lambda[k] / most * rest) / over);
+  }
+  if (scale_ > 0) {
+    found.stationarity = t.stationarity / scale_;
+    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale_;
+  }
+  return found;
+}
+
+}  // namespace convex
