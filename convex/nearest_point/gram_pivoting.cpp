@@ -261,9 +261,11 @@ bool GramPivoting::take_in(Index count) {
     state_[list_[k]] = held;
     if (rows_.place(list_[k]) < 0) list_[fresh++] = list_[k];
   }
-  if (fresh > 0 && !rows_.add(list_, fresh)) return false;
+  const bool room = fresh == 0 || rows_.add(list_, fresh);
+  for (Index k = 0; k < fresh; ++k)
+    if (rows_.place(list_[k]) < 0) state_[list_[k]] = outside;
   collect();
-  return true;
+  return room;
 }
 
 bool GramPivoting::hold_also(const Index* rows, Index count) {

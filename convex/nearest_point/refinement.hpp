@@ -19,9 +19,10 @@ inline constexpr double cancelled = 0x1p-24;
 
 /// An estimate of ||q - q_W||_A for a point found and judged in doubles. stationarity: ||Aq - z -
 /// Uᵀlambda||_(A⁻¹) and held: |slacks of the k rows held| times the norm of the inverse of their factor, as
-/// measured; scale: the size of what was summed, times the condition; each of n + k terms is rounded.
+/// measured; scale: the size of what was summed, times the condition; each of n + k terms is rounded, with
+/// room to spare.
 inline double bound_of_doubles(Index n, Index k, double stationarity, double held, double scale) {
-  return std::hypot(stationarity, held) + 2 * static_cast<double>(n + k) * unit_roundoff * scale;
+  return std::hypot(stationarity, held) + 8 * static_cast<double>(n + k) * unit_roundoff * scale;
 }
 
 /// The point and multipliers of a working set, to twice the working precision where its conditioning allows.

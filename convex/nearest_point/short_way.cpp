@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/invariant.hpp"
 #include "convex/nearest_point/refinement.hpp"
 
 namespace convex {
@@ -221,8 +222,10 @@ bool ShortWay::measure_slacks() {
   magnitude_ = std::sqrt(magnitude_);
   const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
   touched_count_ = 0;
+  Index held = 0;
   for (Index a = 0; a < m_; ++a) {
     if (set_->holds(a)) {
+      held += 1;
       held_slack_[set_->rows().place(a)] = slack_[a];
       slack_[a] = 0;
       continue;
@@ -231,6 +234,7 @@ bool ShortWay::measure_slacks() {
     if (slack_[a] < -rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)) return false;
     touched_[touched_count_++] = a;
   }
+  invariant(held == set_->size(), "a row that counts as held is among the rows held");
   moved_ = 0;
   return touched_count_ == 0 || judge_touched_rows();
 }
