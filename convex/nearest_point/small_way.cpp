@@ -97,27 +97,30 @@ bool SmallWay::solve_again(const Accuracy& accuracy, Solution& solution) {
 /// False when one correction does not do.
 bool SmallWay::correct() {
   small_kernels().correct(scene_);
-  const double contraction = std::max(scale_ > 0 ? scene_.first / scale_ : 0, unit_roundoff * condition_);
-  remaining_ = scene_.first * contraction / (1 - contraction) +
+  contraction_ = std::max(scale_ > 0 ? scene_.first / scale_ : 0, unit_roundoff * condition_);
+  remaining_ = scene_.first * contraction_ / (1 - contraction_) +
                4 * unit_roundoff * unit_roundoff * condition_ * scale_;
-  return contraction <= largest_contraction && remaining_ <= enough * scale_;
+  return contraction_ <= largest_contraction && remaining_ <= enough * scale_;
 }
 
-/// Takes the correction in, and what cancels for 0; false when a multiplier turns out negative.
+/// Takes the correction in, and what cancels for 0; false when an entry is so small that more corrections
+/// would tell it, or a multiplier turns out negative.
 bool SmallWay::round() {
   SmallScene& t = scene_;
   const double missing = 4 * remaining_ * t.factor_condition;
   const double* const diagonal = problem_.A.diagonal().data();
-  double rounded = 0, silenced = 0;
+  double rounded = 0;
+  Index small = 0;
   for (Index i = 0; i < t.n; ++i) {
     const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
-    const double noise = std::max(missing * std::sqrt(t.inverse_diagonal[i]), cancelled * std::abs(t.dq[i]));
-    const bool is_zero = std::abs(sum.hi) <= noise;
-    silenced += is_zero ? diagonal[i] * sum.hi * sum.hi : 0;
+    const double size = std::abs(sum.hi), step = std::abs(t.dq[i]);
+    const bool is_zero = size <= 16 * contraction_ * step;
+    small += !is_zero && size <= std::max(cancelled * step, missing * std::sqrt(t.inverse_diagonal[i]));
     t.q[i] = is_zero ? 0 : sum.hi;
     t.q_low[i] = is_zero ? 0 : sum.lo;
     rounded += diagonal[i] * t.q_low[i] * t.q_low[i];
   }
+  if (small > 0) return false;
   for (Index k = 0; k < t.size; ++k) {
     const double step = t.correction[k], sum = t.held_lambda[k] + step;
     const bool is_zero = std::abs(sum) <= std::max(missing * t.inverse_norm, cancelled * std::abs(step));
@@ -125,7 +128,7 @@ bool SmallWay::round() {
     if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
   }
   rounding_ = std::sqrt(static_cast<double>(t.n) * rounded);
-  bound_ = 2 * remaining_ + std::sqrt(static_cast<double>(t.n) * silenced) + rounding_;
+  bound_ = 2 * remaining_ + rounding_;
   return true;
 }
 
