@@ -6,6 +6,9 @@ namespace {
 /// A row with more entries than this, whose square would be a dense block of that size, is put on the border.
 constexpr Index short_row = 12;
 
+/// Up to this distance from the diagonal a band is factored faster than the same numbers in panels.
+constexpr Index narrow_band = 16;
+
 }  // namespace
 
 RowSystem::Pattern RowSystem::pattern(const BalancedProblem& problem) {
@@ -44,20 +47,31 @@ RowSystem::Pattern RowSystem::pattern(const BalancedProblem& problem) {
   return found;
 }
 
+std::variant<SparseFactor, BandFactor> RowSystem::analysed(Index n,
+                                                           const std::vector<SparseFactor::Place>& places) {
+  const Index width = BandFactor::width(places);
+  if (width <= narrow_band) return BandFactor(n, width);
+  return SparseFactor(n, places);
+}
+
 RowSystem::RowSystem(const BalancedProblem& problem) : RowSystem(problem, pattern(problem)) {}
 
 RowSystem::RowSystem(const BalancedProblem& problem, Pattern found)
     : n_(problem.A.rows()),
       pattern_(std::move(found)),
-      factor_(n_ + static_cast<Index>(pattern_.long_rows.size()), pattern_.places),
-      slots_(factor_.slots(pattern_.places)) {
+      factor_(analysed(n_ + static_cast<Index>(pattern_.long_rows.size()), pattern_.places)),
+      slots_(std::visit([&](const auto& factor) { return factor.slots(pattern_.places); }, factor_)) {
   pattern_.places.clear();
   pattern_.places.shrink_to_fit();
 }
 
 bool RowSystem::factor(const Vector& weight) {
-  factor_.clear_values();
-  double* values = factor_.values().data();
+  double* values = std::visit(
+      [](auto& factor) {
+        factor.clear_values();
+        return factor.values().data();
+      },
+      factor_);
   const Index* slot = slots_.data();
   for (double a : pattern_.of_A) values[*slot++] += a;
   const Index m = static_cast<Index>(pattern_.first.size()) - 1;
@@ -75,14 +89,26 @@ bool RowSystem::factor(const Vector& weight) {
     values[*slot++] += w > 0 ? -1 / w : -1;
   }
   ++factorisations_;
-  return factor_.factor();
+  return std::visit([](auto& factor) { return factor.factor(); }, factor_);
 }
 
 Vector RowSystem::solve(const Vector& r) const {
-  Vector x = Vector::Zero(factor_.dimension());
-  x.head(n_) = r;
-  factor_.solve(x);
-  return x.head(n_);
+  return std::visit(
+      [&](const auto& factor) {
+        Vector x = Vector::Zero(factor.dimension());
+        x.head(n_) = r;
+        factor.solve(x);
+        return Vector(x.head(n_));
+      },
+      factor_);
+}
+
+double RowSystem::flops() const {
+  return std::visit([](const auto& factor) { return factor.flops(); }, factor_);
+}
+
+double RowSystem::nonzeros() const {
+  return std::visit([](const auto& factor) { return factor.nonzeros(); }, factor_);
 }
 
 }  // namespace convex

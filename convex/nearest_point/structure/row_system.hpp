@@ -1,11 +1,15 @@
 #pragma once
 
+#include <variant>
+
 #include "convex/nearest_point/structure/balanced_problem.hpp"
+#include "convex/nearest_point/structure/band_factor.hpp"
 #include "convex/nearest_point/structure/sparse_factor.hpp"
 
 namespace convex {
 
-/// A + Uᵀ D U for weights D >= 0 that change, with one order for all. Rows with many entries would fill it:
+/// A + Uᵀ D U for weights D >= 0 that change, with one order for all: the given one where that makes a narrow
+/// band, else a fill-reducing one. Rows with many entries would fill it:
 /// they stand beside it, as -1/D on the diagonal and u_a at the border, which keeps it quasi-definite.
 class RowSystem {
  public:
@@ -15,7 +19,9 @@ class RowSystem {
   bool factor(const Vector& weight);
   /// (A + Uᵀ D U)⁻¹ r.
   Vector solve(const Vector& r) const;
-  const SparseFactor& factors() const { return factor_; }
+  /// Multiplications of a factorisation; numbers in a factor.
+  double flops() const;
+  double nonzeros() const;
   Index factorisations() const { return factorisations_; }
 
  private:
@@ -26,11 +32,12 @@ class RowSystem {
     std::vector<Index> long_rows, border_entries;
   };
   static Pattern pattern(const BalancedProblem&);
+  static std::variant<SparseFactor, BandFactor> analysed(Index n, const std::vector<SparseFactor::Place>&);
   RowSystem(const BalancedProblem&, Pattern);
 
   Index n_;
   Pattern pattern_;
-  SparseFactor factor_;
+  std::variant<SparseFactor, BandFactor> factor_;
   std::vector<Index> slots_;
   Index factorisations_ = 0;
 };

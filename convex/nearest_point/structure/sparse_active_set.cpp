@@ -232,8 +232,8 @@ class SparseActiveSet {
         solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
     solution.status = close ? Status::solved : Status::inaccurate;
     solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
-                               static_cast<double>(system_.factorisations()) * system_.factors().flops(),
-                               system_.factors().nonzeros()}};
+                               static_cast<double>(system_.factorisations()) * system_.flops(),
+                               system_.nonzeros()}};
     return solution;
   }
 
