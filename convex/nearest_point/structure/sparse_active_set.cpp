@@ -104,13 +104,13 @@ class SparseActiveSet {
   /// factorisation breaks down.
   bool refine() {
     double delta = first_delta;
-    for (int j = 0; j < most_deltas; ++j, delta *= smaller) {
-      const bool central = central_ && j == 0;
-      const Vector weight = central ? central_weights(scaled_, rows_, delta, point_)
-                                    : even_weights(problem_.rows(), rows_, delta);
+    for (int j = central_ ? -1 : 0; j < most_deltas; ++j) {
+      const Vector weight = j < 0 ? central_weights(scaled_, rows_, delta, point_)
+                                  : even_weights(problem_.rows(), rows_, delta);
       delta_ = 1 / std::max(1.0, weight.maxCoeff());
       if (!refine_rows(problem_, scaled_, system_, rows_, weight, silence_, point_)) return false;
       if (point_.converged || point_.wrong_signs) return true;
+      if (j >= 0) delta *= smaller;
     }
     return true;
   }
