@@ -9,7 +9,7 @@ namespace {
 constexpr Index few_rows = 32;
 
 /// Places for rows that come in later: so many per coordinate, and for blocks of eight that are not filled.
-constexpr Index rooms = 2, unfilled = 64;
+constexpr Index rooms = 2, rooms_up_to_200 = 3, unfilled = 128;
 
 /// A smaller violation than this part of the scale does not count.
 constexpr double violation = 1e-12;
@@ -26,7 +26,7 @@ constexpr Index small = 50;
 constexpr double part_when_small = 0.4, part_when_large = 0.25;
 
 Index places(Index n, Index m) {
-  return m <= few_rows ? padded(m) : std::min(padded(m), (n <= 200 ? 3 : rooms) * padded(n)) + unfilled;
+  return m <= few_rows ? padded(m) : std::min(padded(m), (n <= 200 ? rooms_up_to_200 : rooms) * padded(n)) + unfilled;
 }
 
 }  // namespace
@@ -248,9 +248,16 @@ Index GramPivoting::drop_negative() {
 /// Leaves `room` of the rows listed, those deepest below their edge.
 Index GramPivoting::choose_deepest(Index count, Index room) {
   const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
-  if (count > room) std::nth_element(list_, list_ + room, list_ + count, deeper);
-  count = std::min(count, room);
-  return has_dependent_rows_ ? skip_parallel_rows(count) : count;
+  // Whether rows are repeated is seen when a large block comes in first.
+  const bool is_first = size_ == 0 && count >= few_rows && !all_known();
+  const bool some_repeat = has_dependent_rows_ || is_first;
+  const Index among = std::min(count, some_repeat ? 2 * room : room);
+  if (count > among) std::nth_element(list_, list_ + among, list_ + count, deeper);
+  if (!some_repeat) return among;
+  const Index kept = skip_parallel_rows(among);
+  if (kept == among) return std::min(kept, room);
+  has_dependent_rows_ = true;
+  return std::min(kept, std::max<Index>(2, room * kept / among));
 }
 
 /// Holds the first `count` rows of the list.

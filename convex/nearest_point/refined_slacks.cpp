@@ -13,8 +13,8 @@ constexpr double silence = 0x1p-95;
 
 /// How far the violation of a row that is taken for 0 may leave the point from the edge of that row and W.
 template <int MaxSize>
-double moved_edge(WorkingSet<MaxSize>& set, Index a, double violation) {
-  typename WorkingSet<MaxSize>::Split split;
+double moved_edge(WorkingSet<MaxSize>& set, Index a, double violation,
+                  typename WorkingSet<MaxSize>::Split& split) {
   set.split(a, split);
   return split.rest > exact_dependence * split.magnitude ? violation / split.rest : 0;
 }
@@ -28,6 +28,7 @@ Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vecto
   const double plain_rounding = 2 * static_cast<double>(problem.dimension()) * unit_roundoff;
   const double left = point.remaining();
   Vector rest = problem.U.times(point.q.hi) - problem.s;
+  typename WorkingSet<MaxSize>::Split split;
   for (Index a = 0; a < problem.rows(); ++a) {
     const double s = std::abs(problem.s[a]), length = row_scale[a];
     if (set.holds(a)) {
@@ -35,7 +36,7 @@ Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vecto
     } else if (std::abs(rest[a]) <= plain_rounding * (s + problem.U.absolute_dot(a, q_size))) {
       rest[a] = slack(problem, a, point.q).value();
       if (std::abs(rest[a]) > silence * (s + length * set.scale()) + 2 * length * left) continue;
-      if (rest[a] < 0) point.silenced += 2 * moved_edge(set, a, -rest[a]);
+      if (rest[a] < 0) point.silenced += 2 * moved_edge(set, a, -rest[a], split);
       rest[a] = 0;
     }
   }

@@ -21,7 +21,7 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
       n_(problem.dimension()),
       m_(problem.rows()),
       ld_(A_.ld) {
-  const Index k = std::min(n_, m_), places = m_ + 64;
+  const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
   arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 3 * padded(k) + 2 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   z_ = arena.take_filled(n_, 0.0);

@@ -10,6 +10,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
 constexpr double silence = 0x1p-95;
 
+/// What is missing in a point may show this many times as large in a slack: ||u_a||_(D⁻¹), D the diagonal of
+/// A, stands for the row's length, and what is missing is an estimate.
+constexpr double margin = 16;
+
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
 
@@ -87,13 +91,15 @@ bool ShortWay::measure_touched_slacks() {
 }
 
 double ShortWay::slack_noise(Index a) const {
-  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) + 2 * row_scale_[a] * remaining_;
+  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) + margin * row_scale_[a] * remaining_;
 }
 
 bool ShortWay::is_parallel_to_held(Index a) const {
   const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
+  const double part = std::abs(u[0]) / row_scale_[a];
   for (Index j = 0; j < set_->size(); ++j) {
     const double* const v = U + rows_[j] * n_;
+    if (std::abs(std::abs(v[0]) - part * row_scale_[rows_[j]]) > noise * std::abs(v[0])) continue;
     const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
     Index i = 0;
     while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
@@ -156,18 +162,23 @@ double ShortWay::rise(Index a) const {
 bool ShortWay::is_spanned_exactly(Index a) {
   double whole = 1;
   const double square = set_->rows().square(set_->rows().place(a));
+  Index terms = 0;
   for (Index j = 0; j < set_->size(); ++j) {
-    if (load_[j] * load_[j] * set_->rows().square(set_->place(j)) <= noise * noise * square) load_[j] = 0;
+    if (load_[j] * load_[j] * set_->rows().square(set_->place(j)) <= noise * noise * square) continue;
     whole *= denominator(load_[j] * whole);
     if (!(whole > 0 && whole <= largest_denominator)) return false;
+    load_[terms] = load_[j];
+    fresh_[terms++] = rows_[j];
   }
-  DoubleDoubleVector rest(n_);
-  problem_.U.add_multiple(a, {whole, 0}, rest);
-  for (Index j = 0; j < set_->size(); ++j) {
-    const double coefficient = std::round(load_[j] * whole);
-    if (coefficient != 0) problem_.U.add_multiple(rows_[j], {-coefficient, 0}, rest);
-  }
-  return rest.hi.isZero(0) && rest.lo.isZero(0);
+  const double* const U = problem_.U.dense().data();
+  double *const hi = pack_, *const lo = pack_ + padded(n_);  // 8 n_ numbers are there
+  fill_packs(padded(n_), 0, hi);
+  fill_packs(padded(n_), 0, lo);
+  add_multiple(n_, U + a * n_, {whole, 0}, hi, lo);
+  for (Index l = 0; l < terms; ++l)
+    add_multiple(n_, U + fresh_[l] * n_, {-std::round(load_[l] * whole), 0}, hi, lo);
+  return std::all_of(hi, hi + n_, [](double x) { return x == 0; }) &&
+         std::all_of(lo, lo + n_, [](double x) { return x == 0; });
 }
 
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
