@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cmath>
-
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -22,7 +20,7 @@ inline constexpr double cancelled = 0x1p-24;
 /// measured; scale: the size of what was summed, times the condition; each of n + k terms is rounded, with
 /// room to spare.
 inline double bound_of_doubles(Index n, Index k, double stationarity, double held, double scale) {
-  return std::hypot(stationarity, held) + 8 * static_cast<double>(n + k) * unit_roundoff * scale;
+  return stationarity + held + 8 * static_cast<double>(n + k) * unit_roundoff * scale;
 }
 
 /// The point and multipliers of a working set, to twice the working precision where its conditioning allows.

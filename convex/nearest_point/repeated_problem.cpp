@@ -39,11 +39,13 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.s = s;
   if (has_short_way(state.problem) && state.accuracy.step_limit == 0) {
     if (SmallWay::fits(state.problem)) {
-      if (state.small_settled && state.small_way->solve_again(state.accuracy, state.solution))
-        return state.solution;
-      if (!state.scene) state.scene = std::make_unique<SmallScene>();
-      state.small_way.emplace(state.problem, *state.scene);
-      state.small_settled = state.small_way->solve({}, state.accuracy, state.solution);
+      if (!state.small_settled) {
+        if (!state.scene) state.scene = std::make_unique<SmallScene>();
+        state.small_way.emplace(state.problem, *state.scene);
+        state.small_settled = state.small_way->solve({}, state.accuracy, state.solution);
+      } else {
+        state.small_settled = state.small_way->solve_again(state.accuracy, state.solution);
+      }
       if (state.small_settled) return state.solution;
     }
     if (state.settled && state.way->solve_again(state.accuracy, state.solution)) return state.solution;
