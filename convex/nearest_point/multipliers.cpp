@@ -1,5 +1,6 @@
 #include "convex/nearest_point/multipliers.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -26,15 +27,18 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   const Index d = rows.T.cols(), k = rows.T.rows();
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
-  RowMatrix N(k + d, d);
+  Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
+  // The condition of N is at most about the size of T. Beyond, an orthonormal basis of its columns serves.
+  constexpr double steep = 1e5;
+  if (rows.T.norm() > steep) N = Eigen::HouseholderQR<Matrix>(N).householderQ() * Matrix::Identity(k + d, d);
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k + d; ++j)
     if (!is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
-  const ConstraintRows all(N);
+  const ConstraintRows all{RowMatrix(N)};
   NearestPointProblem problem{
       Metric::dense(N.transpose() * N), -N.transpose() * start, all.select(signed_rows), Vector(), {}};
   problem.s.resize(static_cast<Index>(signed_rows.size()));

@@ -145,3 +145,17 @@ TEST_CASE("rows on coordinates of their own are ranged by themselves: a hall ful
     }
   }
 }
+
+TEST_CASE("rows that depend on nearly parallel ones have multipliers of least norm too") {
+  RowMatrix U(4, 2);
+  U << 1, 0, 1, 0x1p-26, 0, 1, 1, 1;
+  const NearestPointProblem corner{convex::Metric::identity(2),
+                                   Eigen::Vector2d(-2, -1),
+                                   convex::ConstraintRows(U),
+                                   Vector::Zero(4),
+                                   {0, 1}};
+  const Multipliers found = all_multipliers(corner);
+  CHECK_FALSE(found.unique);
+  CHECK((U.transpose() * found.least_norm - Eigen::Vector2d(2, 1)).norm() <= 1e-7);
+  CHECK(found.least_norm.norm() <= std::sqrt(2.0));  // (1, 0, 0, 1) will do
+}
