@@ -18,17 +18,22 @@ std::vector<Index> rows_out_of_reach(const NearestPointProblem& problem) {
   if (problem.rows() == 0 || problem.s.maxCoeff() > 0 || !(problem.s.minCoeff() < 0)) return rows;
   for (Index a : problem.two_sided)
     if (problem.s[a] < 0) return rows;
-  const Vector free = problem.A.solve(problem.z);
-  const double radius = problem.A.dual_norm(problem.z);
+  Vector free = problem.z;
+  problem.A.whiten_in_place(free);
+  const double radius = free.norm();
+  problem.A.unwhiten_in_place(free);
   const Vector along = problem.U.times(free);
+  std::vector<Index> candidates;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (problem.s[a] < 0 && along[a] - 2 * problem.s[a] > 0) candidates.push_back(a);
+  if (candidates.empty()) return rows;
   // ||u||_(A⁻¹) is at least ||D⁻¹u||, D the diagonal of A, over sqrt(n): few rows pass this and are looked at
   // closely.
   const Vector shortest = problem.U.lengths(problem.A.diagonal().cwiseInverse()) /
                           std::sqrt(static_cast<double>(problem.dimension()));
-  std::vector<Index> candidates;
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (problem.s[a] < 0 && along[a] - 2 * problem.s[a] > shortest[a] * radius) candidates.push_back(a);
+  std::erase_if(candidates, [&](Index a) { return along[a] - 2 * problem.s[a] <= shortest[a] * radius; });
   for (Index a : problem.two_sided) std::erase(candidates, a);
+  if (candidates.empty()) return rows;
   constexpr std::size_t few = 1000;  // with a sparse factor, the length of a row is a solve
   if (problem.A.kind() == MetricKind::sparse && candidates.size() > few) return rows;
   const Vector length = dual_lengths(problem, candidates);
