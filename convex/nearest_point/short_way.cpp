@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/invariant.hpp"
+#include "convex/nearest_point/held_residuals.hpp"
 #include "convex/nearest_point/refinement.hpp"
 
 namespace convex {
@@ -245,25 +246,14 @@ Residuals ShortWay::residuals_of_active() {
                     rows_, lambda_, z_, r_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
   const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
-  double gap = 0.5 * stationarity * stationarity, most = 0;
+  double most = 0;
   for (Index j = 0; j < set_->size(); ++j) most = std::max(most, std::abs(lambda_[j]));
-  Residuals found;
-  for (Index j = 0; j < set_->size(); ++j) {
-    const double rest = held_slack_[set_->place(j)], length = std::sqrt(set_->rows().square(set_->place(j)));
-    const double row_scale = std::abs(problem_.s[rows_[j]]) + length * acceleration_norm_;
-    const double over = row_scale > 0 ? row_scale : length * scale_;
-    gap += lambda_[j] * rest;
-    if (!(over > 0)) continue;
-    const double off = set_->is_two_sided(rows_[j]) ? std::abs(rest) : std::max(0.0, -rest);
-    found.feasibility = std::max(found.feasibility, off / over);
-    if (most > 0)
-      found.complementarity = std::max(found.complementarity, std::abs(lambda_[j] / most * rest) / over);
-  }
+  HeldResiduals held(stationarity, acceleration_norm_, scale_, most);
+  for (Index j = 0; j < set_->size(); ++j)
+    held.add(problem_.s[rows_[j]], std::sqrt(set_->rows().square(set_->place(j))), lambda_[j],
+             held_slack_[set_->place(j)], set_->is_two_sided(rows_[j]));
+  Residuals found = held.all();
   found.feasibility = violation_of_touched_rows(found.feasibility);
-  if (scale_ > 0) {
-    found.stationarity = stationarity / scale_;
-    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale_;
-  }
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/nearest_point/held_residuals.hpp"
 #include "convex/nearest_point/refinement.hpp"
 #include "convex/nearest_point/small_steps.hpp"
 
@@ -195,27 +196,14 @@ bool SmallWay::answer(const Accuracy& accuracy, Solution& solution) {
 /// `convex::residuals` where only the rows held matter, measured in doubles.
 Residuals SmallWay::residuals() const {
   const SmallScene& t = scene_;
-  double gap = 0.5 * t.stationarity * t.stationarity, most = 0;
+  double most = 0;
   for (Index k = 0; k < t.size; ++k) most = std::max(most, std::abs(t.held_lambda[k]));
-  Residuals found;
+  HeldResiduals held(t.stationarity, t.acceleration_norm, scale_, most);
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.rows[k];
-    const double rest = t.slack[a], length = std::sqrt(t.square[a]);
-    const double row_scale = std::abs(t.level[a]) + length * t.acceleration_norm;
-    const double over = row_scale > 0 ? row_scale : length * scale_;
-    gap += t.held_lambda[k] * rest;
-    if (!(over > 0)) continue;
-    const double off = t.two_sided[a] ? std::abs(rest) : std::max(0.0, -rest);
-    found.feasibility = std::max(found.feasibility, off / over);
-    if (most > 0)
-      found.complementarity =
-          std::max(found.complementarity, std::abs(t.held_lambda[k] / most * rest) / over);
+    held.add(t.level[a], std::sqrt(t.square[a]), t.held_lambda[k], t.slack[a], t.two_sided[a]);
   }
-  if (scale_ > 0) {
-    found.stationarity = t.stationarity / scale_;
-    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale_;
-  }
-  return found;
+  return held.all();
 }
 
 }  // namespace convex
