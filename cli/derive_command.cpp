@@ -46,7 +46,7 @@ void write_triplets(JsonWriter& json, const convex::SparseMatrix& A) {
 }
 
 std::string derive_json(const Scene& scene) {
-  const auto& [A, z, U, s, two_sided] = scene.problem;
+  const auto& [A, z, U, s, two_sided, radii] = scene.problem;
   JsonWriter json;
   json.begin_object().key("file").value(scene.file).key("names").begin_array();
   for (const std::string& name : scene.coordinates) json.value(name);
@@ -77,7 +77,7 @@ std::string derive_json(const Scene& scene) {
 }
 
 std::string derive_text(const Scene& scene) {
-  const auto& [A, z, U, s, two_sided] = scene.problem;
+  const auto& [A, z, U, s, two_sided, radii] = scene.problem;
   constexpr Index widest = 12;
   const std::string text = heading(scene.title, scene.file);
   if (A.dimension() > widest)

@@ -50,6 +50,12 @@ void add_accuracy(CLI::App& command, Options& options) {
                   "accept an error bound of X * max(1, ||q''||_A); default 1e-9")
       ->type_name("X")
       ->check(positive_number);
+  command
+      .add_option(
+          "--limit", options.limit,
+          "let fractions take N times their usual share (some seconds) where doubles cannot decide; 0: never")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
 }
 
 void add_function(CLI::App& command, Options& options, bool needs_point) {

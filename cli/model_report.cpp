@@ -46,7 +46,9 @@ void write_islands(JsonWriter& json, const SolvedScene& solved, const convex::Mo
       json.key("first_coordinate")
           .value(solved.scene.coordinates[static_cast<std::size_t>(island.first_coordinate)]);
     json.key("coordinates").value(island.coordinates).key("contacts").value(island.contacts);
-    json.key("flops").value(island.flops).key("factor_nonzeros").value(island.factor_nonzeros).end_object();
+    json.key("flops").value(island.flops).key("factor_nonzeros").value(island.factor_nonzeros);
+    if (!island.in_fractions.empty()) json.key("in_fractions").value(island.in_fractions);
+    json.end_object();
   }
   json.end_array();
 }
@@ -127,6 +129,8 @@ std::string left_out_text(const SolvedScene& solved) {
 void write_model(JsonWriter& json, const SolvedScene& solved) {
   json.key("model").begin_object();
   write_parts(json, solved, solved.solution.primal.model);
+  if (!solved.solution.primal.undecided.empty())
+    json.key("undecided").value(solved.solution.primal.undecided);
   if (solved.solution.reduced) {
     json.key("reduced").begin_object();
     write_parts(json, solved, solved.solution.reduced->model);
@@ -142,6 +146,14 @@ std::string model_text(const SolvedScene& solved) {
   const convex::Model& model = solved.solution.primal.model;
   if (!model.islands.empty()) text += "; " + islands_text(model);
   text += "." + left_out_text(solved) + "\n";
+  for (const convex::Island& island : model.islands)
+    if (!island.in_fractions.empty())
+      text +=
+          fmt::format("Doubles left open {}: decided in fractions ({}).\n", island.in_fractions,
+                      plural(island.coordinates, "coordinate") + ", " + plural(island.contacts, "contact"));
+  if (!solved.solution.primal.undecided.empty() && solved.solution.primal.status != convex::Status::solved)
+    text += fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n",
+                        solved.solution.primal.undecided);
   if (solved.solution.reduced) {
     const convex::Model& reduced = solved.solution.reduced->model;
     text += fmt::format(

@@ -14,6 +14,7 @@ struct Options {
   std::vector<std::string> files;
   std::optional<std::string> method;
   std::optional<double> tolerance;
+  std::optional<double> limit;  ///< of fractions, where doubles leave a decision open
   bool json = false;
   bool quiet = false;
   bool ranges = false;

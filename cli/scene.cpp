@@ -17,6 +17,7 @@ mechanics::GaussOptions solve_options(const Options& options, const SolveSetting
   made.always_ranges = options.ranges;
   made.accuracy.reduce = !options.full_model;
   made.accuracy.tolerance = options.tolerance.value_or(settings.tolerance.value_or(made.accuracy.tolerance));
+  made.accuracy.limit = options.limit.value_or(made.accuracy.limit);
   const bool from_file = !options.method && settings.method;
   const std::string name = options.method.value_or(settings.method.value_or(std::string(made.method->name)));
   made.method = convex::find_method(name);
@@ -103,6 +104,8 @@ Scene projection_scene(ProjectionProblem numbers) {
   for (Index a = 0; a < m; ++a) constraints.push_back("c[" + std::to_string(a) + "]");
   std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
   for (Index a : numbers.problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  // Each number was rounded once.
+  if (!numbers.are_doubles) numbers.problem.radii = convex::rounding_radii(numbers.problem, 1);
   mechanics::ExactData exact{std::move(numbers.exact), numbers.are_doubles};
   std::vector<Index> contacts(static_cast<std::size_t>(m));
   std::iota(contacts.begin(), contacts.end(), Index{0});

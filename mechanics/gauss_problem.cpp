@@ -9,6 +9,9 @@ namespace {
 constexpr Index small_system = 64;
 constexpr double sparse_part = 0.25;
 
+/// Values and derivatives of expressions are rounded about so many times.
+constexpr double roundings_of_data = 16;
+
 /// The first coordinate whose velocity adds no kinetic energy to the ones before it.
 Index pivot_at_fault(convex::Matrix A) {
   for (Index k = 0; k < A.rows(); ++k) {
@@ -57,8 +60,11 @@ GaussProblem gauss_problem(const System& system, const State& state, const Vecto
   const bool dense = rows.U.cols() <= small_system || entries > sparse_part * all;
   convex::ConstraintRows U =
       dense ? convex::ConstraintRows(convex::RowMatrix(rows.U)) : convex::ConstraintRows(std::move(rows.U));
-  return {{std::move(A), std::move(inertia.z), std::move(U), std::move(rows.s), std::move(two_sided)},
-          std::move(present)};
+  GaussProblem found{
+      {std::move(A), std::move(inertia.z), std::move(U), std::move(rows.s), std::move(two_sided)},
+      std::move(present)};
+  found.problem.radii = convex::rounding_radii(found.problem, roundings_of_data);
+  return found;
 }
 
 }  // namespace mechanics

@@ -20,8 +20,12 @@ bool has_answer(const Solution& solution) {
 
 /// The problem with only the rows `kept`, all two-sided.
 NearestPointProblem held(const NearestPointProblem& problem, const std::vector<Index>& kept) {
-  NearestPointProblem rows{
-      problem.A, problem.z, problem.U.select(kept), Vector(static_cast<Index>(kept.size())), {}};
+  NearestPointProblem rows{problem.A,
+                           problem.z,
+                           problem.U.select(kept),
+                           Vector(static_cast<Index>(kept.size())),
+                           {},
+                           convex::select(problem.radii, kept)};
   for (std::size_t k = 0; k < kept.size(); ++k) rows.s[static_cast<Index>(k)] = problem.s[kept[k]];
   rows.two_sided.resize(kept.size());
   std::iota(rows.two_sided.begin(), rows.two_sided.end(), Index{0});

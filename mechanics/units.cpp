@@ -48,9 +48,17 @@ Units fit_units(const convex::NearestPointProblem& problem) {
 }
 
 convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem, const Units& units) {
-  return {problem.A.scaled(1 / units.mass), problem.z / units.mass / units.acceleration,
-          divided(problem.U, units.gradient), problem.s / units.gradient / units.acceleration,
-          problem.two_sided};
+  convex::NearestPointProblem scaled{problem.A.scaled(1 / units.mass),
+                                     problem.z / units.mass / units.acceleration,
+                                     divided(problem.U, units.gradient),
+                                     problem.s / units.gradient / units.acceleration,
+                                     problem.two_sided,
+                                     problem.radii};
+  if (scaled.radii) {
+    scaled.radii->row *= std::sqrt(units.mass) / units.gradient;
+    scaled.radii->s /= units.gradient * units.acceleration;
+  }
+  return scaled;
 }
 
 void restore_units(GaussSolution& solution, const Units& units, double tolerance) {

@@ -135,7 +135,9 @@ class ProximalPoint {
     pull.lo = -pull.lo;
     add_product(problem_.A, DoubleDoubleVector(point_.xi), pull);
     problem_.z = pull.value();
-    Solution solution = active_set(problem_, {}, guess);
+    // Rounds after the first have derived data, which fractions would take at their word.
+    const bool is_the_program = !soft_.any && f_.polyhedral();
+    Solution solution = active_set(problem_, {.limit = is_the_program ? 1.0 : 0.0}, guess);
     round_scale_ = std::max(solution.acceleration_norm, solution.force_norm);
     rough_ = !(solution.error_bound <= rough * round_scale_);
     return solution;
@@ -269,7 +271,8 @@ Vector descent_ray(const LinearQuadratic& f) {
   std::vector<Index> two_sided = f.two_sided;
   for (Index j = 0; j < k; ++j) two_sided.push_back(rows.rows() + j);
   const Solution solution = active_set({Metric::identity(k), Vector(-costs / costs.norm()), ConstraintRows(U),
-                                        Vector::Zero(U.rows()), two_sided});
+                                        Vector::Zero(U.rows()), two_sided},
+                                       {.limit = 0});
   if (solution.q.size() != k || solution.q.norm() <= slope_noise) return {};
   Vector ray = Vector::Zero(f.variables());
   ray.tail(k) = solution.q;

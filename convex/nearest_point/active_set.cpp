@@ -6,6 +6,8 @@
 #include "convex/nearest_point/block_guess.hpp"
 #include "convex/nearest_point/dependent_row.hpp"
 #include "convex/nearest_point/guess.hpp"
+#include "convex/nearest_point/optimality/touched_rows.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/refined_slacks.hpp"
 #include "convex/nearest_point/well_conditioned.hpp"
 #include "convex/nearest_point/working_set.hpp"
@@ -310,8 +312,20 @@ class DualActiveSet {
 
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+    std::string_view open = finished ? std::string_view() : open_question::conditioning;
+    if (finished && problem_.radii) {
+      for (Index a = 0; a < problem_.rows() && open.empty(); ++a)
+        if (!set_.holds(a) && (slack_[a] <= 0 || two_sided_[static_cast<std::size_t>(a)]))
+          open = open_question::touched;
+    } else if (finished) {
+      open = judge_touched_rows(set_, refined.q, slack_);
+      if (open.empty()) left_outside_ = 0;
+      if (open.empty()) flat_wedge_ = false;
+    }
     const double outside = finished && !flat_wedge_ ? left_outside_ : infinity;
-    return judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
+    Solution solution = judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
+    solution.undecided = open;
+    return solution;
   }
 
   const NearestPointProblem& problem_;
@@ -334,8 +348,9 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
   validate(problem);
   validate_guess(problem, guess);
   if (std::optional<Solution> found = well_conditioned(problem, accuracy, guess)) return *std::move(found);
-  if (problem.dimension() <= 8) return DualActiveSet<8>(problem, accuracy).run(guess);
-  return DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
+  Solution found = problem.dimension() <= 8 ? DualActiveSet<8>(problem, accuracy).run(guess)
+                                            : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
+  return decided_in_fractions(problem, std::move(found), accuracy);
 }
 
 }  // namespace convex

@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "convex/nearest_point/farkas.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/residuals.hpp"
 
 namespace convex {
@@ -73,8 +75,17 @@ Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights
   Solution solution;
   solution.method = method;
   solution.steps = steps;
-  const bool proved = proves_infeasibility(set.problem(), weights, farthest * set.scale());
-  solution.status = proved ? Status::infeasible : Status::gave_up;
+  solution.status = Status::infeasible;
+  if (set.problem().radii) {
+    if (!proves_infeasibility(set.problem(), weights, farthest * set.scale()))
+      solution.status = Status::gave_up;
+  } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(set.problem(), weights)) {
+    solution.farkas = std::move(proof->farkas);
+    return solution;
+  } else {
+    solution.status = Status::gave_up;
+    solution.undecided = open_question::contradiction;
+  }
   // The smallest weight is 1: combinations of whole contacts read as whole numbers.
   solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
   return solution;

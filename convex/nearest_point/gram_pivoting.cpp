@@ -26,7 +26,8 @@ constexpr Index small = 50;
 constexpr double part_when_small = 0.4, part_when_large = 0.25;
 
 Index places(Index n, Index m) {
-  return m <= few_rows ? padded(m) : std::min(padded(m), (n <= 200 ? rooms_up_to_200 : rooms) * padded(n)) + unfilled;
+  return m <= few_rows ? padded(m)
+                       : std::min(padded(m), (n <= 200 ? rooms_up_to_200 : rooms) * padded(n)) + unfilled;
 }
 
 }  // namespace

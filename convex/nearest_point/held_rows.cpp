@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/dependent_row.hpp"
+#include "convex/nearest_point/optimality/touched_rows.hpp"
 #include "convex/nearest_point/refined_slacks.hpp"
 
 namespace convex {
@@ -36,7 +37,14 @@ class Polish {
       if (drop_negative(refined)) continue;
       slack_ = refined_slacks(set_, refined, row_scale_);
       if (admit_violated(refined)) continue;
-      if (found_.farkas.size() == 0) found_.held = held(refined);
+      if (found_.farkas.size() > 0) return found_;
+      std::string_view open;
+      if (!problem_.radii) {
+        open = judge_touched_rows(set_, refined.q, slack_);
+        if (open.empty()) contradiction_ = moved_edge_ = 0;
+      }
+      found_.held = held(refined);
+      found_.held->undecided = open;
       return found_;
     }
     return found_;

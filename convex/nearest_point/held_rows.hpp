@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/problem.hpp"
@@ -17,6 +18,7 @@ struct HeldRows {
   double remaining = 0;      ///< an estimate of ||q - q_W||_A, q_W the exact point of W
   double inverse_norm = 0;   ///< an estimate of 1 / (smallest singular value of the whitened rows of W)
   double contradiction = 0;  ///< what the worst row off W that W contradicts by rounding alone is violated by
+  std::string_view undecided = {};  ///< what doubles leave open about rows off W
 };
 
 /// What came of holding the rows that look active.

@@ -8,6 +8,8 @@
 #include "convex/nearest_point/farkas_circuit.hpp"
 #include "convex/nearest_point/held_rows.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/residuals.hpp"
 
 namespace convex {
@@ -73,6 +75,7 @@ class Judge {
       return with_status(raw);
     }
     const HeldRows& held = *holding.held;
+    if (!held.undecided.empty()) return decided(held, std::move(raw));
     const double error_of_held = bound_of_held(held);
     raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
     if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
@@ -82,6 +85,24 @@ class Judge {
     if (is_dense_size(problem_)) polished.basis = held.rows;  // else they may depend on each other
     polished.polished = true;
     return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
+  }
+
+  /// The verdict where doubles leave open what becomes of rows that the point of the rows held touches.
+  Solution decided(const HeldRows& held, Solution raw) const {
+    Solution open = measured(held.q.hi, signed_right(held.lambda), held.slack);
+    open.basis = held.rows;
+    open.undecided = held.undecided;
+    Solution exact = decided_in_fractions(problem_, std::move(open), accuracy_);
+    if (exact.status == Status::infeasible) return exact;
+    if (!exact.undecided.empty()) {
+      raw.undecided = exact.undecided;
+      raw.error_bound = infinity;
+      return with_status(raw);
+    }
+    raw.error_bound = problem_.A.norm(raw.q - exact.q) + exact.rounding;
+    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
+    exact.polished = true;
+    return exact.error_bound <= raw.error_bound ? exact : with_status(raw);
   }
 
   std::optional<Solution> infeasible(const Vector& weights) {
@@ -106,6 +127,18 @@ class Judge {
     solution.steps = candidate_.steps;
     solution.status = Status::infeasible;
     solution.force_norm = force_norm_;
+    if (!problem_.radii) {
+      std::optional<InfeasibilityProof> exact = infeasibility_proof(problem_, proof);
+      if (exact) {
+        solution.farkas = std::move(exact->farkas);
+        return solution;
+      }
+      solution.status = Status::gave_up;
+      solution.farkas = std::move(proof);
+      solution.undecided = open_question::contradiction;
+      solution = decided_in_fractions(problem_, std::move(solution), accuracy_);
+      return solution.status == Status::infeasible ? std::optional(std::move(solution)) : std::nullopt;
+    }
     solution.farkas = proof / (proof.array() != 0).select(proof.cwiseAbs(), infinity).minCoeff();
     return solution;
   }

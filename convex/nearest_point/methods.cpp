@@ -4,7 +4,6 @@
 
 #include "convex/nearest_point/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/empty_wedge.hpp"
 #include "convex/nearest_point/judged.hpp"
 #include "convex/nearest_point/methods/accelerated_gradient.hpp"
 #include "convex/nearest_point/methods/admm.hpp"
@@ -46,9 +45,7 @@ std::string when_few_rows(const NearestPointProblem& problem) {
 }
 
 Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  Solution solution = active_set(problem, accuracy);
-  doubt_empty_wedges(problem, solution);
-  return solution;
+  return active_set(problem, accuracy);
 }
 
 Solution solve_automatically(const NearestPointProblem& problem, const Accuracy& accuracy) {

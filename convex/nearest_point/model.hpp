@@ -14,6 +14,8 @@ struct Island {
   Index first_coordinate = 0;  ///< the least of its coordinates, which names it
   double flops = 0;            ///< an estimate, the same for the same data
   double factor_nonzeros = 0;  ///< numbers in the factors kept
+  std::string_view in_fractions =
+      {};  ///< what doubles left open and fractions decided; empty where doubles did all
 };
 
 /// Why a row took no part in a solve; each is proved before it is used.

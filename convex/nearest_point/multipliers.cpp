@@ -44,7 +44,7 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   problem.s.resize(static_cast<Index>(signed_rows.size()));
   for (std::size_t j = 0; j < signed_rows.size(); ++j)
     problem.s[static_cast<Index>(j)] = -start[signed_rows[j]];
-  const Solution solution = active_set(problem);
+  const Solution solution = active_set(problem, {.limit = 0});
   if (solution.q.size() != d) return;
   const Vector best = start + N * solution.q;
   const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();

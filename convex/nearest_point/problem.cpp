@@ -23,12 +23,26 @@ void require_finite(const char* name, const Vector& x) {
 
 }  // namespace
 
+std::optional<DataRadii> select(const std::optional<DataRadii>& radii, const std::vector<Index>& rows) {
+  if (!radii) return std::nullopt;
+  return DataRadii{radii->row(rows), radii->s(rows)};
+}
+
+DataRadii rounding_radii(const NearestPointProblem& problem, double roundings) {
+  const double part = roundings * unit_roundoff;
+  return {part * problem.U.lengths(problem.A.diagonal().cwiseInverse()), part * problem.s.cwiseAbs()};
+}
+
 void validate(const NearestPointProblem& problem) {
   require_size("z", problem.z.size(), problem.dimension(), "coordinate");
   require_size("s", problem.s.size(), problem.rows(), "row of U");
   if (problem.rows() > 0 && problem.U.dimension() != problem.dimension())
     throw InvalidInput("U: rows of " + std::to_string(problem.U.dimension()) + " entries; give " +
                        std::to_string(problem.dimension()) + ", one per coordinate");
+  if (problem.radii) {
+    require_size("radii of rows", problem.radii->row.size(), problem.rows(), "row of U");
+    require_size("radii of s", problem.radii->s.size(), problem.rows(), "row of U");
+  }
   require_finite("z", problem.z);
   require_finite("s", problem.s);
   if (!problem.U.is_finite())

@@ -1,11 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "convex/constraint_rows.hpp"
 #include "convex/metric.hpp"
 
 namespace convex {
+
+/// By how much the doubles of a problem may be off the numbers that they stand for: ||δu_a||_(D⁻¹) <= row_a,
+/// D the diagonal of A, and |δs_a| <= s_a. Rows that some numbers within their radii make dependent, and
+/// consistent, count as that. Both: m.
+struct DataRadii {
+  Vector row, s;
+};
+
+/// The radii of the rows chosen, in that order; none where there are none.
+std::optional<DataRadii> select(const std::optional<DataRadii>&, const std::vector<Index>& rows);
+
+struct NearestPointProblem;
+/// Radii as if every number of U and s had been rounded so many times.
+DataRadii rounding_radii(const NearestPointProblem&, double roundings);
 
 /// The nearest-point problem (Moreau 1966, (10), (13)): find q (written q'' in mechanics) that minimises
 /// ½ q·Aq - z·q over u_a·q >= s_a, with equality for the two-sided rows. With x = Aq and (x|y) = x·A⁻¹y
@@ -17,6 +32,7 @@ struct NearestPointProblem {
   ConstraintRows U;
   Vector s;
   std::vector<Index> two_sided;
+  std::optional<DataRadii> radii = {};  ///< none: the doubles are the numbers that are meant
 
   Index dimension() const { return A.dimension(); }
   Index rows() const { return U.count(); }

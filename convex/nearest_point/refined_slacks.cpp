@@ -36,7 +36,7 @@ Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vecto
     } else if (std::abs(rest[a]) <= plain_rounding * (s + problem.U.absolute_dot(a, q_size))) {
       rest[a] = slack(problem, a, point.q).value();
       if (std::abs(rest[a]) > silence * (s + length * set.scale()) + 2 * length * left) continue;
-      if (rest[a] < 0) point.silenced += 2 * moved_edge(set, a, -rest[a], split);
+      if (rest[a] < 0 && problem.radii) point.silenced += 2 * moved_edge(set, a, -rest[a], split);
       rest[a] = 0;
     }
   }

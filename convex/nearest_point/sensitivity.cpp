@@ -45,7 +45,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
     face.s[static_cast<Index>(k)] = ds[tight[k]];
     if (loaded[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
   }
-  const Solution moved = active_set(face);
+  const Solution moved = active_set(face, {.limit = 0});
   if (moved.q.size() != problem.dimension()) return std::nullopt;
   Derivative found{moved.q, face.U.transpose_times(moved.lambda), std::nullopt};
   if (multipliers.unique) {

@@ -1,9 +1,11 @@
 #include "convex/nearest_point/short_way.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/held_residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/refinement.hpp"
 
 namespace convex {
@@ -201,8 +203,14 @@ bool ShortWay::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
   return bound_ <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
 }
 
+bool ShortWay::touches_rows() const {
+  return std::any_of(touched_, touched_ + touched_count_, [&](Index a) { return !(slack_[a] > 0); });
+}
+
 void ShortWay::write(Solution& solution) const {
   solution.method = "active-set";
+  solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
+  solution.model.islands.clear();
   solution.steps = set_->steps();
   solution.q = Eigen::Map<const Vector>(q_, n_);
   solution.lambda.setZero(m_);

@@ -28,16 +28,18 @@ class ShortWay {
   void residual();
   void precise_slacks();
   bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
+  bool touches_rows() const;
   void write(Solution& solution) const;
   bool measure_slacks();
   bool judge_touched_rows();
   bool measure_touched_slacks();
   double slack_noise(Index a) const;
   double rise(Index a) const;
-  bool is_parallel_to_held(Index a) const;
+  bool keeps_touched_rows_exactly() const;
+  std::optional<int> slack_sign_by_parallel_row(Index a) const;
   bool split(Index a);
   bool find_way_up(Index count);
-  bool is_spanned_exactly(Index a);
+  bool is_kept_as_sum(Index a) const;
   double violation_of_touched_rows(double known);
   Residuals residuals_of_active();
 

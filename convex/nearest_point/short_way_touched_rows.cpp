@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
+#include "convex/exact/exact_sum.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/short_way.hpp"
 
 namespace convex {
@@ -17,36 +20,28 @@ constexpr double margin = 16;
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
 
-/// Coefficients of an exact sum are fractions with a denominator up to this; doubles tell them apart from
-/// others by `close`, and from 0 by `noise`.
-constexpr double largest_denominator = 4096, close = 1e-9, noise = 1e-9;
-
-/// The smallest k with x k whole as far as doubles tell, by continued fractions; 0 when it is too large.
-double denominator(double x) {
-  double before = 0, k = 1, rest = x;
-  while (std::abs(x * k - std::round(x * k)) > close * std::max(1.0, std::abs(x)) * k) {
-    rest = 1 / (rest - std::floor(rest));
-    const double next = std::floor(rest) * k + before;
-    before = k;
-    k = next;
-    if (!(k <= largest_denominator)) return 0;
-  }
-  return k;
-}
+/// Rows whose directions differ by less than this may be parallel; products without rounding tell.
+constexpr double noise = 1e-9;
 
 }  // namespace
 
-/// Rounding alone may hide that the exact point p of the rows held violates a row outside by 2⁻⁹⁵ or so. What
-/// is a sum of rows held, not one bit left over, it keeps. Where a motion e along the rows held raises all
-/// others that p touches, p + t e keeps all rows for a tiny t. Then ||q* - p|| <= t ||e||, q* the solution,
-/// since f grows by the square of that: a bound (`moved_`), whatever the angles are at which the rows meet.
-/// False when there is doubt.
+/// Rounding alone may hide that the exact point p of the rows held violates a row outside by 2⁻⁹⁵ or so.
+/// Where the doubles q are p and keep all rows without rounding, as at most vertices and at rest, nothing is
+/// left to tell; nor for a row that is a sum of rows held, not one bit left over, and asks for no more than
+/// they do. Where a motion e along the rows held raises all others that p touches, p + t e keeps all rows for
+/// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
+/// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
 bool ShortWay::judge_touched_rows() {
   if (!measure_touched_slacks()) return false;
+  if (keeps_touched_rows_exactly()) return true;
   Index count = 0, fresh = 0;  // close_ has `count` rows that are not parallel to rows held
   for (Index k = 0; k < touched_count_; ++k) {
     const Index a = touched_[k];
-    if (slack_[a] > 0 || is_parallel_to_held(a)) continue;
+    if (slack_[a] > 0) continue;
+    if (const std::optional<int> sign = slack_sign_by_parallel_row(a)) {
+      if (*sign < 0) return false;
+      continue;
+    }
     close_[count++] = a;
     if (set_->rows().place(a) < 0) fresh_[fresh++] = a;
   }
@@ -56,7 +51,7 @@ bool ShortWay::judge_touched_rows() {
   for (Index k = 0; k < count; ++k) {
     if (split(close_[k]))
       close_[independent++] = close_[k];
-    else if (!is_spanned_exactly(close_[k]))
+    else if (!is_kept_as_sum(close_[k]))
       return false;
   }
   if (independent == 0) return true;
@@ -94,7 +89,19 @@ double ShortWay::slack_noise(Index a) const {
   return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) + margin * row_scale_[a] * remaining_;
 }
 
-bool ShortWay::is_parallel_to_held(Index a) const {
+/// Whether q is, without rounding, the point of the rows held and keeps those it touches.
+bool ShortWay::keeps_touched_rows_exactly() const {
+  if (std::any_of(q_low_, q_low_ + n_, [](double x) { return x != 0; })) return false;
+  const Vector q = Eigen::Map<const Vector>(q_, n_);
+  std::vector<Index> touched;
+  for (Index k = 0; k < touched_count_; ++k)
+    if (!(slack_[touched_[k]] > 0)) touched.push_back(touched_[k]);
+  return keeps_exactly(problem_, q, std::vector<Index>(rows_, rows_ + set_->size()), touched);
+}
+
+/// The sign of the slack of row a where a row held that is parallel to it, not one bit off, holds with
+/// equality; none where there is no such row.
+std::optional<int> ShortWay::slack_sign_by_parallel_row(Index a) const {
   const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
   const double part = std::abs(u[0]) / row_scale_[a];
   for (Index j = 0; j < set_->size(); ++j) {
@@ -103,12 +110,18 @@ bool ShortWay::is_parallel_to_held(Index a) const {
     const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
     Index i = 0;
     while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
-    if (i < n_) continue;
-    for (i = 0; i < n_; ++i)
-      if (two_product(u[i], v[p]).lo != two_product(u[p], v[i]).lo) break;
-    if (i == n_ && u[p] * v[p] != 0) return true;
+    if (i < n_ || u[p] == 0) continue;
+    const auto cross = [&](double x, double y) {  // of v[p] x - u[p] y
+      ExactSum sum;
+      sum.add_product(v[p], x);
+      sum.add_product(-u[p], y);
+      return sum.sign();
+    };
+    for (i = 0; i < n_ && cross(u[i], v[i]) == 0; ++i) continue;
+    // u = (u_p / v_p) v, so that v_p (u·q - s_a) = u_p s_v - v_p s_a.
+    if (i == n_) return -cross(problem_.s[a], problem_.s[rows_[j]]) * (v[p] > 0 ? 1 : -1);
   }
-  return false;
+  return std::nullopt;
 }
 
 /// load_ := the coefficients of row a, which has been looked at, in terms of the rows held. Whether it is
@@ -157,28 +170,12 @@ double ShortWay::rise(Index a) const {
   return up;
 }
 
-/// Whether row a, split just now, is a sum of rows held with short fractions as coefficients, not one bit
-/// left over.
-bool ShortWay::is_spanned_exactly(Index a) {
-  double whole = 1;
-  const double square = set_->rows().square(set_->rows().place(a));
-  Index terms = 0;
-  for (Index j = 0; j < set_->size(); ++j) {
-    if (load_[j] * load_[j] * set_->rows().square(set_->place(j)) <= noise * noise * square) continue;
-    whole *= denominator(load_[j] * whole);
-    if (!(whole > 0 && whole <= largest_denominator)) return false;
-    load_[terms] = load_[j];
-    fresh_[terms++] = rows_[j];
-  }
-  const double* const U = problem_.U.dense().data();
-  double *const hi = pack_, *const lo = pack_ + padded(n_);  // 8 n_ numbers are there
-  fill_packs(padded(n_), 0, hi);
-  fill_packs(padded(n_), 0, lo);
-  add_multiple(n_, U + a * n_, {whole, 0}, hi, lo);
-  for (Index l = 0; l < terms; ++l)
-    add_multiple(n_, U + fresh_[l] * n_, {-std::round(load_[l] * whole), 0}, hi, lo);
-  return std::all_of(hi, hi + n_, [](double x) { return x == 0; }) &&
-         std::all_of(lo, lo + n_, [](double x) { return x == 0; });
+/// Whether row a, split just now, is a sum of rows held with short fractions as coefficients, and asks for no
+/// more than they do.
+bool ShortWay::is_kept_as_sum(Index a) const {
+  const std::vector<Index> held(rows_, rows_ + set_->size());
+  const std::optional<int> sign = slack_sign_on_edge(problem_, a, held, load_);
+  return sign && *sign >= 0;
 }
 
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds

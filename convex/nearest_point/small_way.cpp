@@ -176,6 +176,8 @@ bool SmallWay::answer(const Accuracy& accuracy, Solution& solution) {
   }
   solution.residuals = residuals();
   solution.method = "active-set";
+  solution.undecided = {};
+  solution.model.islands.clear();
   solution.steps = t.steps;
   solution.q = Eigen::Map<const Vector>(t.q, t.n);
   solution.lambda.setZero(t.m);

@@ -23,7 +23,14 @@ struct Accuracy {
   /// its equations, measured in doubles, bounds the error by the tolerance and no row is close to tipping
   /// over; some 1e-15 off instead of rounded right, and quicker.
   bool refine = true;
+  /// What doubles cannot decide is decided in fractions where that takes at most so many times
+  /// `most_word_operations`; 0: never, and then it is said.
+  double limit = 1;
 };
+
+/// The word operations that fractions may take where doubles leave a decision open: some seconds. A count, so
+/// that the same problem ends the same way everywhere.
+inline constexpr double most_word_operations = 3e9;
 
 /// The relative residuals of docs/problem-files.md, at the printed numbers.
 /// feasibility: max_a (s_a - u_a·q)⁺ / (|s_a| + ||u_a||_(A⁻¹) ||q||_A) (|s_a - u_a·q| for a two-sided row);
@@ -49,7 +56,8 @@ struct Solution {
   Vector farkas;
   Index steps = 0;        ///< of the method: rows taken in or dropped, pivots, iterations
   bool polished = false;  ///< q solves the equations of the rows that an iteration showed to be active
-  Model model;            ///< what was solved; filled in by `auto`
+  std::string_view undecided = {};  ///< what doubles left open, where fractions did not decide it; else empty
+  Model model;                      ///< what was solved; filled in by `auto`
 };
 
 }  // namespace convex

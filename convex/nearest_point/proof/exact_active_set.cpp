@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/integer_system.hpp"
@@ -54,8 +55,11 @@ class HeldRows {
 
 class ExactActiveSet {
  public:
-  ExactActiveSet(const ExactProblem& problem, const std::vector<Index>& guess)
-      : problem_(problem), n_(problem.z.size()), two_sided_(problem.s.size(), false) {
+  ExactActiveSet(const ExactProblem& problem, const std::vector<Index>& guess, double most_words)
+      : problem_(problem),
+        n_(problem.z.size()),
+        most_words_(most_words),
+        two_sided_(problem.s.size(), false) {
     for (Index a : problem.two_sided) two_sided_[at(a)] = true;
     IntegerRows candidates;
     for (Index a : guess) candidates.push_back(problem.U[at(a)]);
@@ -66,30 +70,47 @@ class ExactActiveSet {
   }
 
   ExactSolution solve() {
-    drop_negative();
+    if (!drop_negative()) return solution_;
     while (true) {
       find_slacks();
       const Index p = most_violated();
       if (p < 0) return answer();
-      if (!take_in(p)) return solution_;
-      point_ = HeldRows(problem_, rows_).point();
+      if (!take_in(p) || !find_point()) return solution_;
     }
   }
 
  private:
+  /// Whether one more linear system is affordable; if not, the method gives up.
+  bool afford() {
+    const double next = word_operations(problem_, rows_.size());
+    if (solution_.word_operations + next > most_words_) {
+      solution_.status = Status::gave_up;
+      return false;
+    }
+    solution_.word_operations += next;
+    return true;
+  }
+
+  bool find_point() {
+    if (!afford()) return false;
+    point_ = HeldRows(problem_, rows_).point();
+    return true;
+  }
+
   const Integer& multiplier(std::size_t k) const { return point_.numerators[n_ + k]; }
 
-  /// Drops one-sided rows until the others have multipliers >= 0: the dual method can start there.
-  void drop_negative() {
-    while (true) {
-      point_ = HeldRows(problem_, rows_).point();
+  /// Drops one-sided rows until the others have multipliers >= 0: the dual method can start there. False when
+  /// it gives up.
+  bool drop_negative() {
+    while (find_point()) {
       std::vector<Index> kept;
       for (std::size_t k = 0; k < rows_.size(); ++k)
         if (two_sided_[at(rows_[k])] || multiplier(k).sign() >= 0) kept.push_back(rows_[k]);
-      if (kept.size() == rows_.size()) return;
+      if (kept.size() == rows_.size()) return true;
       solution_.steps += static_cast<Index>(rows_.size() - kept.size());
       rows_ = std::move(kept);
     }
+    return false;
   }
 
   void find_slacks() {
@@ -117,13 +138,15 @@ class ExactActiveSet {
     return worst;
   }
 
-  /// Takes the violated row p in, dropping rows that block; false when rows contradict each other.
+  /// Takes the violated row p in, dropping rows that block; false when rows contradict each other, or when it
+  /// gives up.
   bool take_in(Index p) {
     const int side = slack_[at(p)].sign() < 0 ? 1 : -1;  // a two-sided row may be violated from above
     IntegerVector row = problem_.U[at(p)];
     if (side < 0)
       for (Integer& entry : row) entry = -entry;
     while (true) {
+      if (!afford()) return false;
       const HeldRows held(problem_, rows_);
       point_ = held.point();
       const ExactVector direction = held.direction(row);
@@ -187,6 +210,7 @@ class ExactActiveSet {
 
   const ExactProblem& problem_;
   std::size_t n_;
+  double most_words_;
   std::vector<bool> two_sided_;
   Vector lengths_;
   std::vector<Index> rows_;
@@ -214,8 +238,31 @@ bool proves_infeasibility(const ExactProblem& problem, const IntegerVector& w) {
   return dot(problem.s, weights).sign() > 0;
 }
 
-ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess) {
-  return ExactActiveSet(problem, guess).solve();
+double word_operations(const ExactProblem& problem, std::size_t held) {
+  constexpr double word = 64, digit = 62;  // bits; of a number, and that a step of lifting gives
+  const std::size_t n = problem.z.size();
+  std::vector<double> bits;
+  double longest = 1, of_all = 0;
+  const auto longest_of = [&](const IntegerVector& row, const Integer& right) {
+    std::size_t most = right.bits();
+    for (const Integer& entry : row) most = std::max(most, entry.bits());
+    longest = std::max(longest, static_cast<double>(most));
+    return static_cast<double>(most);
+  };
+  for (std::size_t i = 0; i < n; ++i) of_all += longest_of(problem.A[i], problem.z[i]);
+  for (std::size_t a = 0; a < problem.s.size(); ++a) bits.push_back(longest_of(problem.U[a], problem.s[a]));
+  std::sort(bits.begin(), bits.end(), std::greater<>());
+  for (std::size_t k = 0; k < std::min(held, bits.size()); ++k) of_all += bits[k];
+  const double N = static_cast<double>(n + held), m = static_cast<double>(problem.s.size());
+  const double words = 1 + longest / word, digits = 1 + 2 * of_all / digit;
+  // The inverse modulo a prime; lifting; reading off the fractions; slacks.
+  return N * N * N + digits * N * N * (1 + words) + N * digits * digits +
+         m * static_cast<double>(n) * digits * words;
+}
+
+ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess,
+                               double most_words) {
+  return ExactActiveSet(problem, guess, most_words).solve();
 }
 
 std::vector<ExactVector> exact_expansions(const ExactProblem& problem, const std::vector<Index>& basis,

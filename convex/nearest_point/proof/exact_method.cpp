@@ -11,7 +11,7 @@
 namespace convex {
 
 std::vector<Index> likely_active_rows(const NearestPointProblem& problem) {
-  const Solution solution = active_set(problem);
+  const Solution solution = active_set(problem, {.limit = 0});
   if (solution.farkas.size() == 0) return solution.basis;
   std::vector<Index> rows = problem.two_sided;
   for (Index a = 0; a < problem.rows(); ++a)

@@ -35,6 +35,7 @@ void Assembly::add(Solution part, const std::vector<Index>& coordinates, const s
   }
   for (LeftOutRow out : part.model.left_out)
     solution_.model.left_out.push_back({rows[static_cast<std::size_t>(out.row)], out.why});
+  if (solution_.undecided.empty()) solution_.undecided = part.undecided;
   const double flops = part.model.flops();
   // The name of the whole is that of its hardest island.
   if (flops > most_flops_) {
@@ -49,6 +50,8 @@ void Assembly::fail(Solution part, const std::vector<Index>& rows) {
   solution_.status = part.status;
   solution_.method = part.method;
   solution_.steps = part.steps;
+  solution_.undecided = part.undecided;
+  solution_.model = std::move(part.model);
   solution_.farkas = Vector::Zero(whole_.rows());
   if (part.farkas.size() == static_cast<Index>(rows.size()))
     for (std::size_t k = 0; k < rows.size(); ++k)
@@ -82,7 +85,8 @@ Solution Assembly::finish(const Accuracy& accuracy) {
                                              solution_.acceleration_norm,
                                              solution_.force_norm});
   const bool close = solution_.error_bound <= accuracy.tolerance * std::max(1.0, solution_.acceleration_norm);
-  solution_.status = close ? Status::solved : Status::inaccurate;
+  solution_.status =
+      close && (whole_.radii || solution_.undecided.empty()) ? Status::solved : Status::inaccurate;
   return std::move(solution_);
 }
 

@@ -151,7 +151,8 @@ class BorderedChain {
       U(j, bounded[at(j)]) = 1;
       s[j] = -mu[bounded[at(j)]];
     }
-    const Solution found = active_set({Metric::dense(H), left, ConstraintRows(std::move(U)), s, {}});
+    const Solution found =
+        active_set({Metric::dense(H), left, ConstraintRows(std::move(U)), s, {}}, {.limit = 0});
     if (found.status != Status::solved && found.status != Status::inaccurate) return false;
     d = found.q;
     return d.allFinite();

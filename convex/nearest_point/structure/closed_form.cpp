@@ -121,7 +121,10 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
       std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(point.q.lo.cwiseAbs2()));
   if (problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity)
     solution.rounding = problem.A.norm(point.q.lo);
-  solution.error_bound = 2 * point.remaining + solution.rounding;
+  // A slack within its rounding counts as 0: then the row's edge is that close.
+  const double edge =
+      problem.rows() == 1 ? silence * (std::abs(problem.s[0]) / formula.length() + formula.free_norm()) : 0;
+  solution.error_bound = 4 * point.remaining + edge + solution.rounding;
   solution.residuals =
       residuals(problem, solution.q, solution.lambda,
                 KnownParts{Vector::Constant(problem.rows(), problem.rows() > 0 ? formula.length() : 0.0),

@@ -172,7 +172,8 @@ NearestPointProblem island_problem(const NearestPointProblem& whole, const std::
                            Vector(n),
                            row_block(whole.U, coordinates, rows, place),
                            Vector(m),
-                           {}};
+                           {},
+                           select(whole.radii, rows)};
   for (Index i = 0; i < n; ++i) part.z[i] = whole.z[coordinates[static_cast<std::size_t>(i)]];
   for (Index k = 0; k < m; ++k) {
     const Index a = rows[static_cast<std::size_t>(k)];

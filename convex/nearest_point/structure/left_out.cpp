@@ -44,8 +44,12 @@ std::vector<Index> rows_out_of_reach(const NearestPointProblem& problem) {
 }
 
 NearestPointProblem with_rows(const NearestPointProblem& problem, const std::vector<Index>& kept) {
-  NearestPointProblem part{
-      problem.A, problem.z, problem.U.select(kept), Vector(static_cast<Index>(kept.size())), {}};
+  NearestPointProblem part{problem.A,
+                           problem.z,
+                           problem.U.select(kept),
+                           Vector(static_cast<Index>(kept.size())),
+                           {},
+                           select(problem.radii, kept)};
   for (std::size_t k = 0; k < kept.size(); ++k) {
     part.s[static_cast<Index>(k)] = problem.s[kept[k]];
     if (std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), kept[k]))

@@ -6,6 +6,8 @@
 
 #include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
 #include "convex/nearest_point/structure/interior_point_start.hpp"
@@ -231,6 +233,8 @@ class SparseActiveSet {
     const bool close =
         solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
     solution.status = close ? Status::solved : Status::inaccurate;
+    // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
+    if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
     solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
                                static_cast<double>(system_.factorisations()) * system_.flops(),
                                system_.nonzeros()}};
@@ -267,7 +271,15 @@ class SparseActiveSet {
     const double reach = farthest * problem_.A.dual_norm(problem_.z);
     if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
     solution.farkas = w / w.cwiseAbs().maxCoeff();
-    if (proves_infeasibility(problem_, solution.farkas, reach)) solution.status = Status::infeasible;
+    if (!proves_infeasibility(problem_, solution.farkas, reach)) return solution;
+    if (problem_.radii) {
+      solution.status = Status::infeasible;
+    } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem_, solution.farkas)) {
+      solution.farkas = std::move(proof->farkas);
+      solution.status = Status::infeasible;
+    } else {
+      solution.undecided = open_question::contradiction;
+    }
     return solution;
   }
 
@@ -289,7 +301,7 @@ class SparseActiveSet {
 Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                            const std::vector<Index>& guess) {
   validate(problem);
-  return SparseActiveSet(problem, accuracy).run(guess);
+  return decided_in_fractions(problem, SparseActiveSet(problem, accuracy).run(guess), accuracy);
 }
 
 }  // namespace convex

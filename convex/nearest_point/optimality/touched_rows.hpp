@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string_view>
+
+#include "convex/nearest_point/working_set.hpp"
+
+namespace convex {
+
+/// Decides without rounding whether the point q of the rows W keeps the rows outside W that it touches as far
+/// as doubles tell: those with slack <= 0, and two-sided ones. Either q itself, in doubles, is the point and
+/// keeps them, or each of them is a sum of rows of W and asks for no more than they do. slack: m; where all
+/// are kept, theirs becomes 0 and nothing is returned; else what stays open (`open_question`).
+template <int MaxSize>
+std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q, Vector& slack);
+
+}  // namespace convex
