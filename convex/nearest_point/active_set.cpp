@@ -62,7 +62,8 @@ class DualActiveSet {
       if (outcome == Outcome::infeasible) return infeasible_answer(set_, farkas_, steps_);
       if (outcome == Outcome::unchanged) return answer(refined, true);
     }
-    return answer(refined, false);
+    set_.solve();
+    return answer(refine(set_), false);
   }
 
  private:
@@ -347,9 +348,12 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
                     const std::vector<Index>& guess) {
   validate(problem);
   validate_guess(problem, guess);
-  if (std::optional<Solution> found = well_conditioned(problem, accuracy, guess)) return *std::move(found);
+  std::optional<Solution> quick = well_conditioned(problem, accuracy, guess);
+  if (quick && quick->status == Status::solved) return *std::move(quick);
   Solution found = problem.dimension() <= 8 ? DualActiveSet<8>(problem, accuracy).run(guess)
                                             : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
+  if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
+    found.undecided = open_question::conditioning;
   return decided_in_fractions(problem, std::move(found), accuracy);
 }
 

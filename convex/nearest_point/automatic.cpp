@@ -70,7 +70,8 @@ bool is_large_and_sparse(const NearestPointProblem& problem) {
 Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
                          const std::vector<Index>& guess) {
   if (problem.rows() <= 1)
-    if (std::optional<Solution> found = closed_form(problem, accuracy)) {
+    if (std::optional<Solution> found = closed_form(problem, accuracy);
+        found && found->status == Status::solved) {
       const double n = static_cast<double>(problem.dimension());
       const bool dense = problem.A.kind() == MetricKind::dense;
       found->model.islands = {{found->method, problem.dimension(), problem.rows(), 0,

@@ -311,4 +311,28 @@ double GramPivoting::inverse_norm() const {
   return std::sqrt(square);
 }
 
+double GramPivoting::condition(double* x) const {
+  constexpr int passes = 2;
+  double largest = 0, sum = static_cast<double>(size_);
+  for (Index j = 0; j < padded(size_); ++j)
+    x[j] = j < size_ ? (j % 2 == 0 ? 1 : -1) * std::sqrt(rows_.square(at_[j])) : 0;
+  for (int pass = 0; pass < passes && sum > 0; ++pass) {
+    const double before = std::sqrt(sum);
+    for (Index j = 0; j < size_; ++j) x[j] /= before;
+    solve(x);
+    sum = 0;
+    for (Index j = 0; j < size_; ++j) {
+      const double square = rows_.square(at_[j]);
+      sum += x[j] * x[j] * square;
+      x[j] *= square;
+    }
+    largest = std::max(largest, std::sqrt(sum));
+  }
+  for (Index j = 0; j < size_; ++j) {
+    const double pivot = C_[j * (padded(size_) + 1)];
+    largest = std::max(largest, rows_.square(at_[j]) / (pivot * pivot));
+  }
+  return static_cast<double>(size_) * largest;
+}
+
 }  // namespace convex

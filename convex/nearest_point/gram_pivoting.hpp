@@ -52,6 +52,9 @@ class GramPivoting {
   void point(double* w, double* q) const;
   /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
   double inverse_norm() const;
+  /// An estimate of the condition of the Gram matrix of the rows held, each divided by its length, by inverse
+  /// iteration; x: room for the rows held, padded.
+  double condition(double* x) const;
 
  private:
   enum State : Index { outside, held, two_sided, passed };

@@ -121,15 +121,21 @@ class OrthogonalFactor {
     if (size_ > 0)
       R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().transpose().solveInPlace(x);
   }
-  /// An estimate of 1 / (smallest singular value of R), from one step of inverse iteration each way.
+  /// An estimate of 1 / (smallest singular value of R): one step of inverse iteration each way, from signs that let
+  /// the first solution grow (Cline, Moler, Stewart and Wilkinson 1979).
   double inverse_norm() const {
     if (size_ == 0) return 0;
     if (inverse_norm_ > 0) return inverse_norm_;
-    Column x = Column::Constant(size_, 1 / std::sqrt(static_cast<double>(size_)));
-    solve_lower(x);
+    Column x(size_);
+    double least = std::abs(R_(0, 0));
+    for (Index j = 0; j < size_; ++j) {
+      const double sum = R_.col(j).head(j).dot(x.head(j));
+      x[j] = -(std::copysign(1, sum) + sum) / R_(j, j);
+      least = std::min(least, std::abs(R_(j, j)));
+    }
     x /= x.norm();
     solve_upper(x);
-    return inverse_norm_ = x.norm();
+    return inverse_norm_ = std::max(x.norm(), 1 / least);
   }
 
  private:

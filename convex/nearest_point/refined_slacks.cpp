@@ -26,14 +26,15 @@ Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vecto
   const NearestPointProblem& problem = set.problem();
   const Vector q_size = point.q.hi.cwiseAbs();
   const double plain_rounding = 2 * static_cast<double>(problem.dimension()) * unit_roundoff;
-  const double left = point.remaining();
+  const double left = point.remaining() + point.silenced;
   Vector rest = problem.U.times(point.q.hi) - problem.s;
   typename WorkingSet<MaxSize>::Split split;
   for (Index a = 0; a < problem.rows(); ++a) {
     const double s = std::abs(problem.s[a]), length = row_scale[a];
     if (set.holds(a)) {
       rest[a] = 0;
-    } else if (std::abs(rest[a]) <= plain_rounding * (s + problem.U.absolute_dot(a, q_size))) {
+    } else if (std::abs(rest[a]) <=
+               plain_rounding * (s + problem.U.absolute_dot(a, q_size)) + 2 * length * left) {
       rest[a] = slack(problem, a, point.q).value();
       if (std::abs(rest[a]) > silence * (s + length * set.scale()) + 2 * length * left) continue;
       if (rest[a] < 0 && problem.radii) point.silenced += 2 * moved_edge(set, a, -rest[a], split);

@@ -29,12 +29,12 @@ double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
   return silenced;
 }
 
-/// How much the factors of A and of W enlarge a residual.
+/// The condition of the whitened rows held.
 template <int MaxSize>
-double condition(const WorkingSet<MaxSize>& set) {
+double row_condition(const WorkingSet<MaxSize>& set) {
   double longest = 0;
   for (Index k = 0; k < set.size(); ++k) longest = std::max(longest, set.factor().length(k));
-  return set.problem().A.factor_condition() + set.factor().inverse_norm() * longest;
+  return set.factor().inverse_norm() * longest;
 }
 
 }  // namespace
@@ -46,8 +46,10 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   RefinedPoint point{DoubleDoubleVector(set.point()),
                      DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
   const double scale = set.scale();
-  const double enlarged = condition(set);  // a residual is rounded once, its terms in twice the precision
-  point.floor = 4 * unit_roundoff * unit_roundoff * enlarged * scale;
+  const double of_A = problem.A.factor_condition(), of_rows = row_condition(set);
+  // A residual is rounded once, its terms in twice the precision.
+  point.floor = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
+  const double expected = expected_contraction(of_A, of_rows * of_rows, false);
   double previous = scale;  // the first solve is the correction of nothing
   Column dw, dlambda, r2(set.size());
   Vector dq, step;
@@ -69,8 +71,8 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     // failure.
     const double floor = at_rounding * scale;
     if (k == 0)
-      point.contraction = std::max(point.last > 0 ? point.last / previous : 0,
-                                   std::min(slowest_contraction / 2, unit_roundoff * enlarged));
+      point.contraction =
+          std::max(point.last > 0 ? point.last / previous : 0, std::min(slowest_contraction / 2, expected));
     else if (point.last > floor)
       point.contraction = std::max(point.contraction, point.last / previous);
     dq = problem.A.unwhiten(dw);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -10,7 +12,17 @@ inline constexpr double enough = 0x1p-68;
 
 /// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
 /// what is missing by this much.
-inline constexpr double largest_contraction = 0x1p-30;
+inline constexpr double largest_contraction = 0x1p-20;
+
+/// By what corrections shrink what is missing, estimated from conditions: A + E is factored instead of A,
+/// which leaves u times the condition of A, that of its factor squared; the whitened rows are rounded with
+/// that factor; and the rows held are factored with the condition of their Gram matrix where that is what is
+/// factored, else with its root. gram_condition: of rows divided by their lengths.
+inline double expected_contraction(double factor_condition, double gram_condition, bool by_gram_matrix) {
+  const double rows = std::sqrt(gram_condition);
+  return unit_roundoff *
+         (factor_condition * (factor_condition + rows) + (by_gram_matrix ? gram_condition : rows));
+}
 
 /// An entry that the correction takes to this part of it is 0 as far as that tells.
 inline constexpr double cancelled = 0x1p-24;

@@ -92,14 +92,13 @@ bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
 /// q and lambda of the rows held, in doubles.
 void ShortWay::take_point() {
   set_->point(w_, q_);
-  double longest = 0;
   for (Index j = 0; j < set_->size(); ++j) {
     rows_[j] = set_->row(j);
     lambda_[j] = set_->lambda()[set_->place(j)];
-    longest = std::max(longest, set_->rows().square(set_->place(j)));
   }
   inverse_norm_ = set_->inverse_norm();
-  condition_ = problem_.A.factor_condition() + inverse_norm_ * std::sqrt(longest);
+  gram_condition_ = set_->condition(load_);
+  condition_ = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
 }
@@ -130,7 +129,9 @@ bool ShortWay::correct() {
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
   // A residual is rounded once, and the factors of A and of the rows held enlarge that.
-  const double contraction = std::max(scale_ > 0 ? first_ / scale_ : 0, unit_roundoff * condition_);
+  const double contraction =
+      std::max(scale_ > 0 ? first_ / scale_ : 0,
+               expected_contraction(problem_.A.factor_condition(), gram_condition_, true));
   remaining_ =
       first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
   if (!(contraction <= largest_contraction && remaining_ <= enough * scale_)) return false;
@@ -175,7 +176,8 @@ bool ShortWay::round() {
     if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
   }
   rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
-  bound_ = 2 * remaining_ + std::sqrt(static_cast<double>(n_) * silenced) + rounding_;
+  silenced_ = std::sqrt(static_cast<double>(n_) * silenced);
+  bound_ = 2 * remaining_ + silenced_ + rounding_;
   return true;
 }
 
@@ -183,7 +185,7 @@ bool ShortWay::round() {
 /// of the equations does not do.
 bool ShortWay::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
   fill_packs(ld_, 0, q_low_);
-  remaining_ = rounding_ = 0;
+  remaining_ = rounding_ = silenced_ = 0;
   for (Index j = 0; j < set_->size(); ++j)
     if (!set_->is_two_sided(rows_[j]) &&
         !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * scale_))
@@ -230,6 +232,7 @@ bool ShortWay::measure_slacks() {
   for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
   magnitude_ = std::sqrt(magnitude_);
   const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
+  const double unsure_point = margin * (remaining_ + silenced_);
   touched_count_ = 0;
   Index held = 0;
   for (Index a = 0; a < m_; ++a) {
@@ -239,8 +242,10 @@ bool ShortWay::measure_slacks() {
       slack_[a] = 0;
       continue;
     }
-    if (slack_[a] > rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)) continue;
-    if (slack_[a] < -rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)) return false;
+    const double unsure =
+        rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) + row_scale_[a] * unsure_point;
+    if (slack_[a] > unsure) continue;
+    if (slack_[a] < -unsure) return false;
     touched_[touched_count_++] = a;
   }
   invariant(held == set_->size(), "a row that counts as held is among the rows held");

@@ -20,6 +20,10 @@ class ShortWay {
   bool solve_again(const Accuracy& accuracy, Solution& solution);
 
  private:
+  /// What is missing in a point may show this many times as large in a slack: ||u_a||_(D⁻¹), D the diagonal
+  /// of A, stands for the row's length, and what is missing is an estimate.
+  static constexpr double margin = 16;
+
   void whiten_force();
   bool finish(const Accuracy& accuracy, Solution& solution);
   void take_point();
@@ -53,8 +57,9 @@ class ShortWay {
   double *touched_slack_, *pack_;              // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
-  double inverse_norm_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
-  double moved_ = 0;  ///< how far rows that the point touches may move the answer
+  double inverse_norm_ = 0, gram_condition_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
+  double silenced_ = 0;  ///< at least ||·||_A of what cancelled and was taken for 0
+  double moved_ = 0;     ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
   bool once_more_ = false;  // with rows held that the point only touched
 };

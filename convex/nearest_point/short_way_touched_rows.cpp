@@ -13,10 +13,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
 constexpr double silence = 0x1p-95;
 
-/// What is missing in a point may show this many times as large in a slack: ||u_a||_(D⁻¹), D the diagonal of
-/// A, stands for the row's length, and what is missing is an estimate.
-constexpr double margin = 16;
-
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
 
@@ -86,7 +82,8 @@ bool ShortWay::measure_touched_slacks() {
 }
 
 double ShortWay::slack_noise(Index a) const {
-  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) + margin * row_scale_[a] * remaining_;
+  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) +
+         margin * row_scale_[a] * (remaining_ + silenced_);
 }
 
 /// Whether q is, without rounding, the point of the rows held and keeps those it touches.

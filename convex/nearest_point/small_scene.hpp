@@ -35,7 +35,10 @@ struct SmallScene {
   bool held[most], two_sided[most];
 
   Index steps = 0;
-  double force_norm = 0, acceleration_norm = 0, inverse_norm = 0, longest = 0, first = 0, stationarity = 0;
+  double force_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
+  double gram_condition =
+      0;              ///< of the Gram matrix of the rows held, each divided by its length; an estimate
+  double growth = 1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
 };
 
 /// What `SmallWay` does with it, for one processor family. Each is false when something is in doubt.

@@ -87,6 +87,8 @@ struct SmallSteps : Kernels<W, Fused> {
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
     if (!t.held[k] && !(pivot > nearly_dependent * t.square[k])) return false;
+    const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
+    t.growth = growth > t.growth ? growth : t.growth;
     alignas(64) double part[SmallScene::most];
     Pack c[packs], scaled[packs];
     const double load = t.b[k] * inverse;
@@ -119,6 +121,7 @@ struct SmallSteps : Kernels<W, Fused> {
   MOREAU_INLINE bool begin(SmallScene& t) {
     whiten_rows(t);
     whiten_force(t);
+    t.growth = 1;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallScene::most];
     for (Index a = 0; a < stride(t); ++a) {
@@ -199,13 +202,13 @@ struct SmallSteps : Kernels<W, Fused> {
   MOREAU_INLINE void find_point(SmallScene& t) {
     t.size = 0;
     double squares = 0;
-    t.longest = 0;
+    t.gram_condition = 0;
     for (Index a = 0; a < t.m; ++a) {
       if (!t.held[a]) continue;
       t.held_lambda[t.size] = t.b[a];
       t.rows[t.size++] = a;
       squares -= t.swept[a * (stride(t) + 1)];
-      t.longest = t.square[a] > t.longest ? t.square[a] : t.longest;
+      t.gram_condition -= t.swept[a * (stride(t) + 1)] * t.square[a];
     }
     t.inverse_norm = std::sqrt(squares);
     each(

@@ -98,7 +98,10 @@ bool SmallWay::solve_again(const Accuracy& accuracy, Solution& solution) {
 /// False when one correction does not do.
 bool SmallWay::correct() {
   small_kernels().correct(scene_);
-  contraction_ = std::max(scale_ > 0 ? scene_.first / scale_ : 0, unit_roundoff * condition_);
+  contraction_ =
+      std::max(scale_ > 0 ? scene_.first / scale_ : 0,
+               expected_contraction(scene_.factor_condition,
+                                    std::max(scene_.gram_condition, scene_.growth * scene_.growth), true));
   remaining_ = scene_.first * contraction_ / (1 - contraction_) +
                4 * unit_roundoff * unit_roundoff * condition_ * scale_;
   return contraction_ <= largest_contraction && remaining_ <= enough * scale_;
@@ -110,13 +113,14 @@ bool SmallWay::round() {
   SmallScene& t = scene_;
   const double missing = 4 * remaining_ * t.factor_condition;
   const double* const diagonal = problem_.A.diagonal().data();
-  double rounded = 0;
+  double rounded = 0, silenced = 0;
   Index small = 0;
   for (Index i = 0; i < t.n; ++i) {
     const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
     const double size = std::abs(sum.hi), step = std::abs(t.dq[i]);
     const bool is_zero = size <= 16 * contraction_ * step;
     small += !is_zero && size <= std::max(cancelled * step, missing * std::sqrt(t.inverse_diagonal[i]));
+    if (is_zero) silenced += diagonal[i] * sum.hi * sum.hi;
     t.q[i] = is_zero ? 0 : sum.hi;
     t.q_low[i] = is_zero ? 0 : sum.lo;
     rounded += diagonal[i] * t.q_low[i] * t.q_low[i];
@@ -129,7 +133,8 @@ bool SmallWay::round() {
     if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
   }
   rounding_ = std::sqrt(static_cast<double>(t.n) * rounded);
-  bound_ = 2 * remaining_ + rounding_;
+  silenced_ = std::sqrt(static_cast<double>(t.n) * silenced);
+  bound_ = 2 * remaining_ + silenced_ + rounding_;
   return true;
 }
 
@@ -140,8 +145,10 @@ bool SmallWay::is_clear() {
   for (Index i = 0; i < t.n; ++i) magnitude_ += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
   magnitude_ = std::sqrt(magnitude_);
   Index close = 0;
+  const double unsure = 16 * (remaining_ + silenced_);
   for (Index a = 0; a < t.m; ++a)
-    close += !t.held[a] && !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_));
+    close += !t.held[a] && !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) +
+                                              t.row_scale[a] * unsure);
   return close == 0;
 }
 
@@ -149,6 +156,7 @@ bool SmallWay::is_clear() {
 bool SmallWay::doubles_do(double close) {
   const SmallScene& t = scene_;
   small_kernels().measure(scene_);
+  remaining_ = silenced_ = 0;
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
@@ -166,7 +174,7 @@ bool SmallWay::doubles_do(double close) {
 bool SmallWay::answer(const Accuracy& accuracy, Solution& solution) {
   SmallScene& t = scene_;
   t.factor_condition = problem_.A.factor_condition();
-  condition_ = t.factor_condition + t.inverse_norm * std::sqrt(t.longest);
+  condition_ = t.factor_condition * (1 + std::sqrt(t.gram_condition));
   scale_ = std::max(t.acceleration_norm, t.force_norm);
   const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
   if (accuracy.refine || !doubles_do(close)) {

@@ -38,8 +38,8 @@ class SmallWay {
   const NearestPointProblem& problem_;
   SmallScene& scene_;
   Index sweeps_ = 0;
-  double scale_ = 0, condition_ = 0, contraction_ = 0, magnitude_ = 0, remaining_ = 0, rounding_ = 0,
-         bound_ = 0;
+  double scale_ = 0, condition_ = 0, contraction_ = 0, magnitude_ = 0, remaining_ = 0, silenced_ = 0,
+         rounding_ = 0, bound_ = 0;
 };
 
 }  // namespace convex

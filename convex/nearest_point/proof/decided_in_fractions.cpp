@@ -30,6 +30,11 @@ Solution left_open(Solution open) {
 
 Solution decided_in_fractions(const NearestPointProblem& problem, Solution open, const Accuracy& accuracy) {
   if (open.undecided.empty() || problem.radii) return open;
+  // Asked for more than doubles can hold: fractions, rounded, would be no better.
+  constexpr double few_ulps = 4 * unit_roundoff;
+  if (open.undecided == open_question::conditioning &&
+      open.error_bound <= few_ulps * open.acceleration_norm && open.status == Status::inaccurate)
+    return open;
   const double most = accuracy.limit * most_word_operations;
   // Sizes alone may tell that it is too much, before any number is converted.
   const double n = static_cast<double>(problem.dimension());

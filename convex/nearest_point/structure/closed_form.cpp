@@ -4,6 +4,7 @@
 
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/refinement.hpp"
 #include "convex/nearest_point/residuals.hpp"
 
 namespace convex {
@@ -11,7 +12,7 @@ namespace {
 
 /// As in refinement.cpp: what may be missing at the end, what corrections made of rounding are, how slowly
 /// they may shrink, and how many there are at most.
-constexpr double enough = 0x1p-68, at_rounding = 0x1p-80, slowest_contraction = 0.25;
+constexpr double at_rounding = 0x1p-80, slowest_contraction = 0.25;
 constexpr int most_corrections = 40;
 
 /// A slack computed in twice the precision is 0 when it is below this part of its terms.
@@ -45,7 +46,9 @@ class ClosedForm {
     point.q = DoubleDoubleVector(problem_.dimension());
     const std::vector<Index> rows = held ? std::vector<Index>{0} : std::vector<Index>{};
     const double scale = std::max(free_norm_, held ? std::abs(problem_.s[0]) / length() : 0.0);
-    double previous = scale, contraction = unit_roundoff;
+    double previous = scale;
+    double contraction =
+        std::min(slowest_contraction / 2, expected_contraction(problem_.A.factor_condition(), 1, false));
     for (int k = 0; k < most_corrections; ++k) {
       const Vector rest = stationarity_residual(problem_, point.q, rows, point.lambda);
       Vector dq = problem_.A.solve(rest);
@@ -66,8 +69,14 @@ class ClosedForm {
         break;
       }
     }
+    double silenced = 0;
     for (Index i = 0; i < point.q.size(); ++i)
-      if (std::abs(point.q.hi[i]) <= 2 * std::abs(point.last[i])) point.q.hi[i] = point.q.lo[i] = 0;
+      if (std::abs(point.q.hi[i]) <= 2 * std::abs(point.last[i])) {
+        silenced += problem_.A.diagonal()[i] * point.q.hi[i] * point.q.hi[i];
+        point.q.hi[i] = point.q.lo[i] = 0;
+      }
+    point.remaining +=
+        std::sqrt(static_cast<double>(point.q.size()) * silenced);  // ||x||_A² <= n Σ a_ii x_i²
     return point;
   }
 
