@@ -262,7 +262,12 @@ class DualActiveSet {
       }
       set_.remove(blocking);
       set_.split(p, split_);
-      if (violation <= w_noise * split_.length) return finish_change();
+      if (violation <= w_noise * split_.length) {
+        // Both steps end here as far as rounding tells: the row stays, with the multiplier that it has
+        // gained.
+        if (split_.rho > 0) set_.append(p, split_, multiplier);
+        return finish_change();
+      }
     }
   }
 
@@ -319,7 +324,7 @@ class DualActiveSet {
         if (!set_.holds(a) && (slack_[a] <= 0 || two_sided_[static_cast<std::size_t>(a)]))
           open = open_question::touched;
     } else if (finished) {
-      open = judge_touched_rows(set_, refined.q, slack_);
+      open = judge_touched_rows(set_, refined.q, row_scale_, slack_);
       if (open.empty()) left_outside_ = 0;
       if (open.empty()) flat_wedge_ = false;
     }

@@ -5,11 +5,12 @@
 namespace convex {
 namespace {
 
-/// A gap of a dependent row of so many roundings of the s it is made of is a rounded s, not a contradiction.
+/// Where s has no radii, the way goes on as if a gap of so many roundings were none; the end decides it
+/// without rounding.
 constexpr double gap_roundings = 16;
 
-/// What correct rounding of s can make of such a gap; the other half is for the coefficients.
-constexpr double rounded_s = 2;
+/// The coefficients are rounded.
+constexpr double rounding_of_sum = 2;
 
 /// A coefficient r_k whose part r_k v_k of v_p is below this part of the whole is rounding about zero.
 constexpr double coefficient_noise = 64 * unit_roundoff;
@@ -23,16 +24,18 @@ bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet
 
 namespace {
 
-/// s_p - Σ r_k s_k, the sum of the sizes of its terms, and of those whose r_k is noise.
+/// s_p - Σ r_k s_k, the sum of the sizes of its terms, what of it the rounding of s can explain, and the sum
+/// of the sizes of terms whose r_k is noise.
 struct Gap {
-  double value = 0, magnitude = 0, silenced = 0;
+  double value = 0, magnitude = 0, explained = 0, silenced = 0;
 };
 
 template <int MaxSize>
 Gap gap_of(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split) {
   const Vector& s = set.problem().s;
+  const std::optional<DataRadii>& radii = set.problem().radii;
   DoubleDouble sum{s[p], 0};
-  Gap gap{0, std::abs(s[p]), 0};
+  Gap gap{0, std::abs(s[p]), radii ? radii->s[p] : 0, 0};
   for (Index k = 0; k < set.size(); ++k) {
     const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[static_cast<std::size_t>(k)]]);
     if (is_noise(set, k, split)) {
@@ -41,7 +44,10 @@ Gap gap_of(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<Ma
     }
     sum = add(sum, term);
     gap.magnitude += std::abs(term.hi);
+    if (radii)
+      gap.explained += std::abs(split.coefficients[k]) * radii->s[set.rows()[static_cast<std::size_t>(k)]];
   }
+  gap.explained += (radii ? rounding_of_sum : gap_roundings) * unit_roundoff * gap.magnitude;
   gap.value = sum.value();
   return gap;
 }
@@ -52,8 +58,7 @@ template <int MaxSize>
 double contradiction(const WorkingSet<MaxSize>& set, Index p,
                      const typename WorkingSet<MaxSize>::Split& split) {
   const Gap gap = gap_of(set, p, split);
-  const double threshold =
-      gap_roundings * unit_roundoff * gap.magnitude + gap.silenced + 2 * split.direction.norm() * set.scale();
+  const double threshold = gap.explained + gap.silenced + 2 * split.direction.norm() * set.scale();
   return std::abs(gap.value) > threshold ? gap.value : 0;
 }
 
@@ -83,16 +88,6 @@ bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename Working
 }
 
 template <int MaxSize>
-bool is_empty_wedge(const WorkingSet<MaxSize>& set, Index p,
-                    const typename WorkingSet<MaxSize>::Split& split) {
-  if (split.rest > exact_dependence * split.magnitude) return false;
-  for (Index k = 0; k < set.size(); ++k)
-    if (set.one_sided(k) && split.coefficients[k] > 0 && !is_noise(set, k, split)) return false;
-  const Gap gap = gap_of(set, p, split);
-  return gap.value > rounded_s * unit_roundoff * gap.magnitude + gap.silenced;
-}
-
-template <int MaxSize>
 bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename WorkingSet<MaxSize>::Split& split) {
   if (is_exact_combination(set, split)) return false;
   bool can_give_way = false;
@@ -119,7 +114,6 @@ Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
   template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
   template Index blocking_row(const WorkingSet<size>&, const WorkingSet<size>::Split&);                 \
   template bool is_exact_combination(const WorkingSet<size>&, const WorkingSet<size>::Split&);          \
-  template bool is_empty_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);         \
   template bool is_flat_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);          \
   template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
   template Vector contradiction_weights(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&, \

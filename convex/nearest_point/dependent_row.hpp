@@ -32,12 +32,6 @@ bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename Working
 template <int MaxSize>
 bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split);
 
-/// Whether the one-sided row p depends on W exactly, no row of W can give way to it, and together they leave
-/// no point at all by more than rounding s to doubles can explain, even where `contradiction` lets it pass.
-template <int MaxSize>
-bool is_empty_wedge(const WorkingSet<MaxSize>& set, Index p,
-                    const typename WorkingSet<MaxSize>::Split& split);
-
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 template <int MaxSize>
 Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,

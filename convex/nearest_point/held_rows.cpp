@@ -40,7 +40,7 @@ class Polish {
       if (found_.farkas.size() > 0) return found_;
       std::string_view open;
       if (!problem_.radii) {
-        open = judge_touched_rows(set_, refined.q, slack_);
+        open = judge_touched_rows(set_, refined.q, row_scale_, slack_);
         if (open.empty()) contradiction_ = moved_edge_ = 0;
       }
       found_.held = held(refined);
@@ -116,10 +116,8 @@ class Polish {
       const bool spanned = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
         // Where rows that are flat to rounding meet, their edge may be far away.
-        const bool one_sided = !two_sided_[static_cast<std::size_t>(p)];
-        contradiction_ = is_flat_wedge(set_, p, split_) || (one_sided && is_empty_wedge(set_, p, split_))
-                             ? infinity
-                             : std::max(contradiction_, std::abs(slack_[p]));
+        contradiction_ =
+            is_flat_wedge(set_, p, split_) ? infinity : std::max(contradiction_, std::abs(slack_[p]));
         count_moved_edge(p);
         continue;
       }

@@ -121,8 +121,8 @@ class OrthogonalFactor {
     if (size_ > 0)
       R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().transpose().solveInPlace(x);
   }
-  /// An estimate of 1 / (smallest singular value of R): one step of inverse iteration each way, from signs that let
-  /// the first solution grow (Cline, Moler, Stewart and Wilkinson 1979).
+  /// An estimate of 1 / (smallest singular value of R): one step of inverse iteration each way, from signs
+  /// that let the first solution grow (Cline, Moler, Stewart and Wilkinson 1979).
   double inverse_norm() const {
     if (size_ == 0) return 0;
     if (inverse_norm_ > 0) return inverse_norm_;

@@ -24,6 +24,12 @@ inline double expected_contraction(double factor_condition, double gram_conditio
          (factor_condition * (factor_condition + rows) + (by_gram_matrix ? gram_condition : rows));
 }
 
+/// What a correction usually leaves: the bound on the error counts on `expected_contraction`, the zero about
+/// which an entry is called rounding on this, so that small numbers are kept.
+inline double usual_contraction(double factor_condition, double gram_condition) {
+  return unit_roundoff * (factor_condition + std::sqrt(gram_condition));
+}
+
 /// An entry that the correction takes to this part of it is 0 as far as that tells.
 inline constexpr double cancelled = 0x1p-24;
 

@@ -52,6 +52,7 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
   for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
   kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
   for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
+  edge_.emplace(problem, row_scale_);
   set_.emplace(problem, arena, w_free_, row_scale_);
 }
 
@@ -135,6 +136,9 @@ bool ShortWay::correct() {
   remaining_ =
       first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
   if (!(contraction <= largest_contraction && remaining_ <= enough * scale_)) return false;
+  const double usual = std::max(scale_ > 0 ? first_ / scale_ : 0,
+                                usual_contraction(problem_.A.factor_condition(), gram_condition_));
+  likely_ = std::min(remaining_, first_ * usual);
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
   return true;
@@ -158,7 +162,7 @@ void ShortWay::precise_slacks() {
 
 /// Takes the correction in, and what cancels for 0; false when a multiplier turns out negative.
 bool ShortWay::round() {
-  const double missing = 4 * remaining_ * problem_.A.factor_condition();
+  const double missing = 4 * likely_ * problem_.A.factor_condition();
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
     const DoubleDouble sum = two_sum(q_[i], dq_[i]);

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/gram_pivoting.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex {
@@ -43,7 +44,7 @@ class ShortWay {
   std::optional<int> slack_sign_by_parallel_row(Index a) const;
   bool split(Index a);
   bool find_way_up(Index count);
-  bool is_kept_as_sum(Index a) const;
+  bool is_kept_as_sum(Index a);
   double violation_of_touched_rows(double known);
   Residuals residuals_of_active();
 
@@ -56,7 +57,8 @@ class ShortWay {
   double *load_, *lambda_, *y_, *held_slack_;  // y_, held_slack_: at places; lambda_: of the rows held, rows_
   double *touched_slack_, *pack_;              // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
-  double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0;
+  std::optional<SlackOnEdge> edge_;
+  double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0, likely_ = 0;
   double inverse_norm_ = 0, gram_condition_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
   double silenced_ = 0;  ///< at least ||·||_A of what cancelled and was taken for 0
   double moved_ = 0;     ///< how far rows that the point touches may move the answer

@@ -88,7 +88,6 @@ double ShortWay::slack_noise(Index a) const {
 
 /// Whether q is, without rounding, the point of the rows held and keeps those it touches.
 bool ShortWay::keeps_touched_rows_exactly() const {
-  if (std::any_of(q_low_, q_low_ + n_, [](double x) { return x != 0; })) return false;
   const Vector q = Eigen::Map<const Vector>(q_, n_);
   std::vector<Index> touched;
   for (Index k = 0; k < touched_count_; ++k)
@@ -169,9 +168,8 @@ double ShortWay::rise(Index a) const {
 
 /// Whether row a, split just now, is a sum of rows held with short fractions as coefficients, and asks for no
 /// more than they do.
-bool ShortWay::is_kept_as_sum(Index a) const {
-  const std::vector<Index> held(rows_, rows_ + set_->size());
-  const std::optional<int> sign = slack_sign_on_edge(problem_, a, held, load_);
+bool ShortWay::is_kept_as_sum(Index a) {
+  const std::optional<int> sign = edge_->sign(a, rows_, set_->size(), load_);
   return sign && *sign >= 0;
 }
 

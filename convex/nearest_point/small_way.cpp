@@ -111,14 +111,16 @@ bool SmallWay::correct() {
 /// would tell it, or a multiplier turns out negative.
 bool SmallWay::round() {
   SmallScene& t = scene_;
-  const double missing = 4 * remaining_ * t.factor_condition;
+  const double usual =
+      std::max(scale_ > 0 ? t.first / scale_ : 0, usual_contraction(t.factor_condition, t.gram_condition));
+  const double missing = 4 * std::min(remaining_, t.first * usual) * t.factor_condition;
   const double* const diagonal = problem_.A.diagonal().data();
   double rounded = 0, silenced = 0;
   Index small = 0;
   for (Index i = 0; i < t.n; ++i) {
     const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
     const double size = std::abs(sum.hi), step = std::abs(t.dq[i]);
-    const bool is_zero = size <= 16 * contraction_ * step;
+    const bool is_zero = size <= 16 * usual * step;
     small += !is_zero && size <= std::max(cancelled * step, missing * std::sqrt(t.inverse_diagonal[i]));
     if (is_zero) silenced += diagonal[i] * sum.hi * sum.hi;
     t.q[i] = is_zero ? 0 : sum.hi;

@@ -7,8 +7,12 @@ namespace {
 /// split is sharpened in twice the working precision.
 constexpr double doubtful_part = 1e-5;
 
-/// A row is dependent on W when what is left of it is at most so many roundings of the data it is made of.
+/// Where the data have no radii, the way goes on as if a row were dependent on W when what is left of it is
+/// at most so many roundings of what it is made of; the end decides it without rounding.
 constexpr double dependence_roundings = 8;
+
+/// What twice the working precision leaves of a row that depends on the others, of its magnitude.
+constexpr double smallest_rest = 0x1p-90;
 
 }  // namespace
 
@@ -69,7 +73,14 @@ void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
   split.coefficients = r.hi;
   for (Index k = 0; k < size(); ++k) split.magnitude += std::abs(r.hi[k]) * factor_.length(k);
   split.rest = split.rho;
-  if (split.rho <= dependence_roundings * unit_roundoff * split.magnitude) split.rho = 0;
+  double unsure = dependence_roundings * unit_roundoff * split.magnitude;
+  if (const std::optional<DataRadii>& radii = problem_.radii) {
+    unsure = radii->row[p];
+    for (Index k = 0; k < size(); ++k)
+      unsure += std::abs(r.hi[k]) * radii->row[rows_[static_cast<std::size_t>(k)]];
+    unsure = std::max(unsure, smallest_rest * split.magnitude);
+  }
+  if (split.rho <= unsure) split.rho = 0;
 }
 
 template <int MaxSize>

@@ -5,6 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/functions/quadratic.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/methods.hpp"
 #include "tests/stability/naive_methods.hpp"
 
@@ -55,9 +56,16 @@ TEST_CASE("an explicit Delassus matrix squares the angle of a flat wedge") {
   }
 }
 
-TEST_CASE("a wedge flatter than rounding is not told from opposite rows, and the default says so") {
+TEST_CASE(
+    "a wedge flatter than rounding is told from opposite rows in fractions; without these the default says "
+    "so") {
   const GalleryInstance instance = instance_of("near-opposite", 8, 1e-16);
-  CHECK(by_default(instance.problem).status != Status::solved);
+  const convex::Solution found = by_default(instance.problem);
+  CHECK(found.status == Status::solved);
+  CHECK(true_error(instance, found.q) <= few_roundings);
+  const convex::Solution in_doubles = convex::automatic(instance.problem, {.limit = 0});
+  CHECK(in_doubles.status != Status::solved);
+  CHECK_FALSE(in_doubles.undecided.empty());
 }
 
 TEST_CASE("a matrix GᵀG of rounded entries need not be semidefinite: exact arithmetic finds no minimum") {

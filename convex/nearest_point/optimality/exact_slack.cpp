@@ -46,29 +46,60 @@ int slack_sign(const NearestPointProblem& problem, Index a, const Vector& q) {
   return sum.sign();
 }
 
-std::optional<int> slack_sign_on_edge(const NearestPointProblem& problem, Index p,
-                                      const std::vector<Index>& held, const double* coefficients) {
-  const Vector weight = problem.A.diagonal().cwiseInverse();
-  const auto length = [&](Index a) { return std::sqrt(problem.U.row(a).cwiseAbs2().dot(weight)); };
-  const double own = length(p);
+/// Sums of a few of the numbers on a grid are exact in doubles when these are at most so many of its steps.
+constexpr double most_steps = 0x1p36, most_terms = 0x1p16;
+
+/// Looks for a grid that all numbers of U lie on.
+void SlackOnEdge::find_grid() {
+  grid_ = 0;
+  if (problem_.U.is_sparse() || problem_.rows() == 0) return;
+  const RowMatrix& U = problem_.U.dense();
+  const double largest = U.cwiseAbs().maxCoeff();
+  if (!std::isnormal(largest)) return;
+  const double grid = std::ldexp(1, std::ilogb(largest) + 1) / most_steps;
+  if (!std::isnormal(grid)) return;
+  // x + shift rounds x to the grid.
+  const double shift = 1.5 * grid / unit_roundoff * 0.5;
+  if (((U.array() + shift) - shift - U.array()).abs().maxCoeff() == 0) grid_ = grid;
+}
+
+/// Whether Σ c_k u_k = whole u_p for the terms, not one bit off.
+bool SlackOnEdge::cancels(Index p, double whole) const {
+  double sum = whole;
+  for (const auto& [a, c] : terms_) sum += std::abs(c);
+  if (grid_ > 0 && sum <= most_terms) {
+    const RowMatrix& U = problem_.U.dense();
+    for (Index i = 0; i < U.cols(); ++i) {
+      double rest = -whole * U(p, i);
+      for (const auto& [a, c] : terms_) rest += c * U(a, i);
+      if (rest != 0) return false;
+    }
+    return true;
+  }
+  for (Index i = 0; i < problem_.dimension(); ++i) {
+    ExactSum rest;
+    rest.add_product(-whole, entry(problem_.U, p, i));
+    for (const auto& [a, c] : terms_) rest.add_product(c, entry(problem_.U, a, i));
+    if (rest.sign() != 0) return false;
+  }
+  return true;
+}
+
+std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, const double* coefficients) {
+  if (grid_ < 0) find_grid();
   double whole = 1;
-  std::vector<std::pair<Index, double>> terms;
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    if (!(std::abs(coefficients[k]) * length(held[k]) > noise * own)) continue;
+  terms_.clear();
+  for (Index k = 0; k < count; ++k) {
+    if (!(std::abs(coefficients[k]) * row_scale_[held[k]] > noise * row_scale_[p])) continue;
     whole *= denominator(coefficients[k] * whole);
     if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
-    terms.emplace_back(held[k], coefficients[k]);
+    terms_.emplace_back(held[k], coefficients[k]);
   }
-  for (auto& [a, c] : terms) c = std::round(c * whole);
-  for (Index i = 0; i < problem.dimension(); ++i) {
-    ExactSum rest;
-    rest.add_product(-whole, entry(problem.U, p, i));
-    for (const auto& [a, c] : terms) rest.add_product(c, entry(problem.U, a, i));
-    if (rest.sign() != 0) return std::nullopt;
-  }
+  for (auto& [a, c] : terms_) c = std::round(c * whole);
+  if (!cancels(p, whole)) return std::nullopt;
   ExactSum slack;
-  slack.add_product(-whole, problem.s[p]);
-  for (const auto& [a, c] : terms) slack.add_product(c, problem.s[a]);
+  slack.add_product(-whole, problem_.s[p]);
+  for (const auto& [a, c] : terms_) slack.add_product(c, problem_.s[a]);
   return slack.sign();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "convex/nearest_point/problem.hpp"
@@ -11,11 +12,28 @@ namespace convex {
 /// The sign of u_a·q - s_a.
 int slack_sign(const NearestPointProblem&, Index a, const Vector& q);
 
-/// The sign of u_p·q - s_p at every q where the rows `held` hold with equality: +, 0 or -. None unless u_p is
-/// the sum of c_k / c_0 u_k over `held` with whole numbers c up to `largest_denominator` that `coefficients`
-/// are close to: then not one bit is left over. coefficients: one a row held.
-std::optional<int> slack_sign_on_edge(const NearestPointProblem&, Index p, const std::vector<Index>& held,
-                                      const double* coefficients);
+/// Slacks where rows W hold with equality, without rounding.
+class SlackOnEdge {
+ public:
+  /// row_scale: ||u_a||_(D⁻¹), D the diagonal of A: m. Both are referred to.
+  SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
+      : problem_(problem), row_scale_(row_scale) {}
+
+  /// The sign of u_p·q - s_p at every q where the `count` rows `held` hold with equality. None unless u_p is
+  /// the sum of c_k / c_0 u_k over them with whole numbers c up to `largest_denominator` that `coefficients`
+  /// are close to: then not one bit is left over.
+  std::optional<int> sign(Index p, const Index* held, Index count, const double* coefficients);
+
+ private:
+  void find_grid();
+  bool cancels(Index p, double whole) const;
+
+  const NearestPointProblem& problem_;
+  const double* row_scale_;
+  std::vector<std::pair<Index, double>> terms_;
+  double grid_ =
+      -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
+};
 
 /// Whether the doubles q are the point of the rows `held` and keep the rows `touched`, all without rounding:
 /// the rows held and two-sided ones have a slack of 0, the others none below. With multipliers lambda >= 0 of

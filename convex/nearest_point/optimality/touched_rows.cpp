@@ -6,19 +6,21 @@
 namespace convex {
 
 template <int MaxSize>
-std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q, Vector& slack) {
+std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q,
+                                    const Vector& row_scale, Vector& slack) {
   const NearestPointProblem& problem = set.problem();
   std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   std::vector<Index> touched;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);
-  const bool is_exact = (q.lo.array() == 0).all() && keeps_exactly(problem, q.hi, set.rows(), touched);
+  const bool is_exact = keeps_exactly(problem, q.hi, set.rows(), touched);
   typename WorkingSet<MaxSize>::Split split;
+  SlackOnEdge edge(problem, row_scale.data());
   for (Index a : touched) {
     if (is_exact) break;
     set.split(a, split);
-    const std::optional<int> sign = slack_sign_on_edge(problem, a, set.rows(), split.coefficients.data());
+    const std::optional<int> sign = edge.sign(a, set.rows().data(), set.size(), split.coefficients.data());
     if (!sign && split.rho > 0) return open_question::touched;
     if (!sign || *sign < 0 || (*sign > 0 && two_sided[static_cast<std::size_t>(a)]))
       return open_question::dependence;
@@ -27,7 +29,9 @@ std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDouble
   return {};
 }
 
-template std::string_view judge_touched_rows(WorkingSet<Eigen::Dynamic>&, const DoubleDoubleVector&, Vector&);
-template std::string_view judge_touched_rows(WorkingSet<8>&, const DoubleDoubleVector&, Vector&);
+template std::string_view judge_touched_rows(WorkingSet<Eigen::Dynamic>&, const DoubleDoubleVector&,
+                                             const Vector&, Vector&);
+template std::string_view judge_touched_rows(WorkingSet<8>&, const DoubleDoubleVector&, const Vector&,
+                                             Vector&);
 
 }  // namespace convex

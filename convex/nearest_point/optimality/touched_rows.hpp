@@ -11,6 +11,7 @@ namespace convex {
 /// keeps them, or each of them is a sum of rows of W and asks for no more than they do. slack: m; where all
 /// are kept, theirs becomes 0 and nothing is returned; else what stays open (`open_question`).
 template <int MaxSize>
-std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q, Vector& slack);
+std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q,
+                                    const Vector& row_scale, Vector& slack);
 
 }  // namespace convex

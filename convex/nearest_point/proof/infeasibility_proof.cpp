@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convex/exact/elimination.hpp"
+#include "convex/exact/exact_sum.hpp"
 #include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
@@ -85,6 +86,31 @@ IntegerVector dependence_of(const ExactProblem& exact) {
   return w;
 }
 
+/// Whether the weights, rounded to whole numbers times the smallest, are a contradiction without rounding:
+/// most are plain sums of rows.
+std::optional<InfeasibilityProof> by_whole_numbers(const Support& rows, Index m) {
+  constexpr double most = 0x1p20;
+  const double smallest = rows.w.cwiseAbs().minCoeff();
+  const Vector w = (rows.w / smallest).array().round();
+  if (!(w.cwiseAbs().maxCoeff() <= most)) return std::nullopt;
+  InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(static_cast<std::size_t>(m), 0)};
+  ExactSum gap;
+  for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+    const Index k = static_cast<Index>(r);
+    if (w[k] < 0 && !rows.two_sided[r]) return std::nullopt;
+    gap.add_product(w[k], rows.s[k]);
+    proof.weights[static_cast<std::size_t>(rows.rows[r])] = static_cast<std::int64_t>(w[k]);
+  }
+  if (gap.sign() <= 0) return std::nullopt;
+  for (Index i = 0; i < rows.U.cols(); ++i) {
+    ExactSum sum;
+    for (Index k = 0; k < w.size(); ++k) sum.add_product(w[k], rows.U(k, i));
+    if (sum.sign() != 0) return std::nullopt;
+  }
+  proof.farkas(rows.rows) = w;
+  return proof;
+}
+
 std::optional<InfeasibilityProof> by_fractions(const Support& rows, Index m) {
   const ExactProblem exact = integer_rows(rows);
   IntegerVector w = dependence_of(exact);
@@ -152,6 +178,7 @@ std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem&
   if (w.size() != problem.rows() || !w.allFinite()) return std::nullopt;
   const Support rows = support(problem, w);
   if (rows.rows.empty()) return std::nullopt;
+  if (auto proof = by_whole_numbers(rows, w.size())) return proof;
   if (static_cast<Index>(rows.rows.size()) <= most_exact_rows) return by_fractions(rows, w.size());
   return by_enclosure(rows, w.size());
 }
