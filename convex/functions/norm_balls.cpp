@@ -140,7 +140,7 @@ class CappedSimplex : public Polytope {
                     : kernels::prox_sum_largest(z, total_, 1, d);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
-    Assembly form(n, 0);
+    LinearQuadraticBuilder form(n, 0);
     for (Index i = 0; i < n; ++i) {
       form.row(0);
       form.entry(i, 1);

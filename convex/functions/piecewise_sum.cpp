@@ -135,7 +135,7 @@ class PiecewiseNode : public Atom {
       const Pieces rows = convex::pieces(f);
       return convex::linear_quadratic::separable_pieces(n, rows.breaks, rows.coefficients);
     }
-    Assembly point(n, 0);
+    LinearQuadraticBuilder point(n, 0);
     for (Index i = 0; i < n; ++i) {
       point.equation(ends.low);
       point.entry(i, 1);

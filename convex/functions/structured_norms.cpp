@@ -90,7 +90,7 @@ class BoundedPartialSums : public DualBall {
     return linear_quadratic::total_variation(n, bound_);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
-    Assembly form(n, 0);
+    LinearQuadraticBuilder form(n, 0);
     const auto running_sum = [&](Index last, double sign) {
       for (Index i = 0; i <= last; ++i) form.entry(i, sign);
     };

@@ -11,7 +11,7 @@ LinearQuadratic conjugate(const LinearQuadratic& f) {
   for (Index j = 0; j < f.H.outerSize(); ++j)
     if (SparseMatrix::InnerIterator(f.H, j)) place[static_cast<std::size_t>(j)] = curved++;
   const Index n = f.n, m = f.rows();
-  Assembly dual(n, m + curved);
+  LinearQuadraticBuilder dual(n, m + curved);
   dual.constant(-f.constant);
   std::vector<bool> free(static_cast<std::size_t>(m), false);
   for (Index a : f.two_sided) free[static_cast<std::size_t>(a)] = true;

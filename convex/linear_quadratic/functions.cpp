@@ -24,7 +24,7 @@ LinearQuadratic two_pieces(Index n, double b, const Eigen::RowVector3d& left,
 
 }  // namespace
 
-LinearQuadratic zero(Index n) { return Assembly(n, 0).finish(); }
+LinearQuadratic zero(Index n) { return LinearQuadraticBuilder(n, 0).finish(); }
 
 LinearQuadratic constant(Index n, double value) {
   require(std::isfinite(value), "constant", "the value is not finite; give a number");
@@ -57,7 +57,7 @@ LinearQuadratic quadratic(const Matrix& Q, const Vector& c) {
 
 LinearQuadratic squared_norm2(Index n, double weight) {
   require_weight(weight, "squared_norm2");
-  Assembly form(n, 0);
+  LinearQuadraticBuilder form(n, 0);
   for (Index i = 0; i < n; ++i) form.curve(i, i, weight);
   return form.finish();
 }
@@ -69,7 +69,7 @@ LinearQuadratic norm1(Index n, double weight) {
 
 LinearQuadratic norm_inf(Index n, double weight) {
   require_weight(weight, "norm_inf");
-  Assembly form(n, 1);
+  LinearQuadraticBuilder form(n, 1);
   form.cost(n, weight);
   for (Index i = 0; i < n; ++i)
     for (double sign : {1.0, -1.0}) {
@@ -98,7 +98,7 @@ LinearQuadratic sum_largest(Index n, Index count) {
   require(count >= 1 && count <= n, "sum_largest", "the count is not between 1 and n; give one that is");
   if (count == 1) return max(n);
   if (count == n) return linear(Vector::Ones(n));
-  Assembly form(n, n + 1);
+  LinearQuadraticBuilder form(n, n + 1);
   form.cost(n, static_cast<double>(count));
   for (Index i = 0; i < n; ++i) {
     const Index above = n + 1 + i;
@@ -118,7 +118,7 @@ LinearQuadratic max_affine(const Matrix& A, const Vector& b) {
           "A and b do not fit; give one number for each row");
   require(A.allFinite() && b.allFinite(), "max_affine", "an entry is not finite; give numbers");
   const Index n = A.cols();
-  Assembly form(n, 1);
+  LinearQuadraticBuilder form(n, 1);
   form.cost(n, 1);
   for (Index a = 0; a < A.rows(); ++a) {
     form.row(b[a]);

@@ -85,28 +85,28 @@ LinearQuadratic add_joint(const LinearQuadratic& f, const LinearQuadratic& g) {
   return sum;
 }
 
-Assembly::Assembly(Index n, Index k) {
+LinearQuadraticBuilder::LinearQuadraticBuilder(Index n, Index k) {
   form_.n = n;
   form_.c = Vector::Zero(n + k);
 }
 
-void Assembly::curve(Index i, Index j, double value) {
+void LinearQuadraticBuilder::curve(Index i, Index j, double value) {
   H_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
   if (i != j) H_.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
 }
 
-void Assembly::row(double bound) { h_.push_back(bound); }
+void LinearQuadraticBuilder::row(double bound) { h_.push_back(bound); }
 
-void Assembly::equation(double bound) {
+void LinearQuadraticBuilder::equation(double bound) {
   form_.two_sided.push_back(static_cast<Index>(h_.size()));
   h_.push_back(bound);
 }
 
-void Assembly::entry(Index j, double value) {
+void LinearQuadraticBuilder::entry(Index j, double value) {
   G_.emplace_back(static_cast<int>(h_.size()) - 1, static_cast<int>(j), value);
 }
 
-LinearQuadratic Assembly::finish() const {
+LinearQuadratic LinearQuadraticBuilder::finish() const {
   LinearQuadratic f = form_;
   const Index N = f.variables();
   f.H.resize(N, N);

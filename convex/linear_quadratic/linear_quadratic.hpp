@@ -45,9 +45,9 @@ LinearQuadratic substitute(const LinearQuadratic& f, Index n, const SparseMatrix
 LinearQuadratic add_joint(const LinearQuadratic& f, const LinearQuadratic& g);
 
 /// A function on n variables and k auxiliary ones, put together row by row.
-class Assembly {
+class LinearQuadraticBuilder {
  public:
-  Assembly(Index n, Index k);
+  LinearQuadraticBuilder(Index n, Index k);
 
   /// Adds `value` to H(i, j) and, off the diagonal, to H(j, i).
   void curve(Index i, Index j, double value);

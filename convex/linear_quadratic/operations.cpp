@@ -20,7 +20,7 @@ Index total_auxiliaries(std::span<const LinearQuadratic> terms) {
   return k;
 }
 
-LinearQuadratic nothing(Index n, Index k) { return Assembly(n, k).finish(); }
+LinearQuadratic nothing(Index n, Index k) { return LinearQuadraticBuilder(n, k).finish(); }
 
 }  // namespace
 
@@ -68,7 +68,7 @@ LinearQuadratic pointwise_max(std::span<const LinearQuadratic> terms) {
   validate(terms[0], "pointwise_max");
   const SparseMatrix common = terms[0].H.topLeftCorner(n, n);
   LinearQuadratic highest = nothing(n, columns - n);
-  Assembly level(n, columns - n);
+  LinearQuadraticBuilder level(n, columns - n);
   level.cost(n, 1);
   for (Index j = 0; j < common.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(common, j); it; ++it)

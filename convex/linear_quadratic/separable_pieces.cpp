@@ -87,7 +87,7 @@ LinearQuadratic separable_pieces(Index n, const Vector& breaks, const Matrix& co
   for (const Piece& piece : pieces) common = std::min(common, piece.c2);
   const double bend = base.c2 - common;
   const Index ways = static_cast<Index>(pieces.size()) - 1, each = ways + (bend > 0 ? 1 : 0);
-  Assembly form(n, n * each);
+  LinearQuadraticBuilder form(n, n * each);
   for (Index i = 0; i < n; ++i) {
     const Index y = bend > 0 ? n + i * each + ways : i;
     const auto way = [&](std::size_t j) { return n + i * each + static_cast<Index>(j > anchor ? j - 1 : j); };

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-void fill(Assembly& form, const Vector& row, double sign) {
+void fill(LinearQuadraticBuilder& form, const Vector& row, double sign) {
   for (Index j = 0; j < row.size(); ++j)
     if (row[j] != 0) form.entry(j, sign * row[j]);
 }
@@ -24,7 +24,7 @@ void require_radius(double radius, const char* where) {
 
 LinearQuadratic point(const Vector& p) {
   require(p.allFinite(), "point", "an entry is not finite; give numbers");
-  Assembly form(p.size(), 0);
+  LinearQuadraticBuilder form(p.size(), 0);
   for (Index i = 0; i < p.size(); ++i) {
     form.equation(p[i]);
     form.entry(i, 1);
@@ -34,7 +34,7 @@ LinearQuadratic point(const Vector& p) {
 
 LinearQuadratic box(const Vector& lower, const Vector& upper) {
   require(lower.size() == upper.size(), "box", "the bounds differ in size; give as many of each");
-  Assembly form(lower.size(), 0);
+  LinearQuadraticBuilder form(lower.size(), 0);
   for (Index i = 0; i < lower.size(); ++i) {
     require(lower[i] <= upper[i] && lower[i] < infinity && upper[i] > -infinity, "box",
             "a lower bound is above its upper one, infinite or not a number; the set is empty");
@@ -59,7 +59,7 @@ LinearQuadratic orthant(Index n) { return box(Vector::Zero(n), Vector::Constant(
 
 LinearQuadratic ball1(Index n, double radius) {
   require_radius(radius, "ball1");
-  Assembly form(n, n);  // w_i >= |x_i|, their sum at most the radius
+  LinearQuadraticBuilder form(n, n);  // w_i >= |x_i|, their sum at most the radius
   form.row(-radius);
   for (Index i = 0; i < n; ++i) form.entry(n + i, -1);
   for (Index i = 0; i < n; ++i)
@@ -79,7 +79,7 @@ LinearQuadratic ball_inf(Index n, double radius) {
 LinearQuadratic simplex(Index n, double total) {
   require(total >= 0 && std::isfinite(total), "simplex",
           "the total is negative or not finite; give one >= 0");
-  Assembly form(n, 0);
+  LinearQuadraticBuilder form(n, 0);
   form.equation(total);
   for (Index i = 0; i < n; ++i) form.entry(i, 1);
   for (Index i = 0; i < n; ++i) {
@@ -93,7 +93,7 @@ LinearQuadratic halfspace(const Vector& a, double b) {
   require(a.allFinite() && !std::isnan(b) && b > -infinity, "halfspace",
           "a or b is not a number, or b is -inf; give numbers");
   require(a.cwiseAbs().maxCoeff() > 0 || b >= 0, "halfspace", "0 <= b does not hold; the set is empty");
-  Assembly form(a.size(), 0);
+  LinearQuadraticBuilder form(a.size(), 0);
   if (b < infinity) {
     form.row(-b);
     fill(form, a, -1);
@@ -104,7 +104,7 @@ LinearQuadratic halfspace(const Vector& a, double b) {
 LinearQuadratic hyperplane(const Vector& a, double b) {
   require(a.allFinite() && std::isfinite(b), "hyperplane", "a or b is not finite; give numbers");
   require(a.cwiseAbs().maxCoeff() > 0 || b == 0, "hyperplane", "0 = b does not hold; the set is empty");
-  Assembly form(a.size(), 0);
+  LinearQuadraticBuilder form(a.size(), 0);
   form.equation(b);
   fill(form, a, 1);
   return form.finish();
@@ -113,7 +113,7 @@ LinearQuadratic hyperplane(const Vector& a, double b) {
 LinearQuadratic affine(const Matrix& A, const Vector& b) {
   require(A.rows() == b.size(), "affine", "A and b differ in rows; give one number for each row");
   require(A.allFinite() && b.allFinite(), "affine", "an entry is not finite; give numbers");
-  Assembly form(A.cols(), 0);
+  LinearQuadraticBuilder form(A.cols(), 0);
   for (Index a = 0; a < A.rows(); ++a) {
     form.equation(b[a]);
     fill(form, A.row(a), 1);
@@ -126,7 +126,7 @@ LinearQuadratic affine(const Matrix& A, const Vector& b) {
 LinearQuadratic polyhedron(const Matrix& A, const Vector& b) {
   require(A.rows() == b.size(), "polyhedron", "A and b differ in rows; give one number for each row");
   require(A.allFinite(), "polyhedron", "an entry of A is not finite; give numbers");
-  Assembly form(A.cols(), 0);
+  LinearQuadraticBuilder form(A.cols(), 0);
   for (Index a = 0; a < A.rows(); ++a) {
     require(!std::isnan(b[a]) && b[a] > -infinity, "polyhedron",
             "a bound is -inf or not a number; give numbers");
@@ -142,7 +142,7 @@ LinearQuadratic polyhedron(const Matrix& A, const Vector& b) {
 LinearQuadratic cone(const Matrix& generators) {
   require(generators.allFinite(), "cone", "an entry is not finite; give numbers");
   const Index n = generators.cols(), k = generators.rows();
-  Assembly form(n, k);
+  LinearQuadraticBuilder form(n, k);
   for (Index i = 0; i < n; ++i) {  // x = Σ w_j generator_j
     form.equation(0);
     form.entry(i, 1);
@@ -157,7 +157,7 @@ LinearQuadratic cone(const Matrix& generators) {
 }
 
 LinearQuadratic monotone_cone(Index n) {
-  Assembly form(n, 0);
+  LinearQuadraticBuilder form(n, 0);
   for (Index i = 0; i + 1 < n; ++i) {
     form.row(0);
     form.entry(i, -1);

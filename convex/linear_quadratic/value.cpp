@@ -47,7 +47,7 @@ Section section(const LinearQuadratic& f, const Vector& x, bool wide) {
   for (Index a : f.two_sided) equal[static_cast<std::size_t>(a)] = true;
   Vector xi = Vector::Zero(f.variables());
   xi.head(f.n) = x;
-  Assembly program(0, k);
+  LinearQuadraticBuilder program(0, k);
   Section found;
   for (Index a = 0; a < f.rows(); ++a) {
     DoubleDouble rest{f.h[a], 0};

@@ -8,11 +8,11 @@
 #include "convex/nearest_point/kkt_residual.hpp"
 #include "convex/nearest_point/methods/proximal_point.hpp"
 #include "convex/nearest_point/residuals.hpp"
-#include "convex/nearest_point/structure/assembly.hpp"
 #include "convex/nearest_point/structure/bordered_chain.hpp"
 #include "convex/nearest_point/structure/chain.hpp"
 #include "convex/nearest_point/structure/closed_form.hpp"
 #include "convex/nearest_point/structure/islands.hpp"
+#include "convex/nearest_point/structure/joined_islands.hpp"
 #include "convex/nearest_point/structure/left_out.hpp"
 #include "convex/nearest_point/structure/obstacle.hpp"
 #include "convex/nearest_point/structure/sparse_active_set.hpp"
@@ -129,7 +129,7 @@ Solution solve_island(const NearestPointProblem& problem, const Accuracy& accura
     if (place[static_cast<std::size_t>(a)] >= 0) part_guess.push_back(place[static_cast<std::size_t>(a)]);
   Solution found = solve_connected(part, accuracy, part_guess);
   name_rows_kept_free(part, found);
-  Assembly whole(problem);
+  JoinedIslands whole(problem);
   std::vector<Index> all(static_cast<std::size_t>(problem.dimension()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);
   whole.add(std::move(found), all, kept);
@@ -147,7 +147,7 @@ std::vector<Index> restricted(const std::vector<Index>& guess, const std::vector
 Solution solve_islands(const NearestPointProblem& problem, const Islands& islands, const Accuracy& accuracy,
                        const std::vector<Index>& guess) {
   const IslandLists lists = list_islands(islands);
-  Assembly whole(problem);
+  JoinedIslands whole(problem);
   std::vector<Index> place;
   const auto solve = [&](const std::vector<Index>& coordinates, const std::vector<Index>& rows) {
     const NearestPointProblem part = island_problem(problem, coordinates, rows, place);

@@ -28,7 +28,7 @@ Vector last_reversed(Vector v) {
 /// Rows of f's program in (x, s, w): G (x, w) >= h s. The last entry of x is s, or t for the epigraph.
 LinearQuadratic lifted(const LinearQuadratic& f, bool perspective) {
   const Index n = f.n, k = f.auxiliaries();
-  Assembly form(n + 1, k);
+  LinearQuadraticBuilder form(n + 1, k);
   const auto place = [&](Index j) { return j < n ? j : j + 1; };
   std::vector<bool> equation(static_cast<std::size_t>(f.rows()), false);
   for (Index a : f.two_sided) equation[static_cast<std::size_t>(a)] = true;

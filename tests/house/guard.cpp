@@ -12,32 +12,14 @@
 #include <thread>
 #include <vector>
 
+#include "tests/house/source_files.hpp"
+
 namespace fs = std::filesystem;
+using tests::SourceFile;
 
 namespace {
 
-const fs::path root = MOREAU_SOURCE;
-
-struct SourceFile {
-  std::string path;  // from the root
-  std::string room;
-  std::vector<std::string> lines;
-  bool is_header() const { return path.ends_with(".hpp"); }
-};
-
-std::vector<SourceFile> sources() {
-  std::vector<SourceFile> found;
-  for (const char* room : {"convex", "mechanics", "cli", "tests"})
-    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
-      const std::string extension = entry.path().extension().string();
-      if (extension != ".hpp" && extension != ".cpp") continue;
-      SourceFile file{fs::relative(entry.path(), root).string(), room, {}};
-      std::ifstream stream(entry.path());
-      for (std::string line; std::getline(stream, line);) file.lines.push_back(line);
-      found.push_back(std::move(file));
-    }
-  return found;
-}
+const fs::path root = tests::source_root();
 
 /// What a line includes, without brackets or quotes; "" when it includes nothing.
 std::string included(const std::string& line) {
@@ -55,7 +37,7 @@ bool begins_with_any(const std::string& text, const std::vector<std::string>& pr
 }  // namespace
 
 TEST_CASE("data flow from cli to mechanics to convex and never back") {
-  for (const SourceFile& file : sources()) {
+  for (const SourceFile& file : tests::source_files()) {
     std::vector<std::string> forbidden;
     if (file.room == "convex") forbidden = {"mechanics/", "cli/", "tests/"};
     if (file.room == "mechanics") forbidden = {"cli/", "tests/"};
@@ -71,7 +53,7 @@ TEST_CASE("data flow from cli to mechanics to convex and never back") {
 TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but the one for ceres::Jet") {
   const std::vector<std::string> heavy{"CGAL/",   "ceres/", "gmp",       "flint",     "arb",
                                        "toml++/", "CLI/",   "nlohmann/", "fmt/format"};
-  for (const SourceFile& file : sources()) {
+  for (const SourceFile& file : tests::source_files()) {
     if (file.room == "tests" || !file.is_header() || file.path == "mechanics/jet_system.hpp") continue;
     for (const std::string& line : file.lines) {
       CAPTURE(file.path);
@@ -82,14 +64,14 @@ TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but 
 }
 
 TEST_CASE("nothing but tests includes the header for ceres::Jet") {
-  for (const SourceFile& file : sources())
+  for (const SourceFile& file : tests::source_files())
     for (const std::string& line : file.lines)
       if (file.room != "tests") CHECK(included(line) != "mechanics/jet_system.hpp");
 }
 
 TEST_CASE("no file is longer than 350 lines, and none has a name that says nothing") {
   const std::regex empty_name("(utils?|helpers?|manager|common|base|misc)\\.");
-  for (const SourceFile& file : sources()) {
+  for (const SourceFile& file : tests::source_files()) {
     CAPTURE(file.path);
     CHECK(file.lines.size() <= 350);
     CHECK_FALSE(std::regex_search(file.path, empty_name));
@@ -109,7 +91,7 @@ TEST_CASE("the top level holds the rooms and nothing else") {
 
 TEST_CASE("every header of the library compiles alone") {
   std::vector<std::string> headers;
-  for (const SourceFile& file : sources())
+  for (const SourceFile& file : tests::source_files())
     if (file.is_header() && file.room != "tests" && file.path != "mechanics/jet_system.hpp")
       headers.push_back(file.path);
   // Eigen is precompiled: it is most of the time, and what lacks convex/vector.hpp shows all the same.

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/structure/assembly.hpp"
+#include "convex/nearest_point/structure/joined_islands.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,14 +8,15 @@
 
 namespace convex {
 
-Assembly::Assembly(const NearestPointProblem& whole) : whole_(whole) {
+JoinedIslands::JoinedIslands(const NearestPointProblem& whole) : whole_(whole) {
   solution_.method = "active-set";
   solution_.q = Vector::Zero(whole.dimension());
   solution_.lambda = Vector::Zero(whole.rows());
   solution_.slack = Vector::Zero(whole.rows());
 }
 
-void Assembly::add(Solution part, const std::vector<Index>& coordinates, const std::vector<Index>& rows) {
+void JoinedIslands::add(Solution part, const std::vector<Index>& coordinates,
+                        const std::vector<Index>& rows) {
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     solution_.q[coordinates[i]] = part.q[static_cast<Index>(i)];
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -44,7 +45,7 @@ void Assembly::add(Solution part, const std::vector<Index>& coordinates, const s
   }
 }
 
-void Assembly::fail(Solution part, const std::vector<Index>& rows) {
+void JoinedIslands::fail(Solution part, const std::vector<Index>& rows) {
   failed_ = true;
   solution_ = Solution{};
   solution_.status = part.status;
@@ -58,13 +59,13 @@ void Assembly::fail(Solution part, const std::vector<Index>& rows) {
       solution_.farkas[rows[k]] = part.farkas[static_cast<Index>(k)];
 }
 
-void Assembly::leave_out(Index row, LeftOutBecause why) {
+void JoinedIslands::leave_out(Index row, LeftOutBecause why) {
   if (failed_) return;
   solution_.model.left_out.push_back({row, why});
   unsolved_.push_back(row);
 }
 
-Solution Assembly::finish(const Accuracy& accuracy) {
+Solution JoinedIslands::finish(const Accuracy& accuracy) {
   if (failed_) return std::move(solution_);
   if (!unsolved_.empty()) {
     const DoubleDoubleVector q(solution_.q);

@@ -9,9 +9,9 @@ namespace convex {
 
 /// Puts the answer of the whole together from those of its islands. Energies of islands add up, and so do the
 /// squares of errors; residuals are computed for the whole.
-class Assembly {
+class JoinedIslands {
  public:
-  explicit Assembly(const NearestPointProblem& whole);
+  explicit JoinedIslands(const NearestPointProblem& whole);
 
   /// Takes over the answer of a part; coordinates and rows: the part's, as numbered in the whole.
   void add(Solution part, const std::vector<Index>& coordinates, const std::vector<Index>& rows);

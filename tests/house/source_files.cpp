@@ -1,0 +1,25 @@
+#include "tests/house/source_files.hpp"
+
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace tests {
+
+fs::path source_root() { return MOREAU_SOURCE; }
+
+std::vector<SourceFile> source_files() {
+  std::vector<SourceFile> found;
+  for (const char* room : {"convex", "mechanics", "cli", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(source_root() / room)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".cpp") continue;
+      SourceFile file{fs::relative(entry.path(), source_root()).string(), room, {}};
+      std::ifstream stream(entry.path());
+      for (std::string line; std::getline(stream, line);) file.lines.push_back(line);
+      found.push_back(std::move(file));
+    }
+  return found;
+}
+
+}  // namespace tests
