@@ -30,11 +30,13 @@ const char* name(convex::ProxRoute route) {
   return "";
 }
 
-/// "active set: on the epigraph"; the route alone where the method says no more.
+/// "active set: on the epigraph"; the route alone where the method says no more; and whether the prox of the
+/// conjugate led to it.
 std::string how(const convex::Prox& prox) {
   const std::string route = name(prox.route);
-  if (prox.method.empty() || prox.method == route) return route;
-  return prox.method.starts_with(route) ? prox.method : route + ": " + prox.method;
+  const std::string identity = prox.by_conjugate ? ", from the conjugate by Moreau's identity" : "";
+  if (prox.method.empty() || prox.method == route) return route + identity;
+  return (prox.method.starts_with(route) ? prox.method : route + ": " + prox.method) + identity;
 }
 
 /// Longer tables are cut on the screen; --json has everything.

@@ -265,9 +265,10 @@ LawReport gauss_laws(const convex::NearestPointProblem& problem, const GaussSolu
   const Units units = fit_units(problem);
   if (units.ordinary() || solution.primal.status == convex::Status::infeasible)
     return laws_as_it_stands(problem, solution, options);
-  // Squares of extreme numbers are not doubles: the laws are tried where they are.
-  const convex::NearestPointProblem fit = in_units(problem, units);
-  return laws_as_it_stands(fit, solve(fit, options), options);
+  // Squares of extreme numbers are not doubles: the laws are tried on the same answer where they are.
+  GaussSolution given = solution;
+  restore_units(given, units.inverse(), options.accuracy.tolerance);
+  return laws_as_it_stands(in_units(problem, units), given, options);
 }
 
 }  // namespace mechanics

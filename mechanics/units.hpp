@@ -12,6 +12,7 @@ namespace mechanics {
 struct Units {
   double mass = 1, acceleration = 1, gradient = 1;
   bool ordinary() const { return mass == 1 && acceleration == 1 && gradient == 1; }
+  Units inverse() const { return {1 / mass, 1 / acceleration, 1 / gradient}; }
 };
 
 /// Units in which the largest numbers of the problem are near 1; all 1 when they are ordinary as they stand,

@@ -55,6 +55,8 @@ Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
   Prox found;
   found.route = ProxRoute::iterative;
   found.method = "semismooth Newton, method of multipliers";
+  for (const GraphTerm& term : f.terms)
+    found.by_conjugate = found.by_conjugate || term.f->prox_by_conjugate();
   found.x = point.xi.head(f.n);
   Vector smooth = problem.c;
   if (problem.Q.size() > 0) smooth += problem.Q * point.xi;

@@ -121,7 +121,9 @@ Set monotone_cone() {
             return kernels::blocks_covector(runs, force, inverse, Vector::Zero(z.size()));
           },
       .form = linear_quadratic::monotone_cone,
-      .any_diagonal = true});
+      .any_diagonal = true,
+      .route = SplitRoute::support_prox_from_projection,  // its runs are those of the projection
+      .make_conjugate = kernels::keep_normal_to_monotone});
 }
 
 }  // namespace convex

@@ -9,6 +9,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// What s in S and u, normal there, miss of that, in the metric d of u. From s', u' that miss nothing the
+/// bound of a pair is ||D(z - u') - s'||; the way there and back is 2 (||s - s'|| + ||u - u'||).
+double miss(const ConvexSet& S, const Vector& s, const Vector& u, const Vector& d) {
+  if (S.split_route() == SplitRoute::two_formulas) return 0;
+  Vector point = s, normal = u;
+  S.make_conjugate(point, normal);
+  const Vector root = d.cwiseSqrt();
+  return 2 * ((point - s).cwiseQuotient(root).norm() + (normal - u).cwiseProduct(root).norm());
+}
+
 class SetIndicator : public Atom {
  public:
   explicit SetIndicator(std::shared_ptr<const ConvexSet> S) : S_(std::move(S)) {}
@@ -30,7 +40,13 @@ class SetIndicator : public Atom {
     return Vector::Zero(x.size());
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->project(z, d); }
-  /// The prox of the support function, which is D(z - x) by Moreau's identity.
+  bool prox_by_conjugate() const override {
+    return S_->split_route() == SplitRoute::projection_from_support_prox;
+  }
+  double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
+    return miss(*S_, x, v, d.cwiseInverse());
+  }
+  /// By the formula for the prox of the support function, which by Moreau's identity is D(z - x).
   std::optional<Vector> prox_covector(const Vector&, const Vector& z, const Vector& d) const override {
     return S_->support_prox(d.cwiseProduct(z), d.cwiseInverse());
   }
@@ -64,6 +80,12 @@ class SetSupport : public Atom {
   Function conjugate() const override { return indicator_of(S_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return S_->maximiser(x); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->support_prox(z, d); }
+  bool prox_by_conjugate() const override {
+    return S_->split_route() == SplitRoute::support_prox_from_projection;
+  }
+  double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
+    return miss(*S_, v, x, d);
+  }
   /// v is in S, and x in the normal cone at v.
   std::optional<Vector> prox_covector(const Vector&, const Vector& z, const Vector& d) const override {
     return S_->project(d.cwiseProduct(z), d.cwiseInverse());
@@ -81,8 +103,6 @@ class SetSupport : public Atom {
  private:
   std::shared_ptr<const ConvexSet> S_;
 };
-
-constexpr double roundings_of_a_difference = 8;
 
 class ConeSet : public ConvexSet {
  public:
@@ -108,12 +128,10 @@ class ConeSet : public ConvexSet {
     if (support(v) > 0) return std::nullopt;
     return Vector::Zero(v.size());
   }
-  Vector support_prox(const Vector& z, const Vector& d) const override {
-    if (K_.project_polar && (K_.any_diagonal || d.maxCoeff() == d.minCoeff())) return K_.project_polar(z, d);
-    const Vector polar = ConvexSet::support_prox(z, d);
-    // A difference that is all rounding is 0: relative to itself it would be far outside.
-    const bool rounding = polar.stableNorm() <= roundings_of_a_difference * unit_roundoff * z.stableNorm();
-    return rounding ? Vector::Zero(z.size()) : polar;
+  Vector support_prox(const Vector& z, const Vector& d) const override { return K_.project_polar(z, d); }
+  SplitRoute split_route() const override { return K_.route; }
+  void make_conjugate(Vector& s, Vector& u) const override {
+    if (K_.make_conjugate) K_.make_conjugate(s, u);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     if (!K_.form) return std::nullopt;
@@ -131,10 +149,6 @@ Call ConvexSet::support_call() const { return {"support", {argument(call())}}; }
 bool ConvexSet::contains(const Vector& x) const {
   const double miss = (x - project(x, Vector::Ones(x.size()))).stableNorm();
   return miss <= membership_tolerance * (x.stableNorm() + scale());
-}
-
-Vector ConvexSet::support_prox(const Vector& z, const Vector& d) const {
-  return z - project(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
 }
 
 std::optional<LinearQuadratic> ConvexSet::indicator_form(Index) const { return std::nullopt; }

@@ -7,6 +7,10 @@
 
 namespace convex {
 
+/// How `project` and `support_prox` split a point between them: each by its own formula, or one of them from
+/// what the other found.
+enum class SplitRoute { two_formulas, support_prox_from_projection, projection_from_support_prox };
+
 /// A closed convex set S, not empty, by what algorithms know of it: its projection and its support function.
 /// `indicator_of` and `support_of` make the two conjugate functions of it; every norm, max and sum_largest is
 /// the support function of such a set, so that each pair has one algorithm. d is n positive numbers, all
@@ -40,9 +44,12 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   virtual double support(const Vector& v) const = 0;
   /// One s in S with s·v = support(v); none when there is none.
   virtual std::optional<Vector> maximiser(const Vector& v) const = 0;
-  /// The prox of the support function; z - D⁻¹ project(Dz, D⁻¹) unless the set knows a formula with less
-  /// cancellation.
-  virtual Vector support_prox(const Vector& z, const Vector& d) const;
+  /// The prox of the support function, by a formula of its own and not from `project`; see `SplitRoute`.
+  virtual Vector support_prox(const Vector& z, const Vector& d) const = 0;
+  virtual SplitRoute split_route() const { return SplitRoute::two_formulas; }
+  /// Moves s or u, of a set whose split has one route, so that s is in S and u normal to S there: how far
+  /// they have to move is what the formula did not keep.
+  virtual void make_conjugate(Vector& /*s*/, Vector& /*u*/) const {}
 
   /// The projection and the prox of the support function in a general metric, by a method of the set's own.
   virtual std::optional<Prox> project_general(const Vector&, const Metric&) const { return std::nullopt; }
@@ -69,12 +76,14 @@ struct Cone {
   Index dimension = 0;  ///< 0: any number of entries
   std::function<Vector(const Vector& z, const Vector& d)> project;
   std::function<Matrix(const Vector& z, const Vector& d)> jacobian;
-  /// The projection on the polar in D, a multiple of the identity unless any_diagonal; z - D⁻¹ project(Dz) in
-  /// D⁻¹ when empty.
-  std::function<Vector(const Vector& z, const Vector& d)> project_polar = {};
+  /// The projection on the polar in D, a multiple of the identity unless any_diagonal.
+  std::function<Vector(const Vector& z, const Vector& d)> project_polar;
   std::function<void(Index n, const std::string& name)> require_size = {};
   std::function<LinearQuadratic(Index n)> form = {};
   bool any_diagonal = false;
+  SplitRoute route = SplitRoute::two_formulas;
+  /// As ConvexSet::make_conjugate.
+  std::function<void(Vector& s, Vector& u)> make_conjugate = {};
 };
 Set set_of(Cone K);
 

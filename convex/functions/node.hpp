@@ -50,6 +50,13 @@ class Atom : public FunctionNode {
   /// A subgradient of f at x = prox_diagonal(z, d) by a formula of its own: the one nearest to D(z - x),
   /// which is D(z - x) itself up to rounding. None where there is no such formula.
   virtual std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const;
+  /// What x and v miss of "v is a subgradient at x", as a part of ||x - x*||_D, for formulas of which one is
+  /// made from the other: their residual alone would compare a number with itself.
+  virtual double subgradient_miss(const Vector& /*x*/, const Vector& /*v*/, const Vector& /*d*/) const {
+    return 0;
+  }
+  /// Is `prox_diagonal` found from the prox of the conjugate?
+  virtual bool prox_by_conjugate() const { return false; }
   /// The prox in a metric that is not diagonal by a method of the atom's own; none when it has none.
   virtual std::optional<Prox> prox_general(const Vector& z, const Metric& W) const;
   /// An element of the generalised Jacobian (Clarke 1983) of z -> prox_diagonal(z, d) at z: n×n,

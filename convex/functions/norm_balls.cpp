@@ -135,9 +135,9 @@ class CappedSimplex : public Polytope {
     return x;
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    if (cap_ != 1) return ConvexSet::support_prox(z, d);
-    return equal(d) ? kernels::prox_sum_largest(z, total_, 1 / d[0])
-                    : kernels::prox_sum_largest(z, total_, 1, d);
+    // cap times the sum of the total/cap largest entries.
+    const double k = std::min(total_ / cap_, static_cast<double>(z.size()));
+    return equal(d) ? kernels::prox_sum_largest(z, k, cap_ / d[0]) : kernels::prox_sum_largest(z, k, cap_, d);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     LinearQuadraticBuilder form(n, 0);

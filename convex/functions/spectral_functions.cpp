@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -88,6 +89,24 @@ std::optional<double> log_det(const Matrix& S) {
   return 2 * factor.matrixLLT().diagonal().array().log().sum();
 }
 
+/// What X and its multiplier V leave of V = -sign X⁻¹, X the symmetric part of sign x positive definite, as
+/// an error of X in the metric d: moved by E, X changes d X + X⁻¹ by d E + X⁻¹ E X⁻¹, entry by entry (d +
+/// 1/(lambda_i lambda_j)) E_ij in the basis of its eigenvectors.
+double inverse_miss(const Matrix& X, const Matrix& V, double d) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(X);
+  const Vector& lambda = eigen.eigenvalues();
+  if (!(lambda.minCoeff() > 0)) return infinity;
+  Matrix rest = eigen.eigenvectors().transpose() * V * eigen.eigenvectors();
+  rest.diagonal() += lambda.cwiseInverse();
+  double squares = 0;
+  for (Index j = 0; j < rest.cols(); ++j)
+    for (Index i = 0; i < rest.rows(); ++i) {
+      const double error = rest(i, j) / (d + 1 / lambda[i] / lambda[j]);
+      squares += error * error;
+    }
+  return std::sqrt(d * squares);
+}
+
 class NegLogDet : public LogDeterminant {
  public:
   Call call() const override { return {"neg_log_det"}; }
@@ -104,6 +123,10 @@ class NegLogDet : public LogDeterminant {
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return kernels::prox_log_det(z, 1 / d[0]);
+  }
+  /// The multiplier is D(z - x), whose skew part is free.
+  double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
+    return inverse_miss(parts_of(x).symmetric, parts_of(v).symmetric, d[0]);
   }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
     return kernels::log_det_prox(unstacked(z, kernels::order_of_stacked(z)), 1 / d[0]).jacobian();
@@ -131,6 +154,10 @@ class NegLogDetConjugate : public LogDeterminant {
     const Index n = kernels::order_of_stacked(z);
     const Matrix Z = unstacked(z, n);
     return stacked(0.5 * (Z - Z.transpose())) - kernels::prox_log_det(-z, 1 / d[0]);
+  }
+  double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
+    const auto [V, skew] = parts_of(v);
+    return inverse_miss(-parts_of(x).symmetric, -V, d[0]) + skew / std::sqrt(d[0]);
   }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();

@@ -2,40 +2,31 @@
 #include <cmath>
 #include <string>
 
+#include "convex/double_double.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/kernels/isotonic.hpp"
 #include "convex/kernels/norm2.hpp"
+#include "convex/kernels/running_sums.hpp"
 #include "convex/kernels/total_variation.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 
 namespace convex {
 namespace {
 
-/// The set of the dual norm: every projection comes from the prox of the norm by Moreau's identity,
-/// z - D⁻¹ prox^(D⁻¹)(Dz).
+/// A bounded set whose support function is a norm with a Jacobian of its own.
 class DualBall : public ConvexSet {
  public:
   bool bounded() const override { return true; }
-  /// Once more from a far z, whose rounding would leave x outside.
-  Vector project(const Vector& z, const Vector& d) const override {
-    const Vector x = project_once(z, d);
-    return z.stableNorm() > far * (x.stableNorm() + scale()) ? project_once(x, d) : x;
-  }
+  /// The derivative of z - D⁻¹ support_prox(Dz, D⁻¹).
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();
     const Matrix J = norm_jacobian(d.cwiseProduct(z), inverse);
     return Matrix::Identity(z.size(), z.size()) - inverse.asDiagonal() * J * d.asDiagonal();
   }
   virtual Matrix norm_jacobian(const Vector& z, const Vector& d) const = 0;
-
- private:
-  static constexpr double far = 1e3;  ///< three of sixteen digits may go
-  Vector project_once(const Vector& z, const Vector& d) const {
-    return z - support_prox(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
-  }
 };
 
 /// {|x_1 + … + x_i| <= bound for i < n, = 0 for i = n} = {Dᵀu : |u_i| <= bound}, D the differences.
@@ -83,6 +74,15 @@ class BoundedPartialSums : public DualBall {
   Vector support_prox(const Vector& z, const Vector& d) const override {
     return kernels::prox_total_variation(z, bound_, d).x;
   }
+  SplitRoute split_route() const override { return SplitRoute::projection_from_support_prox; }
+  /// Running sums of s within the bound, and at it with the sign of its step where u has one.
+  void make_conjugate(Vector& s, Vector& u) const override {
+    kernels::keep_running_sums(s, [&](Index i, double sum) {
+      if (i + 1 == s.size()) return 0.0;
+      if (u[i + 1] == u[i]) return std::clamp(sum, -bound_, bound_);
+      return u[i + 1] > u[i] ? -bound_ : bound_;
+    });
+  }
   Matrix norm_jacobian(const Vector& z, const Vector& d) const override {
     return kernels::blocks_jacobian(kernels::prox_total_variation(z, bound_, d), d);
   }
@@ -108,6 +108,32 @@ class BoundedPartialSums : public DualBall {
   double bound_;
 };
 
+/// Neighbours [first, end) on one edge of a least concave majorant.
+struct Run {
+  std::size_t first, end;
+  DoubleDouble rise;
+  double slope;
+};
+
+/// The edges of the least concave majorant of the running sums of n steps, from the left (the upper hull of
+/// points in order; Andrew 1979).
+template <class Step>
+std::vector<Run> runs_of_majorant(std::size_t n, const Step& step) {
+  std::vector<Run> hull;
+  for (std::size_t k = 0; k < n; ++k) {
+    Run last{k, k + 1, step(k), 0};
+    last.slope = last.rise.value();
+    while (!hull.empty() && hull.back().slope <= last.slope) {
+      last.first = hull.back().first;
+      last.rise = add(hull.back().rise, last.rise);
+      last.slope = last.rise.value() / static_cast<double>(last.end - last.first);
+      hull.pop_back();
+    }
+    hull.push_back(last);
+  }
+  return hull;
+}
+
 /// The convex hull of all signed permutations of w, w_1 >= w_2 >= … >= 0.
 class SignedPermutahedron : public DualBall {
  public:
@@ -127,6 +153,30 @@ class SignedPermutahedron : public DualBall {
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
     return kernels::prox_sorted_norm1(z, weights_ / d[0]);
+  }
+  /// With |z| in decreasing order a point is in the set when its running sums are at most those of the
+  /// weights. The nearest one has its sums at this bound where the least concave majorant of the sums of
+  /// |z| - w bends, and falls short of |z| by the slope there, as long as that is positive.
+  Vector project(const Vector& z, const Vector&) const override {
+    const std::vector<Index> order = by_size(z);
+    const auto size = [&](std::size_t k) { return std::abs(z[order[k]]); };
+    const auto weight = [&](std::size_t k) { return weights_[static_cast<Index>(k)]; };
+    Vector x = z;
+    for (const Run& run :
+         runs_of_majorant(order.size(), [&](std::size_t k) { return two_sum(size(k), -weight(k)); })) {
+      if (!(run.slope > 0)) break;
+      const auto length = static_cast<double>(run.end - run.first);
+      double differences = 0, weights = 0;
+      for (std::size_t k = run.first; k < run.end; ++k) {
+        differences += size(k) - size(run.first);
+        weights += weight(k);
+      }
+      for (std::size_t k = run.first; k < run.end; ++k) {
+        const double apart = (size(k) - size(run.first)) - differences / length;
+        x[order[k]] = std::copysign(std::max(0.0, apart + weights / length), z[order[k]]);
+      }
+    }
+    return x;
   }
   /// On each run of entries pooled to one |x| > 0 the mean with their signs; 0 where x = 0.
   Matrix norm_jacobian(const Vector& z, const Vector& d) const override {

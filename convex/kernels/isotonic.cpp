@@ -7,6 +7,7 @@
 
 #include "convex/double_double.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/kernels/running_sums.hpp"
 
 namespace convex::kernels {
 
@@ -70,6 +71,13 @@ Blocks proj_monotone(const Vector& z) { return plain(z, 1); }
 Blocks proj_monotone(const Vector& z, const Vector& d) { return weighted(z, d, 1); }
 Blocks proj_decreasing(const Vector& z) { return plain(z, -1); }
 Blocks proj_decreasing(const Vector& z, const Vector& d) { return weighted(z, d, -1); }
+
+void keep_normal_to_monotone(Vector& x, Vector& u) {
+  for (Index i = 1; i < x.size(); ++i) x[i] = std::max(x[i], x[i - 1]);
+  keep_running_sums(u, [&](Index i, double sum) {
+    return i + 1 < x.size() && x[i + 1] == x[i] ? std::max(0.0, sum) : 0.0;
+  });
+}
 
 Vector prox_sorted_norm1(const Vector& z, const Vector& w) {
   const Index n = z.size();

@@ -14,6 +14,10 @@ Blocks proj_monotone(const Vector& z, const Vector& d);
 Blocks proj_decreasing(const Vector& z);
 Blocks proj_decreasing(const Vector& z, const Vector& d);
 
+/// Moves u into the normal cone of {x_1 <= ... <= x_n} at x: its running sums are >= 0, and 0 where x rises
+/// and at the end.
+void keep_normal_to_monotone(Vector& x, Vector& u);
+
 /// Prox of Σ w_i |u|_(i), |u|_(1) >= |u|_(2) >= ..., with w_1 >= w_2 >= ... >= w_n >= 0 (the sorted l1 norm;
 /// Bogdan, van den Berg, Sabatti, Su and Candès 2015): O(n log n). InvalidInput when w is not so ordered.
 Vector prox_sorted_norm1(const Vector& z, const Vector& w);

@@ -91,6 +91,16 @@ IntegerVector rest_of(const ExactVector& z, const ExactVector& x) {
   return rest;
 }
 
+/// The entries in which x + y is not z.
+Index missing(const ExactVector& z, const ConeSplit& split) {
+  const IntegerVector rest = rest_of(z, split.x);  // (z - x) times both denominators
+  const Integer scale = z.denominator * split.x.denominator;
+  Index count = 0;
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    count += !(rest[i] * split.y.denominator - split.y.numerators[i] * scale).is_zero();
+  return count;
+}
+
 /// The generators and lines that z - x leans on; and 0, when (z - x|x) is not 0.
 Index nearer(const PolyhedralCone& K, const ExactVector& z, const ExactVector& x, const ExactMetric& W) {
   const IntegerVector covector = times(rest_of(z, x), W.gram);
@@ -115,7 +125,7 @@ LawReport cone_laws(const PolyhedralCone& K, const PolyhedralCone& polar_cone, c
   LawReport report = cone_laws(K, polar_cone, W);
   count_law(report, "x is in the cone", !contains(K, split.x));
   count_law(report, "y is in the polar", !contains(polar_cone, split.y));
-  report.checks.push_back(check_that("z = x + y, each from its own generators", split.residual, 0));
+  count_law(report, "z = x + y, each from its own generators", missing(z, split));
   report.checks.push_back(check_that("(x|y) = 0", std::abs(nearest_double(inner(W, split.x, split.y))), 0));
   count_law(report, "no other point of the cone is as near to z as x", nearer(K, z, split.x, W));
   count_law(report, "no other point of the polar is as near to z as y", nearer(polar_cone, z, split.y, W));

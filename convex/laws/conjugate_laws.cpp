@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "convex/laws/cutting_planes.hpp"
+#include "convex/laws/nearest_by_support.hpp"
 #include "convex/laws/worst_check.hpp"
 #include "convex/operations/operations.hpp"
 
@@ -42,19 +45,23 @@ double envelope(const Decomposed& d, const Metric& W) {
   return d.y.f_x + W.inner(rest, rest) / 2;
 }
 
-/// Whether the two proxes came by different routes: what is derived from the other by Moreau's identity is
-/// not.
-bool different_routes(const Prox& x, const Prox& y) {
-  constexpr std::string_view derived = "Moreau";
-  return x.method.find(derived) == std::string::npos && y.method.find(derived) == std::string::npos;
-}
-
-/// y by another route than x, where there is one that has an answer.
-std::optional<Prox> second_route(const ConjugatePair& pair, const Vector& z, const Metric& W) {
-  if (!pair.second_route) return std::nullopt;
-  std::optional<Prox> found = pair.second_route(z, W);
-  if (found && (found->x.size() != z.size() || !std::isfinite(found->error_bound))) return std::nullopt;
-  return found;
+/// z = x + y with each y that was found without x; none where there is no such y.
+std::optional<Check> sum_law(const ConjugatePair& pair, const Decomposed& at, const Metric& W) {
+  const Vector& z = at.x.z;
+  const Prox x = pair.f.prox(z, W), y = pair.g.prox(z, W);
+  WorstCheck worst("z = x + y by two routes");
+  bool evidence = false;
+  const auto take = [&](const Vector& other, double error) {
+    evidence = true;
+    worst.take(W.norm(z - x.x - other), at.x.bound + error);
+  };
+  if (are_two_routes(x, y)) take(y.x, at.y.bound);
+  // At 0 a program's y is the rounding of its data, which no bound relative to z and x covers.
+  if (pair.other_routes && W.norm(z) + W.norm(x.x) > 0)
+    for (const Prox& other : pair.other_routes(z, W))
+      take(other.x, other.error_bound + rounding_bound(W, z, other.x));
+  if (!evidence) return std::nullopt;
+  return worst.check();
 }
 
 Check uniqueness(const ConjugatePair& pair, const Decomposed& at, const Metric& W,
@@ -115,6 +122,57 @@ Check envelope_gradient(const ConjugatePair& pair, const Decomposed& at, const M
   return worst.check();
 }
 
+/// In more dimensions the hull of support points takes too many of them.
+constexpr Index most_dimensions_of_hull = 16;
+
+/// y = prox_g z, g the conjugate of f in V, from the support points of the set of which f or g is the support
+/// function; none when neither is, or that set is not bounded.
+std::optional<Prox> from_support_points(const Function& f, const Vector& z, const Metric& V) {
+  if (z.size() > most_dimensions_of_hull) return std::nullopt;
+  // A subgradient near a kink may be rounding alone, and no point of the set.
+  const auto in_set = [](const Function& indicator, std::optional<Vector> s) {
+    return s && std::isfinite(indicator(*s)) ? s : std::nullopt;
+  };
+  const Function plain = f.conjugate();
+  if (f.facts().support && f.facts().finite)
+    return nearest_by_support(
+        [&](const Vector& c) {
+          const std::optional<Vector> s = in_set(plain, f.subgradient(c));
+          return s ? std::optional<Vector>(V.solve(*s)) : std::nullopt;
+        },
+        z, V);
+  if (!f.facts().indicator || !plain.facts().finite) return std::nullopt;
+  std::optional<Prox> x =
+      nearest_by_support([&](const Vector& c) { return in_set(f, plain.subgradient(V.multiply(c))); }, z, V);
+  if (x) x->x = z - x->x;
+  return x;
+}
+
+bool is_evidence(const Prox& other, const Vector& z) {
+  return !other.by_conjugate && other.x.size() == z.size() && std::isfinite(other.error_bound);
+}
+
+std::vector<Prox> other_routes(const Function& f, const Function& g, const Vector& z, const Metric& V) {
+  std::vector<Prox> routes;
+  const auto take = [&](std::optional<Prox> found) {
+    if (found && is_evidence(*found, z)) routes.push_back(*std::move(found));
+  };
+  // The program of g holds V's matrix, rounded: that is condition(V) roundings of the entries of y, and an
+  // error of the entries is up to sqrt(condition(V)) times as large a part of ||y||_V.
+  std::optional<Prox> program = prox_by_program(g, z, V);
+  if (program && program->x.size() == z.size())
+    program->error_bound += rounding_bound(V, z, program->x) * std::sqrt(spectrum(V).condition());
+  take(std::move(program));
+  take(from_support_points(f, z, V));
+  if (routes.empty() && z.size() <= most_dimensions_of_hull && f.facts().finite) {
+    auto x = prox_by_cutting_planes(
+        f, [&](const Vector& u) { return f.subgradient(u); }, z, V);
+    if (x) x->x = z - x->x;
+    take(std::move(x));
+  }
+  return routes;
+}
+
 }  // namespace
 
 std::vector<Check> conjugate_laws(const ConjugatePair& pair, const Trial& trial,
@@ -126,17 +184,14 @@ std::vector<Check> conjugate_laws(const ConjugatePair& pair, const Trial& trial,
   checks.push_back(check_that("g is finite at y = prox_g z", std::isfinite(at.y.f_x) ? 0 : 1, 0));
   if (!std::isfinite(at.x.f_x) || !std::isfinite(at.y.f_x)) return checks;
 
-  const Prox x = pair.f.prox(z, W), y = pair.g.prox(z, W);
-  // At 0 a program's y is the rounding of its data, which no bound relative to z and x covers.
-  const bool at_zero = !(W.norm(z) + W.norm(x.x) > 0);
-  if (different_routes(x, y)) {
-    checks.push_back(check_that("z = x + y by two routes", W.norm(z - x.x - y.x), at.x.bound + at.y.bound));
-  } else if (const auto second = at_zero ? std::nullopt : second_route(pair, z, W)) {
-    checks.push_back(check_that("z = x + y by two routes", W.norm(z - x.x - second->x),
-                                at.x.bound + second->error_bound + rounding_bound(W, z, second->x)));
-  } else if (!at_zero) {
+  if (const auto sum = sum_law(pair, at, W)) {
+    checks.push_back(*sum);
+  } else if (W.norm(z) + W.norm(at.x.x) > 0) {  // 0 = 0 + 0 asks for no evidence
+    const Prox x = pair.f.prox(z, W), y = pair.g.prox(z, W);
+    checks.push_back(
+        check_that("z = x + y by two routes", std::numeric_limits<double>::infinity(), at.x.bound));
     no_evidence.push_back("z = x + y (" + trial.metric_name + " metric): x by " + x.method + ", y by " +
-                          y.method + "; one route proves nothing");
+                          y.method + "; one of them came from the other, which proves nothing");
   }
   checks.push_back(
       check_that("conjugacy f(x) + g(y) = (x|y)", std::abs(at.x.f_x + at.y.f_x - at.inner), at.slack));
@@ -165,7 +220,7 @@ ConjugatePair conjugate_pair(const Function& f, const Metric& W) {
   };
   const Function g = f.conjugate(W);
   return {subject(f), subject(g), f.facts().cone,
-          [g](const Vector& z, const Metric& V) { return prox_by_program(g, z, V); }};
+          [f, g](const Vector& z, const Metric& V) { return other_routes(f, g, z, V); }};
 }
 
 std::vector<Check> function_laws(const Function& f, const Subject& subject, const Trial& trial,

@@ -8,13 +8,14 @@ namespace convex {
 struct ConjugatePair {
   Subject f, g;
   bool cone = false;  ///< f is the indicator of a cone
-  /// The prox of g by another route than g's own, for when that is derived from f; none when there is none.
-  std::function<std::optional<Prox>(const Vector& z, const Metric& W)> second_route = {};
+  /// y = prox_g z by other routes than g's own and f's own, such as there are, none of them by_conjugate.
+  std::function<std::vector<Prox>(const Vector& z, const Metric& W)> other_routes = {};
 };
 
 /// What is tried of such a pair, with x = prox_f z and y = prox_g z (Moreau 1965 and 1966, section 4):
-/// - z = x + y; where y came from x, with a y by the second route; without one it is no evidence, which is
-///   said in `no_evidence`;
+/// - z = x + y by two routes, with every y that was found without x: g's own, unless it or x came from the
+///   other (`are_two_routes`), and those of `other_routes`. Where there is none the law fails, and
+///   `no_evidence` says why;
 /// - conjugacy, f(x) + g(y) = (x|y), and Fenchel's inequality f(u) + g(w) >= (u|w) elsewhere;
 /// - uniqueness: z = (x + d) + (y - d) misses conjugacy by at least ||d||²;
 /// - x is the gradient at z of the envelope of g, e(z) = g(y) + ½||z - y||²: (x|h) <= e(z + h) - e(z) <=
@@ -24,7 +25,9 @@ struct ConjugatePair {
 std::vector<Check> conjugate_laws(const ConjugatePair& pair, const Trial& trial,
                                   const std::vector<Vector>& others, std::vector<std::string>& no_evidence);
 
-/// The pair of f and f.conjugate(W).
+/// The pair of f and f.conjugate(W). Other routes to y: the program of g; where f or g is the support
+/// function of a bounded set in few dimensions, that set's support points alone (`nearest_by_support`); and
+/// where there is neither, cutting planes of a finite f (`prox_by_cutting_planes`).
 ConjugatePair conjugate_pair(const Function& f, const Metric& W);
 
 /// What is tried of the function f alone: f** = f at prox points and in their proxes, unless f** is no other

@@ -59,7 +59,7 @@ class InProduct : public Operation {
       const auto from = [&](const Vector& point) {
         Prox part = f->prox(point, C);
         if (part.x.size() == 0) return part;
-        part.method = "Moreau's identity, " + part.method;
+        part.by_conjugate = true;
         return moved(part, refined_solve(M_, part.v), image(part.x), part.error_bound, z, W);
       };
       const Vector force = factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));

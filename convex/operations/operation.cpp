@@ -53,7 +53,7 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
   };
   Prox whole = reduced(W.multiply(z), z, W, from, [](const Vector& r) { return r; });
   if (!known) return std::nullopt;
-  if (whole.x.size() > 0) whole.method = "Moreau's identity, " + whole.method;
+  whole.by_conjugate = true;
   return whole;
 }
 

@@ -74,6 +74,7 @@ class ProximalAverage : public Operation {
     if (q.x.size() == 0) return q;
     Prox part = p;
     part.route = std::max(p.route, q.route);
+    part.by_conjugate = p.by_conjugate || q.by_conjugate;
     if (p.status == Status::solved) part.status = q.status;
     if (p.method != q.method) part.method += ", " + q.method;
     part.method = "mean of proxes, " + part.method;

@@ -108,6 +108,7 @@ class Separable : public Operation {
       const Prox part = f.prox(z.segment(first, size), block(W, first, size));
       if (rank(part.status) > rank(whole.status)) whole.status = part.status;
       if (rank(part.route) > rank(whole.route)) whole.route = part.route;
+      whole.by_conjugate = whole.by_conjugate || part.by_conjugate;
       infeasible = infeasible || part.x.size() == 0;
       if (infeasible) return;
       whole.x.segment(first, size) = part.x;
