@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/working_set.hpp"
 
 namespace convex {
@@ -31,19 +32,65 @@ std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipli
   return loaded;
 }
 
+/// Of the rows of `face`, those with a positive multiplier where lambda·s is largest, lambda over all >= 0 on
+/// one-sided rows with Uᵀlambda = R, and the two-sided ones. By duality these lambda are complementary to the
+/// motions d with the least R·d; and such a motion is that of the quadratic problem with a force -t R, t
+/// large enough. Whether t is: R is then a sum of pushes of the rows that d touches. None when no t will do.
+std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& face, const Vector& R) {
+  const double push = face.A.dual_norm(R);
+  const std::vector<bool> two_sided = marked(face.rows(), face.two_sided);
+  if (!(push > 0)) return face.two_sided;
+  NearestPointProblem pulled = face;
+  constexpr int most_trials = 8;
+  constexpr double factor = 32, touched = 1e-9, balanced = 1e-9;
+  double t = (1 + face.s.cwiseAbs().maxCoeff() + face.A.dual_norm(face.z)) / push;
+  for (int trial = 0; trial < most_trials; ++trial, t *= factor) {
+    pulled.z = face.z - t * R;
+    const Solution moved = active_set(pulled);
+    if (moved.q.size() != face.dimension()) return std::nullopt;
+    const Vector lengths = face.U.lengths(face.A.diagonal().cwiseInverse());
+    std::vector<Index> rows, free;
+    for (Index a = 0; a < face.rows(); ++a) {
+      const bool held = two_sided[static_cast<std::size_t>(a)];
+      const double scale = std::abs(face.s[a]) + lengths[a] * moved.acceleration_norm;
+      if (!held && !(moved.slack[a] <= touched * scale)) continue;
+      if (held) free.push_back(static_cast<Index>(rows.size()));
+      rows.push_back(a);
+    }
+    const Vector whole = face.A.whiten(R);
+    const ConeProjection found = cone_projection(whitened_rows(face, rows), whole, free);
+    if (!((found.point - whole).norm() <= balanced * push)) continue;
+    std::vector<Index> loaded;
+    const double largest = found.lambda.size() > 0 ? found.lambda.cwiseAbs().maxCoeff() : 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (two_sided[static_cast<std::size_t>(rows[k])] ||
+          found.lambda[static_cast<Index>(k)] > weak * largest)
+        loaded.push_back(rows[k]);
+    return loaded;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution&,
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds) {
-  if (!multipliers.unique && (ds.array() != 0).any()) return std::nullopt;
-  const std::vector<bool> loaded = loaded_rows(problem, multipliers);
   const std::vector<Index>& tight = multipliers.tight;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
+                          loaded = loaded_rows(problem, multipliers);
+  const bool choose = !multipliers.unique && (ds.array() != 0).any();
+  const std::vector<bool>& held = choose ? two_sided : loaded;
   NearestPointProblem face{
       problem.A, dz, problem.U.select(tight), Vector(static_cast<Index>(tight.size())), {}};
   for (std::size_t k = 0; k < tight.size(); ++k) {
     face.s[static_cast<Index>(k)] = ds[tight[k]];
-    if (loaded[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
+    if (held[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
+  }
+  if (choose) {
+    const auto rows = loaded_by_change(face, problem.U.transpose_times(multipliers.least_norm));
+    if (!rows) return std::nullopt;
+    face.two_sided = *rows;
   }
   const Solution moved = active_set(face, {.limit = 0});
   if (moved.q.size() != problem.dimension()) return std::nullopt;

@@ -17,9 +17,9 @@ struct Derivative {
 
 /// The derivative when z moves at the rate dz and s at the rate ds. The solution is piecewise linear in both
 /// (Haraux 1977; Mignot 1976): d = dq/dt minimises ½ d·Ad - dz·d over u_a·d = ds_a for rows with a positive
-/// multiplier or two-sided, u_a·d >= ds_a for the other tight rows. dz: n; ds: m. None when multipliers are
-/// not unique and ds is not 0 (they then choose among themselves by ds), or when the change makes rows
-/// contradict each other.
+/// multiplier or two-sided, u_a·d >= ds_a for the other tight rows. Where multipliers are not unique, those
+/// count that make lambda·ds largest (Gauvin and Dubeau 1982): with them R·d is least among all d that keep
+/// the tight rows. dz: n; ds: m. None when the change makes rows contradict each other.
 std::optional<Derivative> directional_derivative(const NearestPointProblem&, const Solution&,
                                                  const Multipliers&, const Vector& dz, const Vector& ds);
 

@@ -49,7 +49,9 @@ Vector integers(unsigned seed, Index n) {
 }  // namespace
 
 TEST_CASE(
-    "the derivative along a change of forces or bounds is the difference quotient, weak contacts included") {
+    "the derivative along a change of forces or bounds is the difference quotient, weak contacts and "
+    "multipliers that are not unique included") {
+  int chosen = 0;  // problems in which ds chooses among multipliers
   for (const Difficulty difficulty :
        {Difficulty::none, Difficulty::repeated_rows, Difficulty::two_sided_rows, Difficulty::at_rest})
     for (unsigned seed = 0; seed < 25; ++seed) {
@@ -66,10 +68,37 @@ TEST_CASE(
       CHECK((by_force->reaction - (problem.A.multiply(by_force->acceleration) - dz)).norm() <= 1e-9);
       const Vector ds = integers(seed + 100, 6);
       const auto by_bound = convex::directional_derivative(problem, solution, all, dz, ds);
-      CHECK((all.unique || !by_bound));
-      if (by_bound && all.unique)
+      if (all.unique || by_bound) {
+        REQUIRE(by_bound);
         CHECK((by_bound->acceleration - exact_quotient(problem, dz, ds)).norm() <= 1e-8);
+      }
+      if (!all.unique && by_bound) ++chosen;
     }
+  CHECK(chosen > 10);
+}
+
+TEST_CASE(
+    "of two contacts that say the same, the one that is raised carries, and one lowered changes nothing") {
+  // q >= 0 twice, pressed by z = -2: multipliers (1, 1) are of least norm, and (2, 0) carries when the first
+  // floor rises.
+  const NearestPointProblem floors{convex::Metric::diagonal(Vector{{1.0}}),
+                                   Vector{{-2.0}},
+                                   convex::ConstraintRows(RowMatrix{{1.0}, {1.0}}),
+                                   Vector{{0.0, 0.0}},
+                                   {}};
+  const Solution resting = convex::active_set(floors);
+  const Multipliers all = convex::multipliers(floors, resting, 1e-9, false);
+  REQUIRE_FALSE(all.unique);
+  const auto along = [&](double first, double second) {
+    const auto found =
+        convex::directional_derivative(floors, resting, all, Vector::Zero(1), Vector{{first, second}});
+    REQUIRE(found);
+    return found->acceleration[0];
+  };
+  CHECK(along(1, 0) == doctest::Approx(1));
+  CHECK(along(-1, 0) == doctest::Approx(0));
+  CHECK(along(1, 3) == doctest::Approx(3));
+  CHECK(along(-1, -3) == doctest::Approx(-1));
 }
 
 TEST_CASE("forces below the least margin change no contact, and a ball leaves its floor at its weight") {
