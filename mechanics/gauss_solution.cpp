@@ -6,6 +6,7 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "mechanics/units.hpp"
+#include "mechanics/vertex.hpp"
 
 namespace mechanics {
 namespace {
@@ -46,6 +47,19 @@ Reduced reduced(const convex::NearestPointProblem& problem, const convex::Soluti
   return found;
 }
 
+/// By section 5's cone at x_0: the two-sided solution, or, where the contacts contradict each other as
+/// equations only because of redundant ones, the vertex that is left without those.
+std::optional<ReactionFromDual> from_dual(const convex::NearestPointProblem& problem,
+                                          const GaussSolution& solution) {
+  TwoSided at_vertex = solution.hypothesis.two_sided;
+  if (!at_vertex.consistent)
+    if (auto vertex = vertex_acceleration(problem)) {
+      at_vertex.consistent = true;
+      at_vertex.acceleration = *std::move(vertex);
+    }
+  return reaction_from_dual(problem, at_vertex, solution.primal);
+}
+
 GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, const GaussOptions& options) {
   GaussSolution found;
   found.primal = options.method->solve(problem, options.accuracy);
@@ -62,8 +76,7 @@ GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, con
   found.reaction = reaction(problem, found.primal.q, lambda);
   found.gauss = found.primal.q.dot(0.5 * problem.A.multiply(found.primal.q) - problem.z);
   found.hypothesis = hypothesis(problem, found.primal, tolerance);
-  if (problem.rows() <= most_contacts_from_dual)
-    found.from_dual = reaction_from_dual(problem, found.hypothesis.two_sided, found.primal);
+  if (problem.rows() <= most_contacts_from_dual) found.from_dual = from_dual(problem, found);
   return found;
 }
 
