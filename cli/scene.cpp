@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "convex/nearest_name.hpp"
+#include "cli/contact_tolerances.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -27,37 +27,6 @@ mechanics::GaussOptions solve_options(const Options& options, const SolveSetting
     known += (known.empty() ? "" : ", ") + std::string(method.name);
   throw InvalidInput("unknown method \"" + name + "\"; the methods are " + known,
                      from_file ? std::optional(settings.method_place) : std::nullopt);
-}
-
-/// "gap[3]" belongs to "gap[3]", "gap[i]" and "gap".
-bool names(const std::string& key, const std::string& constraint) {
-  if (key == constraint) return true;
-  const std::string family = constraint.substr(0, constraint.find('['));
-  return family != constraint &&
-         (key == family || (key.rfind(family + "[", 0) == 0 &&
-                            std::isalpha(static_cast<unsigned char>(key[family.size() + 1])) != 0));
-}
-
-Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::string>& constraints) {
-  Vector tolerance =
-      Vector::Constant(static_cast<Index>(constraints.size()),
-                       settings.contact_tolerance.value_or(mechanics::default_contact_tolerance));
-  // A member given explicitly overrides its family, as everywhere.
-  for (const bool members : {false, true})
-    for (const NamedTolerance& named : settings.contact_tolerances) {
-      bool found = false;
-      for (std::size_t a = 0; a < constraints.size(); ++a) {
-        if (!names(named.constraint, constraints[a])) continue;
-        found = true;
-        if (members == (named.constraint == constraints[a])) tolerance[static_cast<Index>(a)] = named.value;
-      }
-      if (!found)
-        throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
-                               "\"; did you mean \"" + convex::nearest_name(named.constraint, constraints) +
-                               "\"?",
-                           named.place);
-    }
-  return tolerance;
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
