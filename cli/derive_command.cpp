@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli/answer.hpp"
+#include "cli/appell_function.hpp"
 #include "cli/commands.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
@@ -17,6 +18,11 @@ using convex::MetricKind;
 
 /// Above this many coordinates A is written as triplets.
 constexpr Index largest_full = 2000;
+
+/// Above this many coordinates a table is too wide for the screen, and a polynomial too long to read.
+constexpr Index widest = 12;
+
+std::string shortest_digits(double x) { return fmt::format("{}", x); }
 
 convex::SparseMatrix gram(const convex::Metric& A) {
   if (A.kind() == MetricKind::dense) return A.dense_gram().sparseView(0, 0);
@@ -72,13 +78,16 @@ std::string derive_json(const Scene& scene) {
   json.end_object().key("s").numbers(scene.contact_names(), s);
   json.key("two_sided").begin_array();
   for (Index row : two_sided) json.value(scene.contact_name(row));
-  json.end_array().end_object();
-  return json.text();
+  json.end_array().key("appell");
+  if (A.dimension() <= widest)
+    json.value(appell_function(scene, shortest_digits));
+  else
+    json.null();
+  return json.end_object().text();
 }
 
 std::string derive_text(const Scene& scene) {
   const auto& [A, z, U, s, two_sided, radii] = scene.problem;
-  constexpr Index widest = 12;
   const std::string text = heading(scene.title, scene.file);
   if (A.dimension() > widest)
     return text +
@@ -107,7 +116,9 @@ std::string derive_text(const Scene& scene) {
     row.push_back(number_text(s[k]));
     contacts.add(std::move(row));
   }
-  return text + motion.text() + "\n" + (U.count() > 0 ? contacts.text() : "  no contacts\n");
+  return text + motion.text() + "\n" + (U.count() > 0 ? contacts.text() : "  no contacts\n") +
+         "\nOf the accelerations that the contacts allow the true one makes Appell's function least:\n  " +
+         appell_function(scene, number_text) + " + a number without accelerations\n";
 }
 
 }  // namespace

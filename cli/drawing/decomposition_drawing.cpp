@@ -172,15 +172,15 @@ Drawing decomposition_drawing(const SolvedScene& solved) {
   const bool different = has_classical && (classical - x).norm() > 1e-9 * window.size();
   if (different) page.add({classical}, "with points pt 6 ps 1 lc rgb \"#cc79a7\" lw 1.5 notitle");
   if (generators.size() > 1 || moved)
-    page.label(x + 1.15 * (free - x), "polar cone at x", "center offset 0,-1.2 tc rgb \"#b04a00\"");
+    page.label(x + 1.15 * (free - x), "A⁻¹N, N the normal cone at x", "center offset 0,-1.2 tc rgb \"#b04a00\"");
   page.label(free, "A⁻¹z, free", "right offset -0.7,-0.4");
-  page.label(x, "q'', x = proj_C z", "left offset 0.8,0.5");
-  if (moved) page.label((free + x) / 2, "reaction R", "left offset 0.6,0 tc rgb \"#b04a00\"");
+  page.label(x, "q'' = A⁻¹x, x = proj_C z", "left offset 0.8,0.5");
+  if (moved) page.label((free + x) / 2, "A⁻¹R, R the reaction", "left offset 0.6,0 tc rgb \"#b04a00\"");
   if (different) page.label(classical, "all contacts held", "left offset 0.7,-0.4 tc rgb \"#a04f80\"");
   if (!admissible.empty()) {
     Point middle = Point::Zero();
     for (const Point& p : admissible) middle += p / static_cast<double>(admissible.size());
-    page.label(middle, "C", "center tc rgb \"#0072b2\"");
+    page.label(middle, "A⁻¹C", "center tc rgb \"#0072b2\"");
   }
   const std::string top = fmt::format(
       "set size ratio -1\nset clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel {}\nset ylabel "

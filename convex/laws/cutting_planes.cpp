@@ -29,27 +29,27 @@ std::optional<Prox> prox_by_cutting_planes(
   Matrix A(0, z.size());
   Vector b(0), x = z;
   for (Index k = 0; k < most_tangents; ++k) {
-    const double f = value(x);
+    const double at_x = value(x);
     const std::optional<Vector> v = subgradient(x);
-    if (!v || !std::isfinite(f)) return std::nullopt;
+    if (!v || !std::isfinite(at_x)) return std::nullopt;
     if (k > 0) {
-      const double m = (A * x + b).maxCoeff();
+      const double of_model = (A * x + b).maxCoeff();
       const double noise =
-          roundings * (std::abs(f) + (A.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).maxCoeff());
-      const double bound = std::sqrt(2 * (std::max(0.0, f - m) + noise));
+          roundings * (std::abs(at_x) + (A.cwiseAbs() * x.cwiseAbs() + b.cwiseAbs()).maxCoeff());
+      const double bound = std::sqrt(2 * (std::max(0.0, at_x - of_model) + noise));
       if (bound < best.error_bound) {
         best.x = x;
         best.error_bound = bound;
       }
-      if (!(f - m > noise)) break;
+      if (!(at_x - of_model > noise)) break;
     }
     A.conservativeResize(k + 1, Eigen::NoChange);
     b.conservativeResize(k + 1);
     A.row(k) = v->transpose();
-    b[k] = f - v->dot(x);
-    const Prox of_model = prox(linear_quadratic::max_affine(A, b), z, W);
-    if (of_model.x.size() != z.size()) break;
-    x = of_model.x;
+    b[k] = at_x - v->dot(x);
+    const Prox next = prox(linear_quadratic::max_affine(A, b), z, W);
+    if (next.x.size() != z.size()) break;
+    x = next.x;
   }
   if (best.x.size() != z.size()) return std::nullopt;
   best.v = W.multiply(z - best.x);

@@ -60,7 +60,7 @@ TEST_CASE("contact_tolerance decides which contacts are present, as a number or 
   CHECK(run_on("solve", with_settings("contact_tolerance = 1e-3", below)).code == 0);
 }
 
-TEST_CASE("contact_tolerance may name a family or one of its members") {
+TEST_CASE("contact_tolerance may name a family, a part or one of its members") {
   const auto present = [](const std::string& tolerance) {
     const Json object = Json::parse(
         run_json_on("derive",
@@ -79,6 +79,14 @@ TEST_CASE("contact_tolerance may name a family or one of its members") {
   CHECK(present("{ \"gap[i]\" = 0.1, \"gap[2]\" = 1e-9 }") == 1);
   CHECK(present("{ \"gap[2]\" = 1e-9, \"gap[i]\" = 0.1 }") ==
         1);  // a member overrides its family, first or last
+  CHECK(present("{ \"gap[i in 2..2]\" = 0.1 }") == 1);
+  CHECK(present("{ \"gap[i in 1..2]\" = 0.1, gap = 1e-9 }") == 2);  // a part overrides its family
+  CHECK(present("{ \"gap[i in 1..2]\" = 0.1, \"gap[1]\" = 1e-9 }") == 1);
+}
+
+TEST_CASE("a part of a family in contact_tolerance has integers as its ends, and holds a member") {
+  expect_refusal({with_settings("contact_tolerance = { \"floor[i in 1..N]\" = 1 }"), "14:23", {"integers"}});
+  expect_refusal({with_settings("contact_tolerance = { \"floor[i in 1..3]\" = 1 }"), "14:23", {"floor"}});
 }
 
 TEST_CASE("settings of the wrong kind are refused where they stand") {
