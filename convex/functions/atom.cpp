@@ -38,10 +38,11 @@ constexpr double roundings_of_a_formula = 4;
 
 /// What a gap g = sigma(u) - u·s between a set's point s and a normal u says of their distance: s is g/||u||
 /// short of the supporting plane, and no farther off than 2||u||, since with u = 0 in its place s would be
-/// right. Two formulas that share a wrong level agree with each other, but not with the value of sigma.
+/// right. Two formulas that share a wrong level agree with each other, but not with the values: the gap shows
+/// it, which is infinite where s is not in the set.
 double distance_in_gap(const Facts& facts, double gap, double size_of_x, double size_of_v) {
-  if (!std::isfinite(gap)) return 0;
   const auto along = [&](double normal) {
+    if (!std::isfinite(gap)) return 2 * normal;
     return normal > 0 ? std::min(std::abs(gap) / normal, 2 * normal) : 0;
   };
   if (facts.support) return along(size_of_x);
