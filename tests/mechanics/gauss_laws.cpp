@@ -157,3 +157,17 @@ TEST_CASE("for every law of contacts there is an error that it catches, on every
 TEST_CASE("for every law of an infeasible problem there is an error that it catches") {
   check_table(infeasible_scenes(), farkas_table);
 }
+
+TEST_CASE("a wrong acceleration does not pass because the dual was asked with it") {
+  for (const Scene& right : solved_scenes()) {
+    CAPTURE(right.name);
+    GaussSolution wrong = right.solution;
+    move_into_a_contact(right.problem, wrong);
+    wrong.hypothesis = mechanics::hypothesis(right.problem, wrong.primal, 1e-9);
+    wrong.from_dual.reset();
+    bool caught = false;
+    for (const Check& check : mechanics::gauss_laws(right.problem, wrong).checks)
+      caught = caught || (check.name.rfind("z = x + y", 0) == 0 && !check.passed);
+    CHECK(caught);
+  }
+}
