@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
+#include "cli/answer.hpp"
 #include "cli/commands.hpp"
 #include "cli/each_file.hpp"
 #include "cli/function_language/domain_text.hpp"
@@ -48,23 +51,44 @@ ConjugateQuestion read_question(const Options& options, Source& source) {
   return {convex::make_function(call, {*W}), *W, y};
 }
 
-std::string conjugate_json(const ConjugateQuestion& question, const convex::Function& g,
-                           const std::string& domain) {
+/// Is the value right to the tolerance, relative to itself and at least 1? An infinite one is right when it
+/// is proved, with the error 0.
+convex::Status status_of(const std::optional<convex::Value>& value, const Options& options) {
+  constexpr double default_tolerance = 1e-9;
+  if (!value) return convex::Status::solved;
+  const double size = std::isfinite(value->value) ? std::max(1.0, std::abs(value->value)) : 1;
+  const bool right = value->error <= options.tolerance.value_or(default_tolerance) * size;
+  return right ? convex::Status::solved : convex::Status::inaccurate;
+}
+
+/// What is known of g: where it is finite, and its value at the point of the question.
+struct ConjugateAnswer {
+  convex::Function g;
+  std::string domain;
+  std::optional<convex::Value> value;
+  convex::Status status = convex::Status::solved;
+};
+
+std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
+  const convex::Function& g = answer.g;
+  const std::string& domain = answer.domain;
   JsonWriter json;
-  json.begin_object().key("kind").value("conjugate").key("status").value("solved");
+  json.begin_object().key("kind").value("conjugate").key("status").value(name(answer.status));
   json.key("f").value(to_text(question.f.call())).key("g").value(to_text(g.call()));
   json.key("entries").value(question.W.dimension()).key("domain");
   if (domain.empty())
     json.null();
   else
     json.value(domain);
-  if (question.y) json.key("at").numbers(*question.y).key("value").value(g(*question.y));
+  if (question.y) json.key("at").numbers(*question.y).key("value").value(answer.value->value);
+  if (question.y) json.key("error_bound").value(answer.value->error);
   json.end_object();
   return json.text();
 }
 
-std::string conjugate_text(const ConjugateQuestion& question, const convex::Function& g,
-                           const std::string& domain) {
+std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
+  const convex::Function& g = answer.g;
+  const std::string& domain = answer.domain;
   const bool plain = question.W.kind() == convex::MetricKind::identity;
   std::string text = fmt::format("f = {}\ng = {}\n", to_text(question.f.call()), to_text(g.call()));
   text += fmt::format(
@@ -74,7 +98,10 @@ std::string conjugate_text(const ConjugateQuestion& question, const convex::Func
   if (question.y) {
     std::string entries;
     for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);
-    text += fmt::format("g([{}]) = {}\n", entries, number_text(g(*question.y)));
+    text += fmt::format("g([{}]) = {}\n", entries, number_text(answer.value->value));
+    if (answer.status != convex::Status::solved)
+      text += fmt::format("NOT known to the accuracy that was asked for: its error may be {:.1e}.\n",
+                          answer.value->error);
   }
   return text;
 }
@@ -86,12 +113,14 @@ Exit conjugate_command(const Options& options) {
   return answered(options, source, [&] {
     const ConjugateQuestion question = read_question(options, source);
     const convex::Function g = question.f.conjugate(question.W);
-    const std::string domain = domain_text(g, question.W.dimension());
+    ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
+    if (question.y) answer.value = g.evaluate(*question.y);
+    answer.status = status_of(answer.value, options);
     if (options.json)
-      fmt::print("{}\n", conjugate_json(question, g, domain));
+      fmt::print("{}\n", conjugate_json(question, answer));
     else if (!options.quiet)
-      fmt::print("{}", conjugate_text(question, g, domain));
-    return Exit::solved;
+      fmt::print("{}", conjugate_text(question, answer));
+    return exit_code(answer.status);
   });
 }
 

@@ -3,33 +3,145 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/metric_difference.hpp"
+
 namespace convex {
 namespace {
 
-Status status_of(const Decomposition& split, double scale, double tolerance) {
-  const double enough = tolerance * scale;  // each bound by itself: a maximum may hide a NaN
-  const bool accurate =
-      split.x.error_bound <= enough && split.y.error_bound <= enough && split.residual / 2 <= enough;
-  if (accurate && std::isfinite(split.f_x) && std::isfinite(split.g_y)) return Status::solved;
-  const bool gave_up = split.x.status == Status::gave_up || split.y.status == Status::gave_up;
-  return gave_up ? Status::gave_up : Status::inaccurate;
+/// The values, products and sums of the right side are each right to so many roundings of their terms.
+constexpr double roundings_of_a_term = 16;
+
+/// Values smaller than this count as this where the tolerance is relative to them.
+constexpr double smallest_term = 1e-3;
+
+/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
+/// domain.
+constexpr double nearest_point_weight = 1e12;
+
+/// Where rounding left the point outside the domain, or on the far side of the membership tolerance, the
+/// nearest point of the domain; the move is part of the bound.
+std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W) {
+  const double weight = f.facts().indicator ? 1 : nearest_point_weight / (scale * scale);
+  if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
+  const Prox nearest = f.prox(found.x, W.scaled(weight));
+  if (nearest.x.size() != found.x.size()) return std::nullopt;
+  const double move = W.norm(nearest.x - found.x);
+  if (!(move <= membership_tolerance * scale)) return std::nullopt;
+  Prox moved = found;
+  moved.x = nearest.x;
+  moved.error_bound += move;
+  return moved;
+}
+
+/// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
+double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
+  const Vector x = a.cwiseAbs(), y = b.cwiseAbs();
+  switch (W.kind()) {
+    case MetricKind::dense:
+      return x.dot(W.dense_gram().cwiseAbs() * y);
+    case MetricKind::sparse: {
+      const SparseMatrix magnitude = W.sparse_gram().cwiseAbs();
+      return x.dot(magnitude * y);
+    }
+    default:
+      return x.dot(W.diagonal().cwiseProduct(y));
+  }
+}
+
+/// What a rounding of x makes of f(x), to first order: |v|·|x| for a subgradient there.
+double size_of_slope(const Function& f, const Vector& x) {
+  const std::optional<Vector> v = f.subgradient(x);
+  return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
+}
+
+/// x and y with what follows from them.
+struct Candidate {
+  Decomposition split;
+  double right = 0;     ///< the right side
+  double error = 0;     ///< of f(x) and g(y)
+  double squares = 0;   ///< ||z||², ||x||², ||y||², the largest
+  double rounding = 0;  ///< of the terms
+
+  /// By how much the right side leaves what the bound, the values' errors and rounding allow; +inf where a
+  /// value is not finite.
+  double excess() const {
+    const double square = split.error_bound * split.error_bound;
+    const double most = std::max(right - square, -right) - error - rounding;
+    return std::isfinite(most) ? most : INFINITY;
+  }
+  /// Are f(x) + g(y) and (x|y) one, and known, to the tolerance?
+  bool known(double tolerance) const {
+    const double size =
+        std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner), smallest_term});
+    return std::abs(split.fenchel_gap) <= tolerance * size && error <= tolerance * std::max(size, squares);
+  }
+};
+
+Candidate candidate(const Function& f, const Function& g, Prox x_part, Prox y_part, const Vector& z,
+                    const Metric& W) {
+  Candidate made;
+  Decomposition& split = made.split;
+  split.x = std::move(x_part);
+  split.y = std::move(y_part);
+  const Vector &x = split.x.x, &y = split.y.x;
+  const Value f_x = f.evaluate(x), g_y = g.evaluate(y);
+  split.f_x = f_x.value;
+  split.g_y = g_y.value;
+  split.inner = W.inner(x, y);
+  split.fenchel_gap = split.f_x + split.g_y - split.inner;
+  split.residual = W.norm(z - x - y);
+  split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
+  made.right = split.fenchel_gap + 0.5 * split.residual * split.residual;
+  made.error = f_x.error + g_y.error;
+  made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
+  made.rounding = roundings_of_a_term * unit_roundoff *
+                  (std::abs(split.f_x) + std::abs(split.g_y) + size_of_inner(W, x, y));
+  return made;
+}
+
+/// The points that the two proxes gave, in their domains, and held against the values.
+Decomposition guarded(const Function& f, const Function& g, const Vector& z, const Metric& W,
+                      double tolerance) {
+  const Prox x = f.prox(z, W), y = g.prox(z, W);
+  Candidate best = candidate(f, g, x, y, z, W);
+  const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
+  const bool accurate = x.error_bound <= enough && y.error_bound <= enough;
+  if (accurate && (best.excess() > 0 || !best.known(tolerance))) {
+    const double scale = W.norm(z) + W.norm(x.x) + W.norm(y.x);
+    const auto x_inside = moved_into_domain(f, x, scale, W), y_inside = moved_into_domain(g, y, scale, W);
+    const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
+      if (!of_x || !of_y || (best.excess() <= 0 && best.known(tolerance))) return;
+      Candidate other = candidate(f, g, *of_x, *of_y, z, W);
+      const bool closer = std::abs(other.right) + other.error < std::abs(best.right) + best.error;
+      if (other.excess() < best.excess() || (other.excess() <= 0 && closer)) best = std::move(other);
+    };
+    consider(x, y_inside);
+    consider(x_inside, y);
+    consider(x_inside, y_inside);
+  }
+  Decomposition& split = best.split;
+  if (best.excess() > 0 && std::isfinite(best.excess()))
+    best.rounding +=
+        roundings_of_a_term * unit_roundoff * (size_of_slope(f, split.x.x) + size_of_slope(g, split.y.x));
+  split.status = best.excess() <= 0 && best.known(tolerance) ? Status::solved : Status::inaccurate;
+  if (best.excess() > 0) {
+    const double most = std::abs(best.right) + best.error;
+    split.error_bound = std::max(split.error_bound, std::isfinite(most) ? std::sqrt(2 * most) : INFINITY);
+  }
+  return std::move(best.split);
 }
 
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
-  const Function g = f.conjugate(W);
-  Decomposition split;
-  split.x = f.prox(z, W);
-  split.y = g.prox(z, W);
-  const Vector &x = split.x.x, &y = split.y.x;
-  split.f_x = f(x);
-  split.g_y = g(y);
-  split.inner = W.inner(x, y);
-  split.fenchel_gap = split.f_x + split.g_y - split.inner;
-  split.residual = W.norm(z - x - y);
-  split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
-  split.status = status_of(split, std::max({1.0, W.norm(z), W.norm(x)}), tolerance);
+  Decomposition split = guarded(f, f.conjugate(W), z, W, tolerance);
+  const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
+  const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&
+                        split.error_bound <= enough;  // each by itself: a maximum may hide a NaN
+  const bool finite = std::isfinite(split.f_x) && std::isfinite(split.g_y);
+  if (accurate && finite && split.status == Status::solved) return split;
+  const bool gave_up = split.x.status == Status::gave_up || split.y.status == Status::gave_up;
+  split.status = gave_up ? Status::gave_up : Status::inaccurate;
   return split;
 }
 

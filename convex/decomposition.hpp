@@ -7,16 +7,27 @@ namespace convex {
 /// The decomposition of a point (Moreau 1965): z = x + y and f(x) + g(y) = (x|y), where x = prox_f z,
 /// y = prox_g z and g(y) = sup_x (x|y) - f(x) is the conjugate in the metric. y is computed as the prox of
 /// the function g, never as z - x.
+///
+/// The answer is held against the values of f and g. Whatever the points x and y, and however they were
+/// found,
+///   ½ ||x - x*||² + ½ ||y - y*||² <= f(x) + g(y) - (x|y) + ½ ||z - x - y||²
+/// in the metric: add f(x) >= f(x*) + (y*|x - x*) and g(y) >= g(y*) + (x*|y - y*). A right side above the
+/// square of the bound, or below 0, by more than the rounding of its terms, says that a bound or a value is
+/// wrong.
 struct Decomposition {
   Prox x, y;
   double f_x = 0, g_y = 0;
   double inner = 0;        ///< (x|y) = x·Wy
   double fenchel_gap = 0;  ///< f(x) + g(y) - (x|y), >= 0 but for rounding (Fenchel 1949)
   double residual = 0;     ///< ||z - x - y||_W
-  /// ||x - x*||_W and ||y - y*||_W are at most this: the larger of the two proxes' own bounds, and at least
-  /// half the residual, which no smaller bounds could explain.
+  /// ||x - x*||_W and ||y - y*||_W are at most this: the larger of the two proxes' own bounds; at least half
+  /// the residual, which no smaller bounds could explain; and where the right side above is too large, the
+  /// root of twice what it is at most. A point that rounding left outside the domain was moved into it, by as
+  /// much more.
   double error_bound = 0;
-  /// `solved`: the error bound is at most tolerance * max(1, ||z||_W, ||x||_W), and f(x), g(y) are finite.
+  /// `solved`: the error bound is at most tolerance * max(1, ||z||_W, ||x||_W), f(x) and g(y) are known and
+  /// add up to (x|y) within tolerance * max(|f(x)|, |g(y)|, |(x|y)|, 1e-3), and the right side above agrees
+  /// with the bound.
   Status status = Status::gave_up;
 };
 

@@ -31,6 +31,9 @@ struct GraphValue {
   Status status = Status::solved;
 };
 
+/// The value and its error, as functions have it.
+Value value_of(const GraphValue& found);
+
 /// The value of a graph form at x (n). A graph form of an improper function may be -inf.
 GraphValue evaluate(const GraphForm& f, const Vector& x);
 

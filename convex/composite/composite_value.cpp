@@ -34,7 +34,8 @@ double term_value(const GraphTerm& term, const Vector& x) {
 double size_of_domains(const GraphForm& f) {
   double size = 0;
   for (const GraphTerm& term : f.terms)
-    if (term.M.nonZeros() > 0) size = std::max(size, term.f->domain_size() / term.M.coeffs().abs().maxCoeff());
+    if (term.M.nonZeros() > 0)
+      size = std::max(size, term.f->domain_size() / term.M.coeffs().abs().maxCoeff());
   return size;
 }
 
@@ -139,10 +140,17 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     return found;
   }
   found.v = slope.head(f.n);
-  found.error_bound = saddle_error(problem, point).of_value + 8 * unit_roundoff * size;
+  const SaddleError error = saddle_error(problem, point);
+  // Where a term bends sharply, as the root of u at 0, the first-order cost of the miss may be all of it.
+  constexpr double of_misses = 4;
+  const double missed = of_misses * point.y.cwiseAbs().dot(point.r.cwiseAbs());
+  found.error_bound =
+      std::isfinite(error.bound) ? error.of_value + missed + 8 * unit_roundoff * size : infinity;
   const double energy = point.u.dot(point.D.cwiseProduct(point.u));
   // What cannot be told from 0 is 0.
-  if (std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy)) found.value = 0;
+  const bool known = std::isfinite(found.error_bound);
+  if (known && std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy))
+    found.value = 0;
   if (found.error_bound <= std::max(tolerance * size, vanishing * energy)) return found;
   found.status = Status::inaccurate;
   if (falls_without_end(f, x, point.xi, point.rho)) {
@@ -150,6 +158,11 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     found.v.reset();
   }
   return found;
+}
+
+Value value_of(const GraphValue& found) {
+  const bool open = found.status != Status::solved && !std::isfinite(found.value);
+  return {found.value, open ? infinity : found.error_bound};
 }
 
 }  // namespace convex

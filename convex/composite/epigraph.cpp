@@ -52,7 +52,7 @@ class EpigraphAtom final : public Atom {
     if (inside(z)) return Matrix::Identity(n_ + 1, n_ + 1);
     const double mu = std::max(project(z).mu, smallest(z));
     const Vector x = z.head(n_), inverse = Vector::Constant(n_, unit_ / mu);
-    const Vector v = (x - f_->prox_diagonal(x, inverse)) / mu;
+    const Vector v = slope_at(f_->prox_diagonal(x, inverse), x, mu);
     const Matrix J = f_->prox_jacobian(x, inverse);
     const Vector Jv = J * v;
     const double slope = 1 + v.dot(Jv);
@@ -70,6 +70,16 @@ class EpigraphAtom final : public Atom {
     double mu = 0;
   };
 
+  /// The subgradient (x - point)/mu of f/unit at point = prox x, from its formula where the difference is
+  /// rounding.
+  Vector slope_at(const Vector& point, const Vector& x, double mu) const {
+    constexpr double digits_left = 1e-6;
+    const Vector away = x - point;
+    if (!(away.norm() > digits_left * x.norm()) && f_->facts().smooth)
+      if (const std::optional<Vector> v = f_->subgradient(point); v && v->allFinite()) return *v / unit_;
+    return away / mu;
+  }
+
   bool inside(const Vector& z) const { return f_->value(z.head(n_)) <= unit_ * side_ * z[n_]; }
   static double smallest(const Vector& z) {
     return std::max(vanishing * z.norm(), std::numeric_limits<double>::min());
@@ -82,7 +92,8 @@ class EpigraphAtom final : public Atom {
       const Vector inverse = Vector::Constant(n_, unit_ / mu);
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Matrix J = f_->prox_jacobian(x, inverse);
-      return {t + mu - f_->value(point) / unit_, 1 + std::max(0.0, v.dot(J * v))};
+      const double height = f_->value(point) / unit_;
+      return {t + mu - height, 1 + std::max(0.0, v.dot(J * v)), std::abs(t) + std::abs(height)};
     };
     const double mu = monotone_root(excess, std::isfinite(above) ? above : z.norm() + 1, smallest(z));
     Projection found{Vector(n_ + 1), mu};

@@ -74,6 +74,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
     bool accepted = false;
     double length = 1;
     for (int halving = 0; halving < halvings && !accepted; ++halving, length /= 2) {
+      ++result.evaluations;
       Inner next = inner_at(problem, centre, D, ridge, at.xi + length * direction);
       const double change = next.value - at.value;
       accepted = change <= armijo * length * slope;

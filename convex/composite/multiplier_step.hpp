@@ -10,6 +10,7 @@ struct MultiplierStep {
   Vector gap;  ///< M ξ + b - u before entries of x were replaced: D·gap is what the step added to y
   bool minimised = false;  ///< the inner problem was solved as accurately as convergence asks for
   Index newton_steps = 0;
+  Index evaluations = 0;  ///< of the inner function
 };
 
 /// One step of the proximal method of multipliers (Rockafellar 1976, section 5) from `centre`: minimises

@@ -13,8 +13,10 @@ constexpr double near = 1e-2;  ///< theta over the relative residual
 
 }  // namespace
 
-SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
-  SaddlePoint point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
+Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
+  Polished polished;
+  SaddlePoint& point = polished.point;
+  point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
   const Vector ridge = polish_ridge * problem.R;
   double least = polish_theta;
   for (int count = 0; count < step_limit && point.residual > 0;) {
@@ -24,6 +26,7 @@ SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from)
     const NewtonStep step = system.step(point.rho, point.r);
     bool kept = false;
     for (double length : {1.0, 0.5, 0.1}) {
+      ++polished.evaluations;
       SaddlePoint next =
           saddle_point(problem, point.xi + length * step.dxi, point.t + length * step.dt, problem.D);
       if (!(next.residual <= required_division * point.residual) &&
@@ -40,7 +43,7 @@ SaddlePoint newton_polish(const SaddleProblem& problem, const SaddlePoint& from)
     if (theta > least || least < 1e-5 * polish_theta) break;
     least *= 1e-3;
   }
-  return point;
+  return polished;
 }
 
 }  // namespace convex

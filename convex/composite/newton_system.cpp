@@ -3,6 +3,9 @@
 namespace convex {
 namespace {
 
+/// A matrix that is not definite after its diagonal grew by this part is not so by rounding.
+constexpr double largest_lift = 1e-9;
+
 TermCurvature curvature_of(const SaddleTerm& term, const Vector& t, const Vector& D, double theta,
                            bool& usable) {
   const Matrix J = term.f->prox_jacobian(t, D / term.scale);
@@ -56,6 +59,12 @@ NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const 
     }
   }
   factor_.compute(system);
+  // The rounding of stiff terms can outweigh the ridge in a direction that nothing else holds.
+  for (double part = unit_roundoff; factor_.info() != Eigen::Success && part < largest_lift; part *= 16) {
+    Matrix lifted = system;
+    lifted.diagonal() *= 1 + part;
+    factor_.compute(lifted);
+  }
   usable_ = usable_ && factor_.info() == Eigen::Success;
 }
 

@@ -39,6 +39,19 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   return rounding;
 }
 
+/// What the pieces that the point is on cannot mend of a residual is rounding, of its terms or of x and z, or
+/// a small part of it; else the point is on the wrong pieces, and a step within them says nothing of its
+/// distance. All are in the units of `scale`, the roots of D or 1/R; `size` is that of x and z.
+bool is_rounding(const Vector& left, const Vector& residual, const Vector& rounding, const Vector& scale,
+                 double size) {
+  constexpr double roundings = 64, part = 0.1;
+  const Vector weighed = scale.cwiseProduct(left);
+  if (weighed.norm() <= settled * size) return true;
+  for (Index i = 0; i < left.size(); ++i)
+    if (std::abs(left[i]) > std::max(roundings * rounding[i], part * std::abs(residual[i]))) return false;
+  return true;
+}
+
 }  // namespace
 
 SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point) {
@@ -64,6 +77,10 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   const NewtonSystem system(problem, point.t, point.D, polish_theta, ridge);
   Vector dy = Vector::Zero(problem.m), dw = Vector::Zero(problem.k);
   double dx = 0;
+  bool mended = true;
+  const Vector root_of_D = problem.D.cwiseSqrt(), root_of_R = problem.R.cwiseSqrt().cwiseInverse();
+  const double size = problem.n > 0 ? problem.W.norm(point.xi.head(problem.n)) + problem.W.norm(problem.z)
+                                    : solution_size(problem, point);
   for (int probe = 0; probe < 4; ++probe) {
     const auto sign = [&](Index i) {
       return std::fmod(0.7548776662466927 * static_cast<double>((probe + 1) * (i + 1)), 1.0) < 0.5 ? -1.0
@@ -74,8 +91,12 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
     for (Index i = 0; i < r.size(); ++i) r[i] += sign(i + 7) * rounding.r[i];
     NewtonStep step = system.step(rho, r);
     // What the step leaves of r and rho no y and w can mend (dependent rows); it says nothing about y - y*.
-    r -= polish_theta * step.dy.cwiseQuotient(point.D);
-    rho.tail(problem.k) += ridge.cwiseProduct(step.dxi.tail(problem.k));
+    const Vector r_left = polish_theta * step.dy.cwiseQuotient(point.D);
+    const Vector w_left = ridge.cwiseProduct(step.dxi.tail(problem.k));
+    mended = mended && is_rounding(r_left, point.r, rounding.r, root_of_D, size) &&
+             is_rounding(w_left, point.rho.tail(problem.k), rounding.rho.tail(problem.k), root_of_R, size);
+    r -= r_left;
+    rho.tail(problem.k) += w_left;
     step = system.step(rho, r);
     dx = std::max(dx, problem.W.norm(step.dxi.head(problem.n)));
     dw = dw.cwiseMax(step.dxi.tail(problem.k).cwiseAbs());
@@ -90,7 +111,7 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   error.bound = at_rounding ? std::min(std::max(monotone, factor * dx), own_safety * dx)
                             : std::max(monotone, factor * dx);
   error.rounding = std::min(error.bound, error.rounding + factor * dx);
-  if (!system.usable() || !std::isfinite(error.bound)) error.bound = INFINITY;
+  if (!system.usable() || !mended || !std::isfinite(error.bound)) error.bound = INFINITY;
   return error;
 }
 

@@ -1,5 +1,6 @@
 #include "convex/composite/saddle_solver.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -11,17 +12,22 @@ namespace convex {
 namespace {
 
 constexpr Index outer_limit = 60;
+/// What converges does so in some tens of evaluations of the inner function or the conditions, seldom
+/// hundreds; after so many it will not.
+constexpr Index evaluation_limit = 400;
 constexpr double growth = 8, largest_growth = 0x1p33;  ///< of D, by which outer steps converge superlinearly
 constexpr double first_ridge = 1e-2, smallest_ridge = 1e-10;  ///< of the proximal term on w, times R
 /// Below this part of the size of x there is only rounding; near it steps go on while they halve the
 /// residual.
 constexpr double rounding_level = 1e-15, near_rounding = 1e-13;
 constexpr Index patience = 4;  ///< outer steps without progress before the end
-/// The domains are apart when they stay this part of the sizes of x and u from each other and Mᵀ makes little
-/// of the separating normal. A support point comes from projecting a point far out: its truncation, one over
-/// the distance, and its rounding are both well below `separated`; a point nearby shows the functions whose
-/// domain has no end but which overflow.
-constexpr double separated = 1e-5, separating = 1e-2, nearby = 4, far_out = 1e7, stiff = 0x1p120;
+/// The domains are apart when they stay this part of the sizes of x and u from each other along a normal of
+/// which Mᵀ makes nothing, once little of it is taken off. A support point comes from projecting a point far
+/// out: its truncation, one over the distance, and its rounding are both well below `separated`; a point
+/// nearby shows the functions whose domain has no end but which overflow, the farthest one those with no end
+/// along a small part of the normal.
+constexpr double separated = 1e-5, separating = 1e-2, nearly_whole = 0.9, nearby = 4, far_out = 1e7,
+                 farthest = 1e13, stiff = 0x1p120;
 /// D is enlarged when multipliers exceed it by this factor.
 constexpr double unbalanced = 16;
 
@@ -29,7 +35,12 @@ constexpr double unbalanced = 16;
 /// q·b > sum of sup {q·u : u in a domain}, which the nearest point of a point far out along q
 /// comes near to (a stiff prox is the projection on the domain).
 bool separates(const SaddleProblem& problem, const MultiplierStep& step, const Vector& D) {
-  const Vector normal = D.cwiseProduct(step.gap).normalized();
+  Vector normal = D.cwiseProduct(step.gap).normalized();
+  // Where the domains are round, the steps come to the normal slowly; what they miss of Mᵀq = 0 is taken off.
+  const Matrix M = problem.M;
+  normal -= M * Eigen::ColPivHouseholderQR<Matrix>(M).solve(normal);
+  if (!(normal.norm() > nearly_whole)) return false;
+  normal.normalize();
   const SparseMatrix magnitude = problem.M.cwiseAbs();
   const Vector image = problem.M * step.point.xi + problem.b;
   const double around = step.point.u.norm() + problem.b.norm() + problem.z.norm() +
@@ -37,7 +48,7 @@ bool separates(const SaddleProblem& problem, const MultiplierStep& step, const V
   if (!(step.gap.norm() > separated * around)) return false;
   if (!((problem.M.transpose() * normal).norm() * step.point.xi.norm() <= separating * separated * around))
     return false;
-  for (double out : {nearby, far_out}) {
+  for (double out : {nearby, far_out, farthest}) {
     const Vector reach = prox_of_terms(problem, step.point.u + out * around * normal, stiff * D);
     const double reached = normal.cwiseAbs().dot(reach.cwiseAbs());
     if (!(normal.dot(image - reach) > separated * (around + reached))) return false;
@@ -57,16 +68,23 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
   const auto keep = [&](const SaddlePoint& point) {
     if (point.residual < best.residual || !std::isfinite(best.residual)) best = point;
   };
-  keep(newton_polish(problem, best));
+  const auto polish = [&](const SaddlePoint& from) {
+    Polished polished = newton_polish(problem, from);
+    solution.evaluations += polished.evaluations;
+    return std::move(polished.point);
+  };
+  keep(polish(best));
   SaddlePoint centre = best;
   double factor = 1, ridge = first_ridge, last_gap = 0;
   Index idle = 0, apart = 0;
-  for (Index outer = 0; outer < outer_limit && idle < patience; ++outer) {
+  for (Index outer = 0; outer < outer_limit && idle < patience && solution.evaluations < evaluation_limit;
+       ++outer) {
     const double before = best.residual;
     if (before <= rounding_level * target_size(problem, best)) break;
     const Vector D = factor * problem.D;
     const MultiplierStep step = multiplier_step(problem, centre, D, ridge * problem.R);
     solution.newton_steps += step.newton_steps;
+    solution.evaluations += step.evaluations;
     ++solution.outer_steps;
     const double gap = step.gap.norm();
     apart = gap > 0.9 * last_gap ? apart + 1 : 0;
@@ -75,7 +93,7 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
       solution.infeasible = true;
       return;
     }
-    const SaddlePoint polished = newton_polish(problem, step.point);
+    const SaddlePoint polished = polish(step.point);
     centre = step.point;
     keep(polished);
     if (polished.residual <= 0.5 * before) centre = polished;
@@ -142,6 +160,7 @@ SaddleSolution solve(SaddleProblem problem) {
   if (solution.infeasible || problem.all_pinned || at_rounding || !balance(problem, solution.point))
     return solution;
   SaddleSolution other = solution;
+  other.evaluations = 0;
   const SaddlePoint& last = solution.point;
   other.point = saddle_point(problem, last.xi, last.u + last.y.cwiseQuotient(problem.D), problem.D);
   run(problem, other);

@@ -7,7 +7,7 @@ namespace convex {
 struct SaddleSolution {
   SaddlePoint point;
   bool infeasible = false;  ///< the terms' domains were found to be apart
-  Index outer_steps = 0, newton_steps = 0;
+  Index outer_steps = 0, newton_steps = 0, evaluations = 0;
 };
 
 /// Solves a saddle problem as far as rounding lets it; `point.residual` says how far it got. Where

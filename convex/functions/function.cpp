@@ -29,7 +29,8 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   constexpr double roundings = 64 * unit_roundoff, negligible = 1e-13;
   const double length = W.norm(found.x);
   const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
-  if (!(length > 0 && length <= std::max(rounding, found.error_bound))) return;
+  // The length of what is not 0 may underflow.
+  if (found.x.isZero(0) || !(length <= std::max(rounding, found.error_bound))) return;
   const double here = f.value(found.x), at_zero = f.value(Vector::Zero(z.size()));
   if (!std::isfinite(at_zero) || at_zero > here) return;
   if (std::isfinite(here) && length > negligible * W.norm(z)) return;
@@ -48,6 +49,11 @@ Call Function::call() const { return node_->call(); }
 double Function::operator()(const Vector& x) const {
   check(*this, x, "x");
   return node_->value(x);
+}
+
+Value Function::evaluate(const Vector& x) const {
+  check(*this, x, "x");
+  return node_->evaluate(x);
 }
 
 Prox Function::prox(const Vector& z, const Metric& W) const {

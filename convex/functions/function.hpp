@@ -13,6 +13,13 @@ namespace convex {
 
 class FunctionNode;
 
+/// f(x) as it was computed. The true value is within `error`: a few roundings of the terms where a formula
+/// gives it, what a program leaves open otherwise, +inf where it was not decided whether x is in the domain.
+struct Value {
+  double value = 0;
+  double error = 0;
+};
+
 /// What the laws ask of a function that a user writes: a value with two verbs, f(x) and f.prox(z, W).
 template <class F>
 concept Gamma0 = requires(const F& f, const Vector& x, const Metric& W) {
@@ -36,6 +43,8 @@ class Function {
   /// f(x), +inf outside the domain (up to `membership_tolerance`). Throws InvalidInput when the size is
   /// wrong.
   double operator()(const Vector& x) const;
+  /// The same with what is known of its error.
+  Value evaluate(const Vector& x) const;
 
   /// argmin ½||u - z||_W² + f(u) (Moreau 1965); a step is a metric: W/gamma gives the prox of gamma f.
   Prox prox(const Vector& z, const Metric& W) const;

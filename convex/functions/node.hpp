@@ -18,6 +18,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual Facts facts() const = 0;
   virtual Call call() const = 0;
   virtual double value(const Vector& x) const = 0;
+  /// The value with its error; some roundings of it unless the function knows better.
+  virtual Value evaluate(const Vector& x) const;
   virtual Prox prox(const Vector& z, const Metric& W) const = 0;
   virtual Function conjugate() const = 0;
   virtual std::optional<Vector> subgradient(const Vector& x) const = 0;

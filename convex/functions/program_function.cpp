@@ -26,7 +26,7 @@ class ProgramNode : public FunctionNode {
     return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
   }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
-  std::optional<Vector> subgradient(const Vector& x) const override { return evaluate(form(), x).v; }
+  std::optional<Vector> subgradient(const Vector& x) const override { return convex::evaluate(form(), x).v; }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(); }
   std::optional<GraphForm> graph(Index) const override {
     return swapped_ ? convex::conjugate(parts_->graph) : parts_->graph;

@@ -62,7 +62,8 @@ void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Ve
   for (Index a = 0; a < f.rows(); ++a)
     if (length[a] > 0)
       for (SparseRows::InnerIterator it(f.G, a); it; ++it)
-        if (soft(it.col())) least[it.col()] = std::min(least[it.col()], std::pow(it.value() / length[a], 2));
+        if (const double square = std::pow(it.value() / length[a], 2); soft(it.col()) && square > 0)
+          least[it.col()] = std::min(least[it.col()], square);  // one that underflows tells no scale
   for (Index j = 0; j < f.variables(); ++j)
     if (soft(j) && diagonal[j] > 0) least[j] = std::min(least[j], diagonal[j]);
   for (bool changed = true; changed;) {
@@ -74,8 +75,9 @@ void spread_curvature(const LinearQuadratic& f, const Vector& diagonal, const Ve
         if (soft(it.col())) row = std::min(row, known[it.col()] / (it.value() * it.value()));
       if (row == infinity) continue;
       for (SparseRows::InnerIterator it(f.G, a); it; ++it)
-        if (soft(it.col()) && known[it.col()] == infinity) {
-          least[it.col()] = std::min(least[it.col()], row * it.value() * it.value());
+        if (const double square = row * it.value() * it.value();
+            soft(it.col()) && known[it.col()] == infinity && square > 0) {
+          least[it.col()] = std::min(least[it.col()], square);
           changed = true;
         }
     }

@@ -7,6 +7,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/supremum.hpp"
 
 namespace convex {
 namespace {
@@ -31,15 +32,7 @@ class ComputedConjugate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::conjugate(*form);
   }
-  double value(const Vector& v) const override {
-    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
-    if (parts)
-      if (const auto found = parts->conjugate_value(v); found && std::isfinite(*found)) return *found;
-    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return Operation::value(v);
-    const double slope = parts->slope_of(v);
-    const auto form = parts->graph_at_slope(v.size(), slope);
-    return form ? evaluate(convex::conjugate(*form), v).value : Operation::value(v);
-  }
+  Value evaluate(const Vector& v) const override { return settled_value(by_program(v), f_, v); }
   std::optional<GraphForm> graph(Index n) const override {
     const auto form = f_.node().graph(n);
     if (!form) return std::nullopt;
@@ -54,6 +47,16 @@ class ComputedConjugate : public Operation {
   }
 
  private:
+  Value by_program(const Vector& v) const {
+    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
+    if (parts)
+      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value)) return *found;
+    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return Operation::evaluate(v);
+    const double slope = parts->slope_of(v);
+    const auto form = parts->graph_at_slope(v.size(), slope);
+    return form ? value_of(convex::evaluate(convex::conjugate(*form), v)) : Operation::evaluate(v);
+  }
+
   Function f_;
 };
 

@@ -22,7 +22,10 @@ class Distance : public Operation {
             .finite = true};
   }
   Call call() const override { return {"distance", {argument(set_.call), argument("weight", weight_)}}; }
-  double value(const Vector& x) const override { return weight_ * (x - nearest(x).x).norm(); }
+  Value evaluate(const Vector& x) const override {
+    const Prox part = nearest(x);
+    return {weight_ * (x - part.x).norm(), weight_ * (part.error_bound + 4 * unit_roundoff * x.norm())};
+  }
   std::optional<Vector> subgradient(const Vector& x) const override { return slope(x - nearest(x).x, x); }
   /// The norm and the set convolve: the conjugate is the support function of the set on the dual ball.
   Function conjugate() const override {

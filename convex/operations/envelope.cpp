@@ -30,7 +30,7 @@ class Envelope : public Operation {
     const Call kernel{"quadratic", {argument("Q", Matrix(gram(*M_) / gamma_))}};
     return {"inf_convolution", {argument(f_.call()), argument(kernel)}};
   }
-  double value(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
+  Value evaluate(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
   std::optional<Vector> subgradient(const Vector& x) const override {
     return smoothed(f_, kernel(x.size()), x).v;
   }

@@ -88,17 +88,17 @@ class Epigraph : public Lifted {
             .piecewise_quadratic = polyhedral_};
   }
   Call call() const override { return {"indicator", {argument(Call{"epigraph", {argument(f_.call())}})}}; }
-  double value(const Vector& x) const override {
+  Value evaluate(const Vector& x) const override {
     const Index n = x.size() - 1;
-    const double height = value_near(f_, x.head(n), x.norm());
+    const double height = value_near(f_, x.head(n), x.norm()).value;
     const double scale = std::abs(height) + x.norm();
-    if (height == infinity) return infinity;
-    if (height - x[n] <= membership_tolerance * scale) return 0;
+    if (height == infinity) return {infinity, 0};
+    if (height - x[n] <= membership_tolerance * scale) return {};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
     const Prox nearest = prox(x, Metric::identity(x.size()));
-    return nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm()
-               ? 0
-               : infinity;
+    const bool near =
+        nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm();
+    return {near ? 0 : infinity, 0};
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (value(x) > 0) return std::nullopt;
@@ -109,8 +109,8 @@ class Epigraph : public Lifted {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(perspective(f_.conjugate()), f_.dimension());
   }
-  std::optional<double> conjugate_value(const Vector& v) const override {
-    return perspective(f_.conjugate())(last_reversed(v));
+  std::optional<Value> conjugate_value(const Vector& v) const override {
+    return perspective(f_.conjugate()).evaluate(last_reversed(v));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, false); }
   std::optional<GraphForm> graph(Index n) const override { return graph_at_slope(n, 1); }
@@ -141,26 +141,26 @@ class Perspective : public Lifted {
     return {.indicator = f.cone, .cone = f.cone, .support = true, .piecewise_quadratic = polyhedral_};
   }
   Call call() const override { return {"perspective", {argument(f_.call())}}; }
-  double value(const Vector& x) const override {
+  Value evaluate(const Vector& x) const override {
     const Index n = x.size() - 1;
     const double s = x[n];
     const double size = x.norm();
-    if (s < -membership_tolerance * size) return infinity;
+    if (s < -membership_tolerance * size) return {infinity, 0};
     if (s > membership_tolerance * membership_tolerance * size) {
-      const double inside = s * value_near(f_, x.head(n) / s, size / s);
-      if (std::isfinite(inside)) return inside;
+      const Value inside = multiple_of(s, value_near(f_, x.head(n) / s, size / s));
+      if (std::isfinite(inside.value)) return inside;
       if (s > membership_tolerance * size) return inside;
     }
     Vector closed = x;
     closed[n] = 0;
-    return Operation::value(closed);
+    return Operation::evaluate(closed);
   }
   Function conjugate() const override {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(epigraph(f_.conjugate()), f_.dimension());
   }
-  std::optional<double> conjugate_value(const Vector& v) const override {
-    return epigraph(f_.conjugate())(last_reversed(v));
+  std::optional<Value> conjugate_value(const Vector& v) const override {
+    return epigraph(f_.conjugate()).evaluate(last_reversed(v));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, true); }
   std::optional<GraphForm> graph(Index n) const override {

@@ -26,7 +26,7 @@ class InProduct : public Operation {
     return facts;
   }
   Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
-  double value(const Vector& x) const override {
+  Value evaluate(const Vector& x) const override {
     return value_near(h_, image(x), (gram(M_).cwiseAbs() * x.cwiseAbs()).norm());
   }
   std::optional<Vector> subgradient(const Vector& x) const override {

@@ -6,6 +6,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/quadratic_term.hpp"
+#include "convex/operations/supremum.hpp"
 
 namespace convex {
 namespace {
@@ -30,9 +31,9 @@ class InfConvolution : public Operation {
             .finite = f.finite || g.finite};
   }
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
-  double value(const Vector& x) const override {
+  Value evaluate(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
-    return Operation::value(x);
+    return settled_value(Operation::evaluate(x), conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).v;
@@ -74,16 +75,29 @@ class InfConvolution : public Operation {
   Index n_;
 };
 
+[[noreturn]] void refuse_improper() {
+  throw InvalidInput(
+      "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common point");
+}
+
+/// Is f(w) + g(x - w) unbounded below in w? It is for one x with a finite value when it is for all. The
+/// conjugates' domains may have closures that meet and no common point, as those of -log and of log(1 + e^x).
+bool falls_without_end(const Function& f, const Function& g, Index n) {
+  const Metric plain = Metric::identity(n);
+  const Prox a = f.prox(Vector::Zero(n), plain), b = g.prox(Vector::Zero(n), plain);
+  if (a.x.size() != n || b.x.size() != n) return false;
+  const Function terms[] = {f, translate(dilate(g, -1), a.x + b.x)};
+  const Value least = supremum(proper_sum(terms), Vector::Zero(n));
+  return least.value == std::numeric_limits<double>::infinity() && least.error == 0;
+}
+
 /// f □ (c·x + d) = c·x + d - f*(c), when g is affine.
 std::optional<Function> with_affine(const Function& f, const Function& g, Index n) {
   const auto q = quadratic_term(g, n);
   const std::optional<double> mu = q ? multiple_of_identity(q->Q) : std::nullopt;
   if (!mu || *mu != 0) return std::nullopt;
   const double conjugate = f.conjugate()(q->c);
-  if (!std::isfinite(conjugate))
-    throw InvalidInput(
-        "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common "
-        "point");
+  if (!std::isfinite(conjugate)) refuse_improper();
   return function_of({q->Q, q->c, q->constant - conjugate});
 }
 
@@ -103,10 +117,9 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
         require_proper(proper_sum(conjugates), n, "inf_convolution");
       } catch (const InvalidInput&) {
-        throw InvalidInput(
-            "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common "
-            "point");
+        refuse_improper();
       }
+    if (!all_of(parts, &Facts::piecewise_quadratic) && falls_without_end(f, g, n)) refuse_improper();
   }
   return proper_inf_convolution(f, g);
 }

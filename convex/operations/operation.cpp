@@ -9,6 +9,7 @@
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 
@@ -17,6 +18,9 @@ namespace {
 
 /// Moving a point or covector from a part to the whole costs a few roundings of each of its terms.
 constexpr double roundings_of_a_move = 4;
+
+/// A linear or quadratic program is solved to so much of the value.
+constexpr double accuracy_of_a_program = 64 * unit_roundoff;
 
 /// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
 /// domain.
@@ -83,19 +87,19 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
   return best;
 }
 
-double Operation::value(const Vector& x) const {
+Value Operation::evaluate(const Vector& x) const {
   const double length = x.norm();
   if (!facts().support || !(length > 0)) return value_by_program(x);
   // Positively homogeneous: the solvers see the point at the size of 1.
   const double size = std::exp2(std::floor(std::log2(length)));
-  return size * value_by_program(x / size);
+  return multiple_of(size, value_by_program(x / size));
 }
 
-double Operation::value_by_program(const Vector& x) const {
+Value Operation::value_by_program(const Vector& x) const {
   double found = std::numeric_limits<double>::quiet_NaN();
   if (const auto form = linear_quadratic(x.size())) found = convex::value(*form, x);
-  if (!std::isnan(found)) return found;
-  if (const auto form = graph(x.size())) return evaluate(*form, x).value;
+  if (!std::isnan(found)) return {found, std::isfinite(found) ? accuracy_of_a_program * std::abs(found) : 0};
+  if (const auto form = graph(x.size())) return value_of(convex::evaluate(*form, x));
   refuse(*this, "value");
 }
 
@@ -112,7 +116,8 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W) const 
 Prox Operation::prox(const Vector& z, const Metric& W) const {
   std::optional<Prox> best = own_prox(z, W);
   if (!best) refuse(*this, "prox in this metric");
-  if (is_settled(*best, z, W)) return *std::move(best);
+  const OneAtATime question(OneAtATime::Kind::conjugate_prox);
+  if (is_settled(*best, z, W) || !question.first()) return *std::move(best);
   const Function g = conjugate();
   const auto* dual = dynamic_cast<const Operation*>(&g.node());
   if (dual && primal_of(g)) return *std::move(best);
@@ -124,8 +129,8 @@ Prox Operation::prox(const Vector& z, const Metric& W) const {
 }
 
 std::optional<Vector> Operation::subgradient(const Vector& x) const {
-  if (const auto form = linear_quadratic(x.size())) return evaluate(*form, x).v;
-  if (const auto form = graph(x.size())) return evaluate(*form, x).v;
+  if (const auto form = linear_quadratic(x.size())) return convex::evaluate(*form, x).v;
+  if (const auto form = graph(x.size())) return convex::evaluate(*form, x).v;
   refuse(*this, "subgradient");
 }
 
@@ -150,14 +155,26 @@ Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const M
   return part;
 }
 
-double value_near(const Function& f, const Vector& y, double size) {
-  const double value = f(y);
-  if (!(value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
+Value sum_of(const Value& a, const Value& b) {
+  const double sum = a.value + b.value;
+  if (std::isfinite(sum)) return {sum, a.error + b.error + unit_roundoff * std::abs(sum)};
+  // What is finite adds nothing to what is not, nor to the doubt about it.
+  return {sum, (std::isfinite(a.value) ? 0 : a.error) + (std::isfinite(b.value) ? 0 : b.error)};
+}
+
+Value multiple_of(double factor, const Value& a) {
+  const double product = factor * a.value;
+  return {product, factor * a.error + (std::isfinite(product) ? unit_roundoff * std::abs(product) : 0)};
+}
+
+Value value_near(const Function& f, const Vector& y, double size) {
+  const Value value = f.evaluate(y);
+  if (!(value.value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
   const double weight = f.facts().indicator ? 1 : nearest_point_weight / (size * size);
   if (!std::isfinite(weight) || !(weight > 0)) return value;
   const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)));
   if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) return value;
-  return f(nearest.x);
+  return f.evaluate(nearest.x);
 }
 
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name) {

@@ -13,14 +13,15 @@ namespace convex {
 /// piecewise linear-quadratic, else through its graph form; InvalidInput when it has neither.
 class Operation : public FunctionNode {
  public:
-  double value(const Vector& x) const override;
+  double value(const Vector& x) const final { return evaluate(x).value; }
+  Value evaluate(const Vector& x) const override;
   /// By formula, else by program; where that is not accurate, each of the ways there are is tried, the last
   /// of them Moreau's identity, and the one with the smallest bound is taken.
   Prox prox(const Vector& z, const Metric& W) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
   /// f*(v) where a formula gives it though the conjugate has no expression for any number of entries.
-  virtual std::optional<double> conjugate_value(const Vector&) const { return std::nullopt; }
+  virtual std::optional<Value> conjugate_value(const Vector&) const { return std::nullopt; }
   /// The slope that a covector of this function tells of the functions whose heights are measured.
   virtual double slope_of(const Vector& v) const { return v.norm(); }
   /// The graph form for use where slopes are of the size of `slope` > 0.
@@ -29,7 +30,7 @@ class Operation : public FunctionNode {
  protected:
   /// The prox by formula from those of the parts; none when there is no formula in this metric.
   virtual std::optional<Prox> reduced_prox(const Vector&, const Metric&) const { return std::nullopt; }
-  double value_by_program(const Vector& x) const;
+  Value value_by_program(const Vector& x) const;
   /// The prox by formula or program, without the conjugate's help.
   std::optional<Prox> own_prox(const Vector& z, const Metric& W) const;
   /// This function as one to be handed on.
@@ -57,7 +58,11 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
 
 /// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
 /// `membership_tolerance` of that, the value there.
-double value_near(const Function& f, const Vector& y, double size);
+Value value_near(const Function& f, const Vector& y, double size);
+
+/// a + b, and factor · a, factor > 0, each rounded.
+Value sum_of(const Value& a, const Value& b);
+Value multiple_of(double factor, const Value& a);
 
 /// Throws InvalidInput "where: c has … entries" unless all are finite and f takes as many.
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name);

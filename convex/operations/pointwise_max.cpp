@@ -47,9 +47,12 @@ class PointwiseMax : public Operation {
     for (const Function& f : parts_) made.arguments.push_back(argument(f.call()));
     return made;
   }
-  double value(const Vector& x) const override {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (const Function& f : parts_) largest = std::max(largest, f(x));
+  Value evaluate(const Vector& x) const override {
+    Value largest{-std::numeric_limits<double>::infinity(), 0};
+    for (const Function& f : parts_) {
+      const Value part = f.evaluate(x);
+      largest = {std::max(largest.value, part.value), std::max(largest.error, part.error)};
+    }
     return largest;
   }
   std::optional<Vector> subgradient(const Vector& x) const override {

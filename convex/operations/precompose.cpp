@@ -41,7 +41,7 @@ class Precompose : public Operation {
     made.arguments.push_back(argument("b", b_));
     return made;
   }
-  double value(const Vector& x) const override {
+  Value evaluate(const Vector& x) const override {
     return value_near(f_, A_ * x + b_, (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
   }
   std::optional<Vector> subgradient(const Vector& x) const override {

@@ -9,6 +9,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/supremum.hpp"
 
 namespace convex {
 namespace {
@@ -47,6 +48,9 @@ class ProximalAverage : public Operation {
         "proximal_average",
         {argument(inside(f_)), argument(inside(g_)), argument("weight", t_), argument("gamma", gamma_)}};
     return {"precompose", {argument(average), argument("A", Matrix(F.transpose()))}};
+  }
+  Value evaluate(const Vector& x) const override {
+    return settled_value(Operation::evaluate(x), conjugate(), x);
   }
   Function conjugate() const override {
     if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);

@@ -72,7 +72,13 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
   const Vector b = x - part.x;
   const Vector force = q.Q.multiply(b);
-  return {part.x, force + q.c, f(part.x) + 0.5 * b.dot(force) + q.c.dot(b) + q.constant};
+  const double square = 0.5 * b.dot(force), linear = q.c.dot(b);
+  const double size = square + q.c.cwiseAbs().dot(b.cwiseAbs()) + std::abs(q.constant);
+  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is force·e where f is smooth
+  // there.
+  const Value rest{square + linear + q.constant,
+                   8 * unit_roundoff * size + part.error_bound * part.error_bound};
+  return {part.x, force + q.c, sum_of(f.evaluate(part.x), rest)};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {

@@ -41,7 +41,7 @@ std::optional<Kernel> kernel_of(const QuadraticTerm& q);
 struct Smoothed {
   Vector w;
   Vector v;
-  double value = 0;
+  Value value;
 };
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 

@@ -27,7 +27,7 @@ class Scale : public Operation {
     if (alpha_ != 1) made = Call{"scale", {argument(std::move(made)), argument("alpha", alpha_)}};
     return made;
   }
-  double value(const Vector& x) const override { return alpha_ * f_(x / rho_); }
+  Value evaluate(const Vector& x) const override { return multiple_of(alpha_, f_.evaluate(x / rho_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x / rho_);
     if (v) *v *= alpha_ / rho_;

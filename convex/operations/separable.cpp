@@ -56,10 +56,10 @@ class Separable : public Operation {
     }
     return made;
   }
-  double value(const Vector& x) const override {
-    double total = 0;
+  Value evaluate(const Vector& x) const override {
+    Value total;
     for_each([&](const Function& f, Index first, Index size) {
-      total += value_near(f, x.segment(first, size), x.norm());
+      total = sum_of(total, value_near(f, x.segment(first, size), x.norm()));
     });
     return total;
   }

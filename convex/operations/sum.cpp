@@ -53,9 +53,9 @@ Call Sum::call() const {
   return made;
 }
 
-double Sum::value(const Vector& x) const {
-  double total = 0;
-  for (const Function& f : parts_) total += f(x);
+Value Sum::evaluate(const Vector& x) const {
+  Value total;
+  for (const Function& f : parts_) total = sum_of(total, f.evaluate(x));
   return total;
 }
 

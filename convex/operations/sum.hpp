@@ -19,7 +19,7 @@ class Sum : public Operation {
   }
   Facts facts() const override;
   Call call() const override;
-  double value(const Vector& x) const override;
+  Value evaluate(const Vector& x) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   /// f* + … by the parts: quadratic terms smooth, linear ones translate, the rest convolves.
   Function conjugate() const override;

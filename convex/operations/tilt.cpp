@@ -25,7 +25,10 @@ class Tilt : public Operation {
     return facts;
   }
   Call call() const override { return {"tilt", {argument(f_.call()), argument("c", c_)}}; }
-  double value(const Vector& x) const override { return f_(x) + c_.dot(x); }
+  Value evaluate(const Vector& x) const override {
+    const double rounding = static_cast<double>(x.size()) * unit_roundoff;
+    return sum_of(f_.evaluate(x), {c_.dot(x), rounding * c_.cwiseAbs().dot(x.cwiseAbs())});
+  }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x);
     if (v) *v += c_;

@@ -19,7 +19,7 @@ class Translate : public Operation {
     return facts;
   }
   Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
-  double value(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
+  Value evaluate(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {

@@ -1,0 +1,96 @@
+#include "convex/operations/supremum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/operations/one_at_a_time.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power
+constexpr int step_limit = 32;
+
+/// t_k is at least this part of |v|/|x_k|: the prox of a point is right relative to the point.
+constexpr double smallest_part = 1e-6;
+
+/// Values that agree to this part, of themselves or of `small`, have settled.
+constexpr double settled = 1e-12, small = 1e-3;
+
+/// An increase larger than the one before by this, `growth_steps` times in a row, is growth without end: log
+/// 1/t grows by `power`; on the way to a maximum far away the increases grow for some steps only.
+constexpr double growing = 1.3;
+constexpr int growth_steps = 8;
+
+/// The scalar products and values of a lower bound are right to so many roundings.
+constexpr double roundings = 8;
+
+/// The prox in t times the plain metric; without x where that is lost beside a quadratic term of f.
+Prox prox_of(const Function& f, const Vector& z, double t) {
+  try {
+    return f.prox(z, Metric::diagonal(Vector::Constant(z.size(), t)));
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+Value supremum(const Function& f, const Vector& v) {
+  const Index n = v.size();
+  Vector x = Vector::Zero(n);
+  Value best{-infinity, infinity};
+  double t = first_step, last = -infinity, highest = -infinity, before = 0;
+  int grown = 0, quiet = 0;
+  for (int step = 0; step < step_limit; ++step) {
+    const Prox at = prox_of(f, x + v / t, t);
+    if (at.x.size() != n || !at.x.allFinite()) break;
+    const Value value = f.evaluate(at.x);
+    const double bound = v.dot(at.x) - value.value;
+    if (!std::isfinite(bound)) break;
+    const double terms = v.cwiseAbs().dot(at.x.cwiseAbs()) + std::abs(value.value);
+    const double rounding = value.error + roundings * unit_roundoff * terms;
+    if (bound + 4 * rounding < highest) break;  // the prox did not get there
+    highest = std::max(highest, bound - rounding);
+    const double moved = (at.x - x).norm(), increase = bound - last;
+    const double error = rounding + t * moved * at.x.norm() + std::abs(increase);
+    const double enough = settled * std::max(std::abs(bound), small) + rounding;
+    // A step that cannot move x as far as x is long shows nothing.
+    const bool free = v.norm() == 0 || t * at.x.norm() <= v.norm();
+    const bool shrinking = std::abs(increase) <= std::max(0.5 * std::abs(before), enough);
+    if (free && shrinking && error < best.error) best = {bound, error};
+    quiet = free && error <= 2 * enough ? quiet + 1 : 0;
+    if (quiet >= 2) return best;
+    grown = increase > growing * before && before > enough ? grown + 1 : 0;
+    if (grown >= growth_steps && t * moved >= membership_tolerance * v.norm()) return {infinity, 0};
+    before = std::isfinite(increase) ? increase : 0;
+    last = bound;
+    x = at.x;
+    t = std::max({std::pow(t, power), smallest_part * v.norm() / x.norm(), last_step});
+    if (!std::isfinite(t)) t = first_step;
+  }
+  return best;
+}
+
+Value settled_value(const Value& found, const Function& f, const Vector& v) {
+  const double size = std::max(std::abs(found.value), small);
+  const bool exact = f.facts().piecewise_quadratic && found.error < infinity;
+  const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);
+  const OneAtATime question(OneAtATime::Kind::supremum);
+  if (decided || !question.first()) return found;
+  const Value other = supremum(f, v);
+  if (!std::isfinite(found.value)) {
+    // A program says +inf where it finds the domains apart, which rounding can feign, and -inf on one look.
+    const bool agree = found.value == other.value;
+    return agree || other.error < infinity ? other : Value{found.value, infinity};
+  }
+  const double apart = std::abs(other.value - found.value);
+  const bool contradict = other.error < infinity && apart > other.error + found.error;
+  if (contradict) return {std::max(other.value, found.value), apart};
+  return other.error < found.error ? other : found;
+}
+
+}  // namespace convex

@@ -1,0 +1,131 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "convex/decomposition.hpp"
+#include "convex/operations/supremum.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+using convex::Decomposition;
+using convex::Function;
+using convex::Index;
+using convex::Metric;
+using convex::Status;
+using convex::Value;
+using convex::Vector;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Edge {
+  const char* f;
+  double v, value;
+};
+
+/// The sum over entries of a supremum is the supremum of the sum; each value is worked out by hand.
+const Edge edges[] = {
+    {"sum(log_barrier(), squared_hinge())", -1e-12, -1 - std::log(1e-12)},  // attained at 1e12
+    {"sum(inverse_power(1), hinge())", 0, 0},                               // -1/x at infinity
+    {"sum(exponential(), indicator(box(-inf, 1)))", 0, 0},                  // -e^x at -infinity
+    {"precompose(inverse_power(0.5), [[3],[2]], [3,-3])", 0, 0},
+    {"sum(negative_power(0.5), indicator(box(0, 4)))", 0, 2},  // sqrt(x) at 4
+    {"sum(norm1(), indicator(box(-1, 1)))", 3, 2},             // 3x - |x| at 1
+    {"sum(log_barrier(), hinge())", 0, infinity},              // log x without end
+    {"sum(log_barrier(), hinge())", 1e-6, infinity},
+    {"sum(exponential(), hinge())", -1.5, infinity},
+    {"pointwise_max(exponential(), norm1(2))", 0, -0.70346742249839165},  // where e^x = -2x
+};
+
+}  // namespace
+
+TEST_CASE("a supremum that is not attained, or lies at the edge of the domain, has its value") {
+  for (const Edge& edge : edges) {
+    CAPTURE(edge.f);
+    CAPTURE(edge.v);
+    const Function f = samples::function(edge.f, 1);
+    const Vector v = Vector::Constant(1, edge.v);
+    for (const Value& found : {f.conjugate().evaluate(v), convex::supremum(f, v)}) {
+      CAPTURE(found.value);
+      if (std::isinf(edge.value)) {
+        CHECK(found.value == edge.value);
+        CHECK(found.error == 0);
+      } else {
+        CHECK(std::abs(found.value - edge.value) <= 1e-9 * std::max(1.0, std::abs(edge.value)));
+        CHECK(found.error <= 1e-9 * std::max(1.0, std::abs(edge.value)));
+      }
+    }
+  }
+}
+
+TEST_CASE("an infimum that is not attained is the value of an inf-convolution") {
+  // 1/u and log(1 + e^(x-u)), or e^(x-u), both fall to 0 as u grows: the inf-convolution is 0 everywhere.
+  for (const char* text :
+       {"inf_convolution(inverse_power(1), logistic())", "inf_convolution(inverse_power(1), exponential())",
+        "inf_convolution(inverse_power(0.5), distance(halfspace([1,2,2], 3), 0.25))"}) {
+    CAPTURE(text);
+    const Vector z = Eigen::Vector3d(5, -7.25, 3e-6);
+    const Decomposition split = convex::decompose(samples::function(text, 3), z, Metric::identity(3));
+    CHECK(std::abs(split.f_x) <= 1e-9);
+    CHECK((split.x.x - z).norm() <= std::max(split.error_bound, 1e-12));
+  }
+}
+
+TEST_CASE("a value that is called solved is borne out by the conjugate's") {
+  struct Question {
+    const char* f;
+    std::vector<double> z;
+  };
+  for (const Question& question : {
+           Question{"inf_convolution(precompose(hinge(), [[0,-1]], [-1]), norm2(0.125))", {-30, 5}},
+           {"proximal_average(elastic_net(1024, 0.0009765625), distance(orthant(), 0.001), 0.5, 1)", {50}},
+           {"inf_convolution(dilate(inverse_power(1), 0.5), scale(exponential(), 3))",
+            {1.5821650203004255e-06, 5}},
+           {"sum(dilate(indicator(intersection(polyhedron([[-3],[1]], [6,0]), orthant())), 0.125), "
+            "negative_power(0.5))",
+            {-0.8117825502118111}},
+       }) {
+    CAPTURE(question.f);
+    const Vector z = Eigen::Map<const Vector>(question.z.data(), static_cast<Index>(question.z.size()));
+    const Decomposition split =
+        convex::decompose(samples::function(question.f, z.size()), z, Metric::identity(z.size()));
+    if (split.status != Status::solved) continue;
+    const double size = std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner), 1e-3});
+    CHECK(std::abs(split.fenchel_gap) <= 1e-9 * size);
+  }
+}
+
+TEST_CASE("the prox of an epigraph, which asks its conjugate's, comes to an end") {
+  for (const char* text : {"indicator(epigraph(translate(squared_hinge(), [-3])))",
+                           "indicator(epigraph(precompose(squared_norm2(1024), [[-2],[-2]], [-2,2])))",
+                           "indicator(epigraph(precompose(exponential(), [[2],[-2],[1]], [-2,2,2])))"}) {
+    CAPTURE(text);
+    const Function f = samples::function(text, 2);
+    for (const Vector& z :
+         {Vector(Eigen::Vector2d(-6e-6, -3e-6)), Vector(Eigen::Vector2d(-4, 3.742373791716277)),
+          Vector(Eigen::Vector2d(5.110769805509885, -3))}) {
+      const Decomposition split = convex::decompose(f, z, Metric::identity(2));
+      CHECK(split.x.x.size() == 2);
+    }
+  }
+}
+
+TEST_CASE("domains whose closures touch without a common point, and round sets apart, are refused") {
+  for (const auto& [text, n] :
+       {std::pair{"inf_convolution(log_barrier(), translate(logistic(), [1,1,2]))", 3},
+        {"inf_convolution(log_barrier(), logistic())", 1},
+        {"indicator(intersection(affine([[0,-3],[1,-3]], [0,0]), ball2(1, [2,2])))", 2},
+        {"indicator(intersection(simplex(1024), ball2(1)))", 4},
+        {"sum(conjugate(inverse_power(1)), indicator(ball2(1, [1,1])))", 2}}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(samples::function(text, n), convex::InvalidInput);
+  }
+}
+
+TEST_CASE("a slope of the least double is a slope") {
+  const Function f = samples::function("max_affine([[5e-324,-1]], [0])", 2);
+  const Vector z = Eigen::Vector2d(-1.0508025251971551, -2.7071946374139926);
+  const Decomposition split = convex::decompose(f, z, Metric::identity(2));
+  CHECK(split.status == Status::solved);
+  CHECK((split.x.x - Vector(z - Eigen::Vector2d(5e-324, -1))).norm() <= 1e-15);
+}

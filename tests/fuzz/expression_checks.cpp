@@ -1,0 +1,189 @@
+#include "tests/fuzz/expression_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/function_language/parse_call.hpp"
+#include "cli/function_language/parse_metric.hpp"
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/decomposition.hpp"
+#include "tests/fuzz/call_value.hpp"
+
+namespace fuzz {
+namespace {
+
+using convex::Call;
+using convex::Decomposition;
+using convex::Function;
+using convex::Index;
+using convex::Metric;
+using convex::Vector;
+
+constexpr double allowed = 1e-9;        ///< of a gap, relative to its terms
+constexpr double smallest_size = 1e-3;  ///< what terms count at least
+constexpr double allowed_descent = 1e-8;
+constexpr double growing =
+    1e5;  ///< a supremum that is +inf grows so much as the search goes 1e8 times as far
+
+struct Subject {
+  Call call;
+  Function f;
+  Metric W;
+  Vector z;
+};
+
+std::string text(const char* what, double a, double b) {
+  char line[200];
+  std::snprintf(line, sizeof line, "%s: %.17g beside %.17g", what, a, b);
+  return line;
+}
+
+Point point(const Vector& x) { return Point(x.begin(), x.end()); }
+
+double square(const Vector& x, const Metric& W) { return W.inner(x, x); }
+
+/// What moving x by a few roundings does to f by definition.
+Real sensitivity(const Call& f, const Vector& x, Real here) {
+  Real most = 0;
+  for (const double step : {1e-15, -1e-15}) {
+    Point moved = point(x);
+    for (Real& v : moved) v += step * static_cast<Real>(x.norm());
+    const auto there = call_value(f, moved, rounded);
+    if (there && std::isfinite(there->value)) most = std::max(most, std::abs(there->value - here));
+  }
+  return 16 * most;
+}
+
+std::string wrong_value(const Subject& subject, const Vector& x, double value) {
+  const auto truth = call_value(subject.call, point(x), rounded);
+  if (!truth) return "";
+  if (!std::isfinite(truth->value) || !std::isfinite(value))
+    return "";  // at the edge of a domain: see the gap
+  const Real slack =
+      allowed * std::max({std::abs(truth->value), truth->size, static_cast<Real>(smallest_size)}) +
+      sensitivity(subject.call, x, truth->value);
+  const Real off = static_cast<Real>(value) - truth->value;
+  if (off > slack || (truth->exact && off < -slack))
+    return text("f(x), and by definition", value, static_cast<double>(truth->value));
+  return "";
+}
+
+/// Steps from x in all magnitudes, along the axes, towards z, 0 and the answer's own covector.
+std::vector<Vector> around(const Subject& subject, const Vector& x, const Vector& y) {
+  std::vector<Vector> points{Vector::Zero(x.size()), subject.z};
+  std::vector<Vector> directions;
+  for (Index i = 0; i < x.size(); ++i) directions.push_back(Vector::Unit(x.size(), i));
+  for (Index i = 0; i + 1 < x.size(); ++i) {
+    directions.push_back(Vector::Unit(x.size(), i) + Vector::Unit(x.size(), i + 1));
+    directions.push_back(Vector::Unit(x.size(), i) - Vector::Unit(x.size(), i + 1));
+  }
+  if (x.norm() > 0) directions.push_back(x.normalized());
+  if (y.norm() > 0) directions.push_back(y.normalized());
+  const double size = std::max({x.norm(), subject.z.norm(), 1e-6});
+  for (const Vector& direction : directions)
+    for (double part = 1e-8; part < 20; part *= 10)
+      for (const double sign : {-1.0, 1.0}) points.push_back(x + sign * part * size * direction);
+  return points;
+}
+
+std::string wrong_split(const Subject& subject, const Decomposition& split) {
+  const Vector &x = split.x.x, &y = split.y.x;
+  const double size =
+      std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner), smallest_size});
+  const double gap = split.f_x + split.g_y - subject.W.inner(x, y);
+  if (!(std::abs(gap) <= allowed * size)) return text("gap, and its terms", gap, size);
+  if (std::string why = wrong_value(subject, x, split.f_x); !why.empty()) return why;
+  const double objective = 0.5 * square(x - subject.z, subject.W) + split.f_x;
+  const double scale =
+      std::max({std::abs(split.f_x), square(subject.z, subject.W), square(x, subject.W), 1e-3});
+  for (const Vector& u : around(subject, x, y)) {
+    const auto at = call_value(subject.call, point(u), strict);
+    if (!at || !std::isfinite(at->value)) continue;
+    const double there = 0.5 * square(u - subject.z, subject.W) + static_cast<double>(at->value);
+    const double slack = allowed_descent * std::max(scale, static_cast<double>(at->size));
+    if (there < objective - slack) return text("objective at a point, and at x", there, objective);
+    const double bound = subject.W.inner(u, y) - static_cast<double>(at->value);
+    const double large = std::max(u.norm() * subject.W.multiply(y).norm(), static_cast<double>(at->size));
+    if (bound > split.g_y + allowed_descent * std::max({large, std::abs(split.g_y), 1e-3}))
+      return text("(u|y) - f(u) at a point, and g(y)", bound, split.g_y);
+  }
+  return "";
+}
+
+/// sup over |u| <= reach of u·v - f(u), for one entry.
+double searched_supremum(const Call& f, double v, double reach, bool& exact) {
+  const auto minus = [&](Real u) -> Real {
+    if (std::abs(u) > reach) return std::numeric_limits<Real>::infinity();
+    const auto at = call_value(f, {u}, strict);
+    if (!at) {
+      exact = false;
+      return std::numeric_limits<Real>::infinity();
+    }
+    exact = exact && at->exact;
+    constexpr Real rounding = 1e-18L;
+    return at->value + rounding * at->size - u * v;
+  };
+  return -static_cast<double>(
+      least_on_line(minus, {0, 1, -1, 2, -2, 3, -3, static_cast<Real>(reach), -static_cast<Real>(reach)})
+          .value);
+}
+
+/// The conjugate's values at points that are not proxes, beside suprema searched on the line.
+std::string wrong_conjugate(const Subject& subject, bool& open) {
+  if (subject.z.size() != 1) return "";
+  const double weight = subject.W.diagonal()[0];
+  const Function g = subject.f.conjugate();
+  for (const double v : {0.0, 1.0, -1.0, 0.5, -2.0, -1e-12, 1e-6, weight * subject.z[0]}) {
+    bool exact = true;
+    // A slope that is nothing beside the function's data counts as 0.
+    const bool tiny = v != 0 && std::abs(v) < 1e-9;
+    const double near = searched_supremum(subject.call, v, tiny ? 1e3 : 1e8, exact);
+    const double far = searched_supremum(subject.call, v, 1e16, exact);
+    if (!(far > -INFINITY)) continue;
+    const convex::Value known = g.evaluate(Vector::Constant(1, v));
+    const double value = known.value;
+    if (!(known.error <= allowed * (std::isfinite(value) ? std::max(1.0, std::abs(value)) : 1))) {
+      open = true;  // and says so
+      continue;
+    }
+    if (std::isinf(value) && value > 0) {
+      if (exact && !tiny && !(far > growing * std::max(1.0, std::abs(near))) && !(far > near + 10))
+        return text("conjugate +inf, supremum searched", v, far);
+      continue;
+    }
+    const double slack = 1e-7 * std::max({1.0, std::abs(value), std::abs(v)});
+    if (!(value >= near - slack)) return text("conjugate, and a searched lower bound", value, near);
+    if (exact && !tiny && value > far + slack && far < growing * std::max(1.0, std::abs(near)))
+      return text("conjugate, and the supremum searched", value, far);
+  }
+  return "";
+}
+
+}  // namespace
+
+Outcome outcome(const Question& question) {
+  try {
+    const Vector z = cli::parse_vector(question.z, "z");
+    const Metric W =
+        question.metric.empty() ? Metric::identity(z.size()) : cli::parse_metric(question.metric);
+    const Call call = cli::parse_call(question.f, "f");
+    const Function f = convex::make_function(call, {W});
+    const Subject subject{call, f, W, z};
+    const Decomposition split = convex::decompose(f, z, W);
+    if (split.status == convex::Status::solved) {
+      if (std::string why = wrong_split(subject, split); !why.empty()) return {Verdict::wrong, why};
+    }
+    const bool refused = split.status != convex::Status::solved;
+    bool open = false;
+    if (std::string why = wrong_conjugate(subject, open); !why.empty()) return {Verdict::wrong, why};
+    if (refused)
+      return {Verdict::refused, text("bound, gap", split.error_bound, split.fenchel_gap) + "; " +
+                                    split.x.method + "; " + split.y.method};
+    return {open ? Verdict::open : Verdict::right, ""};
+  } catch (const convex::InvalidInput& error) {
+    return {Verdict::invalid, error.what()};
+  }
+}
+
+}  // namespace fuzz
