@@ -99,25 +99,49 @@ Candidate candidate(const Function& f, const Function& g, Prox x_part, Prox y_pa
   return made;
 }
 
-/// The points that the two proxes gave, in their domains, and held against the values.
+/// The prox of the conjugate from a prox x of f and its covector v: W⁻¹v is that at x + W⁻¹v, and the proxes
+/// of two points are no farther apart than the points.
+std::optional<Prox> by_moreau(const Prox& of_f, const Vector& z, const Metric& W) {
+  if (of_f.v.size() != z.size() || !of_f.v.allFinite()) return std::nullopt;
+  Prox made = of_f;
+  made.x = refined_solve(W, of_f.v);
+  made.v = W.multiply(of_f.x);
+  made.error_bound = of_f.error_bound + W.dual_norm(metric_difference(W, of_f.x, z) + of_f.v) +
+                     roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(of_f.x));
+  if (!of_f.method.starts_with("Moreau")) made.method = "Moreau's identity, " + of_f.method;
+  return made;
+}
+
+/// What the two proxes gave, held against the values. Where these do not bear it out, the points moved into
+/// their domains, and one of the two by Moreau's identity from the other, are tried.
 Decomposition guarded(const Function& f, const Function& g, const Vector& z, const Metric& W,
                       double tolerance) {
   const Prox x = f.prox(z, W), y = g.prox(z, W);
   Candidate best = candidate(f, g, x, y, z, W);
-  const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
-  const bool accurate = x.error_bound <= enough && y.error_bound <= enough;
-  if (accurate && (best.excess() > 0 || !best.known(tolerance))) {
-    const double scale = W.norm(z) + W.norm(x.x) + W.norm(y.x);
-    const auto x_inside = moved_into_domain(f, x, scale, W), y_inside = moved_into_domain(g, y, scale, W);
-    const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
-      if (!of_x || !of_y || (best.excess() <= 0 && best.known(tolerance))) return;
-      Candidate other = candidate(f, g, *of_x, *of_y, z, W);
-      const bool closer = std::abs(other.right) + other.error < std::abs(best.right) + best.error;
-      if (other.excess() < best.excess() || (other.excess() <= 0 && closer)) best = std::move(other);
+  const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
+  const auto borne_out = [&](const Candidate& made) {
+    return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
+  };
+  const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
+    if (borne_out(best) || !of_x || !of_y) return;
+    if (!(std::max(of_x->error_bound, of_y->error_bound) <= enough)) return;
+    Candidate other = candidate(f, g, *of_x, *of_y, z, W);
+    if (borne_out(other)) best = std::move(other);
+  };
+  if (!borne_out(best)) {
+    const auto into = [&](const Function& h, const std::optional<Prox>& found) {
+      const bool near = found && found->error_bound <= enough;
+      return near ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
     };
+    const auto x_inside = into(f, x), y_inside = into(g, y);
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
+    const auto y_of_x = by_moreau(x, z, W), x_of_y = by_moreau(y, z, W);
+    consider(x, y_of_x);
+    consider(x, into(g, y_of_x));
+    consider(x_of_y, y);
+    consider(into(f, x_of_y), y);
   }
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))

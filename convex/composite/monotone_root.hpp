@@ -18,12 +18,18 @@ struct ValueAndSlope {
 template <class Increasing>
 double monotone_root(const Increasing& increasing, double start, double smallest) {
   double low = 0, high = std::numeric_limits<double>::infinity(), mu = start, halved = high;
+  int noise = 0;
   constexpr int step_limit = 400;  // bisection of exponents alone ends within it
   for (int step = 0; step < step_limit; ++step) {
     const ValueAndSlope at = increasing(mu);
     if (at.value == 0) return mu;
     constexpr double roundings = 8;
-    const double rounding = roundings * unit_roundoff * std::max({at.size, mu, std::abs(at.value)});
+    const double one = unit_roundoff * std::max({at.size, mu, std::abs(at.value)});
+    const double rounding = roundings * one;
+    // Values that are rounding tell no more after some of them, and Newton's step is the best of them.
+    constexpr int enough_noise = 3;
+    if (std::abs(at.value) <= one && std::isfinite(one) && ++noise >= enough_noise)
+      return std::max(low, mu - at.value / at.slope);
     if (at.value < 0) {
       low = mu;
       high = std::min(high, mu - at.value + rounding);

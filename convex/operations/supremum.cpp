@@ -24,6 +24,8 @@ constexpr double settled = 1e-12, small = 1e-3;
 /// 1/t grows by `power`; on the way to a maximum far away the increases grow for some steps only.
 constexpr double growing = 1.3;
 constexpr int growth_steps = 8;
+/// So much farther out than it began.
+constexpr double farther = 1e12;
 
 /// The scalar products and values of a lower bound are right to so many roundings.
 constexpr double roundings = 8;
@@ -43,7 +45,7 @@ Value supremum(const Function& f, const Vector& v) {
   const Index n = v.size();
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
-  double t = first_step, last = -infinity, highest = -infinity, before = 0;
+  double t = first_step, last = -infinity, highest = -infinity, before = 0, first_length = 0;
   int grown = 0, quiet = 0;
   for (int step = 0; step < step_limit; ++step) {
     const Prox at = prox_of(f, x + v / t, t);
@@ -65,7 +67,9 @@ Value supremum(const Function& f, const Vector& v) {
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
     if (quiet >= 2) return best;
     grown = increase > growing * before && before > enough ? grown + 1 : 0;
-    if (grown >= growth_steps && t * moved >= membership_tolerance * v.norm()) return {infinity, 0};
+    if (!(first_length > 0)) first_length = at.x.norm();
+    const bool far = at.x.norm() >= farther * first_length;
+    if (grown >= growth_steps && far && t * moved >= membership_tolerance * v.norm()) return {infinity, 0};
     before = std::isfinite(increase) ? increase : 0;
     last = bound;
     x = at.x;

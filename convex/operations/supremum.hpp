@@ -8,12 +8,13 @@ namespace convex {
 /// x_0 = 0 and x_(k+1) the prox of f at x_k + v/t_k in t_k times the plain metric, the lower bounds
 /// v·x_k - f(x_k) increase to f*(v) as sum 1/t_k does to infinity, whether the supremum is attained,
 /// approached at infinity or +inf. It needs no program of f*, and so decides at the edge of its domain. t_k
-/// falls to its square at each step, as far as v/t_k does not drown x_k.
+/// falls to its power 3/2 at each step, as far as v/t_k does not drown x_k.
 ///
-/// The value is the last lower bound; the error is what the last step shows to be left, t_k |x_(k+1) - x_k|
-/// |x_k|, with its increase and the rounding of f(x_k). +inf is returned where the lower bounds grow by more
-/// at every step, as fast as log 1/t_k at least. The error is infinite where they neither settle nor grow so.
-/// Questions inside a supremum are answered by programs: a supremum never asks for another.
+/// The value is a lower bound; the error is what the last step shows to be left, t_k |x_(k+1) - x_k| |x_k|,
+/// with its increase and the rounding of f(x_k). +inf is returned where the lower bounds grow by more at each
+/// of eight steps in a row, and x_k to 1e12 times its first length. The error is infinite where they neither
+/// settle nor grow so. Questions inside a supremum are answered by programs: a supremum never asks for
+/// another.
 Value supremum(const Function& f, const Vector& v);
 
 /// `found`, the value of f* at v by a program, where it is settled; else the better of it and `supremum`.

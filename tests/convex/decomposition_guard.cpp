@@ -45,6 +45,9 @@ class Side final : public FunctionNode {
       found.x.array() += slip_.in_x;
     }
     found.v = W.multiply(z - found.x);
+    // Each side's covector repeats the other's slip, so that Moreau's identity does not mend it.
+    found.v.array() += ball_ ? slip_.in_x : 0;
+    if (!ball_ && slip_.outside > 1e-6) found.v *= 1 + slip_.outside;
     found.error_bound = 1e-15 * W.norm(z);
     return found;
   }
