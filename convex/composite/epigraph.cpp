@@ -92,8 +92,7 @@ class EpigraphAtom final : public Atom {
       const Vector inverse = Vector::Constant(n_, unit_ / mu);
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Matrix J = f_->prox_jacobian(x, inverse);
-      const double height = f_->value(point) / unit_;
-      return {t + mu - height, 1 + std::max(0.0, v.dot(J * v)), std::abs(t) + std::abs(height)};
+      return {t + mu - f_->value(point) / unit_, 1 + std::max(0.0, v.dot(J * v))};
     };
     const double mu = monotone_root(excess, std::isfinite(above) ? above : z.norm() + 1, smallest(z));
     Projection found{Vector(n_ + 1), mu};

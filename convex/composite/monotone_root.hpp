@@ -7,29 +7,23 @@
 
 namespace convex {
 
-/// A value and a derivative of an increasing function, and the size of the terms that the value is a sum of.
+/// A value and a derivative of an increasing function.
 struct ValueAndSlope {
-  double value = 0, slope = 1, size = 0;
+  double value = 0, slope = 1;
 };
 
 /// The root mu >= 0 of an increasing function of mu > 0 whose slope is at least 1, by Newton steps kept
-/// inside a bracket: |value| and its rounding bound the distance to the root on either side. 0 when the root
-/// is below `smallest`. `start` > 0; values may be infinite.
+/// inside a bracket: |value| and the rounding of mu bound the distance to the root on either side. 0 when the
+/// root is below `smallest`. `start` > 0; values may be infinite.
 template <class Increasing>
 double monotone_root(const Increasing& increasing, double start, double smallest) {
   double low = 0, high = std::numeric_limits<double>::infinity(), mu = start, halved = high;
-  int noise = 0;
-  constexpr int step_limit = 400;  // bisection of exponents alone ends within it
+  constexpr int step_limit = 200;  // bisection of exponents and bits alone, every third step, ends within it
+  constexpr double roundings = 8;  // of mu in mu - value, which may cancel
   for (int step = 0; step < step_limit; ++step) {
     const ValueAndSlope at = increasing(mu);
     if (at.value == 0) return mu;
-    constexpr double roundings = 8;
-    const double one = unit_roundoff * std::max({at.size, mu, std::abs(at.value)});
-    const double rounding = roundings * one;
-    // Values that are rounding tell no more after some of them, and Newton's step is the best of them.
-    constexpr int enough_noise = 3;
-    if (std::abs(at.value) <= one && std::isfinite(one) && ++noise >= enough_noise)
-      return std::max(low, mu - at.value / at.slope);
+    const double rounding = roundings * unit_roundoff * mu;
     if (at.value < 0) {
       low = mu;
       high = std::min(high, mu - at.value + rounding);

@@ -103,9 +103,7 @@ class PerspectiveAtom final : public Atom {
       // Far out on a flat part the difference q - mu p is all rounding, where a formula is not.
       const std::optional<Vector> own = f_->prox_covector(p, q / mu, step);
       const Vector v = own ? *own : Vector(q - mu * p);
-      const double height = f_->value(p), product = p.dot(v);
-      return {square * (height - product) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p)),
-              square * (std::abs(height) + std::abs(product)) + std::abs(s)};
+      return {square * (f_->value(p) - p.dot(v)) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p))};
     };
     const double size = d * z.norm();
     return std::max(monotone_root(excess, s > 0 ? s : size > 0 ? size : 1, smallest(size)), smallest(size));
