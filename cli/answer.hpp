@@ -1,16 +1,19 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/options.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace cli {
 
-/// What a command prints on standard output, as text or as a line of JSON, and its exit code.
+/// What a command prints on standard output, as text or as a line of JSON, its exit code, and what it has to
+/// say of the answer on standard error.
 struct Answer {
   Exit exit = Exit::solved;
   std::string text;
+  std::vector<std::string> warnings = {};
 };
 
 /// The exit code that goes with a status.

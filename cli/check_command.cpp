@@ -6,7 +6,8 @@
 #include "cli/decomposition_report.hpp"
 #include "cli/each_file.hpp"
 #include "cli/json_writer.hpp"
-#include "cli/solve_report.hpp"
+#include "cli/resolved_scene.hpp"
+#include "cli/singular_report.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/laws/cone_laws.hpp"
 #include "convex/laws/laws.hpp"
@@ -48,15 +49,22 @@ Answer check_cone(const ConeProblem& problem, const Problem& file_content, const
                        : heading(file_content.title, file) + cone_text(solved) + "\n" + checks_text(report)};
 }
 
-Answer check_scene(const Scene& scene, const Options& options) {
+Answer check_scene(Scene scene, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  const mechanics::GaussSolution solution = mechanics::solve(scene.problem, scene.solve);
+  mechanics::GaussSolution solution;
+  std::vector<mechanics::Warning> warnings =
+      resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
+        return solution = mechanics::solve(attempt.problem, attempt.solve);
+      });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const SolvedScene solved = solved_scene(scene, solution, seconds);
+  SolvedScene solved = solved_scene(scene, solution, seconds);
+  solved.warnings = std::move(warnings);
+  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
   const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);
   return {exit_code(report, solution.primal.status),
           options.json ? with_checks(report, [&](JsonWriter& json) { write_solved(json, solved); })
-                       : solve_text(solved) + "\n" + checks_text(report)};
+                       : solve_text(solved) + "\n" + checks_text(report),
+          warning_lines(solved)};
 }
 
 Answer check_file(const std::string& file, const Options& options) {

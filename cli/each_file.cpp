@@ -65,6 +65,9 @@ Exit print_for_each_file(const Options& options, const std::function<Answer(cons
     const Answer answer = work(file);
     if (options.json || !options.quiet) fmt::print("{}{}", first || options.json ? "" : "\n", answer.text);
     first = false;
+    std::fflush(stdout);
+    for (const std::string& warning : answer.warnings)
+      fmt::print(stderr, "moreau: warning: {}: {}\n", file, one_line(warning));
     return answer.exit;
   });
 }

@@ -23,7 +23,7 @@ Exit answered(const Options& options, const Source& source, const std::function<
 Exit for_each_file(const Options& options, const std::function<Exit(const std::string& file)>& work);
 
 /// The same for work that returns what is to be printed: texts are set apart by an empty line, objects are a
-/// line each; --quiet keeps texts back.
+/// line each; --quiet keeps texts back. Warnings follow on standard error, `moreau: warning: FILE: …`.
 Exit print_for_each_file(const Options& options, const std::function<Answer(const std::string& file)>& work);
 
 }  // namespace cli

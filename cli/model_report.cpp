@@ -60,7 +60,9 @@ void write_left_out(JsonWriter& json, const SolvedScene& solved, const convex::M
   };
   std::vector<const char*> why(solved.scene.constraints.size(), nullptr);
   for (const convex::LeftOutRow& out : model.left_out)
-    why[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(out.row)])] = reason(out.why);
+    if (out.row < static_cast<Index>(solved.scene.contacts.size()))
+      why[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(out.row)])] =
+          reason(out.why);
   for (std::size_t a = 0; a < why.size(); ++a) {
     const bool inactive = a < solved.states.size() && solved.states[a] == ConstraintState::inactive;
     if (inactive)

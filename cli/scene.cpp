@@ -30,8 +30,7 @@ mechanics::GaussOptions solve_options(const Options& options, const SolveSetting
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
-  const std::shared_ptr<const mechanics::LagrangianSystem> typed = mechanics::lagrangian_system(text.system);
-  std::shared_ptr<const mechanics::LagrangianSystem> system = typed;
+  std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
   mechanics::State state = system->state(text.state);
   std::vector<std::string> constraints;
   std::vector<bool> two_sided;
@@ -43,8 +42,8 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
     Vector tolerance = contact_tolerances(settings, constraints);
     mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
-    auto from_text = [typed, written = text.state, present = gauss.contacts.present] {
-      return mechanics::problem_from_text(*typed, written, present);
+    auto from_text = [system, written = text.state, present = gauss.contacts.present] {
+      return mechanics::problem_from_text(*system, written, present);
     };
     return {"",
             "",
@@ -100,6 +99,12 @@ std::string directory_of(const std::string& file) {
 }
 
 }  // namespace
+
+std::string Scene::contact_name(Index row) const {
+  const auto k = static_cast<std::size_t>(row);
+  if (k >= contacts.size()) return "added row " + std::to_string(k - contacts.size() + 1);
+  return constraints[static_cast<std::size_t>(contacts[k])];
+}
 
 std::vector<std::string> Scene::contact_names() const {
   std::vector<std::string> chosen;

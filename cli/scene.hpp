@@ -10,7 +10,7 @@
 #include "mechanics/certified_solution.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"
-#include "mechanics/system.hpp"
+#include "mechanics/singular/singular_group.hpp"
 
 namespace cli {
 
@@ -21,20 +21,24 @@ struct Scene {
   std::vector<std::string> coordinates;
   std::vector<std::string> constraints;  ///< every constraint of the file
   std::vector<bool> two_sided;           ///< one per constraint
-  convex::NearestPointProblem problem;   ///< its row k is constraint contacts[k]
-  std::vector<convex::Index> contacts;   ///< K, indices of constraints
+  convex::NearestPointProblem problem;  ///< its row k is constraint contacts[k]; after them, those of `added`
+  std::vector<convex::Index> contacts;  ///< K, indices of constraints
   std::optional<mechanics::ConstraintRates> rates;
   convex::Vector contact_tolerance;  ///< one per constraint, of a system
-  std::shared_ptr<const mechanics::System> system;
+  std::shared_ptr<const mechanics::LagrangianSystem> system;
   mechanics::State state;
   mechanics::GaussOptions solve;
   mechanics::ExactData exact = {};  ///< the problem at its exact values
   /// The problem of a mechanism straight from its text, where that is rational; may be empty.
   std::function<std::optional<mechanics::TextProblem>()> from_text = {};
 
-  std::string contact_name(convex::Index row) const {
-    return constraints[static_cast<std::size_t>(contacts[static_cast<std::size_t>(row)])];
-  }
+  /// Equations of third derivatives that the state needed.
+  std::vector<mechanics::AddedRow> added = {};
+  /// Rows were changed within what rounding or the digits of the state leave of them.
+  bool is_settled = false;
+
+  /// The constraint of a row, or "added row 1" and so on.
+  std::string contact_name(convex::Index row) const;
   std::vector<std::string> contact_names() const;
   /// Numbers over K spread over all constraints, 0 elsewhere.
   convex::Vector over_constraints(const convex::Vector& over_contacts) const;

@@ -53,7 +53,8 @@ class DerivativeTable {
   static std::vector<std::string> head(const SolvedScene& solved) {
     std::vector<std::string> names{"changes"};
     for (const std::string& coordinate : solved.scene.coordinates) names.push_back(coordinate + "''");
-    for (const std::string& contact : solved.scene.contact_names()) names.push_back("lambda " + contact);
+    for (Index row = 0; row < solved.scene.problem.rows(); ++row)
+      names.push_back("lambda " + solved.scene.contact_name(row));
     return names;
   }
 
@@ -96,10 +97,9 @@ std::string margins_text(const SolvedScene& solved) {
   for (Index a = 0; a < shown; ++a)
     table.add(
         {solved.scene.contact_name(a), std::isfinite((*margins)[a]) ? number_text((*margins)[a]) : "never"});
-  const auto state =
-      solved.states[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(nearest)])];
+  const ConstraintState state = solved.state_of_row(nearest);
   return table.text() + fmt::format("in the norm of A⁻¹; the first to {} is {}.\n",
-                                    state == ConstraintState::persists ? "open" : "close",
+                                    state == ConstraintState::opens ? "close" : "open",
                                     solved.scene.contact_name(nearest));
 }
 

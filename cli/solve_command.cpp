@@ -7,27 +7,40 @@
 #include "cli/decomposition_report.hpp"
 #include "cli/drawing/decomposition_drawing.hpp"
 #include "cli/each_file.hpp"
+#include "cli/resolved_scene.hpp"
+#include "cli/singular_report.hpp"
 #include "cli/solve_progress.hpp"
-#include "cli/solve_report.hpp"
 
 namespace cli {
 namespace {
 
-Answer solve_scene(const Scene& scene, const Options& options) {
+mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
+  if (scene.solve.method->name == "exact")
+    return mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
+  if (options.certify) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
+  mechanics::CertifiedSolution found;
+  found.solution = mechanics::solve(scene.problem, scene.solve);
+  return found;
+}
+
+Answer solve_scene(Scene scene, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  const bool by_fractions = scene.solve.method->name == "exact";
-  const bool proved = by_fractions || options.certify;
+  const bool proved = scene.solve.method->name == "exact" || options.certify;
   mechanics::CertifiedSolution found;
   std::optional<SolveProgress> progress(std::in_place);
-  if (by_fractions)
-    found = mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
-  else if (options.certify)
-    found = mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
-  else
-    found.solution = mechanics::solve(scene.problem, scene.solve);
-  if (options.certify && scene.from_text)
+  std::vector<mechanics::Warning> warnings =
+      resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
+        found = solve_once(attempt, options);
+        return found.solution;
+      });
+  // An added row is known in doubles only: nothing that rests on it is proved of the mechanism.
+  if (!scene.added.empty()) found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
+  if (options.certify && scene.from_text && scene.added.empty())
     if (const auto text = scene.from_text())
       mechanics::prove_from_text(found, scene.problem, *text, scene.contacts, scene.solve);
+  // What is proved of rows that were settled is proved of the mechanism by its text alone.
+  if (scene.is_settled && !(found.text && found.text->error_bound))
+    found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
   progress.reset();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   SolvedScene solved =
@@ -38,11 +51,13 @@ Answer solve_scene(const Scene& scene, const Options& options) {
   if (found.exact) solved.exact = &*found.exact;
   solved.farkas = found.farkas;
   if (found.text) solved.text = &*found.text;
+  solved.warnings = std::move(warnings);
+  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
   if (options.plot) draw(*options.plot, decomposition_drawing(solved));
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)
     exit = std::max(exit, Exit::inaccurate);
-  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved)};
+  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
 }
 
 Answer solve_file(const std::string& file, const Options& options) {

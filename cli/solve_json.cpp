@@ -1,8 +1,10 @@
+#include <numeric>
+
 #include "cli/exact_json.hpp"
 #include "cli/json_writer.hpp"
 #include "cli/model_report.hpp"
 #include "cli/sensitivity_json.hpp"
-#include "cli/solve_report.hpp"
+#include "cli/singular_report.hpp"
 
 namespace cli {
 namespace {
@@ -13,7 +15,8 @@ using convex::Vector;
 void write_active(JsonWriter& json, const SolvedScene& solved) {
   json.key("active").begin_array();
   for (std::size_t a = 0; a < solved.states.size(); ++a)
-    if (solved.states[a] == ConstraintState::persists) json.value(solved.scene.constraints[a]);
+    if (solved.states[a] == ConstraintState::persists || solved.states[a] == ConstraintState::touches)
+      json.value(solved.scene.constraints[a]);
   json.end_array();
 }
 
@@ -27,8 +30,28 @@ void write_ranges(JsonWriter& json, const SolvedScene& solved) {
   for (std::size_t k = 0; k < solved.scene.contacts.size(); ++k)
     all[static_cast<std::size_t>(solved.scene.contacts[k])] = (*solved.solution.multipliers.ranges)[k];
   json.begin_object();
-  for (std::size_t a = 0; a < all.size(); ++a)
-    json.key(solved.scene.constraints[a]).begin_array().value(all[a].low).value(all[a].high).end_array();
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    json.key(solved.scene.constraints[a]);
+    if (solved.is_weighed(a))
+      json.null();
+    else
+      json.begin_array().value(all[a].low).value(all[a].high).end_array();
+  }
+  json.end_object();
+}
+
+/// By constraint; null where an added row weighs it.
+void write_multipliers(JsonWriter& json, const SolvedScene& solved, const std::vector<Index>& constraints,
+                       const Vector& lambda) {
+  json.begin_object();
+  for (std::size_t k = 0; k < constraints.size(); ++k) {
+    const auto a = static_cast<std::size_t>(constraints[k]);
+    json.key(solved.scene.constraints[a]);
+    if (solved.is_weighed(a))
+      json.null();
+    else
+      json.value(lambda[static_cast<Index>(k)]);
+  }
   json.end_object();
 }
 
@@ -59,7 +82,7 @@ void write_hypothesis(JsonWriter& json, const SolvedScene& solved) {
     json.begin_object().end_object();
   json.key("multipliers");
   if (consistent)
-    json.numbers(solved.scene.contact_names(), hypothesis.two_sided.multipliers);
+    write_multipliers(json, solved, solved.scene.contacts, hypothesis.two_sided.multipliers);
   else
     json.begin_object().end_object();
   json.end_object();
@@ -101,9 +124,11 @@ void write_answer(JsonWriter& json, const SolvedScene& solved) {
   const mechanics::GaussSolution& solution = solved.solution;
   write_active(json, solved);
   json.key("acceleration").numbers(solved.scene.coordinates, solution.primal.q);
-  json.key("multipliers")
-      .numbers(solved.scene.constraints, solved.scene.over_constraints(solution.multipliers.least_norm));
-  json.key("multipliers_unique").value(solution.multipliers.unique);
+  std::vector<Index> all(solved.scene.constraints.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  json.key("multipliers");
+  write_multipliers(json, solved, all, solved.scene.over_constraints(solution.multipliers.least_norm));
+  json.key("multipliers_unique").value(solved.multipliers_are_unique());
   write_ranges(json, solved);
   write_null_space(json, solved);
   json.key("reaction").numbers(solved.scene.coordinates, solution.reaction);
@@ -139,11 +164,13 @@ void write_solved(JsonWriter& json, const SolvedScene& solved) {
     write_farkas(json, solved);
   else if (solved.has_answer())
     write_answer(json, solved);
+  write_added_rows(json, solved);
   if (solved.sensitivity && solved.has_answer()) write_sensitivity(json, solved);
   if (solved.infeasible() && solved.certificate) {
     write_certificate(json, solved);
     write_exact(json, solved);
   }
+  write_warnings(json, solved);
   json.key("seconds").value(solved.seconds);
 }
 

@@ -4,13 +4,15 @@
 
 #include "cli/answer.hpp"
 #include "cli/scene.hpp"
+#include "mechanics/warning.hpp"
 
 namespace cli {
 
 class JsonWriter;
 
-/// Whether a constraint persists, opens, or is not in K.
-enum class ConstraintState { persists, opens, inactive };
+/// Whether a constraint persists, does so without pressing for any choice of multipliers, opens, or is not in
+/// K.
+enum class ConstraintState { persists, touches, opens, inactive };
 
 /// A solved scene, as its reports need it.
 struct SolvedScene {
@@ -25,7 +27,14 @@ struct SolvedScene {
   const mechanics::ExactGaussSolution* exact = nullptr;  ///< when it was found in fractions
   convex::IntegerVector farkas = {};                     ///< exact weights, when these alone were proved
   const mechanics::TextProof* text = nullptr;            ///< when it was proved from the text of a mechanism
+  std::vector<mechanics::Warning> warnings = {};         ///< what its numbers do not show
 
+  /// Whether an added row weighs this constraint: its multiplier then grows without bound near the state.
+  bool is_weighed(std::size_t constraint) const;
+  /// Whether the multipliers that are given are unique.
+  bool multipliers_are_unique() const;
+  /// Of a row of the problem; an added row persists.
+  ConstraintState state_of_row(convex::Index row) const;
   bool infeasible() const { return solution.primal.status == convex::Status::infeasible; }
   bool has_answer() const {
     return solution.multipliers.least_norm.size() == scene.problem.rows() && !infeasible();
@@ -33,6 +42,10 @@ struct SolvedScene {
 };
 
 SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
+
+/// What is to be said of a mechanism beside `singular` states: contacts that are nearly there, and contacts
+/// that only touch.
+std::vector<mechanics::Warning> contact_warnings(const SolvedScene&);
 
 const char* name(ConstraintState);
 

@@ -4,7 +4,7 @@
 
 #include "cli/model_report.hpp"
 #include "cli/sensitivity_text.hpp"
-#include "cli/solve_report.hpp"
+#include "cli/singular_report.hpp"
 #include "cli/text_table.hpp"
 #include "cli/verdict_text.hpp"
 
@@ -37,7 +37,7 @@ std::string constraint_table(const SolvedScene& solved) {
       row.push_back(number_text(solved.scene.rates->df[i]));
     }
     row.push_back(number_text(solved.second_rates[i]));
-    row.push_back(number_text(lambda[i]));
+    row.push_back(solved.is_weighed(a) ? "-" : number_text(lambda[i]));
     table.add(std::move(row));
   }
   return table.text() + cut(solved.states.size(), "constraints") + "\n";
@@ -54,13 +54,17 @@ std::string coordinate_table(const SolvedScene& solved) {
 
 std::string uniqueness_text(const SolvedScene& solved) {
   const convex::Multipliers& multipliers = solved.solution.multipliers;
-  if (multipliers.unique) return "";
+  if (solved.multipliers_are_unique()) return "";
   std::string text =
       "The multipliers are not unique (the acceleration and the reaction are); shown are those of least "
       "norm.\n";
   if (!multipliers.ranges) return text;
   std::vector<std::string> parts;
   for (Index row : multipliers.tight) {
+    const auto k = static_cast<std::size_t>(row);
+    if (k < solved.scene.contacts.size() &&
+        solved.is_weighed(static_cast<std::size_t>(solved.scene.contacts[k])))
+      continue;
     const convex::Interval range = (*multipliers.ranges)[static_cast<std::size_t>(row)];
     parts.push_back(fmt::format("{} in [{}, {}]", solved.scene.contact_name(row), number_text(range.low),
                                 number_text(range.high)));
@@ -151,9 +155,9 @@ std::string solve_text(const SolvedScene& solved) {
   if (!solved.has_answer())
     return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",
                               solved.solution.primal.method);
-  return text + constraint_table(solved) + coordinate_table(solved) + uniqueness_text(solved) +
-         hypothesis_text(solved) + model_text(solved) + accuracy_text(solved) + from_text_text(solved) +
-         sensitivity_text(solved);
+  return text + constraint_table(solved) + coordinate_table(solved) + added_rows_text(solved) +
+         touching_text(solved) + uniqueness_text(solved) + hypothesis_text(solved) + model_text(solved) +
+         accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
 }
 
 }  // namespace cli

@@ -39,16 +39,17 @@ std::string damage(const SolvedScene& solved) {
   Index deepest = -1;
   for (Index row : hypothesis.negative)
     if (deepest < 0 || rates[row] < rates[deepest]) deepest = row;
-  if (deepest >= 0 && rates[deepest] < 0 &&
-      solved.states[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(deepest)])] ==
-          ConstraintState::persists)
+  const auto holds = [&](Index row) {
+    const ConstraintState state = solved.state_of_row(row);
+    return state == ConstraintState::persists || state == ConstraintState::touches;
+  };
+  if (deepest >= 0 && rates[deepest] < 0 && holds(deepest))
     return fmt::format("accelerate the system into {} (d²f/dt² = {})", solved.scene.contact_name(deepest),
                        number_text(rates[deepest]));
   std::vector<std::string> pulling;
   for (Index row = 0; row < solved.scene.problem.rows(); ++row)
     if (!std::binary_search(hypothesis.negative.begin(), hypothesis.negative.end(), row) &&
-        solved.states[static_cast<std::size_t>(solved.scene.contacts[static_cast<std::size_t>(row)])] ==
-            ConstraintState::opens)
+        solved.state_of_row(row) == ConstraintState::opens)
       pulling.push_back(solved.scene.contact_name(row));
   if (!pulling.empty())
     return fmt::format("hold {} by a pull that a one-sided contact cannot give", listed(pulling));

@@ -1,18 +1,11 @@
 #include "mechanics/contacts.hpp"
 
-#include <array>
-#include <charconv>
 #include <cmath>
+
+#include "mechanics/number_text.hpp"
 
 namespace mechanics {
 namespace {
-
-std::string number(double x) {
-  std::array<char, 32> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), x, std::chars_format::general, 6).ptr;
-  return std::string(buffer.data(), end);
-}
 
 [[noreturn]] void refuse(const Constraint& constraint, const std::string& what) {
   throw convex::InvalidInput("constraint " + constraint.name + ": " + what, constraint.place);
@@ -33,19 +26,19 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
     if (constraint.two_sided) {
       if (!(std::abs(f) <= f_zero))
         refuse(constraint,
-               "two-sided, but f = " + number(f) + " at the state; move the position so that it holds");
+               "two-sided, but f = " + number_text(f) + " at the state; move the position so that it holds");
       if (!(std::abs(df) <= df_zero))
         refuse(constraint,
-               "two-sided, but df/dt = " + number(df) + " at the state; choose velocities that keep it");
+               "two-sided, but df/dt = " + number_text(df) + " at the state; choose velocities that keep it");
       found.present.push_back(a);
       continue;
     }
     if (!(f >= -f_zero))
-      refuse(constraint, "penetrated, f = " + number(f) +
+      refuse(constraint, "penetrated, f = " + number_text(f) +
                              " < 0; move the position so that f >= 0, or raise contact_tolerance");
     if (f > f_zero) continue;
     if (df < -df_zero)
-      refuse(constraint, "an impact is due, f = 0 and df/dt = " + number(df) +
+      refuse(constraint, "an impact is due, f = 0 and df/dt = " + number_text(df) +
                              " < 0; give the velocity after the impact, or let `moreau simulate` handle it");
     if (df <= df_zero) found.present.push_back(a);
   }

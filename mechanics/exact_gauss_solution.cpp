@@ -2,6 +2,7 @@
 
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/residuals.hpp"
+#include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {
@@ -24,6 +25,7 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                 convex::lowest_terms(convex::dot(convex::ExactVector{exact.z, exact.unit}, found.primal.q));
 
   rounded.multipliers = convex::rounded(found.multipliers);
+  rounded.touching = touching_contacts(problem, rounded.primal, rounded.multipliers, 0);
   rounded.reaction = convex::nearest(found.reaction);
   rounded.gauss = convex::nearest_double(found.gauss);
   rounded.primal.force_norm = problem.A.dual_norm(problem.z);

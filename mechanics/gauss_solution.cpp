@@ -5,6 +5,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/residuals.hpp"
+#include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 #include "mechanics/vertex.hpp"
 
@@ -69,6 +70,7 @@ GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, con
   const double tolerance = zero_tolerance(options.accuracy);
   const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
   found.multipliers = convex::multipliers(problem, found.primal, tolerance, ranges);
+  found.touching = touching_contacts(problem, found.primal, found.multipliers, tolerance);
   const Vector& lambda = found.multipliers.least_norm;
   found.residuals = found.multipliers.unique
                         ? found.primal.residuals

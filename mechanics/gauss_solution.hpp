@@ -28,6 +28,7 @@ struct Reduced {
 struct GaussSolution {
   convex::Solution primal;          ///< q'' and its multipliers, or a Farkas witness
   convex::Multipliers multipliers;  ///< all multipliers; `tight` are the contacts that persist
+  std::vector<Index> touching;      ///< of these, the one-sided ones that neither press nor open
   convex::Residuals residuals;      ///< of q'' with the least-norm multipliers
   Vector reaction;                  ///< R = Σ lambda_a u_a = A q'' - z, on the system by its constraints: n
   double gauss = 0;                 ///< G = ½ q''·A q'' - z·q''

@@ -27,6 +27,10 @@ CLOSED_FORMS = {
         ("multipliers", "floor"): "g*((N - 1)*m + heavy)",
         **family("multipliers", {f"gap[{i}]": f"g*((N - 1 - {i})*m + heavy)" for i in range(1, 20)}),
     },
+    "coupled_wheels_dead_centre": {
+        **family("acceleration", {x: "(M - m*g*r)/(2*J + m*r^2)" for x in "ab"}),
+        ("acceleration", "k"): "0",
+    },
     "cradle_pushed": {
         ("acceleration", "a[1]"): "F/(N*m*l)",
         **family("multipliers", {f"gap[{i}]": f"F*(N - {i})/N" for i in range(1, 5)}),
@@ -110,5 +114,10 @@ CLOSED_FORMS = {
     "violated_rule_keeps_too_much": {
         ("multipliers", "left"): "3*m*g/5",
         ("multipliers", "right"): "0",
+    },
+    "wires_crossing": {
+        ("acceleration", "x"): "0",
+        ("acceleration", "y"): "2*c*x'^2",
+        ("reaction", "y"): "m*(g + 2*c*x'^2)",
     },
 }

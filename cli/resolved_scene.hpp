@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cli/scene.hpp"
+#include "mechanics/warning.hpp"
+
+namespace cli {
+
+/// Solves the scene by `solve`; where the state of a mechanism is singular, again with the equations that
+/// higher derivatives add, which then are rows of the scene's problem. The answer that stands is that of the
+/// last call. Returns what is to be said of it.
+std::vector<mechanics::Warning> resolve_scene(
+    Scene& scene, const std::function<const mechanics::GaussSolution&(const Scene&)>& solve);
+
+}  // namespace cli
