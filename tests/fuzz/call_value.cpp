@@ -3,152 +3,10 @@
 #include <numeric>
 #include <string>
 
+#include "tests/fuzz/call_arguments.hpp"
+
 namespace fuzz {
 namespace {
-
-using convex::Argument;
-using convex::Call;
-using convex::NamedArgument;
-
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
-
-thread_local Real slack_of_sets = rounded;
-
-std::optional<CallValue> call_value(const Call& f, const Point& x);
-
-Real number(const Call& call, std::size_t index, Real fallback) {
-  if (index >= call.arguments.size()) return fallback;
-  const double* given = std::get_if<double>(&call.arguments[index].value);
-  return given ? static_cast<Real>(*given) : fallback;
-}
-
-const convex::Matrix* matrix(const Call& call, std::size_t index) {
-  return index < call.arguments.size() ? std::get_if<convex::Matrix>(&call.arguments[index].value) : nullptr;
-}
-
-/// A vector, or a number for one with equal entries.
-Point vector(const Call& call, std::size_t index, std::size_t n, Real fallback) {
-  if (index < call.arguments.size())
-    if (const auto* given = std::get_if<convex::Vector>(&call.arguments[index].value))
-      return Point(given->begin(), given->end());
-  return Point(n, number(call, index, fallback));
-}
-
-const Call& nested(const Call& call, std::size_t index) {
-  return *std::get<std::shared_ptr<const Call>>(call.arguments[index].value);
-}
-
-Real norm(const Point& x) {
-  Real sum = 0;
-  for (const Real v : x) sum += v * v;
-  return std::sqrt(sum);
-}
-
-/// A·x + b, and the size of what it is a sum of.
-Point affine(const convex::Matrix& A, const Point& x, const Point& b, Real& size) {
-  Point image(static_cast<std::size_t>(A.rows()));
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    image[i] = i < b.size() ? b[i] : 0;
-    size = std::max(size, std::abs(image[i]));
-    for (std::size_t j = 0; j < x.size(); ++j) {
-      const Real part = A(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * x[j];
-      image[i] += part;
-      size = std::max(size, std::abs(part));
-    }
-  }
-  return image;
-}
-
-CallValue constant(Real value) { return {value, true, std::abs(value)}; }
-
-CallValue allowed(bool inside) { return {inside ? 0 : infinity, true, 0}; }
-
-/// By how much x misses a set of the language, relative to what is compared; none when it is not known here.
-std::optional<CallValue> set_value(const Call& set, const Point& x) {
-  const std::size_t n = x.size();
-  const auto within = [](Real a, Real b, Real size) { return allowed(a - b <= slack_of_sets * size); };
-  const Real scale = norm(x);
-  if (set.name == "box" || set.name == "orthant" || set.name == "ball_inf") {
-    const bool ball = set.name == "ball_inf", orthant = set.name == "orthant";
-    const Point low = orthant ? Point(n, 0) : vector(set, 0, n, ball ? 1 : -infinity);
-    const Point high = orthant ? Point(n, infinity) : ball ? low : vector(set, 1, n, infinity);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Real down = ball ? -low[i] : low[i];
-      const auto size = [&](Real end) { return scale + (std::isfinite(end) ? std::abs(end) : 0); };
-      if (x[i] < down - slack_of_sets * size(down) || x[i] > high[i] + slack_of_sets * size(high[i]))
-        return allowed(false);
-    }
-    return allowed(true);
-  }
-  if (set.name == "ball2") {
-    const Real radius = number(set, 0, 1);
-    const Point centre = vector(set, 1, n, 0);
-    Point off = x;
-    for (std::size_t i = 0; i < n; ++i) off[i] -= centre[i];
-    return within(norm(off), radius, scale + radius + norm(centre));
-  }
-  if (set.name == "ball1") {
-    Real sum = 0;
-    for (const Real v : x) sum += std::abs(v);
-    return within(sum, number(set, 0, 1), sum);
-  }
-  if (set.name == "simplex") {
-    const Real total = number(set, 0, 1);
-    Real sum = 0;
-    for (const Real v : x) {
-      if (v < -slack_of_sets * (scale + total)) return allowed(false);
-      sum += v;
-    }
-    return within(std::abs(sum - total), 0, scale + total);
-  }
-  if (set.name == "halfspace" || set.name == "hyperplane") {
-    const Point a = vector(set, 0, n, 0);
-    const Real b = number(set, 1, 0);
-    Real product = 0, size = std::abs(b);
-    for (std::size_t i = 0; i < n; ++i) {
-      product += a[i] * x[i];
-      size += std::abs(a[i] * x[i]);
-    }
-    return within(set.name == "halfspace" ? product : std::abs(product - b), set.name == "halfspace" ? b : 0,
-                  size);
-  }
-  if (set.name == "polyhedron" || set.name == "affine") {
-    const convex::Matrix* A = matrix(set, 0);
-    if (!A) return std::nullopt;
-    Real size = 0;
-    const Point b = vector(set, 1, static_cast<std::size_t>(A->rows()), 0), image = affine(*A, x, {}, size);
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      const Real off = image[i] - b[i];
-      if ((set.name == "affine" ? std::abs(off) : off) > slack_of_sets * (size + std::abs(b[i])))
-        return allowed(false);
-    }
-    return allowed(true);
-  }
-  if (set.name == "second_order_cone") return within(norm(Point(x.begin(), x.end() - 1)), x.back(), scale);
-  if (set.name == "point") {
-    const Point p = vector(set, 0, n, 0);
-    for (std::size_t i = 0; i < n; ++i)
-      if (std::abs(x[i] - p[i]) > slack_of_sets * (scale + std::abs(p[i]))) return allowed(false);
-    return allowed(true);
-  }
-  if (set.name == "intersection") {
-    for (std::size_t k = 0; k < set.arguments.size(); ++k) {
-      const auto part = set_value(nested(set, k), x);
-      if (!part || part->value > 0) return part;
-    }
-    return allowed(true);
-  }
-  if (set.name == "epigraph") {
-    const auto height = call_value(nested(set, 0), Point(x.begin(), x.end() - 1));
-    if (!height) return std::nullopt;
-    if (!std::isfinite(height->value)) return allowed(false);
-    CallValue found = within(height->value, x.back(), height->size + std::abs(x.back()));
-    found.exact =
-        height->exact && std::abs(height->value - x.back()) > 1e-6L * (height->size + std::abs(x.back()));
-    return found;
-  }
-  return std::nullopt;
-}
 
 /// sum over the entries of term(x_i).
 template <class Term>
@@ -326,19 +184,21 @@ std::optional<CallValue> one_search(const Both& both, const std::vector<Real>& s
   return found;
 }
 
-std::optional<CallValue> call_value(const Call& f, const Point& x) {
+}  // namespace
+
+std::optional<CallValue> value_of_call(const Call& f, const Point& x) {
   const std::size_t n = x.size();
   const std::string& name = f.name;
   if (name == "indicator") return set_value(nested(f, 0), x);
   if (name == "sum") {
     std::optional<CallValue> total = constant(0);
-    for (std::size_t k = 0; k < f.arguments.size(); ++k) total = plus(total, call_value(nested(f, k), x));
+    for (std::size_t k = 0; k < f.arguments.size(); ++k) total = plus(total, value_of_call(nested(f, k), x));
     return total;
   }
   if (name == "pointwise_max") {
     std::optional<CallValue> most;
     for (std::size_t k = 0; k < f.arguments.size(); ++k) {
-      const auto part = call_value(nested(f, k), x);
+      const auto part = value_of_call(nested(f, k), x);
       if (!part) return std::nullopt;
       if (!most || part->value > most->value)
         most = CallValue{part->value, part->exact && (!most || most->exact),
@@ -356,20 +216,20 @@ std::optional<CallValue> call_value(const Call& f, const Point& x) {
       moved[i] = name == "translate" ? x[i] - by[i] : x[i] / number(f, 1, 1);
       size = std::max(size, name == "translate" ? std::abs(x[i]) + std::abs(by[i]) : 0);
     }
-    auto part = call_value(nested(f, 0), moved);
+    auto part = value_of_call(nested(f, 0), moved);
     return part;
   }
   if (name == "tilt") {
     const Call linear{"linear", {f.arguments[1]}, {}};
-    return plus(call_value(nested(f, 0), x), atom_value(linear, x));
+    return plus(value_of_call(nested(f, 0), x), atom_value(linear, x));
   }
-  if (name == "scale") return times(call_value(nested(f, 0), x), number(f, 1, 1));
+  if (name == "scale") return times(value_of_call(nested(f, 0), x), number(f, 1, 1));
   if (name == "precompose") {
     const convex::Matrix* A = matrix(f, 1);
     if (!A) return std::nullopt;
     Real size = 0;
-    return call_value(nested(f, 0),
-                      affine(*A, x, vector(f, 2, static_cast<std::size_t>(A->rows()), 0), size));
+    return value_of_call(nested(f, 0),
+                         affine(*A, x, vector(f, 2, static_cast<std::size_t>(A->rows()), 0), size));
   }
   if (name == "separable") {
     std::optional<CallValue> total = constant(0);
@@ -377,7 +237,8 @@ std::optional<CallValue> call_value(const Call& f, const Point& x) {
     for (std::size_t k = 0; k + 1 < f.arguments.size(); k += 2) {
       const auto size = static_cast<std::size_t>(number(f, k + 1, 1));
       const auto begin = x.begin() + static_cast<std::ptrdiff_t>(first);
-      total = plus(total, call_value(nested(f, k), Point(begin, begin + static_cast<std::ptrdiff_t>(size))));
+      total =
+          plus(total, value_of_call(nested(f, k), Point(begin, begin + static_cast<std::ptrdiff_t>(size))));
       first += size;
     }
     return total;
@@ -387,10 +248,10 @@ std::optional<CallValue> call_value(const Call& f, const Point& x) {
     if (!(s > 0)) return std::nullopt;
     Point inside(x.begin(), x.end() - 1);
     for (Real& v : inside) v /= s;
-    return times(call_value(nested(f, 0), inside), s);
+    return times(value_of_call(nested(f, 0), inside), s);
   }
   if (n == 1) {
-    const auto at = [&](std::size_t k, Real w) { return call_value(nested(f, k), {w}); };
+    const auto at = [&](std::size_t k, Real w) { return value_of_call(nested(f, k), {w}); };
     const std::vector<Real> seeds{x[0], x[0] / 2, 1, -1, 2, 3};
     if (name == "inf_convolution")
       return one_search([&](Real w) { return plus(at(0, w), at(1, x[0] - w)); }, seeds);
@@ -407,11 +268,9 @@ std::optional<CallValue> call_value(const Call& f, const Point& x) {
   return atom_value(f, x);
 }
 
-}  // namespace
-
 std::optional<CallValue> call_value(const Call& f, const Point& x, Real slack) {
   slack_of_sets = slack;
-  return call_value(f, x);
+  return value_of_call(f, x);
 }
 
 }  // namespace fuzz
