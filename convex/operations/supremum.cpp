@@ -13,6 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power
 constexpr int step_limit = 32;
+constexpr int most_missed = 3;  ///< proxes that do not come out before the end
 
 /// t_k is at least this part of |v|/|x_k|: the prox of a point is right relative to the point.
 constexpr double smallest_part = 1e-6;
@@ -46,10 +47,11 @@ Value supremum(const Function& f, const Vector& v) {
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
   double t = first_step, last = -infinity, highest = -infinity, before = 0, first_length = 0;
-  int grown = 0, quiet = 0;
+  int grown = 0, quiet = 0, missed = 0;
   for (int step = 0; step < step_limit; ++step) {
     const Prox at = prox_of(f, x + v / t, t);
     if (at.x.size() != n || !at.x.allFinite()) break;
+    if (at.status != Status::solved && ++missed > most_missed) break;
     const Value value = f.evaluate(at.x);
     const double bound = v.dot(at.x) - value.value;
     if (!std::isfinite(bound)) break;
