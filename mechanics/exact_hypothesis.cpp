@@ -56,7 +56,7 @@ Hypothesis exact_hypothesis(const ExactProblem& problem, const ExactSolution& tr
   std::vector<Index> all(problem.s.size());
   std::iota(all.begin(), all.end(), Index{0});
   if (truth.basis.size() == all.size()) {
-    found.two_sided = {true, convex::nearest(truth.q), convex::nearest(truth.lambda), true};
+    found.two_sided = {true, convex::nearest(truth.q), convex::nearest(truth.lambda), true, false};
     found.accepted = true;
     return found;
   }

@@ -41,9 +41,6 @@ struct GaussSolution {
 /// are left out unless asked for.
 inline constexpr Index most_ranges = 1000;
 
-/// The independent check of the reaction from the dual is made up to so many contacts.
-inline constexpr Index most_contacts_from_dual = 200;
-
 /// Throws InvalidInput when the method does not apply to the problem.
 GaussSolution solve(const convex::NearestPointProblem&, const GaussOptions& = {});
 

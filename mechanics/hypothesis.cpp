@@ -32,6 +32,12 @@ NearestPointProblem held(const NearestPointProblem& problem, const std::vector<I
   return rows;
 }
 
+std::vector<Index> all_rows(const NearestPointProblem& problem) {
+  std::vector<Index> all(static_cast<std::size_t>(problem.rows()));
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
 /// From this size on sparse factors are used where the data allow it.
 Solution held_solution(const NearestPointProblem& problem) {
   constexpr Index large = 200;
@@ -40,23 +46,33 @@ Solution held_solution(const NearestPointProblem& problem) {
 
 }  // namespace
 
+convex::Solution two_sided_motion(const NearestPointProblem& problem) {
+  return held_solution(held(problem, all_rows(problem)));
+}
+
 Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth, double tolerance) {
   Hypothesis found;
   const double scale = std::max(truth.acceleration_norm, truth.force_norm);
   const auto same = [&](const Vector& acceleration) {
     return problem.A.norm(acceleration - truth.q) <= tolerance * scale;
   };
-  std::vector<Index> all(static_cast<std::size_t>(problem.rows()));
-  std::iota(all.begin(), all.end(), Index{0});
-  if (truth.basis.size() == all.size()) {
-    // Every contact persists and all are independent: the two-sided motion is the true one.
-    found.two_sided = {true, truth.q, truth.lambda, true};
+  const std::vector<Index> all = all_rows(problem);
+  // Every contact persists and all are independent: the two-sided motion is the true one.
+  const bool all_persist = truth.basis.size() == all.size();
+  const auto read_off = [&] {
+    found.two_sided = {true, truth.q, truth.lambda, true, false};
+    found.accepted = true;
+    return found;
+  };
+  if (all_persist && problem.rows() > most_contacts_from_dual) return read_off();
+  const NearestPointProblem classical = held(problem, all);
+  const Solution solution = held_solution(classical);
+  if (!has_answer(solution)) return all_persist ? read_off() : found;
+  if (all_persist && same(solution.q)) {
+    found.two_sided = {true, solution.q, solution.lambda, true};
     found.accepted = true;
     return found;
   }
-  const NearestPointProblem classical = held(problem, all);
-  const Solution solution = held_solution(classical);
-  if (!has_answer(solution)) return found;
 
   const convex::Multipliers set = convex::multipliers(classical, solution, tolerance, false);
   found.two_sided = {true, solution.q, set.least_norm, set.unique};

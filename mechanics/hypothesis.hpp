@@ -18,6 +18,9 @@ struct TwoSided {
   Vector acceleration;  ///< n; empty when inconsistent
   Vector multipliers;   ///< m, of least norm; empty when inconsistent
   bool unique = true;
+  /// Whether it was found from its own equations; false: it is the true motion, read off the answer, which is
+  /// the same where every contact persists and all rows are independent.
+  bool independent = true;
 };
 
 /// Its verdict, and that of the rule which Delassus (1917) showed to be wrong: drop exactly the contacts with
@@ -30,6 +33,13 @@ struct Hypothesis {
   std::vector<Index> negative;  ///< the one-sided rows with a negative two-sided multiplier
   std::optional<Vector> drop_negative_acceleration;  ///< what the rule gives, when it gives anything
 };
+
+/// Up to so many contacts the two-sided motion is found on its own also where the answer gives it away, for
+/// the check that needs it (`reaction_from_dual`).
+inline constexpr Index most_contacts_from_dual = 200;
+
+/// The motion with every contact held, from its own equations; not solved where they are inconsistent.
+convex::Solution two_sided_motion(const convex::NearestPointProblem&);
 
 /// Judges the hypothesis against the true solution; numbers within `tolerance` of their scale count as zero.
 Hypothesis hypothesis(const convex::NearestPointProblem&, const convex::Solution& truth, double tolerance);

@@ -51,6 +51,8 @@ Values values_of_contacts(const LagrangianModel& model, const State& state) {
   return x;
 }
 
+std::span<const double> numbers(const Vector& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+
 Vector at_roots(const Program& program, const Values& of_slot) {
   const auto& roots = program.roots(0);
   Vector result(static_cast<Index>(roots.size()));
@@ -100,8 +102,9 @@ Inertia LagrangianSystem::inertia(const State& state) const {
   const auto n = static_cast<Index>(model.coordinates.size());
   Inertia result;
   result.A = model.hessian.matrix(program, x, adjoint);
-  result.z = Eigen::Map<const Vector>(adjoint.data(), n) -
-             model.hessian.gradient_rate(program, x, adjoint, tangents(program, p, state.v));
+  const std::vector<double> rate =
+      model.hessian.gradient_rate(program, x, adjoint, tangents<double>(program, p, numbers(state.v)));
+  result.z = Eigen::Map<const Vector>(adjoint.data(), n) - Eigen::Map<const Vector>(rate.data(), n);
   for (std::size_t k = 0; k < model.forced.size(); ++k) result.z[model.forced[k]] += x[program.roots(1)[k]];
   const Index entries = result.A.nonZeros();
   if (!result.z.allFinite() || !Eigen::Map<const Vector>(result.A.valuePtr(), entries).allFinite())
@@ -115,7 +118,7 @@ ConstraintRates LagrangianSystem::constraint_rates(const State& state) const {
   const Values x = values_of_contacts(model, state);
   ConstraintRates result;
   result.f = at_roots(program, x);
-  result.df = at_roots(program, rates(program, x, state.v, nullptr).first);
+  result.df = at_roots(program, rates<double>(program, x, numbers(state.v), nullptr).first);
   result.f_scale = largest_summands(model, x).cwiseMax(1.0);
   result.df_scale = Vector::Ones(result.f.size());
   if (!result.df.allFinite()) refuse_values(model, program, 0, x, 1, names_of_constraints(model));
@@ -150,7 +153,7 @@ ContactRows LagrangianSystem::contact_rows(const State& state, const std::vector
   }
   result.U.setFromTriplets(entries.begin(), entries.end());
   const Vector rest = Vector::Zero(n);
-  const Values second = rates(program, x, state.v, &rest, &wanted).second;
+  const Values second = rates<double>(program, x, numbers(state.v), &rest, &wanted).second;
   for (Index k = 0; k < m; ++k)
     result.s[k] =
         0.0 - second[program.roots(0)[static_cast<std::size_t>(constraints[static_cast<std::size_t>(k)])]];
@@ -161,7 +164,8 @@ ContactRows LagrangianSystem::contact_rows(const State& state, const std::vector
 
 Vector LagrangianSystem::second_rates(const State& state, const Vector& q2) const {
   const Values x = values_of_contacts(*model_, state);
-  Vector result = at_roots(model_->contacts, rates(model_->contacts, x, state.v, &q2).second);
+  Vector result =
+      at_roots(model_->contacts, rates<double>(model_->contacts, x, numbers(state.v), &q2).second);
   if (!result.allFinite()) refuse_values(*model_, model_->contacts, 0, x, 2, names_of_constraints(*model_));
   return result;
 }

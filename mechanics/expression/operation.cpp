@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "convex/invariant.hpp"
+#include "mechanics/expression/rounded.hpp"
 
 namespace mechanics::expression {
 namespace {
@@ -29,36 +30,65 @@ constexpr std::array<std::pair<std::string_view, Operation>, 14> functions{{
     {"abs", Operation::abs},
 }};
 
-double raised(double base, double exponent) {
+// The functions of doubles; those of numbers with radii are found by their arguments.
+using std::abs;
+using std::acos;
+using std::asin;
+using std::atan;
+using std::atan2;
+using std::cos;
+using std::cosh;
+using std::exp;
+using std::hypot;
+using std::log;
+using std::pow;
+using std::sin;
+using std::sinh;
+using std::sqrt;
+using std::tan;
+using std::tanh;
+
+template <class Real>
+Real raised(Real base, Real exponent) {
   if (exponent == 1) return base;
   if (exponent == 2) return base * base;  // exactly rounded and fast; pow is neither promised to be
-  return std::pow(base, exponent);
+  return pow(base, exponent);
 }
 
 double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : undefined; }
+/// Unknown where x may be 0.
+Rounded sign(Rounded x) {
+  return {sign(x.value), x.may_be_zero() ? std::numeric_limits<double>::infinity() : 0};
+}
 
 /// 1 - tanh² without its cancellation.
-double sech_squared(double x) {
-  const double e = std::exp(-2 * std::abs(x));
-  return 4 * e / ((1 + e) * (1 + e));
+template <class Real>
+Real sech_squared(Real x) {
+  const Real e = exp(-2.0 * abs(x));
+  return 4.0 * e / ((1.0 + e) * (1.0 + e));
 }
 
 /// log(base) where base^exponent · log(base)^k, its limit 0 at base 0 included, is asked for.
-double log_in_power(double base, double exponent) { return base == 0 && exponent > 0 ? 0 : std::log(base); }
+template <class Real>
+Real log_in_power(Real base, Real exponent) {
+  return base == 0 && exponent > 0 ? Real(0) : log(base);
+}
 
-Partials power_partials(double a, double b, double f, Active active) {
-  Partials p;
-  if (active.a) p.a = b == 0 ? 0 : b * raised(a, b - 1);
+template <class Real>
+PartialsOf<Real> power_partials(Real a, Real b, Real f, Active active) {
+  PartialsOf<Real> p;
+  if (active.a) p.a = b == 0 ? Real(0) : b * raised<Real>(a, b - 1.0);
   if (active.b) p.b = f * log_in_power(a, b);
   return p;
 }
 
-SecondPartials power_second_partials(double a, double b, double f, Active active) {
-  SecondPartials p;
-  if (active.a) p.aa = b == 0 || b == 1 ? 0 : b * (b - 1) * raised(a, b - 2);
-  const double l = active.b ? log_in_power(a, b) : 0;
+template <class Real>
+SecondPartialsOf<Real> power_second_partials(Real a, Real b, Real f, Active active) {
+  SecondPartialsOf<Real> p;
+  if (active.a) p.aa = b == 0 || b == 1 ? Real(0) : b * (b - 1.0) * raised<Real>(a, b - 2.0);
+  const Real l = active.b ? log_in_power(a, b) : Real(0);
   if (active.b) p.bb = f * l * l;
-  if (active.a && active.b) p.ab = raised(a, b - 1) * (1 + b * std::log(a));
+  if (active.a && active.b) p.ab = raised<Real>(a, b - 1.0) * (1.0 + b * log(a));
   return p;
 }
 
@@ -119,7 +149,8 @@ std::optional<Operation> function_named(std::string_view name) {
   return std::nullopt;
 }
 
-double value(Operation operation, double a, double b) {
+template <class Real>
+Real value(Operation operation, Real a, Real b) {
   switch (operation) {
     case Operation::parameter:
       return a;
@@ -136,33 +167,33 @@ double value(Operation operation, double a, double b) {
     case Operation::power:
       return raised(a, b);
     case Operation::sin:
-      return std::sin(a);
+      return sin(a);
     case Operation::cos:
-      return std::cos(a);
+      return cos(a);
     case Operation::tan:
-      return std::tan(a);
+      return tan(a);
     case Operation::asin:
-      return std::asin(a);
+      return asin(a);
     case Operation::acos:
-      return std::acos(a);
+      return acos(a);
     case Operation::atan:
-      return std::atan(a);
+      return atan(a);
     case Operation::atan2:
-      return std::atan2(a, b);
+      return atan2(a, b);
     case Operation::sinh:
-      return std::sinh(a);
+      return sinh(a);
     case Operation::cosh:
-      return std::cosh(a);
+      return cosh(a);
     case Operation::tanh:
-      return std::tanh(a);
+      return tanh(a);
     case Operation::exp:
-      return std::exp(a);
+      return exp(a);
     case Operation::log:
-      return std::log(a);
+      return log(a);
     case Operation::sqrt:
-      return std::sqrt(a);
+      return sqrt(a);
     case Operation::abs:
-      return std::abs(a);
+      return abs(a);
     case Operation::sign:
       return sign(a);
     default:
@@ -172,7 +203,8 @@ double value(Operation operation, double a, double b) {
   return 0;
 }
 
-Partials partials(Operation operation, double a, double b, double f, Active active) {
+template <class Real>
+PartialsOf<Real> partials(Operation operation, Real a, Real b, Real f, Active active) {
   switch (operation) {
     case Operation::negate:
       return {-1, 0};
@@ -183,35 +215,35 @@ Partials partials(Operation operation, double a, double b, double f, Active acti
     case Operation::multiply:
       return {b, a};
     case Operation::divide:
-      return {active.a ? 1 / b : 0, active.b ? -f / b : 0};
+      return {active.a ? 1.0 / b : 0, active.b ? -f / b : 0};
     case Operation::power:
       return power_partials(a, b, f, active);
     case Operation::sin:
-      return {std::cos(a), 0};
+      return {cos(a), 0};
     case Operation::cos:
-      return {-std::sin(a), 0};
+      return {-sin(a), 0};
     case Operation::tan:
-      return {1 + f * f, 0};
+      return {1.0 + f * f, 0};
     case Operation::asin:
-      return {1 / std::sqrt((1 - a) * (1 + a)), 0};
+      return {1.0 / sqrt((1.0 - a) * (1.0 + a)), 0};
     case Operation::acos:
-      return {-1 / std::sqrt((1 - a) * (1 + a)), 0};
+      return {-1.0 / sqrt((1.0 - a) * (1.0 + a)), 0};
     case Operation::atan:
-      return {1 / (1 + a * a), 0};
+      return {1.0 / (1.0 + a * a), 0};
     case Operation::atan2: {
-      const double r = std::hypot(a, b);
+      const Real r = hypot(a, b);
       return {active.a ? b / r / r : 0, active.b ? -a / r / r : 0};
     }
     case Operation::sinh:
-      return {std::cosh(a), 0};
+      return {cosh(a), 0};
     case Operation::cosh:
-      return {std::sinh(a), 0};
+      return {sinh(a), 0};
     case Operation::tanh:
       return {sech_squared(a), 0};
     case Operation::exp:
       return {f, 0};
     case Operation::log:
-      return {1 / a, 0};
+      return {1.0 / a, 0};
     case Operation::sqrt:
       return {0.5 / f, 0};
     case Operation::abs:
@@ -225,31 +257,32 @@ Partials partials(Operation operation, double a, double b, double f, Active acti
   return {};
 }
 
-SecondPartials second_partials(Operation operation, double a, double b, double f, Active active) {
+template <class Real>
+SecondPartialsOf<Real> second_partials(Operation operation, Real a, Real b, Real f, Active active) {
   switch (operation) {
     case Operation::multiply:
       return {0, 1, 0};
     case Operation::divide:
-      return {0, active.a && active.b ? -1 / b / b : 0, active.b ? 2 * (f / b) / b : 0};
+      return {0, active.a && active.b ? -1.0 / b / b : 0, active.b ? 2.0 * (f / b) / b : 0};
     case Operation::power:
       return power_second_partials(a, b, f, active);
     case Operation::sin:
     case Operation::cos:
       return {-f, 0, 0};
     case Operation::tan:
-      return {2 * f * (1 + f * f), 0, 0};
+      return {2.0 * f * (1.0 + f * f), 0, 0};
     case Operation::asin:
     case Operation::acos: {
-      const double square = (1 - a) * (1 + a), sense = operation == Operation::asin ? 1 : -1;
-      return {sense * a / (square * std::sqrt(square)), 0, 0};
+      const Real square = (1.0 - a) * (1.0 + a), sense = operation == Operation::asin ? 1 : -1;
+      return {sense * a / (square * sqrt(square)), 0, 0};
     }
     case Operation::atan: {
-      const double p = 1 / (1 + a * a);
-      return {-2 * a * p * p, 0, 0};
+      const Real p = 1.0 / (1.0 + a * a);
+      return {-2.0 * a * p * p, 0, 0};
     }
     case Operation::atan2: {
-      const double r = std::hypot(a, b), s = a / r, c = b / r;
-      const double mixed = 2 * s * c / r / r;
+      const Real r = hypot(a, b), s = a / r, c = b / r;
+      const Real mixed = 2.0 * s * c / r / r;
       return {active.a ? -mixed : 0, active.a && active.b ? (s - c) * (s + c) / r / r : 0,
               active.b ? mixed : 0};
     }
@@ -257,11 +290,11 @@ SecondPartials second_partials(Operation operation, double a, double b, double f
     case Operation::cosh:
       return {f, 0, 0};
     case Operation::tanh:
-      return {-2 * f * sech_squared(a), 0, 0};
+      return {-2.0 * f * sech_squared(a), 0, 0};
     case Operation::exp:
       return {f, 0, 0};
     case Operation::log:
-      return {-1 / a / a, 0, 0};
+      return {-1.0 / a / a, 0, 0};
     case Operation::sqrt:
       return {-0.25 / (a * f), 0, 0};
     case Operation::abs:
@@ -270,5 +303,12 @@ SecondPartials second_partials(Operation operation, double a, double b, double f
       return {};
   }
 }
+
+template double value(Operation, double, double);
+template PartialsOf<double> partials(Operation, double, double, double, Active);
+template SecondPartialsOf<double> second_partials(Operation, double, double, double, Active);
+template Rounded value(Operation, Rounded, Rounded);
+template PartialsOf<Rounded> partials(Operation, Rounded, Rounded, Rounded, Active);
+template SecondPartialsOf<Rounded> second_partials(Operation, Rounded, Rounded, Rounded, Active);
 
 }  // namespace mechanics::expression

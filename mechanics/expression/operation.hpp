@@ -52,20 +52,30 @@ struct Active {
 };
 
 /// First partial derivatives of an operation in its operands a and b.
-struct Partials {
-  double a = 0, b = 0;
+template <class Real>
+struct PartialsOf {
+  Real a = 0, b = 0;
 };
 
 /// Second partial derivatives.
-struct SecondPartials {
-  double aa = 0, ab = 0, bb = 0;
+template <class Real>
+struct SecondPartialsOf {
+  Real aa = 0, ab = 0, bb = 0;
 };
 
+using Partials = PartialsOf<double>;
+using SecondPartials = SecondPartialsOf<double>;
+
+// For doubles, and for doubles with radii (`Rounded`).
+
 /// The value of an operation; a unary one ignores b. NaN or infinite where it is undefined.
-double value(Operation operation, double a, double b);
+template <class Real>
+Real value(Operation operation, Real a, Real b);
 
 /// Its derivatives at (a, b), where it has the value `f`; NaN or infinite where they do not exist.
-Partials partials(Operation operation, double a, double b, double f, Active active);
-SecondPartials second_partials(Operation operation, double a, double b, double f, Active active);
+template <class Real>
+PartialsOf<Real> partials(Operation operation, Real a, Real b, Real f, Active active);
+template <class Real>
+SecondPartialsOf<Real> second_partials(Operation operation, Real a, Real b, Real f, Active active);
 
 }  // namespace mechanics::expression

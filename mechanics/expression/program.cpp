@@ -97,4 +97,18 @@ Values Program::values(const State& state, std::size_t group, bool& is_finite) c
   return x;
 }
 
+ValuesOf<Rounded> Program::rounded_values(const RoundedState& state, std::size_t group,
+                                          const std::vector<Rounded>& of_nodes) const {
+  ValuesOf<Rounded> x(size());
+  std::copy(state.q.begin(), state.q.end(), x.begin());
+  std::copy(state.v.begin(), state.v.end(), x.begin() + static_cast<std::ptrdiff_t>(n_));
+  x[time()] = state.t;
+  for (Slot slot = time() + 1; slot < first_; ++slot) x[slot] = of_nodes[node_[slot]];
+  for (Slot slot = first_; slot < ends_[group]; ++slot) {
+    const Instruction& i = code_[slot - first_];
+    x[slot] = value(i.operation, x[i.a], x[i.b]);
+  }
+  return x;
+}
+
 }  // namespace mechanics::expression

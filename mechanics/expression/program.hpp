@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "mechanics/expression/rounded.hpp"
 #include "mechanics/expression/tape.hpp"
 #include "mechanics/state.hpp"
 
@@ -10,6 +11,14 @@ namespace mechanics::expression {
 
 using Slot = std::uint32_t;
 using Values = std::vector<double>;  // by slot
+template <class Real>
+using ValuesOf = std::vector<Real>;
+
+/// A state with a radius to each number.
+struct RoundedState {
+  Rounded t;
+  std::vector<Rounded> q, v;
+};
 
 /// The part of a tape that some roots need, ready to be run. Slots: q (n of them), v (n), t, the constants,
 /// and then one for each operation, after its operands.
@@ -40,11 +49,16 @@ class Program {
 
   /// The values up to the end of a group, at a state; `is_finite` tells whether all of them are.
   Values values(const State& state, std::size_t group, bool& is_finite) const;
-  Partials partials(Slot slot, const Values& x) const {
+  /// The same doubles with radii. `of_nodes`: the constants of the tape, by node.
+  ValuesOf<Rounded> rounded_values(const RoundedState& state, std::size_t group,
+                                   const std::vector<Rounded>& of_nodes) const;
+  template <class Real>
+  PartialsOf<Real> partials(Slot slot, const ValuesOf<Real>& x) const {
     const Instruction& i = (*this)[slot];
     return expression::partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
   }
-  SecondPartials second_partials(Slot slot, const Values& x) const {
+  template <class Real>
+  SecondPartialsOf<Real> second_partials(Slot slot, const ValuesOf<Real>& x) const {
     const Instruction& i = (*this)[slot];
     return expression::second_partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
   }

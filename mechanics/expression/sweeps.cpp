@@ -4,41 +4,47 @@
 
 namespace mechanics::expression {
 
-std::vector<Partials> first_partials(const Program& program, const Values& x) {
-  std::vector<Partials> p;
+template <class Real>
+std::vector<PartialsOf<Real>> first_partials(const Program& program, const ValuesOf<Real>& x) {
+  std::vector<PartialsOf<Real>> p;
   p.reserve(program.end(0) - program.begin());
   for (Slot slot = program.begin(); slot < program.end(0); ++slot) p.push_back(program.partials(slot, x));
   return p;
 }
 
-Values tangents(const Program& program, const std::vector<Partials>& p, const Vector& v) {
-  Values tangent(program.size());
+template <class Real>
+ValuesOf<Real> tangents(const Program& program, const std::vector<PartialsOf<Real>>& p,
+                        std::span<const Real> v, std::span<const Real> v2) {
+  ValuesOf<Real> tangent(program.size());
   std::copy(v.begin(), v.end(), tangent.begin());
+  std::copy(v2.begin(), v2.end(), tangent.begin() + static_cast<std::ptrdiff_t>(program.coordinates()));
   tangent[program.time()] = 1;
   for (Slot slot = program.begin(); slot < program.end(0); ++slot) {
     const auto& i = program[slot];
-    const Partials& d = p[slot - program.begin()];
+    const PartialsOf<Real>& d = p[slot - program.begin()];
     tangent[slot] = d.a * tangent[i.a] + d.b * tangent[i.b];
   }
   return tangent;
 }
 
-Values adjoints(const Program& program, const std::vector<Partials>& p,
-                const std::vector<std::pair<Slot, double>>& weights) {
-  Values adjoint(program.size());
+template <class Real>
+ValuesOf<Real> adjoints(const Program& program, const std::vector<PartialsOf<Real>>& p,
+                        const std::vector<std::pair<Slot, double>>& weights) {
+  ValuesOf<Real> adjoint(program.size());
   for (const auto& [slot, weight] : weights) adjoint[slot] += weight;
   for (Slot slot = program.end(0); slot-- > program.begin();) {
     const auto& i = program[slot];
-    const Partials& d = p[slot - program.begin()];
+    const PartialsOf<Real>& d = p[slot - program.begin()];
     adjoint[i.a] += d.a * adjoint[slot];
     adjoint[i.b] += d.b * adjoint[slot];
   }
   return adjoint;
 }
 
-Rates rates(const Program& program, const Values& x, const Vector& v, const Vector* q2,
-            const std::vector<bool>* wanted) {
-  Rates r{Values(program.size()), {}};
+template <class Real>
+RatesOf<Real> rates(const Program& program, const ValuesOf<Real>& x, std::span<const Real> v,
+                    const Vector* q2, const std::vector<bool>* wanted) {
+  RatesOf<Real> r{ValuesOf<Real>(program.size()), {}};
   std::copy(v.begin(), v.end(), r.first.begin());
   r.first[program.time()] = 1;
   if (q2 != nullptr) {
@@ -48,18 +54,19 @@ Rates rates(const Program& program, const Values& x, const Vector& v, const Vect
   for (Slot slot = program.begin(); slot < program.end(0); ++slot) {
     if (wanted != nullptr && !(*wanted)[slot]) continue;
     const auto& i = program[slot];
-    const Partials d = program.partials(slot, x);
-    const double a = r.first[i.a], b = r.first[i.b];
+    const PartialsOf<Real> d = program.partials(slot, x);
+    const Real a = r.first[i.a], b = r.first[i.b];
     r.first[slot] = d.a * a + d.b * b;
     if (q2 == nullptr) continue;
-    const SecondPartials dd = program.second_partials(slot, x);
+    const SecondPartialsOf<Real> dd = program.second_partials(slot, x);
     r.second[slot] =
-        d.a * r.second[i.a] + d.b * r.second[i.b] + (dd.aa * a * a + 2 * dd.ab * a * b + dd.bb * b * b);
+        d.a * r.second[i.a] + d.b * r.second[i.b] + (dd.aa * a * a + 2.0 * dd.ab * a * b + dd.bb * b * b);
   }
   return r;
 }
 
-const std::vector<Slot>& Gradients::below(Slot slot) {
+template <class Real>
+const std::vector<Slot>& GradientsOf<Real>::below(Slot slot) {
   constexpr Slot operands_done = Slot{1} << 31U;
   ++request_;
   order_.clear();
@@ -86,12 +93,13 @@ const std::vector<Slot>& Gradients::below(Slot slot) {
   return order_;
 }
 
-const Gradients::Gradient& Gradients::of(Slot slot, const Values& x) {
+template <class Real>
+auto GradientsOf<Real>::of(Slot slot, const ValuesOf<Real>& x) -> const Gradient& {
   below(slot);
   adjoint_[slot] = 1;
   for (std::size_t k = order_.size(); k-- > 0;) {
     const auto& i = (*program_)[order_[k]];
-    const Partials d = program_->partials(order_[k], x);
+    const PartialsOf<Real> d = program_->partials(order_[k], x);
     adjoint_[i.a] += d.a * adjoint_[order_[k]];
     adjoint_[i.b] += d.b * adjoint_[order_[k]];
   }
@@ -106,5 +114,22 @@ const Gradients::Gradient& Gradients::of(Slot slot, const Values& x) {
   }
   return gradient_;
 }
+
+template std::vector<PartialsOf<double>> first_partials(const Program&, const ValuesOf<double>&);
+template ValuesOf<double> tangents(const Program&, const std::vector<PartialsOf<double>>&,
+                                   std::span<const double>, std::span<const double>);
+template ValuesOf<double> adjoints(const Program&, const std::vector<PartialsOf<double>>&,
+                                   const std::vector<std::pair<Slot, double>>&);
+template RatesOf<double> rates(const Program&, const ValuesOf<double>&, std::span<const double>,
+                               const Vector*, const std::vector<bool>*);
+template class GradientsOf<double>;
+template std::vector<PartialsOf<Rounded>> first_partials(const Program&, const ValuesOf<Rounded>&);
+template ValuesOf<Rounded> tangents(const Program&, const std::vector<PartialsOf<Rounded>>&,
+                                    std::span<const Rounded>, std::span<const Rounded>);
+template ValuesOf<Rounded> adjoints(const Program&, const std::vector<PartialsOf<Rounded>>&,
+                                    const std::vector<std::pair<Slot, double>>&);
+template RatesOf<Rounded> rates(const Program&, const ValuesOf<Rounded>&, std::span<const Rounded>,
+                                const Vector*, const std::vector<bool>*);
+template class GradientsOf<Rounded>;
 
 }  // namespace mechanics::expression

@@ -1,7 +1,6 @@
 #include "mechanics/expression/velocity_hessian.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace mechanics::expression {
 namespace {
@@ -106,14 +105,14 @@ void VelocityHessian::lay_out(const Pattern& pattern) {
     }
 }
 
-std::vector<VelocityHessian::Coefficients> VelocityHessian::coefficients(const Program& program,
-                                                                         const Values& x,
-                                                                         const Values& adjoint) const {
-  std::vector<Coefficients> result;
+template <class Real>
+auto VelocityHessian::coefficients(const Program& program, const ValuesOf<Real>& x,
+                                   const ValuesOf<Real>& adjoint) const -> std::vector<Coefficients<Real>> {
+  std::vector<Coefficients<Real>> result;
   result.reserve(terms_.size());
   for (const Term& term : terms_) {
     const auto& instruction = program[term.slot];
-    const double a = x[instruction.a], b = x[instruction.b];
+    const Real a = x[instruction.a], b = x[instruction.b];
     switch (instruction.operation) {
       case Operation::negate:
         result.push_back({-1, 0, 0});
@@ -125,7 +124,7 @@ std::vector<VelocityHessian::Coefficients> VelocityHessian::coefficients(const P
         result.push_back({term.second ? -1.0 : 1.0, -1, 0});
         break;
       case Operation::divide:
-        result.push_back({1 / b, 0, 0});
+        result.push_back({1.0 / b, 0, 0});
         break;
       case Operation::multiply:
         if (term.b == 0)
@@ -143,56 +142,90 @@ std::vector<VelocityHessian::Coefficients> VelocityHessian::coefficients(const P
   return result;
 }
 
+namespace {
+
 template <int lanes>
-void VelocityHessian::sweep(const std::vector<Coefficients>& c, std::size_t colour, Bundle<lanes>& tangent,
-                            Bundle<lanes>& rate, std::vector<double>& values) const {
-  const std::size_t first_term = n_ + 1, end = std::min(colour + lanes, colouring_.seeds.size());
-  std::fill(tangent.begin(), tangent.begin() + static_cast<std::ptrdiff_t>(first_term),
-            Eigen::Array<double, lanes, 1>::Zero());
-  std::fill(rate.begin(), rate.end(), Eigen::Array<double, lanes, 1>::Zero());
-  for (std::size_t k = colour; k < end; ++k)
-    for (const std::uint32_t j : colouring_.seeds[k]) tangent[1 + j][static_cast<Index>(k - colour)] = 1;
+using Several = Eigen::Array<double, lanes, 1>;
+template <int lanes>
+double& lane(Several<lanes>& several, std::size_t k) {
+  return several[static_cast<Index>(k)];
+}
+Rounded& lane(Rounded& one, std::size_t) { return one; }
+
+template <int lanes>
+Several<lanes> zero(const Several<lanes>*) {
+  return Several<lanes>::Zero();
+}
+Rounded zero(const Rounded*) { return {}; }
+
+}  // namespace
+
+template <class Lanes, class Real>
+void VelocityHessian::sweep(const std::vector<Coefficients<Real>>& c, Bundle<Lanes>& tangent,
+                            Bundle<Lanes>& rate) const {
+  const std::size_t first_term = n_ + 1;
   for (std::size_t k = 0; k < terms_.size(); ++k)
     tangent[first_term + k] = c[k].a * tangent[terms_[k].a] + c[k].b * tangent[terms_[k].b];
   for (std::size_t k = terms_.size(); k-- > 0;) {
     const Slot a = terms_[k].a, b = terms_[k].b;
-    const Eigen::Array<double, lanes, 1> mine = rate[first_term + k];
+    const Lanes mine = rate[first_term + k];
     rate[a] += c[k].a * mine + c[k].mixed * tangent[b];
     if (b != 0) rate[b] += c[k].b * mine + c[k].mixed * tangent[a];
   }
-  for (std::size_t k = colour; k < end; ++k)
-    for (const Entry& entry : entries_[k])
-      values[entry.at] = values[entry.mirror] = rate[1 + entry.row][static_cast<Index>(k - colour)];
 }
 
-convex::SparseMatrix VelocityHessian::matrix(const Program& program, const Values& x,
-                                             const Values& adjoint) const {
+template <int lanes, class Lanes, class Real>
+std::vector<Real> VelocityHessian::entries(const std::vector<Coefficients<Real>>& c) const {
+  std::vector<Real> values(inner_.size());
+  const Lanes nothing = zero(static_cast<const Lanes*>(nullptr));
+  Bundle<Lanes> tangent(n_ + 1 + terms_.size(), nothing), rate = tangent;
+  for (std::size_t colour = 0; colour < colours(); colour += lanes) {
+    const std::size_t end = std::min(colour + lanes, colours());
+    std::fill(tangent.begin(), tangent.begin() + static_cast<std::ptrdiff_t>(n_ + 1), nothing);
+    std::fill(rate.begin(), rate.end(), nothing);
+    for (std::size_t k = colour; k < end; ++k)
+      for (const std::uint32_t j : colouring_.seeds[k]) lane(tangent[1 + j], k - colour) = 1;
+    sweep(c, tangent, rate);
+    for (std::size_t k = colour; k < end; ++k)
+      for (const Entry& entry : entries_[k])
+        values[entry.at] = values[entry.mirror] = lane(rate[1 + entry.row], k - colour);
+  }
+  return values;
+}
+
+convex::SparseMatrix VelocityHessian::with_entries(const std::vector<double>& values) const {
   const auto n = static_cast<Index>(n_);
-  const std::vector<Coefficients> c = coefficients(program, x, adjoint);
-  std::vector<double> values(inner_.size());
-  const auto sweeps = [&]<int lanes>(std::integral_constant<int, lanes>, std::size_t from, std::size_t to) {
-    Bundle<lanes> tangent(n_ + 1 + terms_.size(), Eigen::Array<double, lanes, 1>::Zero()), rate = tangent;
-    for (std::size_t colour = from; colour < to; colour += lanes)
-      sweep<lanes>(c, colour, tangent, rate, values);
-  };
-  if (colours() == 1)
-    sweeps(std::integral_constant<int, 1>(), 0, 1);
-  else
-    sweeps(std::integral_constant<int, lanes_at_once>(), 0, colours());
   return Eigen::Map<const convex::SparseMatrix>(n, n, static_cast<Index>(inner_.size()), outer_.data(),
                                                 inner_.data(), values.data());
 }
 
-Vector VelocityHessian::gradient_rate(const Program& program, const Values& x, const Values& adjoint,
-                                      const Values& tangent) const {
+convex::SparseMatrix VelocityHessian::matrix(const Program& program, const Values& x,
+                                             const Values& adjoint) const {
+  const std::vector<Coefficients<double>> c = coefficients(program, x, adjoint);
+  return with_entries(colours() == 1 ? entries<1, Several<1>>(c)
+                                     : entries<lanes_at_once, Several<lanes_at_once>>(c));
+}
+
+convex::SparseMatrix VelocityHessian::matrix_radii(const Program& program, const ValuesOf<Rounded>& x,
+                                                   const ValuesOf<Rounded>& adjoint) const {
+  std::vector<double> radii;
+  for (const Rounded& entry : entries<1, Rounded>(coefficients(program, x, adjoint)))
+    radii.push_back(entry.radius);
+  return with_entries(radii);
+}
+
+template <class Real>
+std::vector<Real> VelocityHessian::gradient_rate(const Program& program, const ValuesOf<Real>& x,
+                                                 const ValuesOf<Real>& adjoint,
+                                                 const ValuesOf<Real>& tangent) const {
   const std::size_t first_term = n_ + 1;
-  std::vector<double> rate(first_term + terms_.size(), 0.0);
+  std::vector<Real> rate(first_term + terms_.size());
   for (std::size_t k = terms_.size(); k-- > 0;) {
     const Term& term = terms_[k];
     const auto& instruction = program[term.slot];
-    const double mine = rate[first_term + k], above = adjoint[term.slot];
-    const double a = x[instruction.a], b = x[instruction.b], da = tangent[instruction.a],
-                 db = tangent[instruction.b];
+    const Real mine = rate[first_term + k], above = adjoint[term.slot];
+    const Real a = x[instruction.a], b = x[instruction.b], da = tangent[instruction.a],
+               db = tangent[instruction.b];
     switch (instruction.operation) {
       case Operation::negate:
         rate[term.a] -= mine;
@@ -206,17 +239,23 @@ Vector VelocityHessian::gradient_rate(const Program& program, const Values& x, c
         rate[term.b] -= mine;
         break;
       case Operation::divide:
-        rate[term.a] += mine / b - (instruction.active.b ? above / b / b * db : 0);
+        rate[term.a] += mine / b - (instruction.active.b ? above / b / b * db : Real(0));
         break;
       case Operation::multiply:
         if (term.b != 0) rate[term.b] += mine * a + above * da;
         rate[term.a] += term.second ? mine * a + above * da : mine * b + above * db;
         break;
       default:
-        rate[term.a] += term.b == 0 ? mine : 2 * (mine * a + above * da);
+        rate[term.a] += term.b == 0 ? mine : 2.0 * (mine * a + above * da);
     }
   }
-  return Eigen::Map<const Vector>(rate.data() + 1, static_cast<Index>(n_));
+  return {rate.begin() + 1, rate.begin() + 1 + static_cast<std::ptrdiff_t>(n_)};
 }
+
+template std::vector<double> VelocityHessian::gradient_rate(const Program&, const Values&, const Values&,
+                                                            const Values&) const;
+template std::vector<Rounded> VelocityHessian::gradient_rate(const Program&, const ValuesOf<Rounded>&,
+                                                             const ValuesOf<Rounded>&,
+                                                             const ValuesOf<Rounded>&) const;
 
 }  // namespace mechanics::expression

@@ -21,9 +21,13 @@ class VelocityHessian {
   /// ∂²T/∂v∂v, exactly symmetric: four columns, or sets of columns that share no row, at a time.
   /// `adjoint`: ∂T by slot, the result of a reverse sweep.
   convex::SparseMatrix matrix(const Program& program, const Values& x, const Values& adjoint) const;
+  /// The radii of its entries.
+  convex::SparseMatrix matrix_radii(const Program& program, const ValuesOf<Rounded>& x,
+                                    const ValuesOf<Rounded>& adjoint) const;
   /// d/dε ∂T/∂v when the slots move at the rates `tangent`.
-  Vector gradient_rate(const Program& program, const Values& x, const Values& adjoint,
-                       const Values& tangent) const;
+  template <class Real>
+  std::vector<Real> gradient_rate(const Program& program, const ValuesOf<Real>& x,
+                                  const ValuesOf<Real>& adjoint, const ValuesOf<Real>& tangent) const;
   std::size_t colours() const { return colouring_.seeds.size(); }
 
  private:
@@ -32,24 +36,28 @@ class VelocityHessian {
     Slot a, b;    // the operands that depend on them, numbered as `place`; 0 for none
     bool second;  // if only one does: whether it is the second operand
   };
+  template <class Real>
   struct Coefficients {
-    double a, b, mixed;  // partials, and what one operand's tangent adds to the other's adjoint
+    Real a, b, mixed;  // partials, and what one operand's tangent adds to the other's adjoint
   };
   struct Entry {
     std::uint32_t row, at, mirror;  // of a sweep's result, where it goes in the matrix
   };
-  std::vector<Coefficients> coefficients(const Program& program, const Values& x,
-                                         const Values& adjoint) const;
+  template <class Real>
+  std::vector<Coefficients<Real>> coefficients(const Program& program, const ValuesOf<Real>& x,
+                                               const ValuesOf<Real>& adjoint) const;
   void find_pattern(const Program& program, const Degrees& degrees);
   void lay_out(const Pattern& pattern);
-  /// Several tangents, or adjoints' tangents, at once, by place; place 0 stands for an operand that does not
-  /// vary.
-  template <int lanes>
-  using Bundle =
-      std::vector<Eigen::Array<double, lanes, 1>, Eigen::aligned_allocator<Eigen::Array<double, lanes, 1>>>;
-  template <int lanes>
-  void sweep(const std::vector<Coefficients>& c, std::size_t colour, Bundle<lanes>& tangent,
-             Bundle<lanes>& rate, std::vector<double>& values) const;
+  /// A sweep over the terms: `tangent` is filled in from that of the velocities on, then `rate` from 0. By
+  /// place; place 0 stands for an operand that does not vary. Lanes: one number, or several at once.
+  template <class Lanes>
+  using Bundle = std::vector<Lanes, Eigen::aligned_allocator<Lanes>>;
+  template <class Lanes, class Real>
+  void sweep(const std::vector<Coefficients<Real>>& c, Bundle<Lanes>& tangent, Bundle<Lanes>& rate) const;
+  /// All columns by colours, so many lanes at once.
+  template <int lanes, class Lanes, class Real>
+  std::vector<Real> entries(const std::vector<Coefficients<Real>>& c) const;
+  convex::SparseMatrix with_entries(const std::vector<double>& values) const;
 
   std::size_t n_ = 0;
   std::vector<Term> terms_;  // term k has the place n + 1 + k; velocity i has 1 + i

@@ -1,0 +1,20 @@
+#include "convex/nearest_point/data_radii.hpp"
+
+namespace convex {
+namespace {
+
+Eigen::Map<const Vector> entries(const SparseMatrix& M) { return {M.valuePtr(), M.nonZeros()}; }
+Eigen::Map<const Vector> entries(const SparseRows& M) { return {M.valuePtr(), M.nonZeros()}; }
+
+}  // namespace
+
+bool DataRadii::is_finite() const {
+  return entries(A).allFinite() && z.allFinite() && entries(U).allFinite() && s.allFinite();
+}
+
+bool DataRadii::is_zero() const {
+  return (entries(A).array() == 0).all() && (z.array() == 0).all() && (entries(U).array() == 0).all() &&
+         (s.array() == 0).all();
+}
+
+}  // namespace convex

@@ -1,0 +1,189 @@
+#include "mechanics/data_radii.hpp"
+
+#include "mechanics/expression/assignment.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/expression/rounded_nodes.hpp"
+#include "mechanics/expression/sweeps.hpp"
+
+namespace mechanics {
+
+using namespace expression;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A radius that is no number says nothing.
+double known(double radius) { return radius >= 0 ? radius : infinity; }
+
+RoundedState rounded_state(const State& state, const StateRadii& radii) {
+  RoundedState rounded{{state.t, radii.t}, {}, {}};
+  for (Index i = 0; i < state.q.size(); ++i) {
+    rounded.q.emplace_back(state.q[i], radii.q.size() > 0 ? radii.q[i] : 0);
+    rounded.v.emplace_back(state.v[i], radii.v.size() > 0 ? radii.v[i] : 0);
+  }
+  return rounded;
+}
+
+/// The radii of a table of the state; what is missing there is 0, and exact.
+Vector table_radii(const LagrangianModel& model, const std::vector<NamedText>& texts,
+                   const std::string& table, Rounded t, const Vector& values) {
+  Sources sources;
+  Tape tape;
+  Expansion expansion(model.meanings, tape);
+  const auto& families = model.meanings.coordinate_families;
+  const Assignment given = assign_to_coordinates(texts, table, table + " of ", model.names, families,
+                                                 Vocabulary::system, sources, expansion);
+  std::vector<NodeId> nodes(model.coordinates.size(), no_node);
+  for (const Family& family : families)
+    for (std::uint32_t member = 0; member < family.members.size(); ++member)
+      if (const std::uint32_t entry = given.entry_of[family.first + member]; entry != no_entry)
+        nodes[family.first + member] = expansion.node(given.entries[entry].value, family.members[member]);
+  const std::vector<Rounded> numbers = rounded_nodes(tape, t);
+  Vector radii = Vector::Zero(values.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] == no_node) continue;
+    const auto k = static_cast<Index>(i);
+    const Rounded number = numbers[nodes[i]];
+    radii[k] = known(number.radius + std::abs(number.value - values[k]));
+  }
+  return radii;
+}
+
+/// The program of T, V and Q run with radii, and its reverse sweep from T - V.
+struct Motion {
+  ValuesOf<Rounded> x;
+  std::vector<PartialsOf<Rounded>> p;
+  ValuesOf<Rounded> adjoint;
+};
+
+Motion run_motion(const LagrangianModel& model, const RoundedState& state,
+                  const std::vector<Rounded>& constants) {
+  const Program& program = model.motion;
+  Motion run{program.rounded_values(state, 1, constants), {}, {}};
+  run.p = first_partials(program, run.x);
+  std::vector<std::pair<Slot, double>> weights{{program.roots(0)[0], 1.0}};
+  if (model.potential != no_node) weights.emplace_back(program.roots(0)[1], -1.0);
+  run.adjoint = adjoints(program, run.p, weights);
+  return run;
+}
+
+/// ∂T/∂q - ∂V/∂q + Q - d/dt ∂T/∂v in the acceleration q2, which rests when it is empty: z - A q2.
+std::vector<Rounded> imbalance(const LagrangianModel& model, const RoundedState& state, const Motion& run,
+                               const std::vector<Rounded>& q2) {
+  const Program& program = model.motion;
+  std::vector<Rounded> z = model.hessian.gradient_rate(program, run.x, run.adjoint,
+                                                       tangents<Rounded>(program, run.p, state.v, q2));
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = run.adjoint[i] - z[i];
+  for (std::size_t k = 0; k < model.forced.size(); ++k)
+    z[static_cast<std::size_t>(model.forced[k])] += run.x[program.roots(1)[k]];
+  return z;
+}
+
+Vector radii_of(const std::vector<Rounded>& numbers) {
+  Vector radii(static_cast<Index>(numbers.size()));
+  for (std::size_t i = 0; i < numbers.size(); ++i) radii[static_cast<Index>(i)] = known(numbers[i].radius);
+  return radii;
+}
+
+void add_motion(const LagrangianModel& model, const RoundedState& state,
+                const std::vector<Rounded>& constants, convex::DataRadii& found) {
+  const Motion run = run_motion(model, state, constants);
+  found.A = model.hessian.matrix_radii(model.motion, run.x, run.adjoint);
+  for (double& radius : std::span(found.A.valuePtr(), static_cast<std::size_t>(found.A.nonZeros())))
+    radius = known(radius);
+  found.z = radii_of(imbalance(model, state, run, {}));
+}
+
+void add_contacts(const LagrangianModel& model, const RoundedState& state,
+                  const std::vector<Rounded>& constants, const std::vector<Index>& contacts,
+                  convex::DataRadii& found) {
+  const Program& program = model.contacts;
+  const ValuesOf<Rounded> x = program.rounded_values(state, 0, constants);
+  const auto m = static_cast<Index>(contacts.size());
+  GradientsOf<Rounded> gradients(program);
+  std::vector<Eigen::Triplet<double>> entries;
+  const Vector rest = Vector::Zero(static_cast<Index>(state.q.size()));
+  const ValuesOf<Rounded> second = rates<Rounded>(program, x, state.v, &rest).second;
+  found.s.resize(m);
+  for (Index k = 0; k < m; ++k) {
+    const Slot root = program.roots(0)[static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)])];
+    for (const auto& [i, u] : gradients.of(root, x).by_q) entries.emplace_back(k, i, known(u.radius));
+    found.s[k] = known(second[root].radius);
+  }
+  found.U.resize(m, static_cast<Index>(state.q.size()));
+  found.U.setFromTriplets(entries.begin(), entries.end());
+}
+
+}  // namespace
+
+StateRadii state_radii(const LagrangianSystem& system, const StateText& text, const State& state) {
+  const LagrangianModel& model = system.model();
+  StateRadii radii;
+  Rounded t = 0;
+  if (text.t) {
+    Sources sources;
+    Tape tape;
+    Expansion expansion(model.meanings, tape);
+    const Source& source = sources.add(*text.t, "t of the state");
+    const NodeId node = expansion.node(parse_expression(source, {&model.names, Vocabulary::system, {}}), {});
+    t = rounded_nodes(tape)[node];
+    radii.t = t.radius = known(t.radius + std::abs(t.value - state.t));
+    t.value = state.t;
+  }
+  radii.q = table_radii(model, text.position, "position", t, state.q);
+  radii.v = table_radii(model, text.velocity, "velocity", t, state.v);
+  return radii;
+}
+
+convex::DataRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                             const std::vector<Index>& contacts) {
+  const LagrangianModel& model = system.model();
+  const RoundedState rounded = rounded_state(state, radii);
+  const std::vector<Rounded> constants = rounded_nodes(model.tape);
+  convex::DataRadii found;
+  add_motion(model, rounded, constants, found);
+  add_contacts(model, rounded, constants, contacts, found);
+  return found;
+}
+
+RateRadii rate_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii) {
+  const Program& program = system.model().contacts;
+  const RoundedState rounded = rounded_state(state, radii);
+  const ValuesOf<Rounded> x = program.rounded_values(rounded, 0, rounded_nodes(system.model().tape));
+  const ValuesOf<Rounded> rate = rates<Rounded>(program, x, rounded.v, nullptr).first;
+  const auto& roots = program.roots(0);
+  const auto m = static_cast<Index>(roots.size());
+  RateRadii found{Vector(m), Vector(m)};
+  for (Index a = 0; a < m; ++a) {
+    found.f[a] = known(x[roots[static_cast<std::size_t>(a)]].radius);
+    found.df[a] = known(rate[roots[static_cast<std::size_t>(a)]].radius);
+  }
+  return found;
+}
+
+EquationRadii equation_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                             const std::vector<Index>& contacts, const Vector& q2, const Vector& lambda) {
+  const LagrangianModel& model = system.model();
+  const RoundedState rounded = rounded_state(state, radii);
+  const std::vector<Rounded> constants = rounded_nodes(model.tape);
+  std::vector<Rounded> balance = imbalance(model, rounded, run_motion(model, rounded, constants),
+                                           std::vector<Rounded>(q2.begin(), q2.end()));
+  const Program& program = model.contacts;
+  const ValuesOf<Rounded> x = program.rounded_values(rounded, 0, constants);
+  const ValuesOf<Rounded> second = rates<Rounded>(program, x, rounded.v, &q2).second;
+  EquationRadii found{{}, Vector(static_cast<Index>(contacts.size()))};
+  std::vector<std::pair<Slot, double>> weights;
+  for (std::size_t k = 0; k < contacts.size(); ++k) {
+    const Slot root = program.roots(0)[static_cast<std::size_t>(contacts[k])];
+    const auto row = static_cast<Index>(k);
+    found.rows[row] = known(second[root].radius);
+    if (lambda[row] != 0) weights.emplace_back(root, lambda[row]);
+  }
+  const ValuesOf<Rounded> pushed = adjoints(program, first_partials(program, x), weights);
+  for (std::size_t i = 0; i < balance.size(); ++i) balance[i] += pushed[i];
+  found.balance = radii_of(balance);
+  return found;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "convex/nearest_point/data_radii.hpp"
+#include "mechanics/lagrangian_system.hpp"
+
+namespace mechanics {
+
+/// How far the numbers of a state may be from those that are meant; empty vectors stand for zeros: a state
+/// that is what its doubles say.
+struct StateRadii {
+  double t = 0;
+  Vector q, v;
+};
+
+/// Of a state that was read from text, whose decimals, fractions, roots … are rounded.
+StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);
+
+/// How far A, z, U and s, as `inertia` and `contact_rows` evaluate them, may be from those of the mechanism
+/// as written, at a state within the radii: decimals, pi and every operation of values and derivatives were
+/// rounded. A bound, by the same sweeps over numbers with radii (`expression::Rounded`): what is exact has
+/// radius 0. `contacts`: the constraints of K, the rows in their order. Costs several times the evaluation.
+convex::DataRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
+                             const std::vector<Index>& contacts);
+
+/// How far f_a and df_a/dt, as `constraint_rates` evaluates them, may be from those as written.
+struct RateRadii {
+  Vector f, df;
+};
+RateRadii rate_radii(const LagrangianSystem&, const State&, const StateRadii&);
+
+/// How far z + Σ lambda_a u_a - A q'' and u_a·q'' - s_a may be from those as written, for the numbers q'' and
+/// lambda given (by contact of K): the errors of A, z, U, s where they matter, at a few times the price of an
+/// evaluation, without a radius for every entry.
+struct EquationRadii {
+  Vector balance;  ///< n
+  Vector rows;     ///< by contact of K
+};
+EquationRadii equation_radii(const LagrangianSystem&, const State&, const StateRadii&,
+                             const std::vector<Index>& contacts, const Vector& q2, const Vector& lambda);
+
+}  // namespace mechanics
