@@ -24,18 +24,25 @@ void write_fractions(JsonWriter& json, const std::vector<std::string>& names, co
   json.end_object();
 }
 
-/// Fractions over K spread over all constraints, 0 elsewhere.
-ExactVector over_constraints(const Scene& scene, const ExactVector& x) {
-  ExactVector all{convex::IntegerVector(scene.constraints.size(), 0), x.denominator};
-  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-    all.numerators[static_cast<std::size_t>(scene.contacts[k])] = x.numerators[k];
-  return all;
-}
+/// An exact solution with the constraints that are its rows.
+struct ExactAnswer {
+  const Scene& scene;
+  const std::vector<convex::Index>& K;
 
-void write_ranges(JsonWriter& json, const Scene& scene, const std::vector<convex::ExactInterval>& ranges) {
+  /// Fractions over K spread over all constraints, 0 elsewhere.
+  ExactVector over_constraints(const ExactVector& x) const {
+    ExactVector all{convex::IntegerVector(scene.constraints.size(), 0), x.denominator};
+    for (std::size_t k = 0; k < K.size(); ++k)
+      all.numerators[static_cast<std::size_t>(K[k])] = x.numerators[k];
+    return all;
+  }
+};
+
+void write_ranges(JsonWriter& json, const ExactAnswer& answer,
+                  const std::vector<convex::ExactInterval>& ranges) {
+  const Scene& scene = answer.scene;
   std::vector<convex::ExactInterval> all(scene.constraints.size(), {Fraction{}, Fraction{}});
-  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-    all[static_cast<std::size_t>(scene.contacts[k])] = ranges[k];
+  for (std::size_t k = 0; k < answer.K.size(); ++k) all[static_cast<std::size_t>(answer.K[k])] = ranges[k];
   json.begin_object();
   for (std::size_t a = 0; a < all.size(); ++a)
     json.key(scene.constraints[a])
@@ -46,36 +53,39 @@ void write_ranges(JsonWriter& json, const Scene& scene, const std::vector<convex
   json.end_object();
 }
 
-void write_null_space(JsonWriter& json, const Scene& scene, const convex::ExactMultipliers& multipliers) {
+void write_null_space(JsonWriter& json, const ExactAnswer& answer,
+                      const convex::ExactMultipliers& multipliers) {
   json.key("null_space").begin_array();
   for (const auto& mu : multipliers.null_space) {
     json.begin_object();
     for (const auto& [row, coefficient] : mu)
-      json.key(scene.contact_name(row)).value(convex::text(coefficient));
+      json.key(answer.scene.constraints[static_cast<std::size_t>(answer.K[static_cast<std::size_t>(row)])])
+          .value(convex::text(coefficient));
     json.end_object();
   }
   json.end_array();
 }
 
-void write_solution(JsonWriter& json, const Scene& scene, const mechanics::ExactGaussSolution& exact,
+void write_solution(JsonWriter& json, const ExactAnswer& answer, const mechanics::ExactGaussSolution& exact,
                     bool null_space) {
+  const Scene& scene = answer.scene;
   if (exact.primal.status == convex::Status::infeasible) {
     json.key("farkas");
-    write_fractions(json, scene.constraints, over_constraints(scene, {exact.primal.farkas, 1}));
+    write_fractions(json, scene.constraints, answer.over_constraints({exact.primal.farkas, 1}));
     return;
   }
   json.key("acceleration");
   write_fractions(json, scene.coordinates, exact.primal.q);
   json.key("multipliers");
-  write_fractions(json, scene.constraints, over_constraints(scene, exact.multipliers.least_norm));
+  write_fractions(json, scene.constraints, answer.over_constraints(exact.multipliers.least_norm));
   json.key("reaction");
   write_fractions(json, scene.coordinates, exact.reaction);
   json.key("gauss").value(convex::text(exact.gauss));
   if (exact.multipliers.ranges && !exact.multipliers.unique) {
     json.key("multiplier_ranges");
-    write_ranges(json, scene, *exact.multipliers.ranges);
+    write_ranges(json, answer, *exact.multipliers.ranges);
   }
-  if (null_space) write_null_space(json, scene, exact.multipliers);
+  if (null_space) write_null_space(json, answer, exact.multipliers);
 }
 
 const char* name(mechanics::ContactVerdict verdict) {
@@ -103,7 +113,7 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
     json.value(*proof.error_bound);
   else
     json.null();
-  if (proof.exact) write_solution(json, scene, *proof.exact, false);
+  if (proof.exact) write_solution(json, {scene, proof.K}, *proof.exact, false);
   if (proof.acceleration) {
     json.key("acceleration").begin_object();
     for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
@@ -111,18 +121,23 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
     json.end_object().key("radius").value(proof.acceleration->radius);
   } else if (proof.enclosed) {
     json.key("farkas");
-    write_fractions(json, scene.constraints, over_constraints(scene, {proof.enclosed->farkas, 1}));
+    write_fractions(json, scene.constraints,
+                    ExactAnswer{scene, proof.K}.over_constraints({proof.enclosed->farkas, 1}));
   }
   json.end_object();
 }
 
-/// The weights of a contradiction that was proved, if it was.
-const convex::IntegerVector* proved_farkas(const SolvedScene& solved) {
-  if (solved.exact != nullptr) return &solved.exact->primal.farkas;
-  if (!solved.farkas.empty()) return &solved.farkas;
-  if (solved.text == nullptr) return nullptr;
-  if (solved.text->exact) return &solved.text->exact->primal.farkas;
-  return solved.text->enclosed ? &solved.text->enclosed->farkas : nullptr;
+/// The weights of a contradiction that was proved, if it was, over all constraints.
+std::optional<ExactVector> proved_farkas(const SolvedScene& solved) {
+  const mechanics::TextProof* text = solved.text;
+  const auto over = [&](const std::vector<convex::Index>& K, const convex::IntegerVector& weights) {
+    return weights.empty() ? std::nullopt
+                           : std::optional(ExactAnswer{solved.scene, K}.over_constraints({weights, 1}));
+  };
+  if (solved.exact != nullptr) return over(solved.scene.contacts, solved.exact->primal.farkas);
+  if (!solved.farkas.empty()) return over(solved.scene.contacts, solved.farkas);
+  if (text != nullptr && text->exact) return over(text->K, text->exact->primal.farkas);
+  return text != nullptr && text->enclosed ? over(text->K, text->enclosed->farkas) : std::nullopt;
 }
 
 }  // namespace
@@ -133,13 +148,14 @@ void write_certificate(JsonWriter& json, const SolvedScene& solved) {
     json.value(name(solved.certificate->level)).key("error_bound").value(solved.certificate->error_bound);
   else
     json.value("estimate").key("error_bound").value(solved.solution.primal.error_bound);
+  if (solved.as_evaluated) json.key("as_evaluated").value(*solved.as_evaluated);
   json.end_object();
 }
 
 void write_exact(JsonWriter& json, const SolvedScene& solved) {
   if (solved.exact != nullptr) {
     json.key("exact").begin_object();
-    write_solution(json, solved.scene, *solved.exact, solved.null_space);
+    write_solution(json, {solved.scene, solved.scene.contacts}, *solved.exact, solved.null_space);
     json.end_object();
   }
   if (solved.text != nullptr) write_text_proof(json, solved.scene, *solved.text);
@@ -148,12 +164,12 @@ void write_exact(JsonWriter& json, const SolvedScene& solved) {
 void write_farkas(JsonWriter& json, const SolvedScene& solved) {
   json.key("farkas");
   const convex::Vector rounded = solved.scene.over_constraints(solved.solution.primal.farkas);
-  const convex::IntegerVector* proof = proved_farkas(solved);
-  if (proof == nullptr || proof->empty()) {
+  const std::optional<ExactVector> proof = proved_farkas(solved);
+  if (!proof) {
     json.numbers(solved.scene.constraints, rounded);
     return;
   }
-  const ExactVector exact = over_constraints(solved.scene, {*proof, 1});
+  const ExactVector& exact = *proof;
   json.begin_object();
   for (std::size_t a = 0; a < exact.numerators.size(); ++a) {
     json.key(solved.scene.constraints[a]);

@@ -42,9 +42,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
     Vector tolerance = contact_tolerances(settings, constraints);
     mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
-    auto from_text = [system, written = text.state, present = gauss.contacts.present] {
-      return mechanics::problem_from_text(*system, written, present);
-    };
+    mechanics::WrittenMechanism written{system, text.state, state};
     return {"",
             "",
             "system",
@@ -59,7 +57,7 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
             std::move(state),
             {},
             {},
-            std::move(from_text)};
+            std::move(written)};
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(text.system.kinetic.begin));
   }

@@ -11,6 +11,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"
 #include "mechanics/singular/singular_group.hpp"
+#include "mechanics/written_mechanism.hpp"
 
 namespace cli {
 
@@ -29,8 +30,8 @@ struct Scene {
   mechanics::State state;
   mechanics::GaussOptions solve;
   mechanics::ExactData exact = {};  ///< the problem at its exact values
-  /// The problem of a mechanism straight from its text, where that is rational; may be empty.
-  std::function<std::optional<mechanics::TextProblem>()> from_text = {};
+  /// A mechanism as its text has it, for what is proved or estimated from there.
+  std::optional<mechanics::WrittenMechanism> written = {};
 
   /// Equations of third derivatives that the state needed.
   std::vector<mechanics::AddedRow> added = {};

@@ -10,9 +10,25 @@
 #include "cli/resolved_scene.hpp"
 #include "cli/singular_report.hpp"
 #include "cli/solve_progress.hpp"
+#include "mechanics/evaluation_error.hpp"
+#include "mechanics/proof_as_written.hpp"
 
 namespace cli {
 namespace {
+
+bool has_answer(const mechanics::GaussSolution& solution) {
+  return solution.primal.status == convex::Status::solved ||
+         solution.primal.status == convex::Status::inaccurate;
+}
+
+/// Adds what the rounding of A, z, U, s amounts to; the bound without it.
+double count_evaluation_error(const Scene& scene, convex::Solution& solution) {
+  const double as_evaluated = solution.error_bound;
+  mechanics::count_evaluation_error(
+      solution, mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem, solution),
+      scene.solve.accuracy);
+  return as_evaluated;
+}
 
 mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
   if (scene.solve.method->name == "exact")
@@ -35,18 +51,21 @@ Answer solve_scene(Scene scene, const Options& options) {
       });
   // An added row is known in doubles only: nothing that rests on it is proved of the mechanism.
   if (!scene.added.empty()) found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
-  if (options.certify && scene.from_text && scene.added.empty())
-    if (const auto text = scene.from_text())
-      mechanics::prove_from_text(found, scene.problem, *text, scene.contacts, scene.solve);
+  if (options.certify && scene.written && scene.added.empty())
+    mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
   // What is proved of rows that were settled is proved of the mechanism by its text alone.
   if (scene.is_settled && !(found.text && found.text->error_bound))
     found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
+  std::optional<double> as_evaluated;
+  if (scene.written && !proved && scene.added.empty() && has_answer(found.solution))
+    as_evaluated = count_evaluation_error(scene, found.solution.primal);
   progress.reset();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   SolvedScene solved =
       solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);
   solved.null_space = options.null_space;
   solved.sensitivity = options.sensitivity;
+  solved.as_evaluated = as_evaluated;
   if (proved) solved.certificate = found.certificate;
   if (found.exact) solved.exact = &*found.exact;
   solved.farkas = found.farkas;

@@ -23,6 +23,8 @@ struct SolvedScene {
   double seconds = 0;
   bool sensitivity = false;                              ///< whether its report is wanted
   bool null_space = false;                               ///< whether that of the multipliers is
+  /// The error bound for A, z, U, s as evaluated, when that of the solution counts their rounding too.
+  std::optional<double> as_evaluated = {};
   std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for
   const mechanics::ExactGaussSolution* exact = nullptr;  ///< when it was found in fractions
   convex::IntegerVector farkas = {};                     ///< exact weights, when these alone were proved

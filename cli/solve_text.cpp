@@ -76,20 +76,54 @@ bool is_proved(const std::optional<convex::Certificate>& certificate) {
   return certificate && certificate->level != convex::ProofLevel::none;
 }
 
+std::string constraints_text(const SolvedScene& solved, const std::vector<Index>& chosen) {
+  std::vector<std::string> names;
+  for (const Index a : chosen) names.push_back(solved.scene.constraints[static_cast<std::size_t>(a)]);
+  return listed(names);
+}
+
+/// Constraints that the tolerance took for contacts and the text does not, or the other way round.
+std::string refuted_text(const SolvedScene& solved) {
+  std::vector<Index> open, closed;
+  for (const Index a : solved.text->refuted)
+    (solved.text->contacts[static_cast<std::size_t>(a)] == mechanics::ContactVerdict::touches ? closed : open)
+        .push_back(a);
+  std::string text;
+  if (!open.empty())
+    text += fmt::format(
+        "From the text: as written, {} {} not touch (f > 0, or df/dt > 0), though within "
+        "contact_tolerance {} counted as touching",
+        constraints_text(solved, open), open.size() == 1 ? "does" : "do", open.size() == 1 ? "it" : "they");
+  if (!closed.empty())
+    text += fmt::format("{}as written, {} {}, though f or df/dt as evaluated is beyond contact_tolerance",
+                        text.empty() ? "From the text: " : "; ", constraints_text(solved, closed),
+                        closed.size() == 1 ? "touches" : "touch");
+  return text;
+}
+
 /// What the text of a mechanism proves of the contacts, and of the answer.
 std::string from_text_text(const SolvedScene& solved) {
   if (solved.text == nullptr) return "";
   const mechanics::TextProof& proof = *solved.text;
-  std::vector<std::string> open;
-  for (std::size_t a = 0; a < proof.contacts.size(); ++a)
-    if (proof.contacts[a] == mechanics::ContactVerdict::undecided)
-      open.push_back(solved.scene.constraints[a]);
-  std::string text = proof.contacts_hold ? "From the text: the contacts of K are proved"
-                     : open.empty()      ? "From the text: K is that of contact_tolerance, not the exact one"
-                                         : "From the text: contact is not decided for " + listed(open);
-  if (proof.error_bound && !solved.infeasible())
+  constexpr const char* remedy =
+      "; give the state exactly, as an expression or a fraction, or set contact_tolerance";
+  std::string text;
+  if (proof.contacts_hold)
+    text = "From the text: the contacts of K are proved";
+  else if (!proof.violated.empty())
+    text = fmt::format("From the text: as written, {} {} not hold, by less than contact_tolerance{}",
+                       constraints_text(solved, proof.violated), proof.violated.size() == 1 ? "does" : "do",
+                       remedy);
+  else if (!proof.refuted.empty())
+    text = refuted_text(solved) + (is_proved(solved.certificate) ? ", which makes no difference" : remedy);
+  else
+    text = fmt::format("From the text: contact is not decided for {}{}", constraints_text(solved, proof.open),
+                       is_proved(solved.certificate) ? ", which makes no difference" : remedy);
+  if (proof.error_bound && is_proved(solved.certificate) && !solved.infeasible())
     text +=
         fmt::format("; the acceleration is that of the mechanism as written to {:.1e}", *proof.error_bound);
+  else if (!is_proved(solved.certificate))
+    text += ". Nothing is proved of the mechanism as written";
   return text + ".\n";
 }
 
@@ -118,9 +152,14 @@ std::string accuracy_text(const SolvedScene& solved) {
   }
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
-  const std::string accuracy =
+  std::string accuracy =
       fmt::format("relative error of the acceleration at most {}{:.1e}{}",
                   is_proved(solved.certificate) ? "" : "about ", relative, proof_text(solved.certificate));
+  if (solved.as_evaluated)
+    accuracy += fmt::format(" for the mechanism as written, {:.1e} for A, z, U, s as evaluated",
+                            scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
+  else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
+    accuracy += ", for A, z, U, s as evaluated";
   text +=
       primal.status == convex::Status::solved
           ? fmt::format("Solved by {}{}: {}.\n", primal.method, primal.polished ? ", polished" : "", accuracy)

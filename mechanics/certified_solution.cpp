@@ -31,35 +31,19 @@ bool is_default(const GaussOptions& options) {
   return options.method == &convex::methods().front() || options.method->name == "exact";
 }
 
-/// The status that a proved bound gives.
-void judge(CertifiedSolution& found, const GaussOptions& options) {
+bool has_answer(const GaussSolution& solution) {
+  return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
+}
+
+}  // namespace
+
+void judge_by_certificate(CertifiedSolution& found, const GaussOptions& options) {
   convex::Solution& primal = found.solution.primal;
   primal.error_bound = found.certificate.error_bound;
   const bool close =
       primal.error_bound <= options.accuracy.tolerance * std::max(1.0, primal.acceleration_norm);
   primal.status = close ? Status::solved : Status::inaccurate;
 }
-
-/// Whether the constraints of K touch, and no other one does.
-bool prove_all(const std::vector<ContactVerdict>& verdicts, const std::vector<Index>& contacts) {
-  for (std::size_t a = 0; a < verdicts.size(); ++a) {
-    const bool in_K = std::binary_search(contacts.begin(), contacts.end(), static_cast<Index>(a));
-    if (verdicts[a] != (in_K ? ContactVerdict::touches : ContactVerdict::apart)) return false;
-  }
-  return true;
-}
-
-bool has_answer(const GaussSolution& solution) {
-  return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
-}
-
-std::vector<Index> likely_rows(const CertifiedSolution& found, const convex::NearestPointProblem& problem) {
-  return has_answer(found.solution) && !found.solution.primal.basis.empty()
-             ? found.solution.primal.basis
-             : convex::likely_active_rows(problem);
-}
-
-}  // namespace
 
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem, const ExactData& data,
                                      const GaussOptions& options) {
@@ -73,44 +57,6 @@ CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem,
   return found;
 }
 
-void prove_from_text(CertifiedSolution& found, const convex::NearestPointProblem& problem,
-                     const TextProblem& text, const std::vector<Index>& contacts,
-                     const GaussOptions& options) {
-  TextProof& proof = found.text.emplace();
-  proof.contacts = text.contacts;
-  proof.contacts_hold = prove_all(text.contacts, contacts);
-  const convex::ExactProblem& middle = text.problem.middle;
-  if (text.is_exact) {
-    proof.exact = solve_exactly(middle, problem, options);
-  } else {
-    proof.enclosed = convex::enclosed_solution(text.problem, likely_rows(found, problem));
-    if (!proof.enclosed) return;
-  }
-  const bool feasible =
-      proof.exact ? has_answer(proof.exact->rounded) : proof.enclosed->status != Status::infeasible;
-  const ProofLevel level = proof.exact ? ProofLevel::exact : ProofLevel::enclosure;
-  if (feasible != has_answer(found.solution)) {
-    found.solution = proof.exact ? proof.exact->rounded : solve_exactly(middle, problem, options).rounded;
-    found.exact.reset();
-    found.certificate = {level, 0};
-  }
-  if (found.certificate.level == ProofLevel::none) found.certificate = {level, 0};
-  if (!feasible) {
-    proof.error_bound = 0;
-    return;
-  }
-  const Vector& q = found.solution.primal.q;
-  proof.error_bound = proof.exact ? convex::distance_above(middle, q, proof.exact->primal.q)
-                                  : convex::distance_above(text.problem, *proof.enclosed, q);
-  if (proof.enclosed) {
-    constexpr int digits = 30;
-    proof.acceleration = convex::decimals(text.problem, *proof.enclosed, digits);
-    found.certificate.level = ProofLevel::enclosure;
-  }
-  found.certificate.error_bound = std::max(found.certificate.error_bound, *proof.error_bound);
-  judge(found, options);
-}
-
 CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, const ExactData& data,
                                   const GaussOptions& options) {
   CertifiedSolution found;
@@ -119,7 +65,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
     if (const auto bound = convex::enclosed_error(problem, found.solution.primal);
         bound && (!is_quick(problem) || *bound <= few_ulps * found.solution.primal.acceleration_norm)) {
       found.certificate = {ProofLevel::enclosure, *bound};
-      judge(found, options);
+      judge_by_certificate(found, options);
       return found;
     }
   if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
@@ -134,7 +80,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
   if (is_default(options) || !has_answer(found.solution) || !has_answer(exact.solution)) return exact;
   found.certificate = {ProofLevel::exact,
                        convex::distance_above(data.make(), found.solution.primal.q, exact.exact->primal.q)};
-  judge(found, options);
+  judge_by_certificate(found, options);
   return found;
 }
 

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/proof/certificate.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/exact_gauss_solution.hpp"
-#include "mechanics/exact_text.hpp"
+#include "mechanics/text_proof.hpp"
 
 namespace mechanics {
 
@@ -13,17 +13,6 @@ namespace mechanics {
 struct ExactData {
   std::function<convex::ExactProblem()> make;
   bool are_doubles = true;  ///< the doubles of the problem are the exact values
-};
-
-/// What the text of a mechanism proves: its solution in fractions where the text is rational, else enclosed,
-/// if that succeeds.
-struct TextProof {
-  std::vector<ContactVerdict> contacts;  ///< by constraint
-  bool contacts_hold = false;            ///< every contact of K touches, and no other constraint does
-  std::optional<ExactGaussSolution> exact;
-  std::optional<convex::EnclosedSolution> enclosed;
-  std::optional<convex::Decimals> acceleration;  ///< when it is enclosed
-  std::optional<double> error_bound;             ///< of the acceleration given; none when nothing is proved
 };
 
 /// An answer with its proof.
@@ -45,11 +34,8 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem&, const Exac
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem&, const ExactData&,
                                      const GaussOptions&);
 
-/// Takes in what the text of the mechanism says: the bound covers the rounding of A, z, U, s as well, and an
-/// answer that only this rounding made (in)feasible is replaced by that of the text. `contacts`: the
-/// constraints of K.
-void prove_from_text(CertifiedSolution&, const convex::NearestPointProblem&, const TextProblem&,
-                     const std::vector<Index>& contacts, const GaussOptions&);
+/// The status that the certificate's bound gives.
+void judge_by_certificate(CertifiedSolution&, const GaussOptions&);
 
 /// n (n + m) up to which fractions are tried: some seconds of work.
 inline constexpr Index most_exact_entries = 300 * 300;

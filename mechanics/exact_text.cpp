@@ -1,6 +1,6 @@
 #include "mechanics/exact_text.hpp"
 
-#include <algorithm>
+#include <numeric>
 
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/exact_jet.hpp"
@@ -27,12 +27,12 @@ bool read_values(const LagrangianModel& model, const std::vector<NamedText>& tex
   const Assignment given = assign_to_coordinates(texts, table, table + " of ", model.names, families,
                                                  Vocabulary::system, sources, expansion);
   const ExactState instant{t, {}, {}};
+  ExactEvaluation evaluate(tape, instant, precision, JetPart::rates);
   for (const Family& family : families)
     for (std::uint32_t member = 0; member < family.members.size(); ++member) {
       const std::uint32_t entry = given.entry_of[family.first + member];
       if (entry == no_entry) continue;
       const NodeId node = expansion.node(given.entries[entry].value, family.members[member]);
-      ExactEvaluation evaluate(tape, instant, precision);
       const auto& jet = evaluate(node);
       if (!jet) return false;
       values[family.first + member] = jet->value;
@@ -160,10 +160,6 @@ std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateTe
   if (!collect_motion(model, evaluate, numbers) || !collect_contacts(model, contacts, evaluate, numbers))
     return std::nullopt;
   TextProblem found;
-  for (std::size_t a = 0; a < model.f.size(); ++a) {
-    const auto& f = evaluate(model.f[a]);
-    found.contacts.push_back(f ? verdict(*f, model.constraints[a].two_sided) : ContactVerdict::undecided);
-  }
   std::vector<Index> two_sided;
   for (std::size_t k = 0; k < contacts.size(); ++k)
     if (model.constraints[static_cast<std::size_t>(contacts[k])].two_sided)
@@ -182,26 +178,44 @@ std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateTe
   return found;
 }
 
-bool is_decided(const TextProblem& problem) {
-  return std::count(problem.contacts.begin(), problem.contacts.end(), ContactVerdict::undecided) == 0;
-}
-
 }  // namespace
+
+std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem& system, const StateText& text,
+                                             const std::vector<Index>& wanted) {
+  const LagrangianModel& model = system.model();
+  std::vector<ContactVerdict> found(model.f.size(), ContactVerdict::undecided);
+  for (const long precision : {0L, first_precision, last_precision}) {
+    if (precision > 0 && !Ball::why_none().empty()) break;
+    const auto state = read_state_exactly(model, text, precision);
+    if (!state) continue;
+    ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
+    for (const Index a : wanted) {
+      const auto k = static_cast<std::size_t>(a);
+      if (found[k] != ContactVerdict::undecided) continue;
+      if (const auto& f = evaluate(model.f[k])) found[k] = verdict(*f, model.constraints[k].two_sided);
+    }
+  }
+  return found;
+}
 
 std::optional<TextProblem> problem_from_text(const LagrangianSystem& system, const StateText& text,
                                              const std::vector<Index>& contacts) {
   if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;
-  if (auto found = attempt(system, text, contacts, 0)) return found;
-  if (!Ball::why_none().empty()) return std::nullopt;
-  std::optional<TextProblem> found;
-  for (const long precision : {first_precision, last_precision}) {
-    try {
-      found = attempt(system, text, contacts, precision);
-    } catch (const convex::InvalidInput&) {
-      found.reset();  // the middle of an A that is too wide need not be positive definite
+  std::optional<TextProblem> found = attempt(system, text, contacts, 0);
+  if (!found && Ball::why_none().empty()) {
+    for (const long precision : {first_precision, last_precision}) {
+      try {
+        found = attempt(system, text, contacts, precision);
+      } catch (const convex::InvalidInput&) {
+        found.reset();  // the middle of an A that is too wide need not be positive definite
+      }
+      if (found) break;
     }
-    if (found && is_decided(*found)) break;
   }
+  if (!found) return found;
+  std::vector<Index> all(system.constraints().size());
+  std::iota(all.begin(), all.end(), Index{0});
+  found->contacts = contact_verdicts(system, text, all);
   return found;
 }
 

@@ -20,9 +20,15 @@ struct TextProblem {
   long precision = 0;                    ///< of the balls, bits; 0: there are none
 };
 
+/// The verdicts alone, for a system of any size: in fractions where a constraint and the state have them,
+/// else in balls, of more precision while nothing is decided. `wanted`: the constraints that are asked for;
+/// the others are `undecided`.
+std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem&, const StateText&,
+                                             const std::vector<Index>& wanted);
+
 /// `contacts`: the constraints of K, in order. In fractions where every function has a rational value and
-/// rational derivatives; else in balls of `first_precision`, or of `last_precision` where some contact is not
-/// decided. None when a derivative does not exist for all that balls tell, when there are no balls
+/// rational derivatives; else in balls of `first_precision`, or of `last_precision` where those are too wide.
+/// None when a derivative does not exist for all that balls tell, when there are no balls
 /// (Ball::why_none), or when the system has more than `most_exact_coordinates` coordinates. Throws
 /// InvalidInput when A, in fractions, is not positive definite.
 std::optional<TextProblem> problem_from_text(const LagrangianSystem&, const StateText&,

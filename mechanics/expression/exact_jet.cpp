@@ -33,10 +33,11 @@ void add_product(std::vector<Number>& sum, const Number& c, const std::vector<Nu
       if (!is_zero(x[i]) && !is_zero(y[j])) sum[i * y.size() + j] = sum[i * y.size() + j] + c * x[i] * y[j];
 }
 
-ExactJet chained(const NumberPartials& p, const ExactJet& a, const ExactJet& b) {
+ExactJet chained(const NumberPartials& p, const ExactJet& a, const ExactJet& b, JetPart part) {
   ExactJet f;
   f.value = p.f;
   f.along = p.a * a.along + p.b * b.along;
+  if (part == JetPart::rates) return f;
   f.along_twice = p.a * a.along_twice + p.b * b.along_twice + p.aa * a.along * a.along +
                   two * p.ab * a.along * b.along + p.bb * b.along * b.along;
   f.by_q = combined(p.a, a.by_q, p.b, b.by_q);
@@ -70,11 +71,13 @@ ExactJet ExactEvaluation::variable(NodeId node) const {
     case Operation::coordinate:
       jet.value = state_->q[i];
       jet.along = state_->v[i];
+      if (part_ == JetPart::rates) break;
       widen(jet.by_q, n);
       jet.by_q[i] = one;
       break;
     case Operation::velocity:
       jet.value = state_->v[i];
+      if (part_ == JetPart::rates) break;
       widen(jet.by_v, n);
       jet.by_v[i] = one;
       break;
@@ -113,7 +116,7 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
       const auto p =
           number_partials(operation, a->value, b->value, tape_->is_constant(tape_->b(node)), precision_);
       if (!p) return std::nullopt;
-      return arity(operation) == 2 ? chained(*p, *a, *b) : chained(*p, *a, ExactJet{});
+      return arity(operation) == 2 ? chained(*p, *a, *b, part_) : chained(*p, *a, ExactJet{}, part_);
     }
   }
 }

@@ -24,12 +24,15 @@ struct ExactJet {
   std::vector<Number> by_vv;         ///< ∂²f/∂v∂v: n·n, by rows
 };
 
+/// What of a jet is evaluated: f and Df, or everything.
+enum class JetPart { rates, whole };
+
 /// Evaluates nodes of a tape in fractions and, when `precision` (bits) is not 0, in balls where fractions
 /// end.
 class ExactEvaluation {
  public:
-  ExactEvaluation(const Tape& tape, const ExactState& state, long precision)
-      : tape_(&tape), state_(&state), precision_(precision) {}
+  ExactEvaluation(const Tape& tape, const ExactState& state, long precision, JetPart part = JetPart::whole)
+      : tape_(&tape), state_(&state), precision_(precision), part_(part) {}
   /// None where the value or a derivative does not exist (for all that balls tell), or, without balls, is no
   /// fraction (a sine of anything but 0, π).
   const std::optional<ExactJet>& operator()(NodeId node);
@@ -40,6 +43,7 @@ class ExactEvaluation {
   const Tape* tape_;
   const ExactState* state_;
   long precision_;
+  JetPart part_;
   std::vector<std::optional<std::optional<ExactJet>>> known_;
 };
 

@@ -1,10 +1,14 @@
 #include "convex/nearest_point/proof/enclosure.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/nearest_point/cone_projection.hpp"
+#include "convex/nearest_point/proof/exact_dependence.hpp"
+#include "convex/nearest_point/proof/held_point.hpp"
+#include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 
 namespace convex {
@@ -12,236 +16,6 @@ namespace {
 
 /// Dense matrices of X and of the active rows are made up to these sizes.
 constexpr Index largest_dimension = 1500, most_active_entries = largest_dimension * largest_dimension;
-
-/// A metric seen through X ≈ F⁻¹: A' = X A Xᵀ = I + Δ with |Δ|₂ <= delta < 1.
-struct Preconditioned {
-  bool is_diagonal = false;
-  Matrix A, X;  // dense
-  Vector a, x;  // the diagonals, when A is diagonal
-  double delta = 1;
-
-  Vector times_X(const Vector& c) const { return is_diagonal ? Vector(x.cwiseProduct(c)) : Vector(X * c); }
-  Vector times_X_transposed(const Vector& p) const {
-    return is_diagonal ? Vector(x.cwiseProduct(p)) : Vector(X.transpose() * p);
-  }
-  /// |X| c for c >= 0.
-  Vector spread(const Vector& c) const {
-    return is_diagonal ? Vector(x.cwiseAbs().cwiseProduct(c)) : Vector(X.cwiseAbs() * c);
-  }
-  Vector times_A(const Vector& q) const { return is_diagonal ? Vector(a.cwiseProduct(q)) : Vector(A * q); }
-  Vector magnitude_times_A(const Vector& q) const {
-    return is_diagonal ? Vector(a.cwiseProduct(q)) : Vector(A.cwiseAbs() * q);
-  }
-  Index dimension() const { return is_diagonal ? a.size() : A.rows(); }
-};
-
-std::optional<Preconditioned> preconditioned(const Metric& metric) {
-  const Index n = metric.dimension();
-  Preconditioned P;
-  P.is_diagonal = metric.kind() == MetricKind::diagonal || metric.kind() == MetricKind::identity;
-  if (P.is_diagonal) {
-    P.a = metric.diagonal();
-    if (!is_ordinary(P.a)) return std::nullopt;
-    P.x = P.a.cwiseSqrt().cwiseInverse();
-    P.delta = 0;
-    for (Index i = 0; i < n; ++i)
-      P.delta = std::max(P.delta, above(std::abs(P.x[i] * P.a[i] * P.x[i] - 1) + gamma(3)));
-    return P;
-  }
-  P.A = metric.kind() == MetricKind::dense ? metric.dense_gram() : Matrix(metric.sparse_gram());
-  P.X = Matrix::Identity(n, n);
-  metric.whiten_in_place(P.X);
-  keep_ordinary(P.X);
-  if (!is_ordinary(P.A) || !is_ordinary(P.X)) return std::nullopt;
-  // Sums in any order, with terms that are 0 left out, have the same bounds.
-  Matrix Y, S;
-  if (P.X.isLowerTriangular(0)) {
-    Y = P.X.triangularView<Eigen::Lower>() * P.A;
-    S = Y * P.X.transpose().triangularView<Eigen::Upper>();
-  } else {
-    Y = P.X * P.A;
-    S = Y * P.X.transpose();
-  }
-  S.diagonal().array() -= 1;
-  const Vector ones = Vector::Ones(n);
-  const Matrix size = P.X.cwiseAbs();
-  const Vector outer = size.transpose() * ones;
-  const Vector rounding =
-      gamma(n) * (size * (P.A.cwiseAbs() * outer) + Y.cwiseAbs() * outer) + 2 * unit_roundoff * ones;
-  // Δ is symmetric: |Δ|₂ is at most its largest row sum.
-  P.delta = above((S.cwiseAbs() * ones + rounding).maxCoeff());
-  return P;
-}
-
-/// The active rows seen through X and T ≈ R⁻¹: Z = X U_Wᵀ T, ZᵀZ = I + Δ with |Δ|₂ <= delta < 1.
-struct Active {
-  Matrix U;  // the rows, k×n
-  Matrix T, Z;
-  double delta = 0;
-};
-
-/// |M|₂ <= sqrt(|M|₁ |M|_∞) for M >= 0 given by its row and column sums.
-double matrix_norm(const Vector& row_sums, const Vector& column_sums) {
-  return row_sums.size() == 0 || column_sums.size() == 0
-             ? 0
-             : above(std::sqrt(row_sums.maxCoeff() * column_sums.maxCoeff()));
-}
-
-/// VᵀV; the half that is computed stands for the other.
-Matrix gram(const Matrix& V) {
-  Matrix G = Matrix::Zero(V.cols(), V.cols());
-  G.selfadjointView<Eigen::Lower>().rankUpdate(V.transpose());
-  G.triangularView<Eigen::StrictlyUpper>() = G.transpose();
-  return G;
-}
-
-/// T near R⁻¹ for V = QR: from VᵀV where that is well conditioned, which is the cheaper way, else by
-/// reflections. False when V has dependent columns. Nothing is trusted of it.
-bool find_orthogonalizer(const Matrix& V, Matrix& T) {
-  T = Matrix::Identity(V.cols(), V.cols());
-  constexpr double well_conditioned = 1e-4;  // of the diagonal of R: VᵀV then keeps half of the digits
-  const Vector length = V.colwise().norm();
-  if (!(length.minCoeff() > 0)) return false;
-  const Eigen::LLT<Matrix> normal(gram(V));
-  if (normal.info() == Eigen::Success &&
-      (normal.matrixLLT().diagonal().array() > well_conditioned * length.array()).all()) {
-    normal.matrixU().solveInPlace(T);
-    return true;
-  }
-  const Eigen::HouseholderQR<Matrix> factor(V);
-  const Matrix R = factor.matrixQR().topRows(V.cols());
-  if (!(R.diagonal().cwiseAbs().minCoeff() > 0)) return false;
-  R.triangularView<Eigen::Upper>().solveInPlace(T);
-  return true;
-}
-
-std::optional<Active> active_rows(const NearestPointProblem& problem, const Preconditioned& P,
-                                  const std::vector<Index>& rows) {
-  const Index n = P.dimension(), k = static_cast<Index>(rows.size());
-  if (k > n) return std::nullopt;
-  Active active;
-  active.U.resize(k, n);
-  for (Index r = 0; r < k; ++r) active.U.row(r) = problem.U.row(rows[static_cast<std::size_t>(r)]);
-  if (k == 0) return active;
-  if (!is_ordinary(active.U)) return std::nullopt;
-  const Matrix V =
-      P.is_diagonal ? Matrix(P.x.asDiagonal() * active.U.transpose()) : Matrix(P.X * active.U.transpose());
-  if (!find_orthogonalizer(V, active.T)) return std::nullopt;
-  keep_ordinary(active.T);
-  if (!is_ordinary(active.T)) return std::nullopt;
-  active.Z = V * active.T.triangularView<Eigen::Upper>();
-
-  // Ẑ - Z <= gamma_n |X| |Uᵀ| |T| + gamma_k |V| |T|, entry by entry.
-  const Matrix T = active.T.cwiseAbs(), U = active.U.cwiseAbs(), W = V.cwiseAbs();
-  const Vector inner = T * Vector::Ones(k);
-  const Vector rows_of_error = gamma(n) * P.spread(U.transpose() * inner) + gamma(k) * (W * inner);
-  const Vector outer =
-      P.is_diagonal ? Vector(P.x.cwiseAbs()) : Vector(P.X.cwiseAbs().transpose() * Vector::Ones(n));
-  const Vector columns_of_error =
-      T.transpose() * (gamma(n) * (U * outer) + gamma(k) * (W.transpose() * Vector::Ones(n)));
-  const double error = matrix_norm(rows_of_error, columns_of_error);
-
-  Matrix S = gram(active.Z);
-  S.diagonal().array() -= 1;
-  const Matrix size = active.Z.cwiseAbs();
-  const Vector rounding =
-      gamma(n) * (size.transpose() * (size * Vector::Ones(k))) + 2 * unit_roundoff * Vector::Ones(k);
-  const double computed = above((S.cwiseAbs() * Vector::Ones(k) + rounding).maxCoeff());
-  active.delta = above(computed + 2 * std::sqrt(1 + computed) * error + error * error);
-  return active;
-}
-
-/// What is known of the point that the active rows define: q + dq within `radius` in the metric, its
-/// multipliers lambda + dlambda within theirs.
-struct HeldPoint {
-  Vector q, dq, lambda, dlambda, multiplier_radius;
-  double radius = 0;
-};
-
-/// r1 = z + U_Wᵀlambda - A q and r2 = s_W - U_W q at q + dq and lambda + dlambda, with bounds.
-struct KktResidual {
-  Vector r1, r1_radius, r2, r2_radius;
-};
-
-KktResidual kkt_residual(const NearestPointProblem& problem, const Preconditioned& P, const Active& active,
-                         const std::vector<Index>& rows, const HeldPoint& point) {
-  const Index n = P.dimension(), k = active.U.rows();
-  KktResidual found;
-  if (P.is_diagonal) {
-    found.r1.resize(n);
-    found.r1_radius.resize(n);
-    for (Index i = 0; i < n; ++i) {
-      CompensatedSum sum;
-      sum.add(problem.z[i], 1);
-      for (Index r = 0; r < k; ++r) {
-        sum.add(active.U(r, i), point.lambda[r]);
-        sum.add(active.U(r, i), point.dlambda[r]);
-      }
-      sum.add(-P.a[i], point.q[i]);
-      sum.add(-P.a[i], point.dq[i]);
-      found.r1[i] = sum.result().value;
-      found.r1_radius[i] = sum.result().radius;
-    }
-  } else {
-    CompensatedSums balance(n);
-    balance.add(problem.z.data(), 1);
-    Vector row(n);
-    for (Index r = 0; r < k; ++r) {
-      row = active.U.row(r);
-      balance.add(row.data(), point.lambda[r]);
-      balance.add(row.data(), point.dlambda[r]);
-    }
-    for (Index j = 0; j < n; ++j) {
-      balance.add(P.A.col(j).data(), -point.q[j]);
-      balance.add(P.A.col(j).data(), -point.dq[j]);
-    }
-    balance.result(found.r1, found.r1_radius);
-  }
-  found.r2.resize(k);
-  found.r2_radius.resize(k);
-  for (Index r = 0; r < k; ++r) {
-    CompensatedSum sum;
-    sum.add(problem.s[rows[static_cast<std::size_t>(r)]], 1);
-    for (Index i = 0; i < n; ++i) {
-      sum.add(-active.U(r, i), point.q[i]);
-      sum.add(-active.U(r, i), point.dq[i]);
-    }
-    found.r2[r] = sum.result().value;
-    found.r2_radius[r] = sum.result().radius;
-  }
-  return found;
-}
-
-/// One step of refinement, kept apart from q and lambda.
-void correct(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
-  const Vector g = P.times_X(residual.r1);
-  if (active.U.rows() == 0) {
-    point.dq += P.times_X_transposed(g);
-    return;
-  }
-  const Vector c = active.T.transpose() * residual.r2;
-  const Vector y = c - active.Z.transpose() * g;
-  point.dq += P.times_X_transposed(g + active.Z * y);
-  point.dlambda += active.T * y;
-}
-
-/// Bounds on the error of the held point from its residual.
-void enclose(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
-  const Index n = P.dimension(), k = active.U.rows();
-  const double force = above(norm_above(P.times_X(residual.r1)) +
-                             norm_above(P.spread(gamma(n) * residual.r1.cwiseAbs() + residual.r1_radius)));
-  double gap = 0;
-  if (k > 0) {
-    const Matrix T = active.T.cwiseAbs();
-    gap = above(norm_above(active.T.transpose() * residual.r2) +
-                norm_above(T.transpose() * (gamma(k) * residual.r2.cwiseAbs() + residual.r2_radius)));
-  }
-  const double low_A = below(1 - P.delta), low_Z = below(1 - active.delta);
-  point.radius = above(force / std::sqrt(low_A) + gap * std::sqrt((1 + P.delta) / low_Z));
-  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + active.delta) / low_A * force));
-  point.multiplier_radius.resize(k);
-  for (Index r = 0; r < k; ++r) point.multiplier_radius[r] = above(norm_above(active.T.row(r)) * y);
-}
 
 bool multipliers_are_positive(const NearestPointProblem& problem, const std::vector<Index>& rows,
                               const HeldPoint& point) {
@@ -255,90 +29,218 @@ bool multipliers_are_positive(const NearestPointProblem& problem, const std::vec
   return true;
 }
 
-bool slacks_are_positive(const NearestPointProblem& problem, const Preconditioned& P,
-                         const std::vector<Index>& rows, const HeldPoint& point) {
-  const Index n = P.dimension();
-  std::vector<bool> held(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : rows) held[static_cast<std::size_t>(a)] = true;
-  for (Index a : problem.two_sided)
-    if (!held[static_cast<std::size_t>(a)]) return false;  // it depends on the others: not for doubles to say
-  // |q*_i - (q + dq)_i| <= radius sqrt((A⁻¹)_ii), and A⁻¹ = Xᵀ A'⁻¹ X.
-  Vector reach(n);
-  for (Index i = 0; i < n; ++i)
-    reach[i] = (P.is_diagonal ? std::abs(P.x[i]) : norm_above(P.X.col(i))) * point.radius;
-  reach *= above(1 / std::sqrt(below(1 - P.delta)));
-  const Vector loose = gamma(n + 1) * point.q.cwiseAbs() + above(1) * point.dq.cwiseAbs() + reach;
-  Vector row(n);
-  for (Index a = 0; a < problem.rows(); ++a) {
-    if (held[static_cast<std::size_t>(a)]) continue;
-    problem.U.copy_row(a, row);
-    const double s = problem.s[a];
-    if (row.dot(point.q) - s > above(row.cwiseAbs().dot(loose) + gamma(n + 1) * std::abs(s))) continue;
-    CompensatedSum sum;
-    sum.add(-s, 1);
-    for (Index i = 0; i < n; ++i) {
-      sum.add(row[i], point.q[i]);
-      sum.add(row[i], point.dq[i]);
-    }
-    const Enclosed slack = sum.result();
-    if (!(below(slack.value) > above(slack.radius + row.cwiseAbs().dot(reach)))) return false;
+/// What is known of the slacks of rows that are not held.
+class Slacks {
+ public:
+  Slacks(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+         const std::vector<Index>& rows, const HeldPoint& point)
+      : problem_(problem),
+        radii_(radii),
+        point_(point),
+        held_(static_cast<std::size_t>(problem.rows()), false) {
+    for (Index a : rows) held_[static_cast<std::size_t>(a)] = true;
+    // |v_i| <= ||v||_A sqrt((A⁻¹)_ii), and A⁻¹ = Xᵀ A'⁻¹ X.
+    const Index n = P.dimension();
+    per_length_.resize(n);
+    for (Index i = 0; i < n; ++i) per_length_[i] = P.is_diagonal ? std::abs(P.x[i]) : norm_above(P.X.col(i));
+    per_length_ *= above(1 / std::sqrt(below(1 - P.delta)));
+    size_ = above(1) * (point.q.cwiseAbs() + point.dq.cwiseAbs());
   }
-  return true;
+
+  /// The rows whose slack may be gone, and all two-sided ones, when the held point moves by `reach` in
+  /// ||·||_A.
+  std::vector<OpenRow> open(double reach) const {
+    const Index n = problem_.dimension();
+    const Vector hidden = above(1) * (point_.radius + reach) * per_length_;
+    const Vector loose = gamma(n + 1) * point_.q.cwiseAbs() + above(1) * point_.dq.cwiseAbs() + hidden;
+    std::vector<OpenRow> found;
+    Vector row(n);
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      if (held_[static_cast<std::size_t>(a)]) continue;
+      problem_.U.copy_row(a, row);
+      const double s = problem_.s[a];
+      const double uncertain = above(radii_.s(a) + radii_.row_times(a, size_ + hidden));
+      const bool is_two_sided = std::binary_search(problem_.two_sided.begin(), problem_.two_sided.end(), a);
+      if (!is_two_sided &&
+          row.dot(point_.q) - s > above(row.cwiseAbs().dot(loose) + gamma(n + 1) * std::abs(s) + uncertain))
+        continue;
+      CompensatedSum sum;
+      sum.add(-s, 1);
+      for (Index i = 0; i < n; ++i) {
+        sum.add(row[i], point_.q[i]);
+        sum.add(row[i], point_.dq[i]);
+      }
+      const Enclosed slack = sum.result();
+      const double still = above(slack.radius + row.cwiseAbs().dot(hidden) + uncertain);
+      if (!is_two_sided && below(slack.value) > still) continue;
+      // At the held point itself.
+      const double off =
+          above(slack.radius + row.cwiseAbs().dot(Vector(point_.radius * per_length_)) + uncertain);
+      found.push_back({a, above(std::max(0.0, off - slack.value))});
+    }
+    return found;
+  }
+
+ private:
+  const NearestPointProblem& problem_;
+  const RadiiOf& radii_;
+  const HeldPoint& point_;
+  std::vector<bool> held_;
+  Vector per_length_, size_;
+};
+
+/// Whether a row is exactly implied by rows held at which doubles find it to be one of their combinations.
+bool follows(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+             const Active& active, const std::vector<Index>& held, Index a) {
+  constexpr double noticeable = 1e-9;
+  constexpr std::size_t most_others = 60;
+  if (radii.any()) return false;
+  const Vector c = coefficients_on_held(P, active, problem.U.row(a));
+  std::vector<Index> others;
+  for (Index r = 0; r < c.size(); ++r)
+    if (std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())
+      others.push_back(held[static_cast<std::size_t>(r)]);
+  return others.size() <= most_others && follows_exactly(problem, a, others);
 }
 
-/// The basis of a solution, or, where its method gives none, the rows with a multiplier.
-std::vector<Index> held_rows(const Solution& solution) {
-  if (!solution.basis.empty()) return solution.basis;
+/// At least ||q* - q_W||_A: 0 where every other slack is positive, or exactly implied not to be negative.
+std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, const RadiiOf& radii,
+                                         const Preconditioned& P, const Active& active,
+                                         const std::vector<Index>& held, const HeldPoint& point) {
+  const Slacks slacks(problem, radii, P, held, point);
+  std::vector<OpenRow> open = slacks.open(0);
+  const auto is_two_sided = [&](const OpenRow& row) {
+    return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), row.row);
+  };
+  if (std::all_of(open.begin(), open.end(),
+                  [&](const OpenRow& row) { return follows(problem, radii, P, active, held, row.row); }))
+    return 0;
+  // Rows that the motion may reach are counted as open, until no other is reached.
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    if (std::any_of(open.begin(), open.end(), is_two_sided)) return std::nullopt;
+    const auto bound = bound_with_open_rows(problem, radii, P, active, held, point, open);
+    if (!bound) return std::nullopt;
+    std::vector<OpenRow> reached = slacks.open(bound->reach);
+    if (reached.size() == open.size()) return bound->shift;
+    open = std::move(reached);
+  }
+  return std::nullopt;
+}
+
+/// Radii as bounds need them: none so small that a product of it might underflow.
+DataRadii ordinary(DataRadii radii) {
+  const auto raise = [](double r) { return r > 0 ? std::max(r, smallest_ordinary) : r; };
+  for (double& r : Eigen::Map<Vector>(radii.A.valuePtr(), radii.A.nonZeros())) r = raise(r);
+  for (double& r : Eigen::Map<Vector>(radii.U.valuePtr(), radii.U.nonZeros())) r = raise(r);
+  radii.z = radii.z.unaryExpr(raise);
+  radii.s = radii.s.unaryExpr(raise);
+  return radii;
+}
+
+/// The rows with a multiplier, when they are few enough to be independent.
+std::vector<Index> loaded_rows(const Solution& solution) {
   std::vector<Index> rows;
   for (Index a = 0; a < solution.lambda.size(); ++a)
     if (solution.lambda[a] != 0) rows.push_back(a);
   return rows;
 }
 
-/// At least ||dq||_A.
-double length_above(const Preconditioned& P, const Vector& dq) {
-  const Index n = P.dimension();
-  const double largest = dq.size() > 0 ? dq.cwiseAbs().maxCoeff() : 0;
-  if (!(largest > 0)) return 0;
-  const Vector unit = dq / largest, size = unit.cwiseAbs();
-  const Vector product = P.times_A(unit);
-  const double square = unit.dot(product) + gamma(n) * size.dot(product.cwiseAbs()) +
-                        above(2 * gamma(n) * size.dot(P.magnitude_times_A(size)));
-  return above(above(largest) * std::sqrt(above(std::max(0.0, square))));
+/// Rows to hold, with multipliers, not all of those given need be: independent ones that push just as the
+/// rows with a multiplier do together (Lawson and Hanson's method ends at such rows), the two-sided ones
+/// among them.
+struct Held {
+  std::vector<Index> rows;
+  Vector lambda;  // over all rows
+};
+
+std::optional<Held> independent(const NearestPointProblem& problem, const Solution& solution) {
+  const auto whitened = [&](const std::vector<Index>& rows) {
+    Matrix V(problem.dimension(), static_cast<Index>(rows.size()));
+    for (std::size_t r = 0; r < rows.size(); ++r) problem.U.copy_row(rows[r], V.col(static_cast<Index>(r)));
+    problem.A.whiten_in_place(V);
+    return V;
+  };
+  std::vector<Index> rows;
+  if (!problem.two_sided.empty()) {
+    const Eigen::ColPivHouseholderQR<Matrix> factor(whitened(problem.two_sided));
+    for (Index r = 0; r < factor.rank(); ++r)
+      rows.push_back(problem.two_sided[static_cast<std::size_t>(factor.colsPermutation().indices()[r])]);
+  }
+  const std::size_t two_sided = rows.size();
+  std::vector<Index> free(two_sided);
+  std::iota(free.begin(), free.end(), Index{0});
+  Vector force = Vector::Zero(problem.dimension());
+  for (const Index a : loaded_rows(solution)) {
+    force += solution.lambda[a] * problem.U.row(a);
+    if (!std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) rows.push_back(a);
+  }
+  const ConeProjection push = cone_projection(whitened(rows), problem.A.whiten(force), free);
+  if (!push.finished) return std::nullopt;
+  Held held{{}, Vector::Zero(problem.rows())};
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const double lambda = push.lambda[static_cast<Index>(r)];
+    if (lambda == 0 && r >= two_sided) continue;
+    held.rows.push_back(rows[r]);
+    held.lambda[rows[r]] = lambda;
+  }
+  return held;
+}
+
+/// Whether dense matrices of X and of so many rows may be made.
+bool is_dense_size(const NearestPointProblem& problem, std::size_t rows) {
+  const bool is_diagonal =
+      problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
+  return (problem.dimension() <= largest_dimension || is_diagonal) &&
+         static_cast<Index>(rows) * problem.dimension() <= most_active_entries;
+}
+
+bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& solution) {
+  if (solution.q.size() != problem.dimension() || !is_ordinary(problem.z) || !is_ordinary(problem.s) ||
+      !is_ordinary(solution.q) || !is_ordinary(solution.lambda))
+    return false;
+  return problem.U.is_sparse() ? is_ordinary(Eigen::Map<const Vector>(problem.U.sparse().valuePtr(),
+                                                                      problem.U.sparse().nonZeros()))
+                               : is_ordinary(problem.U.dense());
+}
+
+/// The bound, for every problem within the radii.
+std::optional<double> bound_within(const NearestPointProblem& problem, const Solution& solution,
+                                   const RadiiOf& radii) {
+  if (!is_ordinary_problem(problem, solution)) return std::nullopt;
+  Held held{solution.basis.empty() ? loaded_rows(solution) : solution.basis, solution.lambda};
+  if (!is_dense_size(problem, held.rows.size()))
+    return sparse_enclosed_error(problem, radii, solution, held.rows);
+  const auto P = preconditioned(problem.A, radii);
+  if (!P || !(P->delta < 0.5)) return std::nullopt;
+  const auto stand_alone = [](const std::optional<Active>& rows) { return rows && rows->delta < 0.5; };
+  auto active = active_rows(problem, radii, *P, held.rows);
+  if (!stand_alone(active)) {
+    auto fewer = independent(problem, solution);
+    if (!fewer) return std::nullopt;
+    held = std::move(*fewer);
+    active = active_rows(problem, radii, *P, held.rows);
+    if (!stand_alone(active)) return std::nullopt;
+  }
+  const HeldPoint point = held_point(problem, radii, *P, *active, held.rows, solution.q, held.lambda);
+  if (!std::isfinite(point.radius) || !multipliers_are_positive(problem, held.rows, point))
+    return std::nullopt;
+  const auto shift = shift_of_open_rows(problem, radii, *P, *active, held.rows, point);
+  if (!shift) return std::nullopt;
+  return above(length_above(*P, radii, point.dq) + point.radius + *shift);
 }
 
 }  // namespace
 
 std::optional<double> enclosed_error(const NearestPointProblem& problem, const Solution& solution) {
-  const std::vector<Index> held = held_rows(solution);
-  const Index k = static_cast<Index>(held.size());
-  if (solution.q.size() != problem.dimension() || !is_ordinary(problem.z) || !is_ordinary(problem.s) ||
-      !is_ordinary(solution.q) || !is_ordinary(solution.lambda))
-    return std::nullopt;
-  if (problem.U.is_sparse() ? !is_ordinary(Eigen::Map<const Vector>(problem.U.sparse().valuePtr(),
-                                                                    problem.U.sparse().nonZeros()))
-                            : !is_ordinary(problem.U.dense()))
-    return std::nullopt;
-  const Index n = problem.dimension();
-  const bool is_diagonal =
-      problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
-  if ((n > largest_dimension && !is_diagonal) || k * n > most_active_entries)
-    return sparse_enclosed_error(problem, solution, held);
-  const auto P = preconditioned(problem.A);
-  if (!P || !(P->delta < 0.5)) return std::nullopt;
-  const auto active = active_rows(problem, *P, held);
-  if (!active || !(active->delta < 0.5)) return std::nullopt;
-  HeldPoint point{solution.q, Vector::Zero(problem.dimension()), Vector(k), Vector::Zero(k), {}, 0};
-  for (Index r = 0; r < k; ++r) point.lambda[r] = solution.lambda[held[static_cast<std::size_t>(r)]];
-  correct(*P, *active, kkt_residual(problem, *P, *active, held, point), point);
-  // What is too small to matter is left to the bound.
-  point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
-  point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
-  enclose(*P, *active, kkt_residual(problem, *P, *active, held, point), point);
-  if (!std::isfinite(point.radius) || !multipliers_are_positive(problem, held, point) ||
-      !slacks_are_positive(problem, *P, held, point))
-    return std::nullopt;
-  return above(length_above(*P, point.dq) + point.radius);
+  return bound_within(problem, solution, RadiiOf(nullptr));
+}
+
+std::optional<double> enclosed_error(const NearestPointProblem& problem, const DataRadii& radii,
+                                     const Solution& solution) {
+  if (!radii.is_finite()) return std::nullopt;
+  const DataRadii usable = ordinary(radii);
+  return bound_within(problem, solution, RadiiOf(usable.is_zero() ? nullptr : &usable));
 }
 
 }  // namespace convex

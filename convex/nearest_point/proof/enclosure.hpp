@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "convex/nearest_point/data_radii.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -9,9 +10,13 @@ namespace convex {
 
 /// A proved bound on ||q - q*||_A for the q of the solution as it stands, q* the exact solution of the
 /// problem's doubles; it proves on the way that A is positive definite, that the rows of the solution's basis
-/// are independent, and that they are the active ones: every multiplier is strictly positive, every slack of
-/// another row strictly positive. None when a sign is not strict or rounding leaves something open. In
-/// doubles rounded to nearest, with a bound on every rounding (docs/proof.md, section 3).
+/// are independent with strictly positive multipliers, and that every slack of another row is strictly
+/// positive, or how little the rows that depend on them matter. None when rounding leaves something else
+/// open. In doubles rounded to nearest, with a bound on every rounding (docs/proof.md, section 3).
 std::optional<double> enclosed_error(const NearestPointProblem&, const Solution&);
+
+/// The same for every problem within the radii of this one, q* its solution, in its metric: that each has one
+/// is proved.
+std::optional<double> enclosed_error(const NearestPointProblem&, const DataRadii&, const Solution&);
 
 }  // namespace convex

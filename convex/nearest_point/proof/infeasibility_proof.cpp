@@ -6,8 +6,7 @@
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/exact_sum.hpp"
-#include "convex/exact/integer_system.hpp"
-#include "convex/exact/modular.hpp"
+#include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
@@ -59,31 +58,6 @@ ExactProblem integer_rows(const Support& rows) {
     if (rows.two_sided[static_cast<std::size_t>(r)]) exact.two_sided.push_back(r);
   }
   return exact;
-}
-
-/// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
-/// rows are independent in; empty when there is more than one such w up to a factor.
-IntegerVector dependence_of(const ExactProblem& exact) {
-  const std::size_t k = exact.U.size(), r = exact.z.size();
-  IntegerRows columns(r, IntegerVector(k));
-  for (std::size_t a = 0; a < k; ++a)
-    for (std::size_t i = 0; i < r; ++i) columns[i][a] = exact.U[a][i];
-  const std::vector<std::size_t> chosen = independent_rows(columns, k);
-  if (chosen.size() + 1 != k) return {};
-  IntegerRows M;
-  IntegerVector right;
-  for (std::size_t i : chosen) {
-    M.emplace_back(columns[i].begin() + 1, columns[i].end());
-    right.push_back(-columns[i][0]);
-  }
-  const auto system = IntegerSystem::prepared(M);
-  if (!system) return {};
-  const ExactVector others = system->solve(right);
-  IntegerVector w{others.denominator};
-  w.insert(w.end(), others.numerators.begin(), others.numerators.end());
-  for (std::size_t a = 0; a < k; ++a) w[a] *= exact.row_unit[a];
-  make_primitive(w);
-  return w;
 }
 
 /// Whether the weights, rounded to whole numbers times the smallest, are a contradiction without rounding:

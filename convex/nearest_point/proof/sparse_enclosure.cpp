@@ -91,23 +91,35 @@ double row_sum_above(const SparseMatrix& M) {
   return above(largest);
 }
 
-/// A number below the eigenvalues of U'U'ᵀ.
-std::optional<double> least_of_rows(const SparseRows& U) {
+/// |Û'|₂ at most, Û' the radii of the scaled rows.
+double row_radii_above(const Balanced& scaled, const RadiiOf& radii, const std::vector<Index>& held) {
+  if (!radii.any()) return 0;
+  const Vector rows = scaled.r.cwiseProduct(radii.rows_times(held, scaled.d));
+  const Vector columns = scaled.d.cwiseProduct(radii.rows_transposed_times(held, scaled.r, scaled.d.size()));
+  return above(std::sqrt(rows.maxCoeff() * columns.maxCoeff()));
+}
+
+/// A number below the eigenvalues of (U' + E)(U' + E)ᵀ, |E|₂ <= uncertainty.
+std::optional<double> least_of_rows(const SparseRows& U, double uncertainty) {
   const SparseMatrix columns = U.transpose();
   const SparseMatrix G = U * columns;
   const SparseMatrix size = columns.cwiseAbs();
   const Vector sums = size.transpose() * Vector(size * Vector::Ones(size.cols()));
   Index longest = 0;
   for (Index k = 0; k < U.rows(); ++k) longest = std::max(longest, U.row(k).nonZeros());
-  return least_eigenvalue_below(G, above(gamma(longest) * sums.maxCoeff()));
+  const auto least = least_eigenvalue_below(G, above(gamma(longest) * sums.maxCoeff()));
+  if (!least) return std::nullopt;
+  const double singular = below(std::sqrt(*least)) - uncertainty;  // of U'
+  if (!(singular > 0)) return std::nullopt;
+  return below(below(singular) * singular);
 }
 
 struct ResidualBounds {
   Vector r1, r2;  ///< |z + U_Wᵀlambda - A q|, |s_W - U_W q|, at least
 };
 
-ResidualBounds residuals_above(const NearestPointProblem& problem, const Solution& solution,
-                               const std::vector<Index>& held) {
+ResidualBounds residuals_above(const NearestPointProblem& problem, const RadiiOf& radii,
+                               const Solution& solution, const std::vector<Index>& held) {
   const Index n = problem.dimension();
   std::vector<CompensatedSum> balance(static_cast<std::size_t>(n));
   for (Index i = 0; i < n; ++i) balance[static_cast<std::size_t>(i)].add(problem.z[i], 1);
@@ -138,15 +150,26 @@ ResidualBounds residuals_above(const NearestPointProblem& problem, const Solutio
     const Enclosed sum = balance[static_cast<std::size_t>(i)].result();
     found.r1[i] = above(std::abs(sum.value) + sum.radius);
   }
+  if (!radii.any()) return found;
+  const Vector size = solution.q.cwiseAbs();
+  Vector weights(static_cast<Index>(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    weights[row] = std::abs(solution.lambda[held[k]]);
+    found.r2[row] = above(found.r2[row] + radii.s(held[k]) + radii.row_times(held[k], size));
+  }
+  found.r1 = above(1) *
+             (found.r1 + radii.z(n) + radii.A_times(size) + radii.rows_transposed_times(held, weights, n));
   return found;
 }
 
-bool slacks_are_positive(const NearestPointProblem& problem, const Vector& q, const Vector& reach,
-                         const std::vector<bool>& is_held) {
+bool slacks_are_positive(const NearestPointProblem& problem, const RadiiOf& radii, const Vector& q,
+                         const Vector& reach, const std::vector<bool>& is_held) {
+  const Vector size = above(1) * (q.cwiseAbs() + reach);
   for (Index a = 0; a < problem.rows(); ++a) {
     if (is_held[static_cast<std::size_t>(a)]) continue;
     CompensatedSum sum;
-    double hidden = 0;
+    double hidden = radii.s(a) + radii.row_times(a, size);
     sum.add(-problem.s[a], 1);
     const auto add = [&](Index i, double u) {
       sum.add(u, q[i]);
@@ -180,21 +203,23 @@ std::optional<double> least_eigenvalue_below(const SparseMatrix& M, double uncer
   return std::nullopt;
 }
 
-std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, const Solution& solution,
-                                            const std::vector<Index>& held) {
+std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, const RadiiOf& radii,
+                                            const Solution& solution, const std::vector<Index>& held) {
   if (problem.A.kind() == MetricKind::dense) return std::nullopt;
   const Balanced scaled = balanced(problem, held);
   if (!is_ordinary(Eigen::Map<const Vector>(scaled.A.valuePtr(), scaled.A.nonZeros())) ||
       !is_ordinary(Eigen::Map<const Vector>(scaled.U.valuePtr(), scaled.U.nonZeros())))
     return std::nullopt;
-  const auto alpha = least_eigenvalue_below(scaled.A, 0);
+  // |D Â D|, by its largest row sum.
+  const double loose = above(scaled.d.cwiseProduct(radii.A_times(scaled.d)).maxCoeff());
+  const auto alpha = least_eigenvalue_below(scaled.A, loose);
   if (!alpha) return std::nullopt;
   std::optional<double> sigma = 1.0;
-  if (!held.empty()) sigma = least_of_rows(scaled.U);
+  if (!held.empty()) sigma = least_of_rows(scaled.U, row_radii_above(scaled, radii, held));
   if (!sigma) return std::nullopt;
-  const double beta = row_sum_above(scaled.A);
+  const double beta = above(row_sum_above(scaled.A) + loose);
 
-  const ResidualBounds rest = residuals_above(problem, solution, held);
+  const ResidualBounds rest = residuals_above(problem, radii, solution, held);
   const double force = above(norm_above(scaled.d.cwiseProduct(rest.r1)) / std::sqrt(*alpha));
   const double gap = held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2)),
                weak = above(beta / *sigma);
@@ -213,7 +238,7 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
         !(solution.lambda[held[k]] > above(scaled.r[static_cast<Index>(k)] * change)))
       return std::nullopt;
   const Vector reach = scaled.d * above(radius / std::sqrt(*alpha));
-  if (!slacks_are_positive(problem, solution.q, reach, is_held)) return std::nullopt;
+  if (!slacks_are_positive(problem, radii, solution.q, reach, is_held)) return std::nullopt;
   return radius;
 }
 

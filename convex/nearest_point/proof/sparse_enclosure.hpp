@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/proof/held_point.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex {
@@ -11,7 +11,7 @@ namespace convex {
 /// bounds on eigenvalues that sparse Cholesky factors prove, and the residuals of the solution as it stands.
 /// Wider than that of `enclosed_error` by about the root of the condition number. `held`: the rows thought to
 /// be active.
-std::optional<double> sparse_enclosed_error(const NearestPointProblem&, const Solution&,
+std::optional<double> sparse_enclosed_error(const NearestPointProblem&, const RadiiOf&, const Solution&,
                                             const std::vector<Index>& held);
 
 /// A number below all eigenvalues of M + E, M symmetric and sparse, for every symmetric E with row sums of

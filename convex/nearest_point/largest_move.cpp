@@ -1,0 +1,62 @@
+#include "convex/nearest_point/largest_move.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/regularised_kkt.hpp"
+#include "convex/nearest_point/residuals.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Rows that depend on others are held as softly as this part of their length squared: errors along them that
+/// no motion can follow do not count.
+constexpr double softness = 1e-12;
+
+constexpr int most_climbs = 5;
+
+Vector with_signs(const Vector& size, const Vector& of) {
+  return size.binaryExpr(of, [](double r, double x) { return x < 0 ? -r : r; });
+}
+
+}  // namespace
+
+double largest_move(const NearestPointProblem& problem, const std::vector<Index>& held, const Vector& balance,
+                    const Vector& rows) {
+  if (!balance.allFinite() || !rows.allFinite()) return infinity;
+  if (balance.isZero(0) && rows.isZero(0)) return 0;
+  const Vector length = dual_lengths(problem, held);
+  Vector theta(rows.size());
+  for (Index k = 0; k < rows.size(); ++k) {
+    const double of_row = length[held[static_cast<std::size_t>(k)]];
+    theta[k] = of_row > 0 ? softness * of_row * of_row : 1;
+  }
+  RegularisedKkt kkt(problem);
+  if (!kkt.factor(held, theta)) return infinity;
+  // Where all push the same way, and where neighbours push against each other.
+  Vector alternating = Vector::Ones(balance.size()), alternating_rows = Vector::Ones(rows.size());
+  for (Index i = 1; i < balance.size(); i += 2) alternating[i] = -1;
+  for (Index k = 1; k < rows.size(); k += 2) alternating_rows[k] = -1;
+  double largest = 0;
+  for (const bool alternates : {false, true}) {
+    Vector r1 = alternates ? with_signs(balance, alternating) : balance,
+           r2 = alternates ? with_signs(rows, alternating_rows) : rows, dq, dlambda;
+    double reached = -1;
+    for (int climb = 0; climb < most_climbs; ++climb) {
+      kkt.solve(r1, r2, dq, dlambda);
+      const double move = problem.A.norm(dq);
+      if (!std::isfinite(move)) return infinity;
+      if (!(move > reached)) break;
+      reached = move;
+      kkt.solve(problem.A.multiply(dq), Vector::Zero(rows.size()), dq, dlambda);
+      r1 = with_signs(balance, dq);
+      r2 = with_signs(rows, -dlambda);
+    }
+    largest = std::max(largest, reached);
+  }
+  return largest;
+}
+
+}  // namespace convex

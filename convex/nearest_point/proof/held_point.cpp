@@ -1,0 +1,270 @@
+#include "convex/nearest_point/proof/held_point.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <cmath>
+
+namespace convex {
+
+Vector RadiiOf::rows_times(const std::vector<Index>& rows, const Vector& x) const {
+  Vector found(static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) found[static_cast<Index>(k)] = row_times(rows[k], x);
+  return found;
+}
+
+Vector RadiiOf::rows_transposed_times(const std::vector<Index>& rows, const Vector& y, Index n) const {
+  Vector found = Vector::Zero(n);
+  if (any())
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      found += radii_->U.row(rows[k]).transpose() * y[static_cast<Index>(k)];
+  return found;
+}
+
+std::optional<Preconditioned> preconditioned(const Metric& metric, const RadiiOf& radii) {
+  const Index n = metric.dimension();
+  Preconditioned P;
+  P.is_diagonal = metric.kind() == MetricKind::diagonal || metric.kind() == MetricKind::identity;
+  if (P.is_diagonal) {
+    P.a = metric.diagonal();
+    if (!is_ordinary(P.a)) return std::nullopt;
+    P.x = P.a.cwiseSqrt().cwiseInverse();
+    P.delta = 0;
+    for (Index i = 0; i < n; ++i)
+      P.delta = std::max(P.delta, above(std::abs(P.x[i] * P.a[i] * P.x[i] - 1) + gamma(3)));
+    // |X Â Xᵀ|, by its largest row sum.
+    if (radii.any()) P.delta = above(P.delta + P.x.cwiseProduct(radii.A_times(P.x)).maxCoeff());
+    return P;
+  }
+  P.A = metric.kind() == MetricKind::dense ? metric.dense_gram() : Matrix(metric.sparse_gram());
+  P.X = Matrix::Identity(n, n);
+  metric.whiten_in_place(P.X);
+  keep_ordinary(P.X);
+  if (!is_ordinary(P.A) || !is_ordinary(P.X)) return std::nullopt;
+  // Sums in any order, with terms that are 0 left out, have the same bounds.
+  Matrix Y, S;
+  if (P.X.isLowerTriangular(0)) {
+    Y = P.X.triangularView<Eigen::Lower>() * P.A;
+    S = Y * P.X.transpose().triangularView<Eigen::Upper>();
+  } else {
+    Y = P.X * P.A;
+    S = Y * P.X.transpose();
+  }
+  S.diagonal().array() -= 1;
+  const Vector ones = Vector::Ones(n);
+  const Matrix size = P.X.cwiseAbs();
+  const Vector outer = size.transpose() * ones;
+  Vector rounding =
+      gamma(n) * (size * (P.A.cwiseAbs() * outer) + Y.cwiseAbs() * outer) + 2 * unit_roundoff * ones;
+  if (radii.any()) rounding += size * radii.A_times(outer);
+  // Δ is symmetric: |Δ|₂ is at most its largest row sum.
+  P.delta = above((S.cwiseAbs() * ones + rounding).maxCoeff());
+  return P;
+}
+
+namespace {
+
+/// |M|₂ <= sqrt(|M|₁ |M|_∞) for M >= 0 given by its row and column sums.
+double matrix_norm(const Vector& row_sums, const Vector& column_sums) {
+  return row_sums.size() == 0 || column_sums.size() == 0
+             ? 0
+             : above(std::sqrt(row_sums.maxCoeff() * column_sums.maxCoeff()));
+}
+
+/// VᵀV; the half that is computed stands for the other.
+Matrix gram(const Matrix& V) {
+  Matrix G = Matrix::Zero(V.cols(), V.cols());
+  G.selfadjointView<Eigen::Lower>().rankUpdate(V.transpose());
+  G.triangularView<Eigen::StrictlyUpper>() = G.transpose();
+  return G;
+}
+
+/// T near R⁻¹ for V = QR: from VᵀV where that is well conditioned, which is the cheaper way, else by
+/// reflections. False when V has dependent columns. Nothing is trusted of it.
+bool find_orthogonalizer(const Matrix& V, Matrix& T) {
+  T = Matrix::Identity(V.cols(), V.cols());
+  constexpr double well_conditioned = 1e-4;  // of the diagonal of R: VᵀV then keeps half of the digits
+  const Vector length = V.colwise().norm();
+  if (!(length.minCoeff() > 0)) return false;
+  const Eigen::LLT<Matrix> normal(gram(V));
+  if (normal.info() == Eigen::Success &&
+      (normal.matrixLLT().diagonal().array() > well_conditioned * length.array()).all()) {
+    normal.matrixU().solveInPlace(T);
+    return true;
+  }
+  const Eigen::HouseholderQR<Matrix> factor(V);
+  const Matrix R = factor.matrixQR().topRows(V.cols());
+  if (!(R.diagonal().cwiseAbs().minCoeff() > 0)) return false;
+  R.triangularView<Eigen::Upper>().solveInPlace(T);
+  return true;
+}
+
+}  // namespace
+
+std::optional<Active> active_rows(const NearestPointProblem& problem, const RadiiOf& radii,
+                                  const Preconditioned& P, const std::vector<Index>& rows) {
+  const Index n = P.dimension(), k = static_cast<Index>(rows.size());
+  if (k > n) return std::nullopt;
+  Active active;
+  active.U.resize(k, n);
+  for (Index r = 0; r < k; ++r) active.U.row(r) = problem.U.row(rows[static_cast<std::size_t>(r)]);
+  if (k == 0) return active;
+  if (!is_ordinary(active.U)) return std::nullopt;
+  const Matrix V =
+      P.is_diagonal ? Matrix(P.x.asDiagonal() * active.U.transpose()) : Matrix(P.X * active.U.transpose());
+  if (!find_orthogonalizer(V, active.T)) return std::nullopt;
+  keep_ordinary(active.T);
+  if (!is_ordinary(active.T)) return std::nullopt;
+  active.Z = V * active.T.triangularView<Eigen::Upper>();
+
+  // Ẑ - Z <= |X| (gamma_n |Uᵀ| + Ûᵀ) |T| + gamma_k |V| |T|, entry by entry.
+  const Matrix T = active.T.cwiseAbs(), U = active.U.cwiseAbs(), W = V.cwiseAbs();
+  const Vector inner = T * Vector::Ones(k);
+  const Vector rows_of_error = gamma(n) * P.spread(U.transpose() * inner) + gamma(k) * (W * inner) +
+                               P.spread(radii.rows_transposed_times(rows, inner, n));
+  const Vector outer =
+      P.is_diagonal ? Vector(P.x.cwiseAbs()) : Vector(P.X.cwiseAbs().transpose() * Vector::Ones(n));
+  const Vector columns_of_error =
+      T.transpose() *
+      (gamma(n) * (U * outer) + gamma(k) * (W.transpose() * Vector::Ones(n)) + radii.rows_times(rows, outer));
+  const double error = matrix_norm(rows_of_error, columns_of_error);
+
+  Matrix S = gram(active.Z);
+  S.diagonal().array() -= 1;
+  const Matrix size = active.Z.cwiseAbs();
+  const Vector rounding =
+      gamma(n) * (size.transpose() * (size * Vector::Ones(k))) + 2 * unit_roundoff * Vector::Ones(k);
+  const double computed = above((S.cwiseAbs() * Vector::Ones(k) + rounding).maxCoeff());
+  active.delta = above(computed + 2 * std::sqrt(1 + computed) * error + error * error);
+  return active;
+}
+
+namespace {
+
+/// r1 = z + U_Wᵀlambda - A q and r2 = s_W - U_W q at q + dq and lambda + dlambda, with bounds.
+struct KktResidual {
+  Vector r1, r1_radius, r2, r2_radius;
+};
+
+KktResidual kkt_residual(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+                         const Active& active, const std::vector<Index>& rows, const HeldPoint& point) {
+  const Index n = P.dimension(), k = active.U.rows();
+  KktResidual found;
+  if (P.is_diagonal) {
+    found.r1.resize(n);
+    found.r1_radius.resize(n);
+    for (Index i = 0; i < n; ++i) {
+      CompensatedSum sum;
+      sum.add(problem.z[i], 1);
+      for (Index r = 0; r < k; ++r) {
+        sum.add(active.U(r, i), point.lambda[r]);
+        sum.add(active.U(r, i), point.dlambda[r]);
+      }
+      sum.add(-P.a[i], point.q[i]);
+      sum.add(-P.a[i], point.dq[i]);
+      found.r1[i] = sum.result().value;
+      found.r1_radius[i] = sum.result().radius;
+    }
+  } else {
+    CompensatedSums balance(n);
+    balance.add(problem.z.data(), 1);
+    Vector row(n);
+    for (Index r = 0; r < k; ++r) {
+      row = active.U.row(r);
+      balance.add(row.data(), point.lambda[r]);
+      balance.add(row.data(), point.dlambda[r]);
+    }
+    for (Index j = 0; j < n; ++j) {
+      balance.add(P.A.col(j).data(), -point.q[j]);
+      balance.add(P.A.col(j).data(), -point.dq[j]);
+    }
+    balance.result(found.r1, found.r1_radius);
+  }
+  found.r2.resize(k);
+  found.r2_radius.resize(k);
+  for (Index r = 0; r < k; ++r) {
+    CompensatedSum sum;
+    sum.add(problem.s[rows[static_cast<std::size_t>(r)]], 1);
+    for (Index i = 0; i < n; ++i) {
+      sum.add(-active.U(r, i), point.q[i]);
+      sum.add(-active.U(r, i), point.dq[i]);
+    }
+    found.r2[r] = sum.result().value;
+    found.r2_radius[r] = sum.result().radius;
+  }
+  if (!radii.any()) return found;
+  const Vector size = above(1) * (point.q.cwiseAbs() + point.dq.cwiseAbs()),
+               weights = above(1) * (point.lambda.cwiseAbs() + point.dlambda.cwiseAbs());
+  found.r1_radius += radii.z(n) + radii.A_times(size) + radii.rows_transposed_times(rows, weights, n);
+  for (Index r = 0; r < k; ++r) {
+    const Index a = rows[static_cast<std::size_t>(r)];
+    found.r2_radius[r] += radii.s(a) + radii.row_times(a, size);
+  }
+  return found;
+}
+
+/// One step of refinement, kept apart from q and lambda.
+void correct(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
+  const Vector g = P.times_X(residual.r1);
+  if (active.U.rows() == 0) {
+    point.dq += P.times_X_transposed(g);
+    return;
+  }
+  const Vector c = active.T.transpose() * residual.r2;
+  const Vector y = c - active.Z.transpose() * g;
+  point.dq += P.times_X_transposed(g + active.Z * y);
+  point.dlambda += active.T * y;
+}
+
+/// Bounds on the error of the held point from its residual.
+void enclose(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
+  const Index n = P.dimension(), k = active.U.rows();
+  const double force = above(norm_above(P.times_X(residual.r1)) +
+                             norm_above(P.spread(gamma(n) * residual.r1.cwiseAbs() + residual.r1_radius)));
+  double gap = 0;
+  if (k > 0) {
+    const Matrix T = active.T.cwiseAbs();
+    gap = above(norm_above(active.T.transpose() * residual.r2) +
+                norm_above(T.transpose() * (gamma(k) * residual.r2.cwiseAbs() + residual.r2_radius)));
+  }
+  const double low_A = below(1 - P.delta), low_Z = below(1 - active.delta);
+  point.radius = above(force / std::sqrt(low_A) + gap * std::sqrt((1 + P.delta) / low_Z));
+  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + active.delta) / low_A * force));
+  point.multiplier_radius.resize(k);
+  for (Index r = 0; r < k; ++r) point.multiplier_radius[r] = above(norm_above(active.T.row(r)) * y);
+}
+
+}  // namespace
+
+HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+                     const Active& active, const std::vector<Index>& rows, const Vector& q,
+                     const Vector& lambda) {
+  const auto k = static_cast<Index>(rows.size());
+  HeldPoint point{q, Vector::Zero(problem.dimension()), Vector(k), Vector::Zero(k), {}, 0};
+  for (Index r = 0; r < k; ++r) point.lambda[r] = lambda[rows[static_cast<std::size_t>(r)]];
+  correct(P, active, kkt_residual(problem, radii, P, active, rows, point), point);
+  // What is too small to matter is left to the bound.
+  point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
+  point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
+  enclose(P, active, kkt_residual(problem, radii, P, active, rows, point), point);
+  return point;
+}
+
+double length_above(const Preconditioned& P, const RadiiOf& radii, const Vector& dq) {
+  const Index n = P.dimension();
+  const double largest = dq.size() > 0 ? dq.cwiseAbs().maxCoeff() : 0;
+  if (!(largest > 0)) return 0;
+  const Vector unit = dq / largest, size = unit.cwiseAbs();
+  const Vector product = P.times_A(unit);
+  const double square = unit.dot(product) + gamma(n) * size.dot(product.cwiseAbs()) +
+                        above(2 * gamma(n) * size.dot(P.magnitude_times_A(size)));
+  // Two metrics within 1 ± δ of the same differ by this much.
+  const double stretch = radii.any() ? (1 + P.delta) / below(1 - P.delta) : 1;
+  return above(above(largest) * std::sqrt(above(std::max(0.0, square) * stretch)));
+}
+
+double dual_length_above(const Preconditioned& P, const Vector& c, const Vector& spread) {
+  const Vector moved = gamma(P.dimension()) * c.cwiseAbs() + above(1) * spread;
+  return above((norm_above(P.times_X(c)) + norm_above(P.spread(moved))) / std::sqrt(below(1 - P.delta)));
+}
+
+}  // namespace convex

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/nearest_point/data_radii.hpp"
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+
+/// The point that some rows define, with proved bounds for every problem within radii of the one given
+/// (docs/proof.md, section 3).
+namespace convex {
+
+/// Radii of a problem as sums over them need it; all 0 where none are given.
+class RadiiOf {
+ public:
+  explicit RadiiOf(const DataRadii* radii) : radii_(radii) {}
+  bool any() const { return radii_ != nullptr; }
+  /// Â x and Û_W x, Û_Wᵀ y and ŝ_W for x, y >= 0.
+  Vector A_times(const Vector& x) const {
+    return any() ? Vector(radii_->A * x) : Vector(Vector::Zero(x.size()));
+  }
+  Vector z(Index n) const { return any() ? radii_->z : Vector(Vector::Zero(n)); }
+  double row_times(Index a, const Vector& x) const { return any() ? radii_->U.row(a).dot(x) : 0; }
+  double s(Index a) const { return any() ? radii_->s[a] : 0; }
+  Vector rows_times(const std::vector<Index>& rows, const Vector& x) const;
+  Vector rows_transposed_times(const std::vector<Index>& rows, const Vector& y, Index n) const;
+
+ private:
+  const DataRadii* radii_;
+};
+
+/// A metric seen through X ≈ F⁻¹: A' = X A Xᵀ = I + Δ with |Δ|₂ <= delta < 1.
+struct Preconditioned {
+  bool is_diagonal = false;
+  Matrix A, X;  // dense
+  Vector a, x;  // the diagonals, when A is diagonal
+  double delta = 1;
+
+  Vector times_X(const Vector& c) const { return is_diagonal ? Vector(x.cwiseProduct(c)) : Vector(X * c); }
+  Vector times_X_transposed(const Vector& p) const {
+    return is_diagonal ? Vector(x.cwiseProduct(p)) : Vector(X.transpose() * p);
+  }
+  /// |X| c for c >= 0.
+  Vector spread(const Vector& c) const {
+    return is_diagonal ? Vector(x.cwiseAbs().cwiseProduct(c)) : Vector(X.cwiseAbs() * c);
+  }
+  Vector times_A(const Vector& q) const { return is_diagonal ? Vector(a.cwiseProduct(q)) : Vector(A * q); }
+  Vector magnitude_times_A(const Vector& q) const {
+    return is_diagonal ? Vector(a.cwiseProduct(q)) : Vector(A.cwiseAbs() * q);
+  }
+  Index dimension() const { return is_diagonal ? a.size() : A.rows(); }
+};
+
+/// None when a number is out of the range that bounds are made for.
+std::optional<Preconditioned> preconditioned(const Metric&, const RadiiOf&);
+
+/// The active rows seen through X and T ≈ R⁻¹: Z = X U_Wᵀ T, ZᵀZ = I + Δ with |Δ|₂ <= delta < 1.
+struct Active {
+  Matrix U;  // the rows, k×n
+  Matrix T, Z;
+  double delta = 0;
+};
+
+/// None when rows are dependent, for all that doubles tell.
+std::optional<Active> active_rows(const NearestPointProblem&, const RadiiOf&, const Preconditioned&,
+                                  const std::vector<Index>& rows);
+
+/// What is known of the point that the active rows define: q + dq within `radius` in the metric, its
+/// multipliers lambda + dlambda within theirs.
+struct HeldPoint {
+  Vector q, dq, lambda, dlambda, multiplier_radius;
+  double radius = 0;
+};
+
+/// The point of the rows from a guess, refined once, with its bounds.
+HeldPoint held_point(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
+                     const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
+
+/// At least ||dq||_A, for every metric within the radii.
+double length_above(const Preconditioned&, const RadiiOf&, const Vector& dq);
+
+/// At least ||c||_(A⁻¹), |c_i| known to within `spread_i`, for every metric within the radii.
+double dual_length_above(const Preconditioned&, const Vector& c, const Vector& spread);
+
+}  // namespace convex

@@ -1,0 +1,50 @@
+#include "mechanics/evaluation_error.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/largest_move.hpp"
+#include "mechanics/data_radii.hpp"
+#include "mechanics/units.hpp"
+
+namespace mechanics {
+namespace {
+
+/// The rows that the answer rests on: its basis, else those with a multiplier and the two-sided ones.
+std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const convex::Solution& solution) {
+  if (!solution.basis.empty()) return solution.basis;
+  std::vector<bool> held(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : problem.two_sided) held[static_cast<std::size_t>(a)] = true;
+  std::vector<Index> rows;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (held[static_cast<std::size_t>(a)] || solution.lambda[a] != 0) rows.push_back(a);
+  return rows;
+}
+
+}  // namespace
+
+double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
+                        const convex::NearestPointProblem& problem, const convex::Solution& solution) {
+  const StateRadii radii = state_radii(*written.system, written.text, written.state);
+  const EquationRadii equations =
+      equation_radii(*written.system, written.state, radii, contacts, solution.q, solution.lambda);
+  const std::vector<Index> held = rows_held(problem, solution);
+  Vector rows(static_cast<Index>(held.size()));
+  for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];
+  // The equations are evaluated once for A, z, U, s and once, in another order, for the radii.
+  constexpr double evaluations = 2;
+  const Units units = fit_units(problem);
+  if (units.ordinary()) return evaluations * convex::largest_move(problem, held, equations.balance, rows);
+  return evaluations * std::sqrt(units.mass) * units.acceleration *
+         convex::largest_move(in_units(problem, units), held,
+                              equations.balance / units.mass / units.acceleration,
+                              rows / units.gradient / units.acceleration);
+}
+
+void count_evaluation_error(convex::Solution& solution, double error, const convex::Accuracy& accuracy) {
+  solution.error_bound += error;
+  const double most = accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
+  if (solution.status == convex::Status::solved && !(solution.error_bound <= most))
+    solution.status = convex::Status::inaccurate;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/solution.hpp"
+#include "mechanics/written_mechanism.hpp"
+
+namespace mechanics {
+
+/// An estimate of ||q'' - q''*||_A for the acceleration q''* of the mechanism as written and the exact
+/// solution q'' of the problem of A, z, U, s as evaluated: what their rounding, and that of the state's
+/// numbers, amounts to while the same contacts are held. The radii of the equations at the answer, twice for
+/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`).
+double evaluation_error(const WrittenMechanism&, const std::vector<Index>& contacts,
+                        const convex::NearestPointProblem&, const convex::Solution&);
+
+/// Adds it to the error bound, which then speaks of the mechanism as written, and judges the status by that.
+void count_evaluation_error(convex::Solution&, double error, const convex::Accuracy&);
+
+}  // namespace mechanics

@@ -1,0 +1,247 @@
+#include "mechanics/proof_as_written.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "convex/invalid_input.hpp"
+#include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/proof/enclosure.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
+#include "mechanics/data_radii.hpp"
+
+namespace mechanics {
+namespace {
+
+using convex::NearestPointProblem;
+using convex::ProofLevel;
+using convex::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool has_answer(const GaussSolution& solution) {
+  return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
+}
+
+bool holds(const std::vector<Index>& sorted, Index a) {
+  return std::binary_search(sorted.begin(), sorted.end(), a);
+}
+
+/// What is proved of one K: that there is no solution, or how far the answer is from it.
+struct OneProof {
+  ProofLevel level = ProofLevel::enclosure;
+  bool feasible = true;
+  double distance = 0;
+};
+
+class Proving {
+ public:
+  Proving(CertifiedSolution& found, const NearestPointProblem& problem, const WrittenMechanism& written,
+          const std::vector<Index>& contacts, const GaussOptions& options)
+      : found_(found), problem_(problem), written_(written), contacts_(contacts), options_(options) {}
+
+  void prove() {
+    TextProof& proof = found_.text.emplace();
+    decide_contacts(proof);
+    found_.certificate = {ProofLevel::none, infinity};
+    if (!proof.violated.empty() || proof.open.size() > most_open_contacts) return;
+    const std::size_t sets = std::size_t{1} << proof.open.size();
+    ProofLevel level = ProofLevel::exact;
+    double worst = 0;
+    std::size_t feasible = 0;
+    for (std::size_t chosen = 0; chosen < sets; ++chosen) {
+      const auto one = proved(proof, with_open(proof, chosen), sets == 1);
+      if (!one) return;
+      if (one->level != ProofLevel::exact) level = ProofLevel::enclosure;
+      feasible += one->feasible ? 1 : 0;
+      worst = std::max(worst, one->distance);
+    }
+    if (feasible != 0 && feasible != sets) return;
+    proof.error_bound = worst;
+    if (feasible == 0) {
+      found_.certificate = {level, 0};
+      return;
+    }
+    // Where several K, or another K than that of the tolerance, give this answer, it is theirs only if it is
+    // close.
+    const double most = options_.accuracy.tolerance * std::max(1.0, found_.solution.primal.acceleration_norm);
+    if (!proof.contacts_hold && !(worst <= most)) return;
+    found_.certificate = {level, worst};
+    judge_by_certificate(found_, options_);
+  }
+
+ private:
+  const std::vector<Constraint>& constraints() const { return written_.system->constraints(); }
+  bool is_two_sided(Index a) const { return constraints()[static_cast<std::size_t>(a)].two_sided; }
+
+  /// Constraints whose f is not near 0, for all that its rounding tells, need no closer look.
+  std::vector<Index> near_contact() {
+    radii_ = state_radii(*written_.system, written_.text, written_.state);
+    const ConstraintRates rates = written_.system->constraint_rates(written_.state);
+    const RateRadii radii = rate_radii(*written_.system, written_.state, radii_);
+    std::vector<Index> near;
+    for (Index a = 0; a < rates.f.size(); ++a)
+      if (is_two_sided(a) || !(rates.f[a] > radii.f[a])) near.push_back(a);
+    // What the tolerance took for a contact is apart only if the text says so.
+    for (const Index a : contacts_)
+      if (!holds(near, a)) near.insert(std::lower_bound(near.begin(), near.end(), a), a);
+    return near;
+  }
+
+  void decide_contacts(TextProof& proof) {
+    const std::vector<Index> near = near_contact();
+    proof.contacts = contact_verdicts(*written_.system, written_.text, near);
+    for (Index a = 0; a < static_cast<Index>(proof.contacts.size()); ++a) {
+      ContactVerdict& verdict = proof.contacts[static_cast<std::size_t>(a)];
+      if (!holds(near, a)) verdict = ContactVerdict::apart;
+      const bool in_K = holds(contacts_, a);
+      if (is_two_sided(a)) {
+        declared_.push_back(a);
+        moved_ = moved_ || verdict == ContactVerdict::violated;
+      } else if (verdict == ContactVerdict::violated) {
+        proof.violated.push_back(a);
+      } else if (verdict == ContactVerdict::undecided) {
+        proof.open.push_back(a);
+      } else {
+        if (verdict == ContactVerdict::touches) declared_.push_back(a);
+        if (in_K != (verdict == ContactVerdict::touches)) proof.refuted.push_back(a);
+      }
+    }
+    proof.contacts_hold = proof.refuted.empty() && proof.violated.empty() && proof.open.empty();
+  }
+
+  std::vector<Index> with_open(const TextProof& proof, std::size_t chosen) const {
+    std::vector<Index> K = declared_;
+    for (std::size_t k = 0; k < proof.open.size(); ++k)
+      if ((chosen >> k & 1U) != 0) K.push_back(proof.open[k]);
+    std::sort(K.begin(), K.end());
+    return K;
+  }
+
+  std::optional<OneProof> proved(TextProof& proof, const std::vector<Index>& K, bool only) {
+    if (!moved_)
+      if (const auto text = problem_from_text(*written_.system, written_.text, K))
+        if (auto one = proved_from(*text, proof, K, only)) return one;
+    return proved_in_doubles(K);
+  }
+
+  /// In fractions, or in balls.
+  std::optional<OneProof> proved_from(const TextProblem& text, TextProof& proof, const std::vector<Index>& K,
+                                      bool only) {
+    const convex::ExactProblem& middle = text.problem.middle;
+    const NearestPointProblem near = convex::rounded(middle);
+    std::optional<ExactGaussSolution> exact;
+    std::optional<convex::EnclosedSolution> enclosed;
+    if (text.is_exact)
+      exact = solve_exactly(middle, near, options_);
+    else
+      enclosed = convex::enclosed_solution(text.problem, likely_rows(near, K));
+    if (!exact && !enclosed) return std::nullopt;
+    OneProof one{exact ? ProofLevel::exact : ProofLevel::enclosure,
+                 exact ? has_answer(exact->rounded) : enclosed->status != Status::infeasible, 0};
+    if (only && K == contacts_ && one.feasible != has_answer(found_.solution)) {
+      found_.solution = exact ? exact->rounded : solve_exactly(middle, near, options_).rounded;
+      found_.exact.reset();
+    }
+    if (one.feasible && !has_answer(found_.solution)) return std::nullopt;
+    if (one.feasible) {
+      const Vector& q = found_.solution.primal.q;
+      one.distance = exact ? convex::distance_above(middle, q, exact->primal.q)
+                           : convex::distance_above(text.problem, *enclosed, q);
+    }
+    if (!only) return one;
+    if (enclosed && one.feasible) {
+      constexpr int digits = 30;
+      proof.acceleration = convex::decimals(text.problem, *enclosed, digits);
+    }
+    proof.K = K;
+    proof.exact = std::move(exact);
+    proof.enclosed = std::move(enclosed);
+    return one;
+  }
+
+  std::vector<Index> likely_rows(const NearestPointProblem& near, const std::vector<Index>& K) const {
+    return K == contacts_ && has_answer(found_.solution) && !found_.solution.primal.basis.empty()
+               ? found_.solution.primal.basis
+               : convex::likely_active_rows(near);
+  }
+
+  /// In doubles, for every A, z, U, s within the radii of their evaluation.
+  std::optional<OneProof> proved_in_doubles(const std::vector<Index>& K) {
+    if (!has_answer(found_.solution)) return std::nullopt;
+    const LagrangianSystem& system = *written_.system;
+    const convex::DataRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : radii_, K);
+    if (K == contacts_) {
+      const auto bound = convex::enclosed_error(problem_, radii, found_.solution.primal);
+      return bound ? std::optional(OneProof{ProofLevel::enclosure, true, *bound}) : std::nullopt;
+    }
+    const ContactRows rows = system.contact_rows(written_.state, K);
+    NearestPointProblem other{problem_.A, problem_.z, convex::ConstraintRows(rows.U), rows.s, {}};
+    for (std::size_t k = 0; k < K.size(); ++k)
+      if (is_two_sided(K[k])) other.two_sided.push_back(static_cast<Index>(k));
+    // The answer printed, then that of the other problem.
+    const convex::Solution solution = options_.method->solve(other, options_.accuracy);
+    if (solution.q.size() != problem_.dimension()) return std::nullopt;
+    const auto bound = convex::enclosed_error(other, radii, solution);
+    if (!bound) return std::nullopt;
+    // In metrics within the radii of A, which are small beside A where the bound was proved.
+    constexpr double other_metrics = 2;
+    return OneProof{ProofLevel::enclosure, true,
+                    *bound + other_metrics * problem_.A.norm(solution.q - found_.solution.primal.q)};
+  }
+
+  /// The radii of the state, and twice the way to the nearest state at which the two-sided constraints hold.
+  StateRadii moved_radii() const {
+    const LagrangianSystem& system = *written_.system;
+    std::vector<Index> rows;
+    for (const Index a : declared_)
+      if (is_two_sided(a)) rows.push_back(a);
+    State state = written_.state;
+    const auto nearest = [&](bool of_velocity) {
+      const ConstraintRates rates = system.constraint_rates(state);
+      const ContactRows contact = system.contact_rows(state, rows);
+      NearestPointProblem step{problem_.A,
+                               Vector::Zero(problem_.dimension()),
+                               convex::ConstraintRows(contact.U),
+                               Vector(static_cast<Index>(rows.size())),
+                               {}};
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        step.two_sided.push_back(static_cast<Index>(k));
+        step.s[static_cast<Index>(k)] = of_velocity ? -rates.df[rows[k]] : -rates.f[rows[k]];
+      }
+      return convex::automatic(step).q;
+    };
+    StateRadii radii = radii_;
+    constexpr double ways = 2;
+    const auto widen = [&](Vector& numbers, Vector& about, const Vector& step) {
+      if (step.size() != numbers.size()) {
+        about.setConstant(numbers.size(), infinity);
+        return;
+      }
+      numbers += step;
+      const double way = ways * (step.size() > 0 ? step.cwiseAbs().maxCoeff() : 0);
+      about = about.size() > 0 ? Vector(about.array() + way) : Vector(Vector::Constant(step.size(), way));
+    };
+    widen(state.q, radii.q, nearest(false));
+    widen(state.v, radii.v, nearest(true));
+    return radii;
+  }
+
+  CertifiedSolution& found_;
+  const NearestPointProblem& problem_;
+  const WrittenMechanism& written_;
+  const std::vector<Index>& contacts_;
+  const GaussOptions& options_;
+  StateRadii radii_;
+  std::vector<Index> declared_;  // two-sided, or proved to touch
+  bool moved_ = false;           // a two-sided constraint does not hold at the state as written
+};
+
+}  // namespace
+
+void prove_as_written(CertifiedSolution& found, const NearestPointProblem& problem,
+                      const WrittenMechanism& written, const std::vector<Index>& contacts,
+                      const GaussOptions& options) {
+  Proving(found, problem, written, contacts, options).prove();
+}
+
+}  // namespace mechanics

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "convex/nearest_point/proof/certificate.hpp"
+#include "mechanics/exact_gauss_solution.hpp"
+#include "mechanics/exact_text.hpp"
+
+namespace mechanics {
+
+/// What the text of a mechanism proves of an answer. K is the set of contacts that are present: two-sided
+/// constraints by declaration, one-sided ones where f = 0 and df/dt = 0 as written.
+struct TextProof {
+  std::vector<ContactVerdict> contacts;  ///< by constraint
+  bool contacts_hold = false;  ///< K as written is that of contact_tolerance, and nothing is left open
+  std::vector<Index> refuted;  ///< one-sided constraints that the tolerance took into K, or left out, wrongly
+  std::vector<Index> violated;              ///< one-sided constraints that do not hold as written
+  std::vector<Index> open;                  ///< one-sided constraints of which the text decides nothing
+  std::vector<Index> K;                     ///< the constraints that are the rows of the solution below
+  std::optional<ExactGaussSolution> exact;  ///< the solution for the one K there is, where it is rational
+  std::optional<convex::EnclosedSolution> enclosed;  ///< or in balls
+  std::optional<convex::Decimals> acceleration;      ///< when it is enclosed
+  /// Of the acceleration printed, for every K that the text leaves open; none when nothing is proved.
+  std::optional<double> error_bound;
+};
+
+}  // namespace mechanics
