@@ -61,13 +61,19 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
                                   const GaussOptions& options) {
   CertifiedSolution found;
   found.solution = solve(problem, options);
+  std::optional<double> bound;
   if (data.are_doubles && has_answer(found.solution))
-    if (const auto bound = convex::enclosed_error(problem, found.solution.primal);
-        bound && (!is_quick(problem) || *bound <= few_ulps * found.solution.primal.acceleration_norm)) {
-      found.certificate = {ProofLevel::enclosure, *bound};
-      judge_by_certificate(found, options);
-      return found;
-    }
+    bound = convex::enclosed_error(problem, found.solution.primal);
+  const auto enclosed = [&] {
+    found.certificate = {ProofLevel::enclosure, *bound};
+    judge_by_certificate(found, options);
+    return found;
+  };
+  const double norm = found.solution.primal.acceleration_norm;
+  const double wanted =
+      is_quick(problem) ? few_ulps * norm : options.accuracy.tolerance * std::max(1.0, norm);
+  if (bound && *bound <= wanted)
+    return enclosed();
   if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
     if (auto proof = convex::infeasibility_proof(problem, found.solution.primal.farkas)) {
       found.certificate = {proof->level, 0};
@@ -75,7 +81,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
       found.farkas = std::move(proof->weights);
       return found;
     }
-  if (!small_enough(problem)) return found;
+  if (!small_enough(problem)) return bound ? enclosed() : found;
   CertifiedSolution exact = solve_by_fractions(problem, data, options);
   if (is_default(options) || !has_answer(found.solution) || !has_answer(exact.solution)) return exact;
   found.certificate = {ProofLevel::exact,

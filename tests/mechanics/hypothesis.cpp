@@ -109,3 +109,25 @@ TEST_CASE("the reaction from the dual alone is the one from the acceleration") {
     CHECK(found.from_dual->difference <= 1e-13);
   }
 }
+
+TEST_CASE("a wrong acceleration shows in the reaction from the dual when every contact persists") {
+  // Two contacts that press, independent: the two-sided motion is the true one.
+  const NearestPointProblem problem =
+      with_delassus_matrix(Matrix{{1, 0.2}, {0.2, 1}}, Eigen::Vector2d(-1, -2));
+  const mechanics::GaussSolution right = mechanics::solve(problem);
+  REQUIRE(right.primal.basis.size() == 2);
+  REQUIRE(right.from_dual);
+  CHECK(right.from_dual->difference <= 1e-14);
+  convex::Solution wrong = right.primal;
+  wrong.q = Eigen::Vector2d(0.7, -1.9);
+  const mechanics::Hypothesis judged = mechanics::hypothesis(problem, wrong, 1e-9);
+  const auto found = mechanics::reaction_from_dual(problem, judged.two_sided, wrong);
+  REQUIRE(found);
+  CHECK(found->difference > 0.1);
+  CHECK_FALSE(judged.accepted);
+  // Also where the two-sided motion was read off the answer.
+  const mechanics::TwoSided read_off{true, wrong.q, wrong.lambda, true, false};
+  const auto again = mechanics::reaction_from_dual(problem, read_off, wrong);
+  REQUIRE(again);
+  CHECK(again->difference > 0.1);
+}

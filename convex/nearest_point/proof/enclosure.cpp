@@ -151,8 +151,11 @@ std::vector<Index> loaded_rows(const Solution& solution) {
 /// among them.
 struct Held {
   std::vector<Index> rows;
-  Vector lambda;  // over all rows
+  Vector lambda;
 };
+
+/// Independent rows, among those without slack, that make R = A q - z (Lawson and Hanson's method ends at
+/// such rows), and as many of the two-sided rows as are independent.
 
 std::optional<Held> independent(const NearestPointProblem& problem, const Solution& solution) {
   const auto whitened = [&](const std::vector<Index>& rows) {
@@ -170,11 +173,14 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
   const std::size_t two_sided = rows.size();
   std::vector<Index> free(two_sided);
   std::iota(free.begin(), free.end(), Index{0});
-  Vector force = Vector::Zero(problem.dimension());
-  for (const Index a : loaded_rows(solution)) {
-    force += solution.lambda[a] * problem.U.row(a);
-    if (!std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) rows.push_back(a);
-  }
+  constexpr double tight = 1e-9;
+  const Vector slack = problem.U.times(solution.q) - problem.s;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (std::abs(slack[a]) <=
+            tight * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, solution.q.cwiseAbs())) &&
+        !std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
+      rows.push_back(a);
+  const Vector force = problem.A.multiply(solution.q) - problem.z;
   const ConeProjection push = cone_projection(whitened(rows), problem.A.whiten(force), free);
   if (!push.finished) return std::nullopt;
   Held held{{}, Vector::Zero(problem.rows())};
@@ -185,6 +191,21 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
     held.lambda[rows[r]] = lambda;
   }
   return held;
+}
+
+/// Drops one-sided rows whose multiplier at the refined point is 0 but for its radius, if there are such.
+bool drop_idle_rows(const NearestPointProblem& problem, const HeldPoint& point, Held& held) {
+  std::vector<Index> kept;
+  for (std::size_t r = 0; r < held.rows.size(); ++r) {
+    const auto k = static_cast<Index>(r);
+    const bool two_sided =
+        std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), held.rows[r]);
+    if (two_sided || !(std::abs(point.lambda[k] + point.dlambda[k]) <= above(point.multiplier_radius[k])))
+      kept.push_back(held.rows[r]);
+  }
+  const bool dropped = kept.size() < held.rows.size();
+  held.rows = std::move(kept);
+  return dropped;
 }
 
 /// Whether dense matrices of X and of so many rows may be made.
@@ -204,6 +225,26 @@ bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& sol
                                : is_ordinary(problem.U.dense());
 }
 
+/// The bound from the rows held, when they stand alone and push.
+std::optional<double> bound_from(const NearestPointProblem& problem, const RadiiOf& radii,
+                                 const Preconditioned& P, const Solution& solution, Held held) {
+  const auto stand_alone = [](const std::optional<Active>& rows) { return rows && rows->delta < 0.5; };
+  auto active = active_rows(problem, radii, P, held.rows);
+  if (!stand_alone(active)) return std::nullopt;
+  HeldPoint point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
+  // Rows without a multiplier, for all that doubles tell, need not be held.
+  if (drop_idle_rows(problem, point, held)) {
+    active = active_rows(problem, radii, P, held.rows);
+    if (!stand_alone(active)) return std::nullopt;
+    point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
+  }
+  if (!std::isfinite(point.radius) || !multipliers_are_positive(problem, held.rows, point))
+    return std::nullopt;
+  const auto shift = shift_of_open_rows(problem, radii, P, *active, held.rows, point);
+  if (!shift) return std::nullopt;
+  return above(length_above(P, radii, point.dq) + point.radius + *shift);
+}
+
 /// The bound, for every problem within the radii.
 std::optional<double> bound_within(const NearestPointProblem& problem, const Solution& solution,
                                    const RadiiOf& radii) {
@@ -213,21 +254,9 @@ std::optional<double> bound_within(const NearestPointProblem& problem, const Sol
     return sparse_enclosed_error(problem, radii, solution, held.rows);
   const auto P = preconditioned(problem.A, radii);
   if (!P || !(P->delta < 0.5)) return std::nullopt;
-  const auto stand_alone = [](const std::optional<Active>& rows) { return rows && rows->delta < 0.5; };
-  auto active = active_rows(problem, radii, *P, held.rows);
-  if (!stand_alone(active)) {
-    auto fewer = independent(problem, solution);
-    if (!fewer) return std::nullopt;
-    held = std::move(*fewer);
-    active = active_rows(problem, radii, *P, held.rows);
-    if (!stand_alone(active)) return std::nullopt;
-  }
-  const HeldPoint point = held_point(problem, radii, *P, *active, held.rows, solution.q, held.lambda);
-  if (!std::isfinite(point.radius) || !multipliers_are_positive(problem, held.rows, point))
-    return std::nullopt;
-  const auto shift = shift_of_open_rows(problem, radii, *P, *active, held.rows, point);
-  if (!shift) return std::nullopt;
-  return above(length_above(*P, radii, point.dq) + point.radius + *shift);
+  if (auto bound = bound_from(problem, radii, *P, solution, std::move(held))) return bound;
+  auto chosen = independent(problem, solution);
+  return chosen ? bound_from(problem, radii, *P, solution, std::move(*chosen)) : std::nullopt;
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST_CASE("the bound from sparse factors is above the true error, of good answer
     Solution answer = solution;
     answer.q[11] += spoilt;
     answer.q[3] -= spoilt / 3;
-    const auto bound = convex::sparse_enclosed_error(problem, answer, answer.basis);
+    const auto bound = convex::sparse_enclosed_error(problem, convex::RadiiOf(nullptr), answer, answer.basis);
     REQUIRE(bound);
     CHECK(oracles::relative_error(problem, answer.q, exact, 1) <= *bound);
     CHECK(*bound <= 1e3 * spoilt + 1e-12);
@@ -79,13 +79,13 @@ TEST_CASE("a set of rows with one left out, one too many or one twice is not pro
   const Solution solution = convex::active_set(problem);
   std::vector<Index> rows = solution.basis;
   rows.pop_back();
-  CHECK_FALSE(convex::sparse_enclosed_error(problem, solution, rows));
+  CHECK_FALSE(convex::sparse_enclosed_error(problem, convex::RadiiOf(nullptr), solution, rows));
   rows = solution.basis;
   rows.push_back(0);
-  CHECK_FALSE(convex::sparse_enclosed_error(problem, solution, rows));
+  CHECK_FALSE(convex::sparse_enclosed_error(problem, convex::RadiiOf(nullptr), solution, rows));
   rows = solution.basis;
   rows.push_back(rows.front());
-  CHECK_FALSE(convex::sparse_enclosed_error(problem, solution, rows));
+  CHECK_FALSE(convex::sparse_enclosed_error(problem, convex::RadiiOf(nullptr), solution, rows));
 }
 
 TEST_CASE("thousands of coordinates are proved with sparse factors") {
@@ -98,4 +98,38 @@ TEST_CASE("thousands of coordinates are proved with sparse factors") {
   const auto of_chain = convex::enclosed_error(chain.problem, solution);
   REQUIRE(of_chain);
   CHECK(chain.problem.A.norm(solution.q - chain.solution.hi - chain.solution.lo) <= *of_chain);
+}
+
+TEST_CASE("the bound from sparse factors holds for every problem within radii") {
+  const NearestPointProblem problem = string_on_floor(18);
+  const Solution solution = convex::active_set(problem);
+  const Index n = problem.dimension();
+  constexpr double radius = 0x1p-34;
+  convex::DataRadii radii{problem.A.sparse_gram(), Vector::Constant(n, radius), problem.U.sparse(),
+                          Vector::Constant(n, radius)};
+  radii.A.coeffs().setConstant(radius);
+  radii.U.coeffs().setConstant(radius);
+  const auto bound =
+      convex::sparse_enclosed_error(problem, convex::RadiiOf(&radii), solution, solution.basis);
+  REQUIRE(bound);
+  for (const double side : {radius, -radius})
+    for (const bool alternates : {false, true}) {
+      NearestPointProblem moved = problem;
+      SparseMatrix A = problem.A.sparse_gram();
+      A.diagonal().array() += side;
+      moved.A = convex::Metric::sparse(A);
+      convex::SparseRows U = problem.U.sparse();
+      U.coeffs().array() -= side;
+      moved.U = convex::ConstraintRows(U);
+      for (Index i = 0; i < n; ++i) {
+        moved.z[i] += alternates && i % 2 == 1 ? -side : side;
+        moved.s[i] += side;
+      }
+      const Solution other = convex::active_set(moved);
+      const oracles::RationalPoint exact = oracles::solve_kkt(moved, other.basis);
+      REQUIRE(oracles::is_exact_solution(moved, exact));
+      const double off = oracles::relative_error(moved, solution.q, exact, 1);
+      CHECK(off <= *bound);
+      CHECK(off > 1e-2 * radius);
+    }
 }
