@@ -119,7 +119,7 @@ TEST_CASE("a wrong acceleration shows in the reaction from the dual when every c
   REQUIRE(right.from_dual);
   CHECK(right.from_dual->difference <= 1e-14);
   convex::Solution wrong = right.primal;
-  wrong.q = Eigen::Vector2d(0.7, -1.9);
+  wrong.q = Eigen::Vector2d(0.7, -0.5);  // what forces >= 0 of the contacts would make
   const mechanics::Hypothesis judged = mechanics::hypothesis(problem, wrong, 1e-9);
   const auto found = mechanics::reaction_from_dual(problem, judged.two_sided, wrong);
   REQUIRE(found);
