@@ -23,7 +23,8 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
 }  // namespace
 
 double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
-                        const convex::NearestPointProblem& problem, const convex::Solution& solution) {
+                        const convex::NearestPointProblem& problem, const convex::Solution& solution,
+                        const convex::Accuracy& accuracy) {
   const StateRadii radii = state_radii(*written.system, written.text, written.state);
   const EquationRadii equations =
       equation_radii(*written.system, written.state, radii, contacts, solution.q, solution.lambda);
@@ -32,12 +33,19 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
   for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];
   // The equations are evaluated once for A, z, U, s and once, in another order, for the radii.
   constexpr double evaluations = 2;
+  constexpr double far_below = 1e-2;
+  constexpr Index small_system = 40;
   const Units units = fit_units(problem);
-  if (units.ordinary()) return evaluations * convex::largest_move(problem, held, equations.balance, rows);
-  return evaluations * std::sqrt(units.mass) * units.acceleration *
-         convex::largest_move(in_units(problem, units), held,
-                              equations.balance / units.mass / units.acceleration,
-                              rows / units.gradient / units.acceleration);
+  if (!units.ordinary())
+    return evaluations * std::sqrt(units.mass) * units.acceleration *
+           convex::largest_move(in_units(problem, units), held,
+                                equations.balance / units.mass / units.acceleration,
+                                rows / units.gradient / units.acceleration);
+  if (problem.dimension() > small_system && rows.isZero(0)) {
+    const double coarse = evaluations * convex::largest_move(problem.A, equations.balance);
+    if (coarse <= far_below * accuracy.tolerance * std::max(1.0, solution.acceleration_norm)) return coarse;
+  }
+  return evaluations * convex::largest_move(problem, held, equations.balance, rows);
 }
 
 void count_evaluation_error(convex::Solution& solution, double error, const convex::Accuracy& accuracy) {

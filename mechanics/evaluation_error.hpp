@@ -11,7 +11,7 @@ namespace mechanics {
 /// numbers, amounts to while the same contacts are held. The radii of the equations at the answer, twice for
 /// the two evaluations, through the conditioning of the rows held (`convex::largest_move`).
 double evaluation_error(const WrittenMechanism&, const std::vector<Index>& contacts,
-                        const convex::NearestPointProblem&, const convex::Solution&);
+                        const convex::NearestPointProblem&, const convex::Solution&, const convex::Accuracy&);
 
 /// Adds it to the error bound, which then speaks of the mechanism as written, and judges the status by that.
 void count_evaluation_error(convex::Solution&, double error, const convex::Accuracy&);

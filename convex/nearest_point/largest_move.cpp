@@ -1,5 +1,6 @@
 #include "convex/nearest_point/largest_move.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double softness = 1e-12;
 
 constexpr int most_climbs = 5;
+
+/// Where all push the same way, and where neighbours push against each other.
+std::array<Vector, 2> starts(const Vector& size) {
+  Vector alternating = size;
+  for (Index i = 1; i < size.size(); i += 2) alternating[i] = -size[i];
+  return {size, alternating};
+}
 
 Vector with_signs(const Vector& size, const Vector& of) {
   return size.binaryExpr(of, [](double r, double x) { return x < 0 ? -r : r; });
@@ -35,14 +43,10 @@ double largest_move(const NearestPointProblem& problem, const std::vector<Index>
   }
   RegularisedKkt kkt(problem);
   if (!kkt.factor(held, theta)) return infinity;
-  // Where all push the same way, and where neighbours push against each other.
-  Vector alternating = Vector::Ones(balance.size()), alternating_rows = Vector::Ones(rows.size());
-  for (Index i = 1; i < balance.size(); i += 2) alternating[i] = -1;
-  for (Index k = 1; k < rows.size(); k += 2) alternating_rows[k] = -1;
+  const auto pushes = starts(balance), gaps = starts(rows);
   double largest = 0;
-  for (const bool alternates : {false, true}) {
-    Vector r1 = alternates ? with_signs(balance, alternating) : balance,
-           r2 = alternates ? with_signs(rows, alternating_rows) : rows, dq, dlambda;
+  for (std::size_t start = 0; start < pushes.size(); ++start) {
+    Vector r1 = pushes[start], r2 = gaps[start], dq, dlambda;
     double reached = -1;
     for (int climb = 0; climb < most_climbs; ++climb) {
       kkt.solve(r1, r2, dq, dlambda);
@@ -53,6 +57,25 @@ double largest_move(const NearestPointProblem& problem, const std::vector<Index>
       kkt.solve(problem.A.multiply(dq), Vector::Zero(rows.size()), dq, dlambda);
       r1 = with_signs(balance, dq);
       r2 = with_signs(rows, -dlambda);
+    }
+    largest = std::max(largest, reached);
+  }
+  return largest;
+}
+
+double largest_move(const Metric& A, const Vector& balance) {
+  if (!balance.allFinite()) return infinity;
+  if (A.kind() == MetricKind::diagonal || A.kind() == MetricKind::identity) return A.dual_norm(balance);
+  double largest = 0;
+  for (Vector push : starts(balance)) {
+    double reached = -1;
+    for (int climb = 0; climb < most_climbs; ++climb) {
+      const Vector dq = A.solve(push);
+      const double move = std::sqrt(std::max(0.0, push.dot(dq)));
+      if (!std::isfinite(move)) return infinity;
+      if (!(move > reached)) break;
+      reached = move;
+      push = with_signs(balance, dq);
     }
     largest = std::max(largest, reached);
   }

@@ -15,4 +15,7 @@ namespace convex {
 double largest_move(const NearestPointProblem&, const std::vector<Index>& held, const Vector& balance,
                     const Vector& rows);
 
+/// The same with no rows held: max ||r1||_(A⁻¹), which bounds the part of r1 in any case.
+double largest_move(const Metric&, const Vector& balance);
+
 }  // namespace convex

@@ -152,7 +152,7 @@ TEST_CASE("the estimate of a plain answer covers the rounding of A, z, U, s, and
     const double truth =
         proof.certificate.error_bound;  // to 28 digits, see tests/mechanics/proof_from_text.cpp
     const double estimate = mechanics::evaluation_error(question.written, question.gauss.contacts.present,
-                                                        question.gauss.problem, plain);
+                                                        question.gauss.problem, plain, {});
     CHECK(plain.error_bound + estimate >= truth);
     CHECK(estimate <= 200 * truth + 1e-14);
     mechanics::count_evaluation_error(plain, estimate, {});
