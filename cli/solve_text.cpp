@@ -117,13 +117,18 @@ std::string from_text_text(const SolvedScene& solved) {
   else if (!proof.refuted.empty())
     text = refuted_text(solved) + (is_proved(solved.certificate) ? ", which makes no difference" : remedy);
   else
-    text = fmt::format("From the text: contact is not decided for {}{}", constraints_text(solved, proof.open),
-                       is_proved(solved.certificate) ? ", which makes no difference" : remedy);
+    text = fmt::format(
+        "From the text: contact is not decided for {}, no rule known here shows f and df/dt to be 0{}",
+        constraints_text(solved, proof.open),
+        is_proved(solved.certificate)
+            ? ", which makes no difference"
+            : "; write the state or the constraint so that they cancel term by term");
   if (proof.error_bound && is_proved(solved.certificate) && !solved.infeasible())
     text +=
         fmt::format("; the acceleration is that of the mechanism as written to {:.1e}", *proof.error_bound);
   else if (!is_proved(solved.certificate))
-    text += ". Nothing is proved of the mechanism as written";
+    text += proof.contacts_hold ? "; no bound on the acceleration is proved from there"
+                                : ". Nothing is proved of the mechanism as written";
   return text + ".\n";
 }
 

@@ -87,7 +87,7 @@ Vector radii_of(const std::vector<Rounded>& numbers) {
 }
 
 void add_motion(const LagrangianModel& model, const RoundedState& state,
-                const std::vector<Rounded>& constants, convex::DataRadii& found) {
+                const std::vector<Rounded>& constants, convex::EntryRadii& found) {
   const Motion run = run_motion(model, state, constants);
   found.A = model.hessian.matrix_radii(model.motion, run.x, run.adjoint);
   for (double& radius : std::span(found.A.valuePtr(), static_cast<std::size_t>(found.A.nonZeros())))
@@ -97,7 +97,7 @@ void add_motion(const LagrangianModel& model, const RoundedState& state,
 
 void add_contacts(const LagrangianModel& model, const RoundedState& state,
                   const std::vector<Rounded>& constants, const std::vector<Index>& contacts,
-                  convex::DataRadii& found) {
+                  convex::EntryRadii& found) {
   const Program& program = model.contacts;
   const ValuesOf<Rounded> x = program.rounded_values(state, 0, constants);
   const auto m = static_cast<Index>(contacts.size());
@@ -136,12 +136,12 @@ StateRadii state_radii(const LagrangianSystem& system, const StateText& text, co
   return radii;
 }
 
-convex::DataRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
                              const std::vector<Index>& contacts) {
   const LagrangianModel& model = system.model();
   const RoundedState rounded = rounded_state(state, radii);
   const std::vector<Rounded> constants = rounded_nodes(model.tape);
-  convex::DataRadii found;
+  convex::EntryRadii found;
   add_motion(model, rounded, constants, found);
   add_contacts(model, rounded, constants, contacts, found);
   return found;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/data_radii.hpp"
+#include "convex/nearest_point/entry_radii.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace mechanics {
@@ -19,7 +19,7 @@ StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);
 /// as written, at a state within the radii: decimals, pi and every operation of values and derivatives were
 /// rounded. A bound, by the same sweeps over numbers with radii (`expression::Rounded`): what is exact has
 /// radius 0. `contacts`: the constraints of K, the rows in their order. Costs several times the evaluation.
-convex::DataRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
+convex::EntryRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
                              const std::vector<Index>& contacts);
 
 /// How far f_a and df_a/dt, as `constraint_rates` evaluates them, may be from those as written.

@@ -169,7 +169,7 @@ class Proving {
   std::optional<OneProof> proved_in_doubles(const std::vector<Index>& K) {
     if (!has_answer(found_.solution)) return std::nullopt;
     const LagrangianSystem& system = *written_.system;
-    const convex::DataRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : radii_, K);
+    const convex::EntryRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : radii_, K);
     if (K == contacts_) {
       const auto bound = convex::enclosed_error(problem_, radii, found_.solution.primal);
       return bound ? std::optional(OneProof{ProofLevel::enclosure, true, *bound}) : std::nullopt;

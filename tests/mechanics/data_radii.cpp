@@ -29,7 +29,7 @@ void check_against_text(const tests::SystemText& text, const mechanics::StateTex
   const mechanics::State in_doubles = system->state(state);
   const mechanics::Inertia inertia = system->inertia(in_doubles);
   const mechanics::ContactRows rows = system->contact_rows(in_doubles, contacts);
-  const convex::DataRadii radii = mechanics::data_radii(
+  const convex::EntryRadii radii = mechanics::data_radii(
       *system, in_doubles, mechanics::state_radii(*system, state, in_doubles), contacts);
   const convex::UncertainProblem& exact = truth->problem;
   const Matrix A(inertia.A), A_radius(radii.A);
@@ -103,7 +103,7 @@ TEST_CASE("what doubles hold exactly has radius 0, and a decimal that they do no
   const mechanics::State state = system->state(written);
   const mechanics::StateRadii at = mechanics::state_radii(*system, written, state);
   CHECK(mechanics::data_radii(*system, state, at, {0}).is_zero());
-  const convex::DataRadii slope = mechanics::data_radii(*system, state, at, {1});
+  const convex::EntryRadii slope = mechanics::data_radii(*system, state, at, {1});
   CHECK(slope.U.coeff(0, 0) >= 0x1p-58);
   CHECK(slope.U.coeff(0, 0) <= 0x1p-56);
   CHECK(slope.U.coeff(0, 1) == 0);

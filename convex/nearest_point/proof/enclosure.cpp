@@ -129,7 +129,7 @@ std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, con
 }
 
 /// Radii as bounds need them: none so small that a product of it might underflow.
-DataRadii ordinary(DataRadii radii) {
+EntryRadii ordinary(EntryRadii radii) {
   const auto raise = [](double r) { return r > 0 ? std::max(r, smallest_ordinary) : r; };
   for (double& r : Eigen::Map<Vector>(radii.A.valuePtr(), radii.A.nonZeros())) r = raise(r);
   for (double& r : Eigen::Map<Vector>(radii.U.valuePtr(), radii.U.nonZeros())) r = raise(r);
@@ -265,10 +265,10 @@ std::optional<double> enclosed_error(const NearestPointProblem& problem, const S
   return bound_within(problem, solution, RadiiOf(nullptr));
 }
 
-std::optional<double> enclosed_error(const NearestPointProblem& problem, const DataRadii& radii,
+std::optional<double> enclosed_error(const NearestPointProblem& problem, const EntryRadii& radii,
                                      const Solution& solution) {
   if (!radii.is_finite()) return std::nullopt;
-  const DataRadii usable = ordinary(radii);
+  const EntryRadii usable = ordinary(radii);
   return bound_within(problem, solution, RadiiOf(usable.is_zero() ? nullptr : &usable));
 }
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/data_radii.hpp"
+#include "convex/nearest_point/entry_radii.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -17,6 +17,6 @@ std::optional<double> enclosed_error(const NearestPointProblem&, const Solution&
 
 /// The same for every problem within the radii of this one, q* its solution, in its metric: that each has one
 /// is proved.
-std::optional<double> enclosed_error(const NearestPointProblem&, const DataRadii&, const Solution&);
+std::optional<double> enclosed_error(const NearestPointProblem&, const EntryRadii&, const Solution&);
 
 }  // namespace convex

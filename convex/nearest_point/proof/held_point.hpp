@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/data_radii.hpp"
+#include "convex/nearest_point/entry_radii.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
@@ -13,7 +13,7 @@ namespace convex {
 /// Radii of a problem as sums over them need it; all 0 where none are given.
 class RadiiOf {
  public:
-  explicit RadiiOf(const DataRadii* radii) : radii_(radii) {}
+  explicit RadiiOf(const EntryRadii* radii) : radii_(radii) {}
   bool any() const { return radii_ != nullptr; }
   /// Â x and Û_W x, Û_Wᵀ y and ŝ_W for x, y >= 0.
   Vector A_times(const Vector& x) const {
@@ -26,7 +26,7 @@ class RadiiOf {
   Vector rows_transposed_times(const std::vector<Index>& rows, const Vector& y, Index n) const;
 
  private:
-  const DataRadii* radii_;
+  const EntryRadii* radii_;
 };
 
 /// A metric seen through X ≈ F⁻¹: A' = X A Xᵀ = I + Δ with |Δ|₂ <= delta < 1.

@@ -143,7 +143,7 @@ TEST_CASE(
     const Solution solution = convex::active_set(problem);
     const Index n = problem.dimension(), m = problem.rows();
     constexpr double radius = 0x1p-36;
-    convex::DataRadii radii{Matrix(Matrix::Constant(n, n, radius)).sparseView(), Vector::Constant(n, radius),
+    convex::EntryRadii radii{Matrix(Matrix::Constant(n, n, radius)).sparseView(), Vector::Constant(n, radius),
                             RowMatrix(RowMatrix::Constant(m, n, radius)).sparseView(),
                             Vector::Constant(m, radius)};
     const auto bound = convex::enclosed_error(problem, radii, solution);

@@ -105,7 +105,7 @@ TEST_CASE("the bound from sparse factors holds for every problem within radii") 
   const Solution solution = convex::active_set(problem);
   const Index n = problem.dimension();
   constexpr double radius = 0x1p-34;
-  convex::DataRadii radii{problem.A.sparse_gram(), Vector::Constant(n, radius), problem.U.sparse(),
+  convex::EntryRadii radii{problem.A.sparse_gram(), Vector::Constant(n, radius), problem.U.sparse(),
                           Vector::Constant(n, radius)};
   radii.A.coeffs().setConstant(radius);
   radii.U.coeffs().setConstant(radius);

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/data_radii.hpp"
+#include "convex/nearest_point/entry_radii.hpp"
 
 namespace convex {
 namespace {
@@ -8,11 +8,15 @@ Eigen::Map<const Vector> entries(const SparseRows& M) { return {M.valuePtr(), M.
 
 }  // namespace
 
-bool DataRadii::is_finite() const {
+DataRadii EntryRadii::by_rows(const Vector& diagonal) const {
+  return {ConstraintRows(U).lengths(diagonal.cwiseInverse()), s};
+}
+
+bool EntryRadii::is_finite() const {
   return entries(A).allFinite() && z.allFinite() && entries(U).allFinite() && s.allFinite();
 }
 
-bool DataRadii::is_zero() const {
+bool EntryRadii::is_zero() const {
   return (entries(A).array() == 0).all() && (z.array() == 0).all() && (entries(U).array() == 0).all() &&
          (s.array() == 0).all();
 }

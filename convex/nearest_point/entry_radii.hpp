@@ -1,18 +1,20 @@
 #pragma once
 
-#include "convex/vector.hpp"
+#include "convex/nearest_point/problem.hpp"
 
 namespace convex {
 
 /// How far the numbers of a nearest-point problem may be from those that are meant, entry by entry:
 /// |A - A*| <= A and so on, all radii >= 0, infinite where nothing is known. An entry outside of a pattern is
 /// certain. A radius of 0 is an exact number.
-struct DataRadii {
+struct EntryRadii {
   SparseMatrix A;  ///< n×n, symmetric
   Vector z;        ///< n
   SparseRows U;    ///< m×n
   Vector s;        ///< m
 
+  /// The same by rows, as methods use them: ||Û_a||_(D⁻¹) with D the diagonal of A, and ŝ.
+  DataRadii by_rows(const Vector& diagonal) const;
   /// Whether every number is known.
   bool is_finite() const;
   /// Whether every number is exact.
