@@ -65,6 +65,20 @@ std::unique_ptr<const LagrangianSystem> cranks(double torque, const Lines& more 
                         constraints});
 }
 
+/// A third crank in the middle of the coupler.
+std::unique_ptr<const LagrangianSystem> three_cranks() {
+  return tests::system({{"a", "b", "c", "k"},
+                        "(a'^2 + b'^2 + c'^2)/4 + k'^2/6",
+                        "",
+                        {},
+                        {},
+                        {{"a", "3"}},
+                        {{"along", "cos(a) + 2*cos(k) = 2 + cos(b)"},
+                         {"across", "sin(a) + 2*sin(k) = sin(b)"},
+                         {"middle_along", "cos(a) + cos(k) = 1 + cos(c)"},
+                         {"middle_across", "sin(a) + sin(k) = sin(c)"}}});
+}
+
 bool near(const Vector& x, const Vector& y, double tolerance = 1e-12) {
   return (x - y).norm() <= tolerance * std::max(1.0, y.norm());
 }
@@ -191,16 +205,7 @@ TEST_CASE("loops that are redundant everywhere pass: nothing is added, nothing i
   CHECK(once.resolution.warnings.empty());
 
   // A third crank in the middle, at any angle but the flat one.
-  const auto three = tests::system({{"a", "b", "c", "k"},
-                                    "(a'^2 + b'^2 + c'^2)/4 + k'^2/6",
-                                    "",
-                                    {},
-                                    {},
-                                    {{"a", "3"}},
-                                    {{"along", "cos(a) + 2*cos(k) = 2 + cos(b)"},
-                                     {"across", "sin(a) + 2*sin(k) = sin(b)"},
-                                     {"middle_along", "cos(a) + cos(k) = 1 + cos(c)"},
-                                     {"middle_across", "sin(a) + sin(k) = sin(c)"}}});
+  const auto three = three_cranks();
   for (const double angle : {0.3, 1.0, 2.5}) {
     const Answer found = answer(*three, tests::state({angle, angle, angle, 0}, {5, 5, 5, 0}));
     CHECK(found.resolution.added.empty());
@@ -219,16 +224,7 @@ TEST_CASE("loops that are redundant everywhere pass: nothing is added, nothing i
 }
 
 TEST_CASE("a third crank on a flat parallelogram takes its part of the torque as well") {
-  const auto three = tests::system({{"a", "b", "c", "k"},
-                                    "(a'^2 + b'^2 + c'^2)/4 + k'^2/6",
-                                    "",
-                                    {},
-                                    {},
-                                    {{"a", "3"}},
-                                    {{"along", "cos(a) + 2*cos(k) = 2 + cos(b)"},
-                                     {"across", "sin(a) + 2*sin(k) = sin(b)"},
-                                     {"middle_along", "cos(a) + cos(k) = 1 + cos(c)"},
-                                     {"middle_across", "sin(a) + sin(k) = sin(c)"}}});
+  const auto three = three_cranks();
   const Answer found = answer(*three, tests::state({0, 0, 0, 0}, {5, 5, 5, 0}));
   CHECK(near(found.q2(), Vector{{2, 2, 2, 0}}));
   CHECK_FALSE(found.resolution.added.empty());
@@ -314,16 +310,7 @@ TEST_CASE("a chain of regular joints costs no second solve") {
 }
 
 TEST_CASE("a redundant loop typed with ten digits counts as redundant, and is said to") {
-  const auto three = tests::system({{"a", "b", "c", "k"},
-                                    "(a'^2 + b'^2 + c'^2)/4 + k'^2/6",
-                                    "",
-                                    {},
-                                    {},
-                                    {{"a", "3"}},
-                                    {{"along", "cos(a) + 2*cos(k) = 2 + cos(b)"},
-                                     {"across", "sin(a) + 2*sin(k) = sin(b)"},
-                                     {"middle_along", "cos(a) + cos(k) = 1 + cos(c)"},
-                                     {"middle_across", "sin(a) + sin(k) = sin(c)"}}});
+  const auto three = three_cranks();
   const Answer found =
       answer(*three, tests::state({1.0471975512, 1.0471975509, 1.0471975516, 0}, {5, 5, 5.0000000002, 0}));
   CHECK(near(found.q2(), Vector{{2, 2, 2, 0}}, 1e-6));
