@@ -31,12 +31,28 @@ double count_evaluation_error(const Scene& scene, convex::Solution& solution) {
   return as_evaluated;
 }
 
+/// What the doubles of a problem leave open within their rounding is decided on the numbers as they were
+/// written, where these are fractions.
+void decide_on_the_text(const Scene& scene, mechanics::GaussSolution& found) {
+  const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
+  if (!scene.problem.radii || !as_written) return;  // else rows were added that the text does not have
+  mechanics::decide_on_exact_data(
+      found, scene.problem, scene.solve, [&]() -> std::optional<convex::ExactProblem> {
+        if (!scene.written) return scene.exact.make();
+        std::optional<mechanics::TextProblem> text =
+            mechanics::problem_from_text(*scene.written->system, scene.written->text, scene.contacts);
+        if (!text || !text->is_exact) return std::nullopt;
+        return std::move(text->problem.middle);
+      });
+}
+
 mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
   if (scene.solve.method->name == "exact")
     return mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
   if (options.certify) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
   mechanics::CertifiedSolution found;
   found.solution = mechanics::solve(scene.problem, scene.solve);
+  decide_on_the_text(scene, found.solution);
   return found;
 }
 
@@ -61,15 +77,48 @@ Answer solve_scene(Scene scene, const Options& options) {
   // Part of reading the mechanism, like the evaluation whose rounding it is about.
   std::optional<double> as_evaluated;
   if (scene.written && !proved && scene.added.empty() && has_answer(found.solution))
-  if (by_fractions)
-    found = mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
-  else if (options.certify)
-    found = mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
-  else
-    found.solution = mechanics::solve(scene.problem, scene.solve);
-  if (scene.written && options.certify)
-    mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  // Part of reading the mechanism, like the evaluation whose rounding it is about.
-  std::optional<double> as_evaluated;
-  if (scene.written && !proved && has_answer(found.solution))
+    as_evaluated = count_evaluation_error(scene, found.solution.primal);
+  progress.reset();
+  SolvedScene solved =
+      solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);
+  solved.null_space = options.null_space;
+  solved.sensitivity = options.sensitivity;
+  solved.as_evaluated = as_evaluated;
+  if (proved) solved.certificate = found.certificate;
+  if (found.exact) solved.exact = &*found.exact;
+  solved.farkas = found.farkas;
+  if (found.text) solved.text = &*found.text;
+  solved.warnings = std::move(warnings);
+  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  if (options.plot) draw(*options.plot, decomposition_drawing(solved));
+  Exit exit = exit_code(found.solution.primal.status);
+  if (options.certify && found.certificate.level == convex::ProofLevel::none)
+    exit = std::max(exit, Exit::inaccurate);
+  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
+}
+
+Answer solve_file(const std::string& file, const Options& options) {
+  if (options.plot) terminal_text(*options.plot, 1, 1);
+  Problem problem = read_problem_file(file);
+  if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
+    require_applicable(problem.solve, options);
+    const SplitPoint split = split_point(*decomposition, problem.solve, options);
+    return {exit_code(split.split.status),
+            options.json ? split_json(split, file) + "\n" : heading(problem.title, file) + split_text(split)};
+  }
+  if (const auto* cone = std::get_if<ConeProblem>(&problem.content)) {
+    require_cone_settings(problem.solve, options);
+    const SolvedCone solved = solve_cone(*cone);
+    return {Exit::solved,
+            options.json ? cone_json(solved, file) + "\n" : heading(problem.title, file) + cone_text(solved)};
+  }
+  return solve_scene(make_scene(std::move(problem), file, options), options);
+}
+
+}  // namespace
+
+Exit solve_command(const Options& options) {
+  return print_for_each_file(options, [&](const std::string& file) { return solve_file(file, options); });
+}
+
+}  // namespace cli

@@ -1,5 +1,8 @@
 #include "mechanics/exact_gauss_solution.hpp"
 
+#include <algorithm>
+
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/residuals.hpp"
 #include "mechanics/touching_contacts.hpp"
@@ -35,6 +38,28 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   if (problem.rows() <= most_contacts_from_dual && fit_units(problem).ordinary())
     rounded.from_dual = reaction_from_dual(problem, rounded.hypothesis.two_sided, rounded.primal);
   return found;
+}
+
+void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProblem& problem,
+                          const GaussOptions& options,
+                          const std::function<std::optional<convex::ExactProblem>()>& data) {
+  const convex::Solution& primal = found.primal;
+  const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
+  const bool is_default = options.method == &convex::methods().front();
+  if ((ended && primal.undecided.empty()) || !is_default || !(options.accuracy.limit > 0)) return;
+  const std::optional<convex::ExactProblem> exact = data();
+  if (!exact) return;
+  const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
+  if (convex::word_operations(*exact, held) > options.accuracy.limit * convex::most_word_operations) return;
+  ExactGaussSolution decided = solve_exactly(*exact, problem, options);
+  convex::Solution& answer = decided.rounded.primal;
+  const std::string_view open =
+      primal.undecided.empty() ? convex::open_question::conditioning : primal.undecided;
+  answer.method = primal.method;
+  answer.model.islands = {{primal.method, problem.dimension(), problem.rows(), 0,
+                           decided.primal.word_operations,
+                           static_cast<double>(problem.dimension() * problem.dimension()) / 2, open}};
+  found = std::move(decided.rounded);
 }
 
 }  // namespace mechanics

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "convex/nearest_point/proof/exact_multipliers.hpp"
 #include "mechanics/gauss_solution.hpp"
 
@@ -18,6 +21,13 @@ struct ExactGaussSolution {
 /// `convex::exact_problem` does.
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                                  const convex::NearestPointProblem& problem, const GaussOptions&);
+
+/// Decides what a solve of rounded data (`NearestPointProblem::radii`) left open, or could not end, on the
+/// data as they are: the answer becomes the exact one, rounded. `data` is asked for them only then; none when
+/// they cannot be had. An answer that is given by a method that was named, or takes more than accuracy.limit
+/// times `convex::most_word_operations`, stays as it is.
+void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, const GaussOptions&,
+                          const std::function<std::optional<convex::ExactProblem>()>& data);
 
 /// The hypothesis that every contact persists, and the rule of dropping negative multipliers, judged in
 /// fractions against the true solution.
