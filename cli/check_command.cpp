@@ -57,10 +57,12 @@ Answer check_scene(Scene scene, const Options& options) {
         return solution = mechanics::solve(attempt.problem, attempt.solve);
       });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);
+  const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
   SolvedScene solved = solved_scene(scene, solution, seconds);
+  solved.as_evaluated = as_evaluated;
   solved.warnings = std::move(warnings);
   for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
-  const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);
   return {exit_code(report, solution.primal.status),
           options.json ? with_checks(report, [&](JsonWriter& json) { write_solved(json, solved); })
                        : solve_text(solved) + "\n" + checks_text(report),

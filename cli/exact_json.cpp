@@ -59,8 +59,7 @@ void write_null_space(JsonWriter& json, const ExactAnswer& answer,
   for (const auto& mu : multipliers.null_space) {
     json.begin_object();
     for (const auto& [row, coefficient] : mu)
-      json.key(answer.scene.constraints[static_cast<std::size_t>(answer.K[static_cast<std::size_t>(row)])])
-          .value(convex::text(coefficient));
+      json.key(answer.scene.contact_name(row)).value(convex::text(coefficient));
     json.end_object();
   }
   json.end_array();

@@ -10,26 +10,10 @@
 #include "cli/resolved_scene.hpp"
 #include "cli/singular_report.hpp"
 #include "cli/solve_progress.hpp"
-#include "mechanics/evaluation_error.hpp"
 #include "mechanics/proof_as_written.hpp"
 
 namespace cli {
 namespace {
-
-bool has_answer(const mechanics::GaussSolution& solution) {
-  return solution.primal.status == convex::Status::solved ||
-         solution.primal.status == convex::Status::inaccurate;
-}
-
-/// Adds what the rounding of A, z, U, s amounts to; the bound without it.
-double count_evaluation_error(const Scene& scene, convex::Solution& solution) {
-  const double as_evaluated = solution.error_bound;
-  mechanics::count_evaluation_error(solution,
-                                    mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem,
-                                                                solution, scene.solve.accuracy),
-                                    scene.solve.accuracy);
-  return as_evaluated;
-}
 
 /// What the doubles of a problem leave open within their rounding is decided on the numbers as they were
 /// written, where these are fractions.
@@ -76,8 +60,7 @@ Answer solve_scene(Scene scene, const Options& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Part of reading the mechanism, like the evaluation whose rounding it is about.
   std::optional<double> as_evaluated;
-  if (scene.written && !proved && scene.added.empty() && has_answer(found.solution))
-    as_evaluated = count_evaluation_error(scene, found.solution.primal);
+  if (!proved) as_evaluated = count_evaluation_error(scene, found.solution);
   progress.reset();
   SolvedScene solved =
       solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);

@@ -2,7 +2,21 @@
 
 #include <cmath>
 
+#include "mechanics/evaluation_error.hpp"
+
 namespace cli {
+
+std::optional<double> count_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
+  convex::Solution& primal = solution.primal;
+  const bool has_answer =
+      primal.status == convex::Status::solved || primal.status == convex::Status::inaccurate;
+  if (!scene.written || !scene.added.empty() || !has_answer) return std::nullopt;
+  const double as_evaluated = primal.error_bound;
+  const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem, primal,
+                                                   scene.solve.accuracy);
+  mechanics::count_evaluation_error(primal, error, scene.solve.accuracy);
+  return as_evaluated;
+}
 
 SolvedScene solved_scene(const Scene& scene, const mechanics::GaussSolution& solution, double seconds) {
   using convex::Index;

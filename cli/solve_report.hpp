@@ -21,8 +21,8 @@ struct SolvedScene {
   std::vector<ConstraintState> states;  ///< one per constraint
   convex::Vector second_rates;          ///< d²f_a/dt², one per constraint
   double seconds = 0;
-  bool sensitivity = false;                              ///< whether its report is wanted
-  bool null_space = false;                               ///< whether that of the multipliers is
+  bool sensitivity = false;  ///< whether its report is wanted
+  bool null_space = false;   ///< whether that of the multipliers is
   /// The error bound for A, z, U, s as evaluated, when that of the solution counts their rounding too.
   std::optional<double> as_evaluated = {};
   std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for
@@ -42,6 +42,10 @@ struct SolvedScene {
     return solution.multipliers.least_norm.size() == scene.problem.rows() && !infeasible();
   }
 };
+
+/// Adds to the error bound what the rounding of A, z, U, s of a mechanism amounts to; the bound without it,
+/// where there is an answer to a mechanism without added rows.
+std::optional<double> count_evaluation_error(const Scene&, mechanics::GaussSolution&);
 
 SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
 

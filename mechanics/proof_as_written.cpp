@@ -148,7 +148,7 @@ class Proving {
       one.distance = exact ? convex::distance_above(middle, q, exact->primal.q)
                            : convex::distance_above(text.problem, *enclosed, q);
     }
-    if (!only) return one;
+    if (!only && K != contacts_) return one;
     if (enclosed && one.feasible) {
       constexpr int digits = 30;
       proof.acceleration = convex::decimals(text.problem, *enclosed, digits);
@@ -170,18 +170,19 @@ class Proving {
     if (!has_answer(found_.solution)) return std::nullopt;
     const LagrangianSystem& system = *written_.system;
     const convex::EntryRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : radii_, K);
+    // From the constraints themselves: rows of the problem may have been settled within their rounding.
+    const ContactRows rows = system.contact_rows(written_.state, K);
+    NearestPointProblem over{problem_.A, problem_.z, convex::ConstraintRows(rows.U), rows.s, {}};
+    for (std::size_t k = 0; k < K.size(); ++k)
+      if (is_two_sided(K[k])) over.two_sided.push_back(static_cast<Index>(k));
     if (K == contacts_) {
-      const auto bound = convex::enclosed_error(problem_, radii, found_.solution.primal);
+      const auto bound = convex::enclosed_error(over, radii, found_.solution.primal);
       return bound ? std::optional(OneProof{ProofLevel::enclosure, true, *bound}) : std::nullopt;
     }
-    const ContactRows rows = system.contact_rows(written_.state, K);
-    NearestPointProblem other{problem_.A, problem_.z, convex::ConstraintRows(rows.U), rows.s, {}};
-    for (std::size_t k = 0; k < K.size(); ++k)
-      if (is_two_sided(K[k])) other.two_sided.push_back(static_cast<Index>(k));
     // The answer printed, then that of the other problem.
-    const convex::Solution solution = options_.method->solve(other, options_.accuracy);
+    const convex::Solution solution = options_.method->solve(over, options_.accuracy);
     if (solution.q.size() != problem_.dimension()) return std::nullopt;
-    const auto bound = convex::enclosed_error(other, radii, solution);
+    const auto bound = convex::enclosed_error(over, radii, solution);
     if (!bound) return std::nullopt;
     // In metrics within the radii of A, which are small beside A where the bound was proved.
     constexpr double other_metrics = 2;

@@ -12,10 +12,10 @@ struct TextProof {
   std::vector<ContactVerdict> contacts;  ///< by constraint
   bool contacts_hold = false;  ///< K as written is that of contact_tolerance, and nothing is left open
   std::vector<Index> refuted;  ///< one-sided constraints that the tolerance took into K, or left out, wrongly
-  std::vector<Index> violated;              ///< one-sided constraints that do not hold as written
-  std::vector<Index> open;                  ///< one-sided constraints of which the text decides nothing
-  std::vector<Index> K;                     ///< the constraints that are the rows of the solution below
-  std::optional<ExactGaussSolution> exact;  ///< the solution for the one K there is, where it is rational
+  std::vector<Index> violated;  ///< one-sided constraints that do not hold as written
+  std::vector<Index> open;      ///< one-sided constraints of which the text decides nothing
+  std::vector<Index> K;         ///< the rows of the solution below: the one K, or that of the tolerance
+  std::optional<ExactGaussSolution> exact;           ///< the solution for K, where it is rational
   std::optional<convex::EnclosedSolution> enclosed;  ///< or in balls
   std::optional<convex::Decimals> acceleration;      ///< when it is enclosed
   /// Of the acceleration printed, for every K that the text leaves open; none when nothing is proved.
