@@ -4,6 +4,21 @@
 
 namespace cli {
 
+mechanics::GaussSolution solve_plainly(const Scene& scene) {
+  mechanics::GaussSolution found = mechanics::solve(scene.problem, scene.solve);
+  const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
+  if (!scene.problem.radii || !as_written) return found;  // else rows were added that the text does not have
+  mechanics::decide_on_exact_data(
+      found, scene.problem, scene.solve, [&]() -> std::optional<convex::ExactProblem> {
+        if (!scene.written) return scene.exact.make();
+        std::optional<mechanics::TextProblem> text =
+            mechanics::problem_from_text(*scene.written->system, scene.written->text, scene.contacts);
+        if (!text || !text->is_exact) return std::nullopt;
+        return std::move(text->problem.middle);
+      });
+  return found;
+}
+
 std::vector<mechanics::Warning> resolve_scene(
     Scene& scene, const std::function<const mechanics::GaussSolution&(const Scene&)>& solve) {
   if (!scene.system || scene.problem.two_sided.empty()) {

@@ -5,6 +5,10 @@
 
 namespace cli {
 
+/// Solves the problem of the scene by its method. What the doubles of rounded numbers leave open within their
+/// rounding is decided on the numbers as they were written, where these are fractions.
+mechanics::GaussSolution solve_plainly(const Scene&);
+
 /// Solves the scene by `solve`; where the state of a mechanism is singular, again with the equations that
 /// higher derivatives add, which then are rows of the scene's problem. The answer that stands is that of the
 /// last call. Returns what is to be said of it.

@@ -15,28 +15,12 @@
 namespace cli {
 namespace {
 
-/// What the doubles of a problem leave open within their rounding is decided on the numbers as they were
-/// written, where these are fractions.
-void decide_on_the_text(const Scene& scene, mechanics::GaussSolution& found) {
-  const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
-  if (!scene.problem.radii || !as_written) return;  // else rows were added that the text does not have
-  mechanics::decide_on_exact_data(
-      found, scene.problem, scene.solve, [&]() -> std::optional<convex::ExactProblem> {
-        if (!scene.written) return scene.exact.make();
-        std::optional<mechanics::TextProblem> text =
-            mechanics::problem_from_text(*scene.written->system, scene.written->text, scene.contacts);
-        if (!text || !text->is_exact) return std::nullopt;
-        return std::move(text->problem.middle);
-      });
-}
-
 mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
   if (scene.solve.method->name == "exact")
     return mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
   if (options.certify) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
   mechanics::CertifiedSolution found;
-  found.solution = mechanics::solve(scene.problem, scene.solve);
-  decide_on_the_text(scene, found.solution);
+  found.solution = solve_plainly(scene);
   return found;
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr Index outer_limit = 60;
 /// What converges does so in some tens of evaluations of the inner function or the conditions, seldom
 /// hundreds; after so many it will not.
-constexpr Index evaluation_limit = 200;
+constexpr Index evaluation_limit = 1000;
 constexpr double growth = 8, largest_growth = 0x1p33;  ///< of D, by which outer steps converge superlinearly
 constexpr double first_ridge = 1e-2, smallest_ridge = 1e-10;  ///< of the proximal term on w, times R
 /// Below this part of the size of x there is only rounding; near it steps go on while they halve the

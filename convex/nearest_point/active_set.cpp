@@ -281,15 +281,7 @@ class DualActiveSet {
 
   /// Drops the row whose refined multiplier is most negative; false when there is none.
   bool drop_negative(const RefinedPoint& refined) {
-    const double reach = 4 * refined.remaining() * set_.factor().inverse_norm();
-    Index worst = -1;
-    double lowest = 0;
-    for (Index k = 0; k < set_.size(); ++k) {
-      const double push = refined.lambda.hi[k] * set_.factor().length(k);
-      if (!set_.one_sided(k) || !(refined.lambda.hi[k] < -reach) || !(push < lowest)) continue;
-      lowest = push;
-      worst = k;
-    }
+    const Index worst = most_negative(set_, refined);
     if (worst < 0) return false;
     set_.remove(worst);
     ++steps_;
@@ -318,17 +310,9 @@ class DualActiveSet {
 
   Solution answer(const RefinedPoint& refined, bool finished) {
     if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
-    std::string_view open = finished ? std::string_view() : open_question::conditioning;
-    if (finished && problem_.radii) {
-      for (Index a = 0; a < problem_.rows() && open.empty(); ++a)
-        if (!set_.holds(a) && (slack_[a] <= 0 || two_sided_[static_cast<std::size_t>(a)]))
-          open = open_question::touched;
-    } else if (finished) {
-      open = judge_touched_rows(set_, refined.q, row_scale_, slack_);
-      if (open.empty()) left_outside_ = 0;
-      if (open.empty()) flat_wedge_ = false;
-    }
-    const double outside = finished && !flat_wedge_ ? left_outside_ : infinity;
+    const std::string_view open =
+        finished ? judge_touched_rows(set_, refined.q, row_scale_, slack_) : open_question::conditioning;
+    const double outside = open.empty() ? 0 : finished && !flat_wedge_ ? left_outside_ : infinity;
     Solution solution = judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
     solution.undecided = open;
     return solution;

@@ -90,15 +90,7 @@ class Polish {
   }
 
   bool drop_negative(const RefinedPoint& refined) {
-    const double noise = 4 * refined.remaining() * set_.factor().inverse_norm();
-    Index worst = -1;
-    double lowest = 0;
-    for (Index k = 0; k < set_.size(); ++k) {
-      const double push = refined.lambda.hi[k] * set_.factor().length(k);
-      if (!set_.one_sided(k) || !(refined.lambda.hi[k] < -noise) || !(push < lowest)) continue;
-      lowest = push;
-      worst = k;
-    }
+    const Index worst = most_negative(set_, refined);
     if (worst >= 0) set_.remove(worst);
     return worst >= 0;
   }

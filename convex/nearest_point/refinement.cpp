@@ -50,6 +50,7 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   // A residual is rounded once, its terms in twice the precision.
   point.floor = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
   const double expected = expected_contraction(of_A, of_rows * of_rows, false);
+  const double usual = std::min(slowest_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
   double previous = scale;  // the first solve is the correction of nothing
   Column dw, dlambda, r2(set.size());
   Vector dq, step;
@@ -70,11 +71,11 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
     // Once at the rounding of the residuals themselves, corrections no longer shrink: that is the end, not a
     // failure.
     const double floor = at_rounding * scale;
+    const double seen = (k == 0 ? point.last > 0 : point.last > floor) ? point.last / previous : 0;
     if (k == 0)
-      point.contraction =
-          std::max(point.last > 0 ? point.last / previous : 0, std::min(slowest_contraction / 2, expected));
-    else if (point.last > floor)
-      point.contraction = std::max(point.contraction, point.last / previous);
+      point.contraction = std::max(seen, std::min(slowest_contraction / 2, expected));
+    else  // the second correction shows what the first could only be expected to leave
+      point.contraction = std::max({seen, k == 1 ? 0 : point.contraction, usual});
     dq = problem.A.unwhiten(dw);
     step = dlambda;
     if (!(point.contraction < slowest_contraction)) break;
@@ -101,7 +102,23 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   return point;
 }
 
+template <int MaxSize>
+Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined) {
+  const double noise = 4 * refined.remaining() * set.factor().inverse_norm();
+  Index worst = -1;
+  double lowest = 0;
+  for (Index k = 0; k < set.size(); ++k) {
+    const double push = refined.lambda.hi[k] * set.factor().length(k);
+    if (!set.one_sided(k) || !(refined.lambda.hi[k] < -noise) || !(push < lowest)) continue;
+    lowest = push;
+    worst = k;
+  }
+  return worst;
+}
+
 template RefinedPoint refine(const WorkingSet<Eigen::Dynamic>&);
 template RefinedPoint refine(const WorkingSet<8>&);
+template Index most_negative(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&);
+template Index most_negative(const WorkingSet<8>&, const RefinedPoint&);
 
 }  // namespace convex

@@ -66,4 +66,9 @@ struct RefinedPoint {
 template <int MaxSize>
 RefinedPoint refine(const WorkingSet<MaxSize>& set);
 
+/// The place in W of the one-sided row whose refined multiplier, times its length, is most negative, beyond
+/// what may be missing in it; -1 for none.
+template <int MaxSize>
+Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined);
+
 }  // namespace convex

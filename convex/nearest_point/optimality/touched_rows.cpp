@@ -14,6 +14,7 @@ std::string_view judge_touched_rows(WorkingSet<MaxSize>& set, const DoubleDouble
   std::vector<Index> touched;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);
+  if (problem.radii) return touched.empty() ? std::string_view() : open_question::touched;
   const bool is_exact = keeps_exactly(problem, q.hi, set.rows(), touched);
   typename WorkingSet<MaxSize>::Split split;
   SlackOnEdge edge(problem, row_scale.data());
