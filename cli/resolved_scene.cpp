@@ -1,10 +1,54 @@
 #include "cli/resolved_scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "convex/invalid_input.hpp"
 #include "mechanics/singular/resolution.hpp"
 
 namespace cli {
 
+namespace {
+
+/// Numbers between this and its inverse can be squared and multiplied a few times over.
+constexpr double largest_ordinary = 0x1p120;
+
+bool is_extreme(double x) {
+  return x != 0 && !(std::abs(x) <= largest_ordinary && std::abs(x) >= 1 / largest_ordinary);
+}
+
+template <class Numbers>
+bool some_extreme(const Numbers& numbers) {
+  return std::any_of(numbers.data(), numbers.data() + numbers.size(), is_extreme);
+}
+
+/// Why the numbers of a [projection] as they are read are not for doubles to solve with; empty when they are.
+std::string_view why_not_in_doubles(const Scene& scene) {
+  if (scene.written) return {};
+  if (!scene.exact.are_doubles) return "what the rounding of fractions does";
+  const convex::NearestPointProblem& problem = scene.problem;
+  if (problem.A.kind() == convex::MetricKind::sparse || problem.U.is_sparse()) return {};
+  const bool dense = problem.A.kind() == convex::MetricKind::dense;
+  const bool extreme = (dense && some_extreme(problem.A.dense_gram())) ||
+                       some_extreme(problem.A.diagonal()) || some_extreme(problem.U.dense()) ||
+                       some_extreme(problem.z) || some_extreme(problem.s);
+  return extreme ? "numbers whose squares are beyond them" : std::string_view();
+}
+
+}  // namespace
+
 mechanics::GaussSolution solve_plainly(const Scene& scene) {
+  const bool is_default = scene.solve.method == &convex::methods().front() && scene.solve.accuracy.limit > 0;
+  if (const std::string_view why = why_not_in_doubles(scene); is_default && !why.empty()) {
+    mechanics::GaussSolution exact;
+    try {
+      if (mechanics::solve_on_exact_data(exact, scene.exact.make(), scene.problem, scene.solve, why))
+        return exact;
+    } catch (const convex::InvalidInput&) {
+      // What is said beside the answer, in doubles, has no place for such numbers.
+      if (!scene.exact.are_doubles) throw;
+    }
+  }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, scene.solve);
   const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
   if (!scene.problem.radii || !as_written) return found;  // else rows were added that the text does not have

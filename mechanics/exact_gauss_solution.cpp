@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/residuals.hpp"
@@ -9,12 +10,23 @@
 #include "mechanics/units.hpp"
 
 namespace mechanics {
+namespace {
+
+/// Rows that doubles take for active; none where the numbers are beyond what doubles can solve with.
+std::vector<Index> guess(const convex::NearestPointProblem& problem) {
+  try {
+    return convex::likely_active_rows(in_units(problem, fit_units(problem)));
+  } catch (const convex::InvalidInput&) {
+    return {};
+  }
+}
+
+}  // namespace
 
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                                  const convex::NearestPointProblem& problem, const GaussOptions& options) {
   ExactGaussSolution found;
-  found.primal =
-      convex::exact_active_set(exact, convex::likely_active_rows(in_units(problem, fit_units(problem))));
+  found.primal = convex::exact_active_set(exact, guess(problem));
   GaussSolution& rounded = found.rounded;
   rounded.primal = convex::rounded(exact, found.primal, options.accuracy);
   if (found.primal.status == convex::Status::infeasible) return found;
@@ -40,6 +52,22 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   return found;
 }
 
+bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
+                         const convex::NearestPointProblem& problem, const GaussOptions& options,
+                         std::string_view open) {
+  const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
+  if (convex::word_operations(exact, held) > options.accuracy.limit * convex::most_word_operations)
+    return false;
+  ExactGaussSolution decided = solve_exactly(exact, problem, options);
+  convex::Solution& answer = decided.rounded.primal;
+  answer.method = "active-set";
+  const Index n = problem.dimension();
+  answer.model.islands = {{answer.method, n, problem.rows(), 0, decided.primal.word_operations,
+                           static_cast<double>(n * n) / 2, open}};
+  found = std::move(decided.rounded);
+  return true;
+}
+
 void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProblem& problem,
                           const GaussOptions& options,
                           const std::function<std::optional<convex::ExactProblem>()>& data) {
@@ -47,19 +75,10 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
   const bool is_default = options.method == &convex::methods().front();
   if ((ended && primal.undecided.empty()) || !is_default || !(options.accuracy.limit > 0)) return;
-  const std::optional<convex::ExactProblem> exact = data();
-  if (!exact) return;
-  const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
-  if (convex::word_operations(*exact, held) > options.accuracy.limit * convex::most_word_operations) return;
-  ExactGaussSolution decided = solve_exactly(*exact, problem, options);
-  convex::Solution& answer = decided.rounded.primal;
   const std::string_view open =
       primal.undecided.empty() ? convex::open_question::conditioning : primal.undecided;
-  answer.method = primal.method;
-  answer.model.islands = {{primal.method, problem.dimension(), problem.rows(), 0,
-                           decided.primal.word_operations,
-                           static_cast<double>(problem.dimension() * problem.dimension()) / 2, open}};
-  found = std::move(decided.rounded);
+  if (const std::optional<convex::ExactProblem> exact = data())
+    solve_on_exact_data(found, *exact, problem, options, open);
 }
 
 }  // namespace mechanics

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <string_view>
 
 #include "convex/nearest_point/proof/exact_multipliers.hpp"
 #include "mechanics/gauss_solution.hpp"
@@ -28,6 +29,11 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
 /// times `convex::most_word_operations`, stays as it is.
 void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, const GaussOptions&,
                           const std::function<std::optional<convex::ExactProblem>()>& data);
+
+/// The exact solution of exact data, rounded, where that takes at most accuracy.limit times
+/// `convex::most_word_operations`; else false, and nothing is changed. open: why it is asked for.
+bool solve_on_exact_data(GaussSolution&, const convex::ExactProblem&, const convex::NearestPointProblem&,
+                         const GaussOptions&, std::string_view open);
 
 /// The hypothesis that every contact persists, and the rule of dropping negative multipliers, judged in
 /// fractions against the true solution.

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -41,4 +42,29 @@ TEST_CASE("an infinite number in an answer is the word inf") {
   const Outcome outcome = run_json_on("solve", two_rows({{3, "z = [0, 1e200]"}}));
   CHECK(Json::accept(outcome.out));
   if (outcome.code == 0) CHECK(Json::parse(outcome.out).at("gauss") == "-inf");
+}
+
+TEST_CASE(
+    "rows whose squares are beyond doubles, and fractions that doubles round, are solved as they are read") {
+  struct Case {
+    const char* problem;
+    std::array<double, 2> q;
+  };
+  // By hand: the held rows fix q in the first two; in the third q0 = -1e15/9 and q1 = 1e15/9.
+  for (const Case& one : {Case{"A = [[1,0],[0,1]]\nz = [5,0]\nU = [[1e200,0],[1e-200,1e-200]]\ns = "
+                               "[1e200,3e-200]\ntwo_sided = [1]\n",
+                               {4, -1}},
+                          Case{"A = [[1,0],[0,1]]\nz = [0,0]\nU = [[0,2e200],[0,2e-200],[-1e-200,0]]\n"
+                               "s = [-4.4e200,-4e-200,1e-200]\ntwo_sided = [1,2]\n",
+                               {-1, -2}},
+                          Case{"A = [[\"1\",\"1\"],[\"1\",\"1000000000000009/1000000000000000\"]]\nz = "
+                               "[0,1]\nU = [[1,0]]\ns = [-1e30]\n",
+                               {-1e15 / 9, 1e15 / 9}}}) {
+    const Outcome outcome = run_json_on("solve", std::string("[projection]\n") + one.problem);
+    CAPTURE(one.problem);
+    REQUIRE(outcome.code == 0);
+    const Json q = Json::parse(outcome.out).at("acceleration");
+    CHECK(number(q.at("q[0]")) == doctest::Approx(one.q[0]).epsilon(1e-15));
+    CHECK(number(q.at("q[1]")) == doctest::Approx(one.q[1]).epsilon(1e-15));
+  }
 }

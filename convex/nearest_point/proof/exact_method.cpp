@@ -54,7 +54,9 @@ Solution rounded(const ExactProblem& problem, const ExactSolution& exact, const 
   solution.error_bound = solution.rounding = distance_above(problem, solution.q, exact.q);
   solution.acceleration_norm = root_above(squared_norm(problem, exact.q));
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
-  solution.status = close && solution.lambda.allFinite() ? Status::solved : Status::inaccurate;
+  const bool finite =
+      solution.q.allFinite() && solution.lambda.allFinite() && std::isfinite(solution.acceleration_norm);
+  solution.status = close && finite ? Status::solved : Status::inaccurate;
   return solution;
 }
 
