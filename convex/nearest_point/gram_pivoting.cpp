@@ -42,7 +42,8 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
       capacity_(std::min(n_, m_)),
       rows_(problem, arena, places(n_, m_), w_free),
       w_free_(w_free),
-      row_scale_(row_scale) {
+      row_scale_(row_scale),
+      target_(rows_.load()) {
   const Index most = places(n_, m_), k = padded(capacity_);
   lambda_ = arena.take_filled(most, 0.0);
   w_ = arena.take<double>(n_);
@@ -124,7 +125,7 @@ bool GramPivoting::pass_dependent_rows() {
   for (Index j = 0; j < k; ++j) {
     const double* const column = C_ + j * ld;
     if (!(column[j] > 2 * near_dependence * rows_.square(at_[j]))) {
-      if (state_[row(j)] == two_sided || j < firm_) return false;
+      if (state_[row(j)] != held || j < firm_) return false;
       state_[row(j)] = passed;
       has_dependent_rows_ = true;
       continue;
@@ -149,13 +150,13 @@ void GramPivoting::solve(double* x) const {
 /// Multipliers with which the rows held hold with equality.
 bool GramPivoting::find_multipliers() {
   if (!factored_ && !factor()) return false;
-  for (Index j = 0; j < padded(size_); ++j) load_[j] = j < size_ ? rows_.load()[at_[j]] : 0;
+  for (Index j = 0; j < padded(size_); ++j) load_[j] = j < size_ ? target_[at_[j]] : 0;
   energy_ = 0;
   solve(load_);
   fill_packs(rows_.count(), 0, lambda_);
   for (Index j = 0; j < size_; ++j) {
     lambda_[at_[j]] = load_[j];
-    energy_ += load_[j] * rows_.load()[at_[j]];
+    energy_ += load_[j] * target_[at_[j]];
   }
   return true;
 }
@@ -174,7 +175,7 @@ void GramPivoting::find_slacks() {
 }
 
 void GramPivoting::find_known_slacks(double* at_places) const {
-  for (Index p = 0; p < rows_.count(); ++p) at_places[p] = -rows_.load()[p];
+  for (Index p = 0; p < rows_.count(); ++p) at_places[p] = -target_[p];
   for (Index j = 0; j < size_; ++j)
     kernels_.add_multiple(rows_.count(), lambda_[at_[j]], rows_.gram(at_[j]), at_places);
 }
@@ -200,7 +201,43 @@ Index GramPivoting::block_of(Index violated) const {
   return std::max<Index>(2, static_cast<Index>(std::ceil(part * static_cast<double>(violated))));
 }
 
+void GramPivoting::clear_rows(double zero, const double* multipliers, const double* slacks) {
+  any_close_ = false;
+  for (Index j = 0; j < size_; ++j)
+    if (const Index a = row(j); state_[a] == held) {
+      const bool is_clear = multipliers[at_[j]] * std::sqrt(rows_.square(at_[j])) > zero;
+      state_[a] = is_clear ? clear : held;
+      any_close_ = any_close_ || !is_clear;
+    }
+  for (Index p = 0; p < rows_.count(); ++p)
+    if (const Index a = rows_.row(p); a >= 0 && !holds(a)) {
+      const bool is_clear = slacks[a] > row_scale_[a] * zero;
+      state_[a] = is_clear ? clear_outside : outside;
+      any_close_ = any_close_ || !is_clear;
+    }
+}
+
+bool GramPivoting::settle_rest(const double* load, double norm) {
+  target_ = load;
+  force_norm_ = norm;
+  const bool settled = any_close_ ? settle_known() || descend_known() : find_multipliers();
+  target_ = rows_.load();
+  for (Index a = 0; a < m_; ++a) {
+    if (state_[a] == clear_outside) state_[a] = outside;
+    if (state_[a] == clear) state_[a] = held;
+  }
+  return settled;
+}
+
+std::vector<Index> GramPivoting::one_sided_rows_held() const {
+  std::vector<Index> rows;
+  for (Index a = 0; a < m_; ++a)
+    if (state_[a] == held || state_[a] == clear) rows.push_back(a);
+  return rows;
+}
+
 bool GramPivoting::pivot() {
+  contradiction_.reset();
   force_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
   return (m_ <= few_per_coordinate * n_ && pivot_at_once()) || pivot_by_parts();
 }
@@ -238,7 +275,7 @@ Index GramPivoting::list_violated(State state) {
 Index GramPivoting::drop_negative() {
   Index leaving = 0;
   for (Index j = 0; j < size_; ++j) {
-    if (is_two_sided(row(j)) || lambda_[at_[j]] > 0) continue;
+    if (state_[row(j)] != held || lambda_[at_[j]] > 0) continue;
     state_[row(j)] = outside;
     leaving += 1;
   }
@@ -290,16 +327,6 @@ void GramPivoting::hold_no_more() {
   size_ = firm_;
   firm_ = -1;
   factored_ = false;
-}
-
-bool GramPivoting::keep_holding() {
-  for (Index j = firm_; j < size_; ++j) state_[row(j)] = held;
-  const Index count = size_;
-  hold_no_more();
-  collect();
-  if (!find_multipliers() || size_ < count) return false;
-  if (!all_known()) find_point(w_, q_);
-  return true;
 }
 
 double GramPivoting::inverse_norm() const {

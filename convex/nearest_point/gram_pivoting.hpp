@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "convex/nearest_point/gram_rows.hpp"
 
 namespace convex {
@@ -11,8 +14,8 @@ namespace convex {
 class GramPivoting {
  public:
   /// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
-  /// left to the long way; or dependent as far as doubles tell, and left out of the rows held.
-  static constexpr double near_dependence = 1e-6, dependence = 1e-13;
+  /// left to an orthogonal factor; or dependent as far as doubles tell, and left out of the rows held.
+  static constexpr double near_dependence = 1e-11, dependence = 1e-13;
 
   /// w_free = L⁻¹z, padded; row_scale: ||u_a||_(D⁻¹), D the diagonal of A, by which violations are compared.
   GramPivoting(const NearestPointProblem& problem, Arena& arena, const double* w_free,
@@ -25,11 +28,29 @@ class GramPivoting {
   /// The same from the rows held now, after z and s of the problem have changed, and w_free with them.
   bool settle_again();
 
+  /// Pivots at the scale of what a point misses of its equations, on the same Gram matrix. Rows held whose
+  /// multiplier is clear of 0 stay, rows outside that are clear of their edge stay out; the others change
+  /// sides as the loads tell, at places: s_a - u_a·q - v_a·g for a point q whose equations of motion,
+  /// whitened, miss g, the weak multipliers counted as 0. `lambda` has the multipliers to add then.
+  /// `clear_rows` comes first: which rows these are, by multipliers at places times lengths, and by slacks
+  /// over `row_scale`, that exceed `zero`.
+  void clear_rows(double zero, const double* multipliers, const double* slacks);
+  bool settle_rest(const double* load, double norm);
+  /// After `clear_rows`: held, but not clear of 0.
+  bool is_weak(Index a) const { return state_[a] == held; }
+  /// After `clear_rows`: held or close to its edge.
+  bool matters(Index a) const { return state_[a] != clear_outside; }
+  const double* slacks() const { return slack_; }  ///< m: at the point that `settle` ended with
+
+  /// Weights of rows that contradict each other, as doubles tell; none where pivoting met none.
+  const std::optional<Vector>& contradiction() const { return contradiction_; }
+  std::vector<Index> one_sided_rows_held() const;
+
   const GramRows& rows() const { return rows_; }
   Index size() const { return size_; }           ///< rows held
   Index place(Index j) const { return at_[j]; }  ///< of the j-th, increasing
   Index row(Index j) const { return rows_.row(at_[j]); }
-  bool holds(Index a) const { return state_[a] == held || state_[a] == two_sided; }
+  bool holds(Index a) const { return state_[a] >= held; }
   bool has_passed(Index a) const { return state_[a] == passed; }  ///< left out as dependent
   bool is_two_sided(Index a) const { return state_[a] == two_sided; }
   Index steps() const { return steps_; }            ///< rows taken in or dropped
@@ -39,11 +60,9 @@ class GramPivoting {
   bool look_at(const Index* rows, Index count) { return rows_.add(rows, count); }
 
   /// Holds more rows that have been looked at behind those held, as far as they are independent; they do not
-  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them, `keep_holding`
-  /// takes them in for good, with multipliers of any sign; false when there is doubt.
+  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them.
   bool hold_also(const Index* rows, Index count);
   void hold_no_more();
-  bool keep_holding();
   Index firm() const { return firm_; }  ///< so many of the rows held come before those
 
   /// x := (VᵀV)⁻¹x over the rows held; padded.
@@ -57,7 +76,8 @@ class GramPivoting {
   double condition(double* x) const;
 
  private:
-  enum State : Index { outside, held, two_sided, passed };
+  /// clear_outside, clear: of rows that `clear_rows` has found to be so.
+  enum State : Index { outside, passed, clear_outside, held, clear, two_sided };
 
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
@@ -96,7 +116,9 @@ class GramPivoting {
   Index size_ = 0, steps_ = 0;
   Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
   double energy_ = 0, force_norm_ = 0;
-  bool factored_ = false, has_dependent_rows_ = false;
+  bool factored_ = false, has_dependent_rows_ = false, any_close_ = false;
+  const double* target_;  // the loads that are solved for, at places
+  std::optional<Vector> contradiction_;
 };
 
 }  // namespace convex

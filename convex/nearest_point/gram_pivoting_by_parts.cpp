@@ -133,7 +133,7 @@ bool GramPivoting::raise(Index a) {
     Index blocking = -1;
     for (Index j = 0; j < size_; ++j) {
       const double r = load_[j], length = std::sqrt(rows_.square(at_[j]) / square);
-      if (is_two_sided(row(j)) || !(r * length > noise)) continue;
+      if (state_[row(j)] != held || !(r * length > noise)) continue;
       const double ratio = std::max(0.0, lambda_[at_[j]]) / r;
       if (ratio < partial) {
         partial = ratio;
@@ -141,7 +141,14 @@ bool GramPivoting::raise(Index a) {
       }
     }
     const double t = std::min(full, partial);
-    if (t == infinity) return false;
+    if (t == infinity) {
+      contradiction_ = Vector::Zero(m_);
+      (*contradiction_)[a] = 1;
+      for (Index j = 0; j < size_; ++j)
+        if (std::abs(load_[j]) * std::sqrt(rows_.square(at_[j]) / square) > noise)
+          (*contradiction_)[row(j)] = -load_[j];
+      return false;
+    }
     steps_ += 1;
     if (full <= partial) break;
     for (Index j = 0; j < size_; ++j) lambda_[at_[j]] -= t * load_[j];

@@ -15,6 +15,9 @@ namespace {
 /// doubles.
 constexpr double near = 1e-8;
 
+/// Corrections before pivoting has lost its way.
+constexpr int most_passes = 12;
+
 }  // namespace
 
 ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
@@ -25,7 +28,7 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + 3 * padded(k) + 2 * padded(places)) / 8 +
+  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + 3 * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   z_ = arena.take_filled(n_, 0.0);
   w_free_ = arena.take<double>(n_);
@@ -43,6 +46,8 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
   lambda_ = arena.take<double>(k);
   y_ = arena.take_filled(places, 0.0);
   held_slack_ = arena.take<double>(places);
+  total_ = arena.take_filled(places, 0.0);
+  rest_ = arena.take<double>(places);
   touched_ = arena.take<Index>(m_);
   close_ = arena.take<Index>(m_);
   fresh_ = arena.take<Index>(m_);
@@ -73,110 +78,140 @@ bool ShortWay::solve_again(const Accuracy& accuracy, Solution& solution) {
   return set_->settle_again() && finish(accuracy, solution);
 }
 
+/// The rows held are right as far as doubles tell. What their point misses of its equations, in twice the
+/// working precision, is the data of a problem of the same kind, for the multipliers and slacks that doubles
+/// cannot tell from 0: pivoting goes on at that scale, until nothing is missing.
 bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
-  do {
-    once_more_ = false;
-    take_point();
-    if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
-    if (correct() && round() && measure_slacks()) {
-      write(solution);
-      solution.residuals = residuals_of_active();
-      solution.error_bound = bound_ + moved_;
-      const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
-      solution.status = close ? Status::solved : Status::inaccurate;
-      return true;
+  take_point();
+  if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    if (!correct(pass == 0)) return false;
+    if (!(remaining_ <= enough * scale_)) {
+      set_slacks_of_doubles();
+      continue;
     }
-  } while (once_more_);
+    if (!take_noise_for_zero()) return false;
+    const Slacks slacks = measure_slacks();
+    if (slacks == Slacks::doubtful) return false;
+    if (slacks == Slacks::violated) continue;
+    write(solution);
+    solution.residuals = residuals_of_active();
+    solution.error_bound = bound_ + moved_;
+    const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+    solution.status = close ? Status::solved : Status::inaccurate;
+    return true;
+  }
   return false;
 }
 
 /// q and lambda of the rows held, in doubles.
 void ShortWay::take_point() {
   set_->point(w_, q_);
+  fill_packs(ld_, 0, q_low_);
+  copy_packs(set_->rows().count(), set_->lambda(), total_);
+  list_rows_held();
+  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
+  scale_ = std::max(acceleration_norm_, force_norm_);
+}
+
+void ShortWay::list_rows_held() {
   for (Index j = 0; j < set_->size(); ++j) {
     rows_[j] = set_->row(j);
-    lambda_[j] = set_->lambda()[set_->place(j)];
+    lambda_[j] = total_[set_->place(j)];
   }
   inverse_norm_ = set_->inverse_norm();
   gram_condition_ = set_->condition(load_);
   condition_ = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
-  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  scale_ = std::max(acceleration_norm_, force_norm_);
 }
 
-/// One correction of q and lambda with residuals in twice the working precision. False when it is not
-/// small.
-bool ShortWay::correct() {
-  residual();
+/// One correction of q and lambda with residuals in twice the working precision, in which rows change sides
+/// whose multipliers and slacks are small. False when it does not settle or is not small.
+bool ShortWay::correct(bool is_first) {
+  const Index before = set_->rows().count();
+  const double zero = std::max(near, 64 * unit_roundoff * gram_condition_) * scale_;
+  set_->clear_rows(zero, total_, is_first ? set_->slacks() : slack_);
+  for (Index j = 0; j < set_->size(); ++j)
+    if (set_->is_weak(rows_[j])) lambda_[j] = total_[set_->place(j)] = 0;
+  residual(is_first);
   copy_packs(ld_, r_, dw_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
-  precise_slacks();
-  for (Index j = 0; j < padded(set_->size()); ++j) load_[j] = 0;
-  Index last = -1;
-  alignas(64) double dots[8];
-  for (Index j = 0; j < set_->size(); ++j) {
-    if (set_->place(j) / 8 != last) {
-      last = set_->place(j) / 8;
-      kernels_.dots(n_, set_->rows().whitened() + 8 * last * n_, dw_, dots);
-    }
-    load_[j] = -held_slack_[set_->place(j)] - dots[set_->place(j) % 8];
-  }
-  set_->solve(load_);
-  fill_packs(set_->rows().count(), 0, y_);
-  for (Index j = 0; j < set_->size(); ++j) y_[set_->place(j)] = load_[j];
-  kernels_.combine(n_, set_->rows().count() / 8, set_->rows().whitened(), y_, dw_);
-  for (Index i = 0; i < n_; ++i) w_[i] += dw_[i];
+  rest_loads(is_first);
+  if (!set_->settle_rest(rest_, std::sqrt(kernels_.dot(ld_, dw_, dw_)))) return false;
+  invariant(before == set_->rows().count(), "no row is looked at by a correction");
+  copy_packs(before, set_->lambda(), y_);
+  kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
+  kernels_.add_multiple(ld_, 1, dw_, w_);
+  kernels_.add_multiple(before, 1, y_, total_);
+  list_rows_held();
+  const double previous = first_;
   first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_));
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
-  // A residual is rounded once, and the factors of A and of the rows held enlarge that.
+  const double seen = is_first ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
+  const double usual = std::max(seen, usual_contraction(problem_.A.factor_condition(), gram_condition_));
+  // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
+  // shows by how much.
   const double contraction =
-      std::max(scale_ > 0 ? first_ / scale_ : 0,
-               expected_contraction(problem_.A.factor_condition(), gram_condition_, true));
+      is_first ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
+               : usual;
+  if (!(contraction <= largest_contraction)) return false;
   remaining_ =
       first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
-  if (!(contraction <= largest_contraction && remaining_ <= enough * scale_)) return false;
-  const double usual = std::max(scale_ > 0 ? first_ / scale_ : 0,
-                                usual_contraction(problem_.A.factor_condition(), gram_condition_));
   likely_ = std::min(remaining_, first_ * usual);
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  for (Index i = 0; i < n_; ++i) {
+    const DoubleDouble sum = two_sum(q_[i], q_low_[i] + dq_[i]);
+    q_[i] = sum.hi;
+    q_low_[i] = sum.lo;
+  }
   return true;
 }
 
-void ShortWay::residual() {
+void ShortWay::residual(bool is_first) {
   kernels_.stationarity(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
                         rows_, lambda_, z_, r_);
+  if (is_first) return;
+  copy_packs(ld_, r_, dq_);
+  kernels_.residual(n_, problem_.A.dense_gram().data(), q_low_, m_, problem_.U.dense().data(), 0, rows_,
+                    lambda_, dq_, r_);
 }
 
-/// Slacks at q of the rows held, at their places.
-void ShortWay::precise_slacks() {
-  Index last = -1;
-  for (Index j = 0; j < set_->size(); ++j)
-    if (set_->place(j) / 8 != last) {
-      last = set_->place(j) / 8;
-      kernels_.precise_slacks(n_, set_->rows().raw() + 8 * last * n_, q_, set_->rows().s() + 8 * last,
-                              held_slack_ + 8 * last);
+/// rest_ := s_a - u_a·q - v_a·dw of the rows that matter, at their places.
+void ShortWay::rest_loads(bool is_first) {
+  alignas(64) double dots[8], low[8];
+  for (Index first = 0; first < set_->rows().count(); first += 8) {
+    bool any = false;
+    for (Index p = first; p < first + 8; ++p)
+      any = any || (set_->rows().row(p) >= 0 && set_->matters(set_->rows().row(p)));
+    if (!any) {
+      fill_packs(8, 0, rest_ + first);
+      continue;
     }
+    kernels_.precise_slacks(n_, set_->rows().raw() + first * n_, q_, set_->rows().s() + first, rest_ + first);
+    kernels_.dots(n_, set_->rows().whitened() + first * n_, dw_, dots);
+    if (!is_first) kernels_.dots(n_, set_->rows().raw() + first * n_, q_low_, low);
+    for (Index k = 0; k < 8; ++k)
+      rest_[first + k] = -rest_[first + k] - (is_first ? 0 : low[k]) - dots[k];
+  }
 }
 
-/// Takes the correction in, and what cancels for 0; false when a multiplier turns out negative.
-bool ShortWay::round() {
+/// Takes what cancels for 0; false when a multiplier turns out negative.
+bool ShortWay::take_noise_for_zero() {
   const double missing = 4 * likely_ * problem_.A.factor_condition();
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
-    const DoubleDouble sum = two_sum(q_[i], dq_[i]);
     const double noise = std::max(missing * std::sqrt(inverse_diagonal_[i]), cancelled * std::abs(dq_[i]));
-    const bool is_zero = std::abs(sum.hi) <= noise;
-    if (is_zero) silenced += problem_.A.diagonal()[i] * sum.hi * sum.hi;
-    q_[i] = is_zero ? 0 : sum.hi;
-    q_low_[i] = is_zero ? 0 : sum.lo;
+    if (std::abs(q_[i]) <= noise) {
+      silenced += problem_.A.diagonal()[i] * q_[i] * q_[i];
+      q_[i] = q_low_[i] = 0;
+    }
     rounded += problem_.A.diagonal()[i] * q_low_[i] * q_low_[i];
   }
   for (Index j = 0; j < set_->size(); ++j) {
-    const double step = y_[set_->place(j)], sum = lambda_[j] + step;
-    const bool is_zero = std::abs(sum) <= std::max(missing * inverse_norm_, cancelled * std::abs(step));
-    lambda_[j] = is_zero ? 0 : sum;
+    const Index place = set_->place(j);
+    const double noise = std::max(missing * inverse_norm_, cancelled * std::abs(y_[place]));
+    if (std::abs(lambda_[j]) <= noise) lambda_[j] = total_[place] = 0;
     if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
   }
   rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
@@ -194,7 +229,7 @@ bool ShortWay::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
     if (!set_->is_two_sided(rows_[j]) &&
         !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * scale_))
       return false;
-  if (!measure_slacks() || touched_count_ > 0) return false;
+  if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
   for (Index a = 0; a < m_; ++a)
     if (!set_->holds(a) && !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)))
       return false;
@@ -229,32 +264,50 @@ void ShortWay::write(Solution& solution) const {
   solution.error_bound = bound_;
 }
 
-/// Slacks at the refined point. False when one may be negative.
-bool ShortWay::measure_slacks() {
+/// Slacks at q in doubles; those of rows held count as 0 and go to `held_slack_`.
+void ShortWay::set_slacks_of_doubles() {
   kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
   magnitude_ = 0;
   for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
   magnitude_ = std::sqrt(magnitude_);
-  const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
-  const double unsure_point = margin * (remaining_ + silenced_);
-  touched_count_ = 0;
   Index held = 0;
   for (Index a = 0; a < m_; ++a) {
-    if (set_->holds(a)) {
-      held += 1;
-      held_slack_[set_->rows().place(a)] = slack_[a];
-      slack_[a] = 0;
-      continue;
-    }
+    if (!set_->holds(a)) continue;
+    held += 1;
+    held_slack_[set_->rows().place(a)] = slack_[a];
+    slack_[a] = 0;
+  }
+  invariant(held == set_->size(), "a row that counts as held is among the rows held");
+}
+
+/// Slacks at the refined point. Rows violated have been looked at then.
+ShortWay::Slacks ShortWay::measure_slacks() {
+  set_slacks_of_doubles();
+  const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
+  const double unsure_point = margin * (remaining_ + silenced_);
+  Index violated = 0;
+  touched_count_ = 0;
+  for (Index a = 0; a < m_; ++a) {
+    if (set_->holds(a)) continue;
     const double unsure =
         rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) + row_scale_[a] * unsure_point;
     if (slack_[a] > unsure) continue;
-    if (slack_[a] < -unsure) return false;
-    touched_[touched_count_++] = a;
+    if (slack_[a] < -unsure)
+      close_[violated++] = a;
+    else
+      touched_[touched_count_++] = a;
   }
-  invariant(held == set_->size(), "a row that counts as held is among the rows held");
   moved_ = 0;
-  return touched_count_ == 0 || judge_touched_rows();
+  if (violated > 0) return look_at_violated(violated);
+  return touched_count_ == 0 ? Slacks::kept : judge_touched_rows();
+}
+
+/// Looks at the first `count` rows of close_, for the next correction to take them in.
+ShortWay::Slacks ShortWay::look_at_violated(Index count) {
+  Index fresh = 0;
+  for (Index k = 0; k < count; ++k)
+    if (set_->rows().place(close_[k]) < 0) fresh_[fresh++] = close_[k];
+  return fresh == 0 || set_->look_at(fresh_, fresh) ? Slacks::violated : Slacks::doubtful;
 }
 
 /// `residuals`, to which only the rows held and touched matter; measured in doubles.

@@ -17,6 +17,7 @@ class ShortWay {
 
   /// False when something is in doubt; the solution is then not to be used.
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
+  const GramPivoting& set() const { return *set_; }
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
 
@@ -25,19 +26,24 @@ class ShortWay {
   /// of A, stands for the row's length, and what is missing is an estimate.
   static constexpr double margin = 16;
 
+  enum class Slacks { kept, violated, doubtful };
+
   void whiten_force();
   bool finish(const Accuracy& accuracy, Solution& solution);
   void take_point();
-  bool correct();
-  bool round();
-  void residual();
-  void precise_slacks();
+  void list_rows_held();
+  bool correct(bool is_first);
+  bool take_noise_for_zero();
+  void residual(bool is_first);
+  void rest_loads(bool is_first);
   bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
   bool touches_rows() const;
   void write(Solution& solution) const;
-  bool measure_slacks();
-  bool judge_touched_rows();
-  bool measure_touched_slacks();
+  Slacks measure_slacks();
+  Slacks look_at_violated(Index count);
+  void set_slacks_of_doubles();
+  Slacks judge_touched_rows();
+  Index measure_touched_slacks();
   double slack_noise(Index a) const;
   double rise(Index a) const;
   bool keeps_touched_rows_exactly() const;
@@ -54,7 +60,8 @@ class ShortWay {
   const Index n_, m_, ld_;
   std::optional<GramPivoting> set_;
   double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *row_scale_, *slack_;
-  double *load_, *lambda_, *y_, *held_slack_;  // y_, held_slack_: at places; lambda_: of the rows held, rows_
+  double *load_, *lambda_;  // of the rows held, rows_
+  double *y_, *total_, *rest_, *held_slack_;  // at places; total_: all multipliers, y_: their last change
   double *touched_slack_, *pack_;              // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   std::optional<SlackOnEdge> edge_;
@@ -63,7 +70,6 @@ class ShortWay {
   double silenced_ = 0;  ///< at least ||·||_A of what cancelled and was taken for 0
   double moved_ = 0;     ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
-  bool once_more_ = false;  // with rows held that the point only touched
 };
 
 }  // namespace convex

@@ -27,43 +27,40 @@ constexpr double noise = 1e-9;
 /// they do. Where a motion e along the rows held raises all others that p touches, p + t e keeps all rows for
 /// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
 /// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
-bool ShortWay::judge_touched_rows() {
-  if (!measure_touched_slacks()) return false;
-  if (keeps_touched_rows_exactly()) return true;
+ShortWay::Slacks ShortWay::judge_touched_rows() {
+  if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
+  if (keeps_touched_rows_exactly()) return Slacks::kept;
   Index count = 0, fresh = 0;  // close_ has `count` rows that are not parallel to rows held
   for (Index k = 0; k < touched_count_; ++k) {
     const Index a = touched_[k];
     if (slack_[a] > 0) continue;
     if (const std::optional<int> sign = slack_sign_by_parallel_row(a)) {
-      if (*sign < 0) return false;
+      if (*sign < 0) return Slacks::doubtful;
       continue;
     }
     close_[count++] = a;
     if (set_->rows().place(a) < 0) fresh_[fresh++] = a;
   }
-  if (count == 0) return true;
-  if (fresh > 0 && !set_->look_at(fresh_, fresh)) return false;
+  if (count == 0) return Slacks::kept;
+  if (fresh > 0 && !set_->look_at(fresh_, fresh)) return Slacks::doubtful;
   Index independent = 0;
   for (Index k = 0; k < count; ++k) {
     if (split(close_[k]))
       close_[independent++] = close_[k];
     else if (!is_kept_as_sum(close_[k]))
-      return false;
+      return Slacks::doubtful;
   }
-  if (independent == 0) return true;
-  if (!set_->hold_also(close_, independent)) return false;
-  if (find_way_up(independent)) {
-    set_->hold_no_more();
-    return true;
-  }
-  // What cannot rise is held, with multipliers of 0.
-  once_more_ = set_->keep_holding();
-  return false;
+  if (independent == 0) return Slacks::kept;
+  const bool holds_also = set_->hold_also(close_, independent), rises = holds_also && find_way_up(independent);
+  set_->hold_no_more();
+  return rises ? Slacks::kept : Slacks::doubtful;
 }
 
-/// Slacks of the rows touched in twice the precision. False when one is negative beyond rounding.
-bool ShortWay::measure_touched_slacks() {
+/// Slacks of the rows touched in twice the precision. The number of those that are negative beyond rounding,
+/// listed in close_.
+Index ShortWay::measure_touched_slacks() {
   alignas(64) double s[8] = {}, rest[8], low[8];
+  Index violated = 0;
   for (Index first = 0; first < touched_count_; first += 8) {
     const Index count = std::min<Index>(8, touched_count_ - first);
     for (Index k = 0; k < count; ++k) s[k] = problem_.s[touched_[first + k]];
@@ -73,12 +70,12 @@ bool ShortWay::measure_touched_slacks() {
     for (Index k = 0; k < count; ++k) {
       const Index a = touched_[first + k];
       const double sum = rest[k] + low[k], rounding = slack_noise(a);
-      if (!(sum >= -rounding)) return false;
+      if (!(sum >= -rounding)) close_[violated++] = a;
       touched_slack_[first + k] = rest[k];
-      slack_[a] = sum <= rounding ? 0 : sum;
+      slack_[a] = std::abs(sum) <= rounding ? 0 : sum;
     }
   }
-  return true;
+  return violated;
 }
 
 double ShortWay::slack_noise(Index a) const {
