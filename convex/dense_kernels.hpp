@@ -22,9 +22,9 @@ inline void fill_packs(Index n, double value, double* to) {
 /// Kernels on dense data for one processor family. Sums are taken in an order that is the same for all of
 /// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
 ///
-/// A triangle is an ld×ld matrix by columns, ld = padded(n): L in the lower part, Lᵀ in the upper one, the
-/// unit matrix where it is padded; `inverse` has the inverse of each 8×8 block on the diagonal by columns,
-/// and its transpose, 128 numbers for a block. Vectors x are padded with zeros to ld. Eight vectors side by
+/// A triangle stands in an ld×ld matrix by columns, ld a multiple of 8 no less than n: L in the lower part,
+/// Lᵀ in the upper one, the unit matrix up to padded(n); `inverse` has the inverse of each 8×8 block on the diagonal by columns,
+/// and its transpose, 128 numbers for a block. Vectors x are padded with zeros. Eight vectors side by
 /// side, X: n packs, pack i has entry i of each.
 struct DenseKernels {
   /// Factors W = L Lᵀ in place, W in the lower part of T. A pivot that is not positive leaves numbers that

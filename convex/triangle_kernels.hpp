@@ -52,7 +52,7 @@ struct TriangleKernels : Packs<W, Fused> {
   MOREAU_INLINE void factor(Index n, Index ld, double* T, double* inverse) {
     for (Index j = 0; j < n; j += 8, inverse += 128) {
       const Index columns = n - j < 8 ? n - j : 8;
-      for (Index row = j; row < ld; row += 8) {
+      for (Index row = j; row < n; row += 8) {
         double B[64];  // eight columns of the pack of rows
         for (int half = 0; half < 8; half += 4) {
           Pack column[4];
@@ -93,7 +93,7 @@ struct TriangleKernels : Packs<W, Fused> {
   MOREAU_INLINE void forward(Index n, Index ld, const double* T, const double* inverse, double* x) {
     for (Index j = 0; j < n; j += 8, T += 8 * ld) {
       P::store(x + j, P::block_times(inverse + 16 * j, x + j));
-      for (Index row = j + 8; row < ld; row += 8) {
+      for (Index row = j + 8; row < n; row += 8) {
         Pack sum = P::load(x + row);
         for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + c * ld + row), x[j + c]);
         P::store(x + row, sum);

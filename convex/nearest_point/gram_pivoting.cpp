@@ -43,24 +43,24 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
       rows_(problem, arena, places(n_, m_), w_free),
       w_free_(w_free),
       row_scale_(row_scale),
+      set_(rows_, arena, capacity_),
       target_(rows_.load()) {
-  const Index most = places(n_, m_), k = padded(capacity_);
+  const Index most = places(n_, m_);
   lambda_ = arena.take_filled(most, 0.0);
   w_ = arena.take<double>(n_);
   q_ = arena.take<double>(n_);
   slack_ = arena.take<double>(std::max(m_, most));
   known_slack_ = arena.take<double>(most);
-  C_ = arena.take<double>(k * k);
-  C_inverse_ = arena.take<double>(16 * k);
-  load_ = arena.take<double>(k);
+  load_ = arena.take<double>(capacity_);
+  column_ = arena.take<double>(capacity_);
   state_ = arena.take_filled<Index>(m_, outside);
-  at_ = arena.take<Index>(k);
   list_ = arena.take<Index>(m_);
 }
 
 Index GramPivoting::lines(Index n, Index m) {
-  const Index most = places(n, m), k = padded(std::min(n, m));
-  return GramRows::lines(n, m, most) + (3 * most + 2 * padded(n) + 3 * padded(m) + k * (k + 18)) / 8;
+  const Index most = places(n, m), k = std::min(n, m);
+  return GramRows::lines(n, m, most) + GramFactor::lines(k) +
+         (3 * most + 2 * padded(n) + 3 * padded(m) + 2 * padded(k)) / 8;
 }
 
 bool GramPivoting::all_known() const { return m_ <= few_rows; }
@@ -80,83 +80,35 @@ bool GramPivoting::start(const std::vector<Index>& guess) {
 
 /// Lists the rows held by their places.
 void GramPivoting::collect() {
-  size_ = 0;
-  factored_ = false;
+  set_.clear();
   for (Index p = 0; p < rows_.count(); ++p)
-    if (rows_.row(p) >= 0 && holds(rows_.row(p))) at_[size_++] = p;
+    if (rows_.row(p) >= 0 && holds(rows_.row(p))) set_.list(p);
 }
 
-/// C := the Gram matrix of the rows held, its lower part.
-void GramPivoting::gather() {
-  const Index k = size_, ld = padded(k);
-  for (Index j = 0; j < k; ++j) {
-    const double* from = rows_.gram(at_[j]);
-    for (Index i = j; i < k; ++i) C_[j * ld + i] = from[at_[i]];
-    for (Index i = k; i < ld; ++i) C_[j * ld + i] = 0;
-  }
-  for (Index j = k; j < ld; ++j) {
-    fill_packs(ld, 0, C_ + j * ld);
-    C_[j * ld + j] = 1;
-  }
-}
-
-/// Factors the Gram matrix of the rows held, leaving dependent ones out; false when those are two-sided.
+/// Factors the Gram matrix of the rows held, leaving dependent ones out; false when those have to stay.
 bool GramPivoting::factor() {
-  while (size_ > 0) {
-    const Index k = size_, ld = padded(k);
-    gather();
-    kernels_.factor(k, ld, C_, C_inverse_);
-    factored_ = true;
-    for (Index j = 0; j < k && factored_; ++j) {
-      const double pivot = C_[j * ld + j];
-      factored_ = pivot * pivot > near_dependence * rows_.square(at_[j]);
-    }
-    if (factored_) return true;
-    if (!pass_dependent_rows()) return false;
-  }
-  return true;
-}
-
-/// Leaves out all rows held that depend on those before them.
-bool GramPivoting::pass_dependent_rows() {
-  const Index k = size_, ld = padded(k);
-  gather();
-  Index kept = 0;
-  for (Index j = 0; j < k; ++j) {
-    const double* const column = C_ + j * ld;
-    if (!(column[j] > 2 * near_dependence * rows_.square(at_[j]))) {
-      if (state_[row(j)] != held || j < firm_) return false;
+  while (!set_.factor(near_dependence)) {
+    const bool left = set_.leave_dependent(2 * near_dependence, [&](Index j) {
+      if (state_[row(j)] != held || (firm_ >= 0 && j < firm_)) return false;
       state_[row(j)] = passed;
       has_dependent_rows_ = true;
-      continue;
-    }
-    for (Index i = j + 1; i < k; ++i) {
-      const Index first = i / 8 * 8;
-      kernels_.add_multiple(ld - first, -column[i] / column[j], column + first, C_ + i * ld + first);
-    }
-    at_[kept++] = at_[j];
+      return true;
+    });
+    if (!left) return false;
   }
-  if (kept == k) return false;
-  size_ = kept;
   return true;
-}
-
-void GramPivoting::solve(double* x) const {
-  if (size_ == 0) return;
-  kernels_.forward(size_, padded(size_), C_, C_inverse_, x);
-  kernels_.backward(size_, padded(size_), C_, C_inverse_, x);
 }
 
 /// Multipliers with which the rows held hold with equality.
 bool GramPivoting::find_multipliers() {
-  if (!factored_ && !factor()) return false;
-  for (Index j = 0; j < padded(size_); ++j) load_[j] = j < size_ ? target_[at_[j]] : 0;
+  if (!set_.is_factored() && !factor()) return false;
+  for (Index j = 0; j < padded(set_.size()); ++j) load_[j] = j < set_.size() ? target_[set_.place(j)] : 0;
   energy_ = 0;
-  solve(load_);
+  set_.solve(load_);
   fill_packs(rows_.count(), 0, lambda_);
-  for (Index j = 0; j < size_; ++j) {
-    lambda_[at_[j]] = load_[j];
-    energy_ += load_[j] * target_[at_[j]];
+  for (Index j = 0; j < set_.size(); ++j) {
+    lambda_[set_.place(j)] = load_[j];
+    energy_ += load_[j] * target_[set_.place(j)];
   }
   return true;
 }
@@ -176,8 +128,8 @@ void GramPivoting::find_slacks() {
 
 void GramPivoting::find_known_slacks(double* at_places) const {
   for (Index p = 0; p < rows_.count(); ++p) at_places[p] = -target_[p];
-  for (Index j = 0; j < size_; ++j)
-    kernels_.add_multiple(rows_.count(), lambda_[at_[j]], rows_.gram(at_[j]), at_places);
+  for (Index j = 0; j < set_.size(); ++j)
+    kernels_.add_multiple(rows_.count(), lambda_[set_.place(j)], rows_.gram(set_.place(j)), at_places);
 }
 
 bool GramPivoting::settle(const std::vector<Index>& guess) { return start(guess) && pivot(); }
@@ -203,9 +155,9 @@ Index GramPivoting::block_of(Index violated) const {
 
 void GramPivoting::clear_rows(double zero, const double* multipliers, const double* slacks) {
   any_close_ = false;
-  for (Index j = 0; j < size_; ++j)
+  for (Index j = 0; j < set_.size(); ++j)
     if (const Index a = row(j); state_[a] == held) {
-      const bool is_clear = multipliers[at_[j]] * std::sqrt(rows_.square(at_[j])) > zero;
+      const bool is_clear = multipliers[set_.place(j)] * std::sqrt(rows_.square(set_.place(j))) > zero;
       state_[a] = is_clear ? clear : held;
       any_close_ = any_close_ || !is_clear;
     }
@@ -252,7 +204,7 @@ bool GramPivoting::pivot_at_once() {
     if (leaving + count == 0) return list_violated(passed) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
     fewest = std::min(fewest, leaving + count);
-    if (!take_in(choose_deepest(count, std::min(block_of(count), capacity_ - (size_ - leaving)))))
+    if (!take_in(choose_deepest(count, std::min(block_of(count), capacity_ - (set_.size() - leaving)))))
       return false;
   }
   return false;
@@ -274,8 +226,8 @@ Index GramPivoting::list_violated(State state) {
 /// Lets go of the one-sided rows whose multiplier is not positive; `collect` is to follow.
 Index GramPivoting::drop_negative() {
   Index leaving = 0;
-  for (Index j = 0; j < size_; ++j) {
-    if (state_[row(j)] != held || lambda_[at_[j]] > 0) continue;
+  for (Index j = 0; j < set_.size(); ++j) {
+    if (state_[row(j)] != held || lambda_[set_.place(j)] > 0) continue;
     state_[row(j)] = outside;
     leaving += 1;
   }
@@ -287,7 +239,7 @@ Index GramPivoting::drop_negative() {
 Index GramPivoting::choose_deepest(Index count, Index room) {
   const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
   // Whether rows are repeated is seen when a large block comes in first.
-  const bool is_first = size_ == 0 && count >= few_rows && !all_known();
+  const bool is_first = set_.size() == 0 && count >= few_rows && !all_known();
   const bool some_repeat = has_dependent_rows_ || is_first;
   const Index among = std::min(count, some_repeat ? 2 * room : room);
   if (count > among) std::nth_element(list_, list_ + among, list_ + count, deeper);
@@ -314,9 +266,9 @@ bool GramPivoting::take_in(Index count) {
 }
 
 bool GramPivoting::hold_also(const Index* rows, Index count) {
-  firm_ = size_;
-  for (Index k = 0; k < count && size_ < capacity_;) {
-    while (k < count && size_ < capacity_) at_[size_++] = rows_.place(rows[k++]);
+  firm_ = set_.size();
+  for (Index k = 0; k < count && set_.size() < capacity_;) {
+    while (k < count && set_.size() < capacity_) set_.list(rows_.place(rows[k++]));
     if (!factor()) return false;
   }
   return true;
@@ -324,42 +276,39 @@ bool GramPivoting::hold_also(const Index* rows, Index count) {
 
 void GramPivoting::hold_no_more() {
   if (firm_ < 0) return;
-  size_ = firm_;
+  set_.keep_first(firm_);
   firm_ = -1;
-  factored_ = false;
 }
 
 double GramPivoting::inverse_norm() const {
   double square = 0;
-  for (Index j = 0; j < size_; ++j) {
-    const double pivot = C_[j * (padded(size_) + 1)];
-    square += 1 / (pivot * pivot);
+  for (Index j = 0; j < set_.size(); ++j) {
+    square += 1 / (set_.pivot(j) * set_.pivot(j));
   }
   return std::sqrt(square);
 }
 
 double GramPivoting::condition(double* x) const {
   constexpr int passes = 2;
-  double largest = 0, sum = static_cast<double>(size_);
-  for (Index j = 0; j < padded(size_); ++j)
-    x[j] = j < size_ ? (j % 2 == 0 ? 1 : -1) * std::sqrt(rows_.square(at_[j])) : 0;
+  double largest = 0, sum = static_cast<double>(set_.size());
+  for (Index j = 0; j < padded(set_.size()); ++j)
+    x[j] = j < set_.size() ? (j % 2 == 0 ? 1 : -1) * std::sqrt(rows_.square(set_.place(j))) : 0;
   for (int pass = 0; pass < passes && sum > 0; ++pass) {
     const double before = std::sqrt(sum);
-    for (Index j = 0; j < size_; ++j) x[j] /= before;
-    solve(x);
+    for (Index j = 0; j < set_.size(); ++j) x[j] /= before;
+    set_.solve(x);
     sum = 0;
-    for (Index j = 0; j < size_; ++j) {
-      const double square = rows_.square(at_[j]);
+    for (Index j = 0; j < set_.size(); ++j) {
+      const double square = rows_.square(set_.place(j));
       sum += x[j] * x[j] * square;
       x[j] *= square;
     }
     largest = std::max(largest, std::sqrt(sum));
   }
-  for (Index j = 0; j < size_; ++j) {
-    const double pivot = C_[j * (padded(size_) + 1)];
-    largest = std::max(largest, rows_.square(at_[j]) / (pivot * pivot));
+  for (Index j = 0; j < set_.size(); ++j) {
+    largest = std::max(largest, rows_.square(set_.place(j)) / (set_.pivot(j) * set_.pivot(j)));
   }
-  return static_cast<double>(size_) * largest;
+  return static_cast<double>(set_.size()) * largest;
 }
 
 }  // namespace convex

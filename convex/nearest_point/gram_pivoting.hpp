@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "convex/nearest_point/gram_rows.hpp"
+#include "convex/nearest_point/gram_factor.hpp"
 
 namespace convex {
 
@@ -47,9 +47,9 @@ class GramPivoting {
   std::vector<Index> one_sided_rows_held() const;
 
   const GramRows& rows() const { return rows_; }
-  Index size() const { return size_; }           ///< rows held
-  Index place(Index j) const { return at_[j]; }  ///< of the j-th, increasing
-  Index row(Index j) const { return rows_.row(at_[j]); }
+  Index size() const { return set_.size(); }           ///< rows held
+  Index place(Index j) const { return set_.place(j); }  ///< of the j-th
+  Index row(Index j) const { return set_.row(j); }
   bool holds(Index a) const { return state_[a] >= held; }
   bool has_passed(Index a) const { return state_[a] == passed; }  ///< left out as dependent
   bool is_two_sided(Index a) const { return state_[a] == two_sided; }
@@ -66,7 +66,7 @@ class GramPivoting {
   Index firm() const { return firm_; }  ///< so many of the rows held come before those
 
   /// x := (VᵀV)⁻¹x over the rows held; padded.
-  void solve(double* x) const;
+  void solve(double* x) const { set_.solve(x); }
   /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
   void point(double* w, double* q) const;
   /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
@@ -95,12 +95,12 @@ class GramPivoting {
   Index list_violated_known(State state);
   bool settle_known();
   bool descend_known();
+  bool drop_most_negative();
+  Index deepest(Index count) const;
   bool raise(Index a);
   void find_point(double* w, double* q) const;
   void collect();
   bool factor();
-  void gather();
-  bool pass_dependent_rows();
   bool find_multipliers();
   void find_slacks();
   void find_known_slacks(double* at_places) const;
@@ -111,12 +111,13 @@ class GramPivoting {
   const Index n_, m_, capacity_;
   GramRows rows_;
   const double *w_free_, *row_scale_;
-  double *lambda_, *w_, *q_, *slack_, *known_slack_, *C_, *C_inverse_, *load_;
-  Index *state_, *at_, *list_;
-  Index size_ = 0, steps_ = 0;
+  GramFactor set_;  // of the rows held
+  double *lambda_, *w_, *q_, *slack_, *known_slack_, *load_, *column_;
+  Index *state_, *list_;
+  Index steps_ = 0;
   Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
   double energy_ = 0, force_norm_ = 0;
-  bool factored_ = false, has_dependent_rows_ = false, any_close_ = false;
+  bool has_dependent_rows_ = false, any_close_ = false;
   const double* target_;  // the loads that are solved for, at places
   std::optional<Vector> contradiction_;
 };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "convex/nearest_point/gram_pivoting.hpp"
@@ -36,7 +37,7 @@ bool GramPivoting::pivot_by_parts() {
       if (rows_.place(list_[k]) >= 0) return false;  // settled, and yet violated: doubles do not tell
     if (!rows_.add(list_, count)) return false;
     steps_ += count;
-    for (Index k = 0; k < std::min(count, capacity_ - size_); ++k) state_[list_[k]] = held;
+    for (Index k = 0; k < std::min(count, capacity_ - set_.size()); ++k) state_[list_[k]] = held;
     collect();
   }
 }
@@ -89,78 +90,96 @@ bool GramPivoting::settle_known() {
     if (leaving + count == 0) return list_violated_known(passed) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
     fewest = std::min(fewest, leaving + count);
-    const Index room = std::min(block_of(count), capacity_ - (size_ - leaving));
+    const Index room = std::min(block_of(count), capacity_ - (set_.size() - leaving));
     if (leaving == 0 && room == 0) break;
     take_in(choose_deepest(count, room));
   }
   return false;
 }
 
-/// The dual method of Goldfarb and Idnani among the rows looked at, for what blocks do not settle. False when
-/// rows contradict each other or are nearly dependent.
+/// The dual method of Goldfarb and Idnani (1983) among the rows looked at, for what blocks do not settle:
+/// a violated row comes in, its multiplier raised until it holds; on the way those whose multiplier comes
+/// down to 0 go. Each row that has come in raises the dual objective, so that no set of rows returns. False
+/// when rows contradict each other or are nearly dependent.
 bool GramPivoting::descend_known() {
   for (Index step = 0; step < 10 * (rows_.count() + n_); ++step) {
-    const Index before = size_;
-    if (!find_multipliers() || (step > 0 && size_ < before)) return false;
+    if (!find_multipliers()) return false;
+    if (drop_most_negative()) continue;
     for (Index p = 0; p < rows_.count(); ++p)
       if (const Index a = rows_.row(p); a >= 0 && state_[a] == passed) state_[a] = outside;
-    if (drop_negative() > 0) {
-      collect();
-      continue;
-    }
     find_slacks_of_known();
     const Index count = list_violated_known(outside);
     if (count == 0) return true;
-    choose_deepest(count, 1);
-    if (!raise(list_[0])) return false;
+    if (!raise(deepest(count))) return false;
   }
   return false;
+}
+
+bool GramPivoting::drop_most_negative() {
+  Index worst = -1;
+  double lowest = 0;
+  for (Index j = 0; j < set_.size(); ++j) {
+    const double push = lambda_[set_.place(j)] * std::sqrt(rows_.square(set_.place(j)));
+    if (state_[row(j)] != held || !(push < lowest)) continue;
+    lowest = push;
+    worst = j;
+  }
+  if (worst < 0) return false;
+  state_[row(worst)] = outside;
+  set_.remove(worst);
+  steps_ += 1;
+  return true;
+}
+
+Index GramPivoting::deepest(Index count) const {
+  return *std::min_element(list_, list_ + count, [&](Index a, Index b) {
+    return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a];
+  });
 }
 
 /// Raises the multiplier of a violated row until the row holds; rows whose multiplier comes down to 0 on the
 /// way are let go.
 bool GramPivoting::raise(Index a) {
-  const double* gram = rows_.gram(rows_.place(a));
-  const double square = rows_.square(rows_.place(a));
-  for (double violation = -slack_[a];;) {
-    for (Index j = 0; j < padded(size_); ++j) load_[j] = j < size_ ? gram[at_[j]] : 0;
-    solve(load_);
-    double rest = square;
-    for (Index j = 0; j < size_; ++j) rest -= load_[j] * gram[at_[j]];
-    const bool dependent = !(rest > dependence * square);
+  const Index place = rows_.place(a);
+  const double square = rows_.square(place);
+  for (double violation = -slack_[a];; steps_ += 1) {
+    double* const r = load_;  // u_a = Σ r_j u_j + what the rows held do not span
+    const double rest = set_.distance(place, column_);
+    const bool dependent = set_.size() == capacity_ || !(rest > dependence * square);
     if (!dependent && rest <= near_dependence * square) return false;
-    double full = dependent ? infinity : violation / rest, partial = infinity;
+    std::copy_n(column_, padded(set_.size()), r);
+    set_.solve_upper(r);
+    const double full = dependent ? infinity : violation / rest;
+    double partial = infinity;
     Index blocking = -1;
-    for (Index j = 0; j < size_; ++j) {
-      const double r = load_[j], length = std::sqrt(rows_.square(at_[j]) / square);
-      if (state_[row(j)] != held || !(r * length > noise)) continue;
-      const double ratio = std::max(0.0, lambda_[at_[j]]) / r;
+    for (Index j = 0; j < set_.size(); ++j) {
+      const double length = std::sqrt(rows_.square(set_.place(j)) / square);
+      if (state_[row(j)] != held || !(r[j] * length > noise)) continue;
+      const double ratio = std::max(0.0, lambda_[set_.place(j)]) / r[j];
       if (ratio < partial) {
         partial = ratio;
         blocking = j;
       }
     }
-    const double t = std::min(full, partial);
-    if (t == infinity) {
+    if (full <= partial && !dependent) {
+      state_[a] = held;
+      set_.append(place, column_, rest);
+      return true;
+    }
+    if (blocking < 0) {
       contradiction_ = Vector::Zero(m_);
       (*contradiction_)[a] = 1;
-      for (Index j = 0; j < size_; ++j)
-        if (std::abs(load_[j]) * std::sqrt(rows_.square(at_[j]) / square) > noise)
-          (*contradiction_)[row(j)] = -load_[j];
+      for (Index j = 0; j < set_.size(); ++j)
+        if (std::abs(r[j]) * std::sqrt(rows_.square(set_.place(j)) / square) > noise)
+          (*contradiction_)[row(j)] = -r[j];
       return false;
     }
-    steps_ += 1;
-    if (full <= partial) break;
-    for (Index j = 0; j < size_; ++j) lambda_[at_[j]] -= t * load_[j];
-    if (!dependent) violation -= t * rest;
+    for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] -= partial * r[j];
+    if (!dependent) violation -= partial * rest;
     state_[row(blocking)] = outside;
-    collect();
-    const Index before = size_;
-    if (!factor() || size_ < before) return false;
+    lambda_[set_.place(blocking)] = 0;
+    set_.remove(blocking);
   }
-  state_[a] = held;
-  collect();
-  return true;
 }
 
 }  // namespace convex

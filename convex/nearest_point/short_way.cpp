@@ -15,6 +15,9 @@ namespace {
 /// doubles.
 constexpr double near = 1e-8;
 
+/// Slower corrections are left to an orthogonal factor.
+constexpr double slowest_contraction = 0x1p-6;
+
 /// Corrections before pivoting has lost its way.
 constexpr int most_passes = 12;
 
@@ -136,7 +139,9 @@ bool ShortWay::correct(bool is_first) {
   copy_packs(ld_, r_, dw_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
   rest_loads(is_first);
+  const Index steps = set_->steps();
   if (!set_->settle_rest(rest_, std::sqrt(kernels_.dot(ld_, dw_, dw_)))) return false;
+  const bool has_changed = set_->steps() > steps;
   invariant(before == set_->rows().count(), "no row is looked at by a correction");
   copy_packs(before, set_->lambda(), y_);
   kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
@@ -147,14 +152,15 @@ bool ShortWay::correct(bool is_first) {
   first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_));
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
-  const double seen = is_first ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
+  const bool is_fresh = is_first || has_changed;
+  const double seen = is_fresh ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
   const double usual = std::max(seen, usual_contraction(problem_.A.factor_condition(), gram_condition_));
   // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
-  // shows by how much.
+  // with the same rows shows by how much.
   const double contraction =
-      is_first ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
+      is_fresh ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
                : usual;
-  if (!(contraction <= largest_contraction)) return false;
+  if (!(contraction <= slowest_contraction)) return false;
   remaining_ =
       first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
   likely_ = std::min(remaining_, first_ * usual);
