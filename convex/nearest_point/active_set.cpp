@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "convex/nearest_point/active_set_answer.hpp"
-#include "convex/nearest_point/block_guess.hpp"
 #include "convex/nearest_point/dependent_row.hpp"
 #include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/optimality/touched_rows.hpp"
@@ -45,13 +44,13 @@ class DualActiveSet {
   }
 
   Solution run(const std::vector<Index>& guess) {
-    if (!hold_two_sided()) return infeasible_answer(set_, farkas_, steps_);
-    start_by_blocks(guess);
+    if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+    start(guess);
     const Index limit =
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
     for (Index round = 0; round < most_rounds + problem_.rows(); ++round) {
-      if ((round > 0 || !settled_) && !descend(limit)) return infeasible_answer(set_, farkas_, steps_);
+      if (!descend(limit)) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
       if (refined.contraction < 1)
@@ -59,7 +58,7 @@ class DualActiveSet {
       if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
-      if (outcome == Outcome::infeasible) return infeasible_answer(set_, farkas_, steps_);
+      if (outcome == Outcome::infeasible) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
       if (outcome == Outcome::unchanged) return answer(refined, true);
     }
     set_.solve();
@@ -170,30 +169,24 @@ class DualActiveSet {
     return allowed;
   }
 
-  /// Takes in rows to start from, as far as they are independent with multipliers >= 0: the touched contacts
-  /// where some are just kept, as at rest; else a guess by blocks.
-  void start_by_blocks(const std::vector<Index>& guess) {
-    if (guess.empty()) {
+  /// Takes in rows to start from, as far as they are independent with multipliers >= 0: those guessed, else
+  /// the rows that the free motion violates or just keeps, as at rest.
+  void start(const std::vector<Index>& guess) {
+    std::vector<Index> rows = guess;
+    if (rows.empty()) {
       const std::size_t violated = violated_rows().size();
       if (violated == 0) return;
-      // What the free motion violates or just keeps: at rest, all contacts.
-      const std::vector<Index> touched = rows_below(1);
-      const bool some_kept = touched.size() > violated;
-      if (some_kept && static_cast<Index>(touched.size()) <= set_.factor().capacity() &&
-          start_by_touched(touched))
+      rows = rows_below(1);
+      if (rows.size() > violated && static_cast<Index>(rows.size()) <= set_.factor().capacity() &&
+          start_by_touched(rows))
         return;
-      if (violated == 1) {
-        set_.solve();
-        return;
-      }
+      rows.clear();
     }
-    GuessedRows found = guess_by_blocks(problem_, set_.w_free(), row_scale_, guess, slack_);
-    set_.append_block(found.rows, found.whitened, block_dependence);
-    steps_ += static_cast<Index>(found.rows.size());
-    const Index held = set_.size();
+    std::erase_if(rows, [&](Index a) { return two_sided_[static_cast<std::size_t>(a)]; });
+    Matrix whitened = whitened_rows(problem_, rows);
+    set_.append_block(rows, whitened, block_dependence);
+    steps_ += static_cast<Index>(rows.size());
     drop_until_dual_feasible();
-    settled_ = found.settled && set_.size() == held &&
-               held == static_cast<Index>(found.rows.size() + problem_.two_sided.size());
   }
 
   /// Steps of Goldfarb and Idnani in doubles until no row is violated beyond rounding, or the limit is
@@ -325,7 +318,7 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
-  bool settled_ = false, flat_wedge_ = false;  // the start is right as far as doubles tell; a row is not
+  bool flat_wedge_ = false;
   Index steps_ = 0;
   // left_outside_: parts of the rows passed over that W does not span
   double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0, left_outside_ = 0;
@@ -337,10 +330,11 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
                     const std::vector<Index>& guess) {
   validate(problem);
   validate_guess(problem, guess);
-  std::optional<Solution> quick = well_conditioned(problem, accuracy, guess);
-  if (quick && quick->status == Status::solved) return *std::move(quick);
-  Solution found = problem.dimension() <= 8 ? DualActiveSet<8>(problem, accuracy).run(guess)
-                                            : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(guess);
+  GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
+  if (quick.solution) return *std::move(quick.solution);
+  Solution found = problem.dimension() <= 8
+                       ? DualActiveSet<8>(problem, accuracy).run(quick.rows)
+                       : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
     found.undecided = open_question::conditioning;
   return decided_in_fractions(problem, std::move(found), accuracy);

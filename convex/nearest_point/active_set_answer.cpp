@@ -70,16 +70,15 @@ Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refin
   return solution;
 }
 
-template <int MaxSize>
-Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights, Index steps) {
+Solution infeasible_answer(const NearestPointProblem& problem, const Vector& weights, double scale,
+                           Index steps) {
   Solution solution;
   solution.method = method;
   solution.steps = steps;
   solution.status = Status::infeasible;
-  if (set.problem().radii) {
-    if (!proves_infeasibility(set.problem(), weights, farthest * set.scale()))
-      solution.status = Status::gave_up;
-  } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(set.problem(), weights)) {
+  if (problem.radii) {
+    if (!proves_infeasibility(problem, weights, farthest * scale)) solution.status = Status::gave_up;
+  } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem, weights)) {
     solution.farkas = std::move(proof->farkas);
     return solution;
   } else {
@@ -95,7 +94,5 @@ template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const Refined
                                 const Vector&, double, const Accuracy&, Index);
 template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&,
                                 double, const Accuracy&, Index);
-template Solution infeasible_answer(const WorkingSet<Eigen::Dynamic>&, const Vector&, Index);
-template Solution infeasible_answer(const WorkingSet<8>&, const Vector&, Index);
 
 }  // namespace convex

@@ -14,8 +14,8 @@ template <int MaxSize>
 Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
                        const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps);
 
-/// The answer when rows contradict each other; `infeasible` only if the weights prove it.
-template <int MaxSize>
-Solution infeasible_answer(const WorkingSet<MaxSize>& set, const Vector& weights, Index steps);
+/// The answer when rows contradict each other; `infeasible` only if the weights prove it. scale:
+/// max(||q||_A, ||z||_(A⁻¹)).
+Solution infeasible_answer(const NearestPointProblem&, const Vector& weights, double scale, Index steps);
 
 }  // namespace convex

@@ -37,7 +37,7 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
   state.problem.z = z;
   state.problem.s = s;
-  if (has_short_way(state.problem) && state.accuracy.step_limit == 0) {
+  if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
     if (SmallWay::fits(state.problem)) {
       if (!state.small_settled) {
         if (!state.scene) state.scene = std::make_unique<SmallScene>();

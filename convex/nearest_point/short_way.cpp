@@ -68,7 +68,7 @@ void ShortWay::whiten_force() {
   for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
   copy_packs(ld_, z_, w_free_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
-  force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
+  scale_ = force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
 }
 
 bool ShortWay::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {

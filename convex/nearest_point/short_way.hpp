@@ -18,6 +18,7 @@ class ShortWay {
   /// False when something is in doubt; the solution is then not to be used.
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
   const GramPivoting& set() const { return *set_; }
+  double scale() const { return scale_; }  ///< max(||q||_A, ||z||_(A⁻¹))
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
 

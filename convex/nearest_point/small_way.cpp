@@ -95,6 +95,13 @@ bool SmallWay::solve_again(const Accuracy& accuracy, Solution& solution) {
   return settled && answer(accuracy, solution);
 }
 
+std::vector<Index> SmallWay::one_sided_rows_held() const {
+  std::vector<Index> rows;
+  for (Index a = 0; a < scene_.m; ++a)
+    if (scene_.held[a] && !scene_.two_sided[a]) rows.push_back(a);
+  return rows;
+}
+
 /// False when one correction does not do.
 bool SmallWay::correct() {
   small_kernels().correct(scene_);

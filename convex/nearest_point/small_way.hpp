@@ -25,6 +25,7 @@ class SmallWay {
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
+  std::vector<Index> one_sided_rows_held() const;
 
  private:
   void take_force();

@@ -1,5 +1,6 @@
 #include "convex/nearest_point/well_conditioned.hpp"
 
+#include "convex/nearest_point/active_set_answer.hpp"
 #include "convex/nearest_point/short_way.hpp"
 #include "convex/nearest_point/small_way.hpp"
 
@@ -13,22 +14,36 @@ constexpr Index most_kept_lines = Index{1} << 17;  // 8 MB
 
 }  // namespace
 
-bool has_short_way(const NearestPointProblem& problem) {
+bool has_gram_matrix(const NearestPointProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
   return problem.A.kind() == MetricKind::dense && !problem.U.is_sparse() && n > 0 && n <= largest && m > 0 &&
          m <= 4 * largest;
 }
 
-std::optional<Solution> well_conditioned(const NearestPointProblem& problem, const Accuracy& accuracy,
-                                         const std::vector<Index>& guess) {
-  if (!has_short_way(problem) || accuracy.step_limit > 0) return std::nullopt;
-  std::optional<Solution> found(std::in_place);
+GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accuracy& accuracy,
+                                 const std::vector<Index>& guess) {
+  GramOutcome found{std::nullopt, guess};
+  if (!has_gram_matrix(problem) || accuracy.step_limit > 0) return found;
+  Solution solution;
   if (SmallWay::fits(problem)) {
     SmallScene scene;
-    if (SmallWay(problem, scene).solve(guess, accuracy, *found)) return found;
+    SmallWay small(problem, scene);
+    if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) {
+      found.solution = std::move(solution);
+      return found;
+    }
+    found.rows = small.one_sided_rows_held();
   }
   thread_local Arena arena;
-  if (!ShortWay(problem, arena).solve(guess, accuracy, *found)) found.reset();
+  ShortWay way(problem, arena);
+  if (way.solve(found.rows, accuracy, solution) && solution.status == Status::solved) {
+    found.solution = std::move(solution);
+  } else if (const std::optional<Vector>& weights = way.set().contradiction()) {
+    solution = infeasible_answer(problem, *weights, way.scale(), way.set().steps());
+    if (solution.status == Status::infeasible) found.solution = std::move(solution);
+  } else {
+    found.rows = way.set().one_sided_rows_held();
+  }
   if (arena.lines() > most_kept_lines) arena.give_back();
   return found;
 }

@@ -8,16 +8,22 @@
 
 namespace convex {
 
-/// The short way of the active-set method, for dense A and U where nothing is in doubt: principal pivoting by
-/// blocks (Júdice and Pires 1994; Kunisch and Rendl 2003) on the Gram matrix of the whitened rows, then one
-/// correction with residuals of the original data in twice the working precision. None when a sign cannot be
-/// told from rounding, when rows held are nearly dependent, when the correction is not small, or when
-/// pivoting does not settle: then the long way decides. The answer meets the same tests as there, and its
-/// error bound is made of the same parts. The data are checked. guess: rows thought to be active.
-std::optional<Solution> well_conditioned(const NearestPointProblem&, const Accuracy&,
-                                         const std::vector<Index>& guess);
+/// What the Gram matrix of whitened rows tells of a problem: the answer; else the one-sided rows held when it
+/// stopped in doubt.
+struct GramOutcome {
+  std::optional<Solution> solution;
+  std::vector<Index> rows;
+};
 
-/// Whether the short way is open to a problem of that size and kind.
-bool has_short_way(const NearestPointProblem&);
+/// The active-set method on the Gram matrix of the whitened rows, for dense U: principal pivoting by blocks
+/// (Júdice and Pires 1994; Kunisch and Rendl 2003), the dual method of Goldfarb and Idnani (1983) where that
+/// does not settle, and corrections with residuals of the original data in twice the working precision. In
+/// doubt where rows held are nearly dependent, or a sign cannot be told from rounding. An infeasible answer
+/// has its proof. The data are checked. guess: rows thought to be active.
+GramOutcome solve_by_gram_matrix(const NearestPointProblem&, const Accuracy&,
+                                 const std::vector<Index>& guess);
+
+/// Whether that way is open to a problem of that size and kind.
+bool has_gram_matrix(const NearestPointProblem&);
 
 }  // namespace convex

@@ -38,7 +38,7 @@ TEST_CASE("where the short way answers, it is right to rounding, and its bound h
       CAPTURE(static_cast<int>(difficulty));
       const Index n = 1 + static_cast<Index>((5 * seed) % 37), m = 1 + static_cast<Index>((11 * seed) % 71);
       const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
-      const std::optional<Solution> found = convex::well_conditioned(problem, {}, {});
+      const std::optional<Solution> found = convex::solve_by_gram_matrix(problem, {}, {}).solution;
       if (!found) continue;
       ++answered;
       CHECK(found->status == Status::solved);
@@ -58,9 +58,9 @@ TEST_CASE("the short way settles well-posed problems, whatever the rows it begin
   const convex::GalleryFamily& family = *convex::find_family("well-posed");
   for (const Index n : {4, 9, 17, 33, 60}) {
     const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
-    const std::optional<Solution> cold = convex::well_conditioned(instance.problem, {}, {});
+    const std::optional<Solution> cold = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
     REQUIRE(cold.has_value());
-    const std::optional<Solution> warm = convex::well_conditioned(instance.problem, {}, cold->basis);
+    const std::optional<Solution> warm = convex::solve_by_gram_matrix(instance.problem, {}, cold->basis).solution;
     REQUIRE(warm.has_value());
     CHECK(warm->q == cold->q);
     CHECK(warm->steps <= cold->steps);
@@ -72,7 +72,7 @@ TEST_CASE("the short way does not judge rows that are nearly parallel or opposit
     const convex::GalleryFamily& family = *convex::find_family(name);
     for (const double angle : {1e-4, 1e-8, 1e-12}) {
       const convex::GalleryInstance instance = convex::gallery_instance(family, 12, angle);
-      const std::optional<Solution> found = convex::well_conditioned(instance.problem, {}, {});
+      const std::optional<Solution> found = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
       if (found)
         CHECK((found->q - instance.solution.hi).norm() <= few_roundings * instance.solution.hi.norm());
     }
@@ -84,7 +84,7 @@ TEST_CASE("the short way leaves contradictory rows to the proof that they are") 
   for (const double margin : family.ladder)
     for (const std::uint32_t seed : {1U, 2U, 3U})
       CHECK_FALSE(
-          convex::well_conditioned(convex::gallery_instance(family, 12, margin, seed).problem, {}, {}));
+          convex::solve_by_gram_matrix(convex::gallery_instance(family, 12, margin, seed).problem, {}, {}).solution);
 }
 
 TEST_CASE(
