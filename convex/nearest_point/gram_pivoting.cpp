@@ -174,6 +174,7 @@ bool GramPivoting::settle_rest(const double* load, double norm) {
   force_norm_ = norm;
   const bool settled = any_close_ ? settle_known() || descend_known() : find_multipliers();
   target_ = rows_.load();
+  any_close_ = false;
   for (Index a = 0; a < m_; ++a) {
     if (state_[a] == clear_outside) state_[a] = outside;
     if (state_[a] == clear) state_[a] = held;

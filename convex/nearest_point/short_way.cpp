@@ -15,6 +15,9 @@ namespace {
 /// doubles.
 constexpr double near = 1e-8;
 
+/// Multipliers and slacks up to so many times the largest wrong one may change.
+constexpr double room_for_change = 256;
+
 /// Slower corrections are left to an orthogonal factor.
 constexpr double slowest_contraction = 0x1p-6;
 
@@ -81,22 +84,25 @@ bool ShortWay::solve_again(const Accuracy& accuracy, Solution& solution) {
   return set_->settle_again() && finish(accuracy, solution);
 }
 
-/// The rows held are right as far as doubles tell. What their point misses of its equations, in twice the
-/// working precision, is the data of a problem of the same kind, for the multipliers and slacks that doubles
-/// cannot tell from 0: pivoting goes on at that scale, until nothing is missing.
+/// The rows held are right as far as doubles tell. Their point is corrected in twice the working precision.
+/// What multipliers and slacks are wrong then, by rounding, is the scale of a problem of the same kind, for
+/// those that are that small: pivoting goes on there, on the same Gram matrix, until nothing is wrong.
 bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
   take_point();
   if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
+  double small = 0;
   for (int pass = 0; pass < most_passes; ++pass) {
-    if (!correct(pass == 0)) return false;
-    if (!(remaining_ <= enough * scale_)) {
-      set_slacks_of_doubles();
-      continue;
-    }
-    if (!take_noise_for_zero()) return false;
+    if (!correct(pass == 0, small)) return false;
+    small = 0;
+    if (!(remaining_ <= enough * scale_)) continue;
+    wrong_ = 0;
+    take_noise_for_zero();
     const Slacks slacks = measure_slacks();
     if (slacks == Slacks::doubtful) return false;
-    if (slacks == Slacks::violated) continue;
+    if (wrong_ > 0) {
+      small = room_for_change * wrong_;
+      continue;
+    }
     write(solution);
     solution.residuals = residuals_of_active();
     solution.error_bound = bound_ + moved_;
@@ -128,20 +134,26 @@ void ShortWay::list_rows_held() {
 }
 
 /// One correction of q and lambda with residuals in twice the working precision, in which rows change sides
-/// whose multipliers and slacks are small. False when it does not settle or is not small.
-bool ShortWay::correct(bool is_first) {
+/// whose multipliers (times lengths) and slacks (over them) are `small`. False when it does not settle or
+/// does not shrink what is missing.
+bool ShortWay::correct(bool is_first, double small) {
   const Index before = set_->rows().count();
-  const double zero = std::max(near, 64 * unit_roundoff * gram_condition_) * scale_;
-  set_->clear_rows(zero, total_, is_first ? set_->slacks() : slack_);
-  for (Index j = 0; j < set_->size(); ++j)
-    if (set_->is_weak(rows_[j])) lambda_[j] = total_[set_->place(j)] = 0;
+  double zeroed = 0;
+  if (small > 0) {
+    set_->clear_rows(small, total_, slack_);
+    for (Index j = 0; j < set_->size(); ++j)
+      if (set_->is_weak(rows_[j])) {
+        zeroed += std::abs(lambda_[j]) * std::sqrt(set_->rows().square(set_->place(j)));
+        lambda_[j] = total_[set_->place(j)] = 0;
+      }
+  }
   residual(is_first);
   copy_packs(ld_, r_, dw_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
-  rest_loads(is_first);
+  rest_loads(is_first, small > 0);
   const Index steps = set_->steps();
   if (!set_->settle_rest(rest_, std::sqrt(kernels_.dot(ld_, dw_, dw_)))) return false;
-  const bool has_changed = set_->steps() > steps;
+  const bool has_changed = set_->steps() > steps || small > 0;
   invariant(before == set_->rows().count(), "no row is looked at by a correction");
   copy_packs(before, set_->lambda(), y_);
   kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
@@ -149,7 +161,7 @@ bool ShortWay::correct(bool is_first) {
   kernels_.add_multiple(before, 1, y_, total_);
   list_rows_held();
   const double previous = first_;
-  first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_));
+  first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed;
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
   const bool is_fresh = is_first || has_changed;
@@ -183,13 +195,14 @@ void ShortWay::residual(bool is_first) {
                     lambda_, dq_, r_);
 }
 
-/// rest_ := s_a - u_a·q - v_a·dw of the rows that matter, at their places.
-void ShortWay::rest_loads(bool is_first) {
+/// rest_ := s_a - u_a·q - v_a·dw of the rows held, or of all that matter, at their places.
+void ShortWay::rest_loads(bool is_first, bool with_outside) {
   alignas(64) double dots[8], low[8];
   for (Index first = 0; first < set_->rows().count(); first += 8) {
     bool any = false;
     for (Index p = first; p < first + 8; ++p)
-      any = any || (set_->rows().row(p) >= 0 && set_->matters(set_->rows().row(p)));
+      if (const Index a = set_->rows().row(p); a >= 0)
+        any = any || (with_outside ? set_->matters(a) : set_->holds(a));
     if (!any) {
       fill_packs(8, 0, rest_ + first);
       continue;
@@ -202,8 +215,8 @@ void ShortWay::rest_loads(bool is_first) {
   }
 }
 
-/// Takes what cancels for 0; false when a multiplier turns out negative.
-bool ShortWay::take_noise_for_zero() {
+/// Takes what cancels for 0. `wrong_` becomes the size of a negative multiplier, if there is one.
+void ShortWay::take_noise_for_zero() {
   const double missing = 4 * likely_ * problem_.A.factor_condition();
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
@@ -218,12 +231,12 @@ bool ShortWay::take_noise_for_zero() {
     const Index place = set_->place(j);
     const double noise = std::max(missing * inverse_norm_, cancelled * std::abs(y_[place]));
     if (std::abs(lambda_[j]) <= noise) lambda_[j] = total_[place] = 0;
-    if (lambda_[j] < 0 && !set_->is_two_sided(rows_[j])) return false;
+    if (!set_->is_two_sided(rows_[j]))
+      wrong_ = std::max(wrong_, -lambda_[j] * std::sqrt(set_->rows().square(place)));
   }
   rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
   silenced_ = std::sqrt(static_cast<double>(n_) * silenced);
   bound_ = 2 * remaining_ + silenced_ + rounding_;
-  return true;
 }
 
 /// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing
@@ -298,13 +311,16 @@ ShortWay::Slacks ShortWay::measure_slacks() {
     const double unsure =
         rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) + row_scale_[a] * unsure_point;
     if (slack_[a] > unsure) continue;
-    if (slack_[a] < -unsure)
+    if (slack_[a] < -unsure) {
       close_[violated++] = a;
-    else
+      wrong_ = std::max(wrong_, -slack_[a] / row_scale_[a]);
+    } else {
       touched_[touched_count_++] = a;
+    }
   }
   moved_ = 0;
   if (violated > 0) return look_at_violated(violated);
+  if (wrong_ > 0) return Slacks::kept;
   return touched_count_ == 0 ? Slacks::kept : judge_touched_rows();
 }
 

@@ -33,10 +33,10 @@ class ShortWay {
   bool finish(const Accuracy& accuracy, Solution& solution);
   void take_point();
   void list_rows_held();
-  bool correct(bool is_first);
-  bool take_noise_for_zero();
+  bool correct(bool is_first, double small);
+  void take_noise_for_zero();
   void residual(bool is_first);
-  void rest_loads(bool is_first);
+  void rest_loads(bool is_first, bool with_outside);
   bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
   bool touches_rows() const;
   void write(Solution& solution) const;
@@ -69,6 +69,7 @@ class ShortWay {
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0, likely_ = 0;
   double inverse_norm_ = 0, gram_condition_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
   double silenced_ = 0;  ///< at least ||·||_A of what cancelled and was taken for 0
+  double wrong_ = 0;     ///< the largest wrong multiplier, times its length, or slack, over it
   double moved_ = 0;     ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
 };

@@ -70,7 +70,10 @@ Index ShortWay::measure_touched_slacks() {
     for (Index k = 0; k < count; ++k) {
       const Index a = touched_[first + k];
       const double sum = rest[k] + low[k], rounding = slack_noise(a);
-      if (!(sum >= -rounding)) close_[violated++] = a;
+      if (!(sum >= -rounding)) {
+        close_[violated++] = a;
+        wrong_ = std::max(wrong_, -sum / row_scale_[a]);
+      }
       touched_slack_[first + k] = rest[k];
       slack_[a] = std::abs(sum) <= rounding ? 0 : sum;
     }
