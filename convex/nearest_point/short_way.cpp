@@ -34,7 +34,7 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + 3 * padded(k) + 4 * padded(places)) / 8 +
+  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 11) * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   z_ = arena.take_filled(n_, 0.0);
   w_free_ = arena.take<double>(n_);
@@ -59,6 +59,8 @@ ShortWay::ShortWay(const NearestPointProblem& problem, Arena& arena)
   fresh_ = arena.take<Index>(m_);
   touched_slack_ = arena.take<double>(m_);
   pack_ = arena.take<double>(8 * n_ + 8);  // two vectors at least
+  dual_ = arena.take<double>(n_ * padded(k));
+  products_ = arena.take<double>(8 * padded(k));
   const double* diagonal = problem_.A.diagonal().data();
   for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
   kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);

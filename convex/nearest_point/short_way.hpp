@@ -49,9 +49,10 @@ class ShortWay {
   double rise(Index a) const;
   bool keeps_touched_rows_exactly() const;
   std::optional<int> slack_sign_by_parallel_row(Index a) const;
-  bool split(Index a);
+  bool is_independent(Index a);
+  void find_dual_rows();
+  Index leave_sums_of_rows_held(Index count);
   bool find_way_up(Index count);
-  bool is_kept_as_sum(Index a);
   double violation_of_touched_rows(double known);
   Residuals residuals_of_active();
 
@@ -63,7 +64,7 @@ class ShortWay {
   double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *row_scale_, *slack_;
   double *load_, *lambda_;  // of the rows held, rows_
   double *y_, *total_, *rest_, *held_slack_;  // at places; total_: all multipliers, y_: their last change
-  double *touched_slack_, *pack_;              // touched_slack_: at q rounded
+  double *touched_slack_, *pack_, *dual_, *products_;              // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   std::optional<SlackOnEdge> edge_;
   double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0, likely_ = 0;

@@ -30,10 +30,14 @@ constexpr double noise = 1e-9;
 ShortWay::Slacks ShortWay::judge_touched_rows() {
   if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
   if (keeps_touched_rows_exactly()) return Slacks::kept;
-  Index count = 0, fresh = 0;  // close_ has `count` rows that are not parallel to rows held
-  for (Index k = 0; k < touched_count_; ++k) {
-    const Index a = touched_[k];
-    if (slack_[a] > 0) continue;
+  Index open = 0;  // close_ has so many rows that no exact sum has told of
+  for (Index k = 0; k < touched_count_; ++k)
+    if (!(slack_[touched_[k]] > 0)) close_[open++] = touched_[k];
+  open = leave_sums_of_rows_held(open);
+  if (open < 0) return Slacks::doubtful;
+  Index count = 0, fresh = 0, independent = 0;
+  for (Index k = 0; k < open; ++k) {
+    const Index a = close_[k];
     if (const std::optional<int> sign = slack_sign_by_parallel_row(a)) {
       if (*sign < 0) return Slacks::doubtful;
       continue;
@@ -43,14 +47,10 @@ ShortWay::Slacks ShortWay::judge_touched_rows() {
   }
   if (count == 0) return Slacks::kept;
   if (fresh > 0 && !set_->look_at(fresh_, fresh)) return Slacks::doubtful;
-  Index independent = 0;
   for (Index k = 0; k < count; ++k) {
-    if (split(close_[k]))
-      close_[independent++] = close_[k];
-    else if (!is_kept_as_sum(close_[k]))
-      return Slacks::doubtful;
+    if (!is_independent(close_[k])) return Slacks::doubtful;
+    close_[independent++] = close_[k];
   }
-  if (independent == 0) return Slacks::kept;
   const bool holds_also = set_->hold_also(close_, independent), rises = holds_also && find_way_up(independent);
   set_->hold_no_more();
   return rises ? Slacks::kept : Slacks::doubtful;
@@ -120,9 +120,8 @@ std::optional<int> ShortWay::slack_sign_by_parallel_row(Index a) const {
   return std::nullopt;
 }
 
-/// load_ := the coefficients of row a, which has been looked at, in terms of the rows held. Whether it is
-/// independent of them.
-bool ShortWay::split(Index a) {
+/// Whether a row that has been looked at is independent of those held.
+bool ShortWay::is_independent(Index a) {
   const Index place = set_->rows().place(a), k = set_->size();
   const double* const gram = set_->rows().gram(place);
   for (Index j = 0; j < padded(k); ++j) load_[j] = j < k ? gram[set_->place(j)] : 0;
@@ -130,6 +129,44 @@ bool ShortWay::split(Index a) {
   double rest = set_->rows().square(place);
   for (Index j = 0; j < k; ++j) rest -= load_[j] * gram[set_->place(j)];
   return rest > GramPivoting::near_dependence * set_->rows().square(place);
+}
+
+/// dual_ := A⁻¹u_j of the rows held, by eights side by side.
+void ShortWay::find_dual_rows() {
+  for (Index j = 0; j < padded(set_->size()); ++j) {
+    double* const into = dual_ + j / 8 * 8 * n_ + j % 8;
+    if (j < set_->size()) {
+      const double* const from = set_->rows().whitened() + set_->place(j) / 8 * 8 * n_ + set_->place(j) % 8;
+      fill_packs(ld_, 0, dq_);
+      for (Index i = 0; i < n_; ++i) dq_[i] = from[8 * i];
+      kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+    }
+    for (Index i = 0; i < n_; ++i) into[8 * i] = j < set_->size() ? dq_[i] : 0;
+  }
+}
+
+/// Takes out of the first `count` rows of close_ those that are sums of rows held with short fractions as
+/// coefficients, not one bit left over, and ask for no more than they do. The number of those left; -1 when
+/// one asks for more.
+Index ShortWay::leave_sums_of_rows_held(Index count) {
+  const Index k = set_->size();
+  if (count == 0 || k == 0) return count;
+  find_dual_rows();
+  Index left = 0;
+  for (Index first = 0; first < count; first += 8) {
+    const Index rows = std::min<Index>(8, count - first);
+    set_->rows().copy_rows(close_ + first, rows, pack_);
+    for (Index j = 0; j < padded(k); j += 8)
+      kernels_.gram(n_, dual_ + j * n_, pack_, products_ + j, padded(k));
+    for (Index l = 0; l < rows; ++l) {
+      double* const coefficients = products_ + l * padded(k);
+      set_->solve(coefficients);
+      const std::optional<int> sign = edge_->sign(close_[first + l], rows_, k, coefficients);
+      if (sign && *sign < 0) return -1;
+      if (!sign) close_[left++] = close_[first + l];
+    }
+  }
+  return left;
 }
 
 /// Looks for the motion e that raises the first `count` rows of close_, as far as independent held as well.
@@ -164,13 +201,6 @@ double ShortWay::rise(Index a) const {
   double up = 0;
   kernels_.slacks(1, n_, problem_.U.dense().data() + a * n_, dq_, &zero, &up);
   return up;
-}
-
-/// Whether row a, split just now, is a sum of rows held with short fractions as coefficients, and asks for no
-/// more than they do.
-bool ShortWay::is_kept_as_sum(Index a) {
-  const std::optional<int> sign = edge_->sign(a, rows_, set_->size(), load_);
-  return sign && *sign >= 0;
 }
 
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds

@@ -4,18 +4,29 @@
 #include <cmath>
 
 #include "convex/exact/exact_sum.hpp"
+#include "convex/exact/grid_sum.hpp"
 
 namespace convex {
 namespace {
+
+/// Sums of a few of the numbers on a grid are exact in doubles when these are at most so many of its steps.
+constexpr double most_steps = 0x1p36, most_terms = 0x1p16;
 
 /// Coefficients of an exact sum are fractions with a denominator up to this; doubles tell them apart from
 /// others by `close`, and from 0 by `noise`. That is a guess: the sum itself is made without rounding.
 constexpr double largest_denominator = 4096, close = 1e-9, noise = 1e-9;
 
+/// The nearest whole number, of |x| < 2^51; a call of the library's function takes longer.
+double nearest_whole(double x) {
+  constexpr double shift = 0x1.8p52;
+  return (x + shift) - shift;
+}
+
 /// The smallest k with x k whole as far as doubles tell, by continued fractions; 0 when it is too large.
 double denominator(double x) {
   double before = 0, k = 1, rest = x;
-  while (std::abs(x * k - std::round(x * k)) > close * std::max(1.0, std::abs(x)) * k) {
+  if (!(std::abs(x) < most_terms)) return 0;
+  while (std::abs(x * k - nearest_whole(x * k)) > close * std::max(1.0, std::abs(x)) * k) {
     rest = 1 / (rest - std::floor(rest));
     const double next = std::floor(rest) * k + before;
     before = k;
@@ -45,9 +56,6 @@ int slack_sign(const NearestPointProblem& problem, Index a, const Vector& q) {
     for (Index i = 0; i < q.size(); ++i) sum.add_product(problem.U.dense()(a, i), q[i]);
   return sum.sign();
 }
-
-/// Sums of a few of the numbers on a grid are exact in doubles when these are at most so many of its steps.
-constexpr double most_steps = 0x1p36, most_terms = 0x1p16;
 
 /// Looks for a grid that all numbers of U lie on.
 void SlackOnEdge::find_grid() {
@@ -95,7 +103,7 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
     if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
     terms_.emplace_back(held[k], coefficients[k]);
   }
-  for (auto& [a, c] : terms_) c = std::round(c * whole);
+  for (auto& [a, c] : terms_) c = nearest_whole(c * whole);
   if (!cancels(p, whole)) return std::nullopt;
   ExactSum slack;
   slack.add_product(-whole, problem_.s[p]);
@@ -105,9 +113,16 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
 
 bool keeps_exactly(const NearestPointProblem& problem, const Vector& q, const std::vector<Index>& held,
                    const std::vector<Index>& touched) {
-  return std::all_of(held.begin(), held.end(), [&](Index a) { return slack_sign(problem, a, q) == 0; }) &&
+  const GridSum on_grid(q);
+  const auto sign_of_slack = [&](Index a) {
+    if (!problem.U.is_sparse())
+      if (const auto slack = on_grid.value(problem.U.dense().data() + a * q.size(), problem.s[a]))
+        return *slack > 0 ? 1 : *slack < 0 ? -1 : 0;
+    return slack_sign(problem, a, q);
+  };
+  return std::all_of(held.begin(), held.end(), [&](Index a) { return sign_of_slack(a) == 0; }) &&
          std::all_of(touched.begin(), touched.end(), [&](Index a) {
-           const int sign = slack_sign(problem, a, q);
+           const int sign = sign_of_slack(a);
            return sign == 0 || (sign > 0 && !is_two_sided(problem, a));
          });
 }

@@ -6,6 +6,7 @@
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/exact_sum.hpp"
+#include "convex/exact/grid_sum.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
@@ -76,7 +77,13 @@ std::optional<InfeasibilityProof> by_whole_numbers(const Support& rows, Index m)
     proof.weights[static_cast<std::size_t>(rows.rows[r])] = static_cast<std::int64_t>(w[k]);
   }
   if (gap.sign() <= 0) return std::nullopt;
-  for (Index i = 0; i < rows.U.cols(); ++i) {
+  const GridSum on_grid(w);
+  const Matrix columns = rows.U;
+  for (Index i = 0; i < columns.cols(); ++i) {
+    if (const auto sum = on_grid.value(columns.col(i).data(), 0)) {
+      if (*sum != 0) return std::nullopt;
+      continue;
+    }
     ExactSum sum;
     for (Index k = 0; k < w.size(); ++k) sum.add_product(w[k], rows.U(k, i));
     if (sum.sign() != 0) return std::nullopt;
