@@ -198,7 +198,7 @@ bool GramPivoting::pivot() {
 bool GramPivoting::pivot_at_once() {
   Index fewest = m_ + 1;
   for (int impatience = 0; impatience <= patience;) {
-    if (!find_multipliers()) return false;
+    if (!find_multipliers() || has_dependent_rows_) return false;
     find_slacks();
     Index count = list_violated(outside);
     const Index leaving = drop_negative();

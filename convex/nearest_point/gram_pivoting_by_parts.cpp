@@ -27,16 +27,17 @@ bool GramPivoting::pivot_by_parts() {
   collect();
   const Index part = padded(1 + static_cast<Index>(part_of_coordinates * static_cast<double>(n_)));
   while (true) {
-    if (!settle_known() && !descend_known()) return false;
+    if ((has_dependent_rows_ || !settle_known()) && !descend_known()) return false;
     if (all_known()) return true;
     find_slacks();
     Index count = list_violated(outside);
     if (count == 0) return true;
-    count = choose_deepest(count, std::min(block_of(count), part));
+    count = choose_deepest(count, has_dependent_rows_ ? 8 : std::min(block_of(count), part));
     for (Index k = 0; k < count; ++k)
       if (rows_.place(list_[k]) >= 0) return false;  // settled, and yet violated: doubles do not tell
     if (!rows_.add(list_, count)) return false;
     steps_ += count;
+    if (has_dependent_rows_) continue;
     for (Index k = 0; k < std::min(count, capacity_ - set_.size()); ++k) state_[list_[k]] = held;
     collect();
   }

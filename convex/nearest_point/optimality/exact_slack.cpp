@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/exact/grid_sum.hpp"
 
@@ -72,17 +73,14 @@ void SlackOnEdge::find_grid() {
 }
 
 /// Whether Σ c_k u_k = whole u_p for the terms, not one bit off.
-bool SlackOnEdge::cancels(Index p, double whole) const {
+bool SlackOnEdge::cancels(Index p, double whole) {
   double sum = whole;
   for (const auto& [a, c] : terms_) sum += std::abs(c);
   if (grid_ > 0 && sum <= most_terms) {
     const RowMatrix& U = problem_.U.dense();
-    for (Index i = 0; i < U.cols(); ++i) {
-      double rest = -whole * U(p, i);
-      for (const auto& [a, c] : terms_) rest += c * U(a, i);
-      if (rest != 0) return false;
-    }
-    return true;
+    rest_.noalias() = -whole * U.row(p).transpose();
+    for (const auto& [a, c] : terms_) rest_.noalias() += c * U.row(a).transpose();
+    return (rest_.array() == 0).all();
   }
   for (Index i = 0; i < problem_.dimension(); ++i) {
     ExactSum rest;
@@ -91,6 +89,22 @@ bool SlackOnEdge::cancels(Index p, double whole) const {
     if (rest.sign() != 0) return false;
   }
   return true;
+}
+
+/// The sign of Σ c_k s_k - whole s_p over the terms.
+int SlackOnEdge::sign_of_loads(Index p, double whole) const {
+  DoubleDouble sum = two_product(-whole, problem_.s[p]);
+  bool is_exact = sum.lo == 0;
+  for (const auto& [a, c] : terms_) {
+    const DoubleDouble term = two_product(c, problem_.s[a]), next = two_sum(sum.hi, term.hi);
+    is_exact = is_exact && term.lo == 0 && next.lo == 0;
+    sum.hi = next.hi;
+  }
+  if (is_exact) return sum.hi > 0 ? 1 : sum.hi < 0 ? -1 : 0;
+  ExactSum slack;
+  slack.add_product(-whole, problem_.s[p]);
+  for (const auto& [a, c] : terms_) slack.add_product(c, problem_.s[a]);
+  return slack.sign();
 }
 
 std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, const double* coefficients) {
@@ -105,10 +119,7 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
   }
   for (auto& [a, c] : terms_) c = nearest_whole(c * whole);
   if (!cancels(p, whole)) return std::nullopt;
-  ExactSum slack;
-  slack.add_product(-whole, problem_.s[p]);
-  for (const auto& [a, c] : terms_) slack.add_product(c, problem_.s[a]);
-  return slack.sign();
+  return sign_of_loads(p, whole);
 }
 
 bool keeps_exactly(const NearestPointProblem& problem, const Vector& q, const std::vector<Index>& held,

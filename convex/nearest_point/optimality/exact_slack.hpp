@@ -26,11 +26,13 @@ class SlackOnEdge {
 
  private:
   void find_grid();
-  bool cancels(Index p, double whole) const;
+  bool cancels(Index p, double whole);
+  int sign_of_loads(Index p, double whole) const;
 
   const NearestPointProblem& problem_;
   const double* row_scale_;
   std::vector<std::pair<Index, double>> terms_;
+  Vector rest_;
   double grid_ =
       -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
 };
