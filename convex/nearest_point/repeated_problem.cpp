@@ -46,12 +46,14 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
       } else {
         state.small_settled = state.small_way->solve_again(state.accuracy, state.solution);
       }
-      if (state.small_settled) return state.solution;
+      if (state.small_settled && state.solution.status == Status::solved) return state.solution;
     }
-    if (state.settled && state.way->solve_again(state.accuracy, state.solution)) return state.solution;
+    if (state.settled && state.way->solve_again(state.accuracy, state.solution) &&
+        state.solution.status == Status::solved)
+      return state.solution;
     state.way.emplace(state.problem, state.arena);
     state.settled = state.way->solve({}, state.accuracy, state.solution);
-    if (state.settled) return state.solution;
+    if (state.settled && state.solution.status == Status::solved) return state.solution;
   }
   state.solution = active_set(state.problem, state.accuracy, state.solution.basis);
   return state.solution;
