@@ -86,9 +86,9 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
       silence_q([&](Index i) {
         return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
       });
-      const double inverse_norm = set.factor().inverse_norm();
-      silence_lambda(
-          [&](Index k_th) { return std::max(missing * inverse_norm, cancelled * std::abs(step[k_th])); });
+      silence_lambda([&](Index k_th) {
+        return std::max(missing * of_rows / set.factor().length(k_th), cancelled * std::abs(step[k_th]));
+      });
       return point;
     }
     if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
@@ -104,12 +104,12 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
 
 template <int MaxSize>
 Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined) {
-  const double noise = 4 * refined.remaining() * set.factor().inverse_norm();
+  const double noise = 4 * refined.remaining() * row_condition(set);  // of a multiplier times its length
   Index worst = -1;
   double lowest = 0;
   for (Index k = 0; k < set.size(); ++k) {
     const double push = refined.lambda.hi[k] * set.factor().length(k);
-    if (!set.one_sided(k) || !(refined.lambda.hi[k] < -noise) || !(push < lowest)) continue;
+    if (!set.one_sided(k) || !(push < -noise) || !(push < lowest)) continue;
     lowest = push;
     worst = k;
   }

@@ -21,6 +21,9 @@ constexpr double room_for_change = 256;
 /// Slower corrections are left to an orthogonal factor.
 constexpr double slowest_contraction = 0x1p-6;
 
+/// Corrections beyond what is enough, for entries that are close to 0.
+constexpr int most_more = 3;
+
 /// Corrections before pivoting has lost its way.
 constexpr int most_passes = 12;
 
@@ -93,12 +96,16 @@ bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
   take_point();
   if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
   double small = 0;
+  int more = most_more;
   for (int pass = 0; pass < most_passes; ++pass) {
     if (!correct(pass == 0, small)) return false;
     small = 0;
     if (!(remaining_ <= enough * scale_)) continue;
     wrong_ = 0;
-    take_noise_for_zero();
+    if (!take_noise_for_zero(more > 0)) {
+      more -= 1;
+      continue;
+    }
     const Slacks slacks = measure_slacks();
     if (slacks == Slacks::doubtful) return false;
     if (wrong_ > 0) {
@@ -166,13 +173,13 @@ bool ShortWay::correct(bool is_first, double small) {
   first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed;
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
-  const bool is_fresh = is_first || has_changed;
-  const double seen = is_fresh ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
+  is_fresh_ = is_first || has_changed;
+  const double seen = is_fresh_ ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
   const double usual = std::max(seen, usual_contraction(problem_.A.factor_condition(), gram_condition_));
   // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
   // with the same rows shows by how much.
   const double contraction =
-      is_fresh ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
+      is_fresh_ ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
                : usual;
   if (!(contraction <= slowest_contraction)) return false;
   remaining_ =
@@ -217,13 +224,22 @@ void ShortWay::rest_loads(bool is_first, bool with_outside) {
   }
 }
 
-/// Takes what cancels for 0. `wrong_` becomes the size of a negative multiplier, if there is one.
-void ShortWay::take_noise_for_zero() {
+/// Takes what cancels for 0; or false, if `more`, when another correction may tell some of it from 0.
+/// `wrong_` becomes the size of a negative multiplier, if there is one.
+bool ShortWay::take_noise_for_zero(bool more) {
+  const double usual = usual_contraction(problem_.A.factor_condition(), gram_condition_);
   const double missing = 4 * likely_ * problem_.A.factor_condition();
+  // The second correction of an entry is more than what is missing in it.
+  const auto noise_of = [&](double unit, double step) {
+    return is_fresh_ ? std::max(missing * unit, cancelled * std::abs(step)) : 2 * std::abs(step);
+  };
+  for (Index i = 0; i < n_ && more; ++i)
+    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), dq_[i]) &&
+        !(std::abs(q_[i]) <= 16 * usual * std::abs(dq_[i])))
+      return false;
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
-    const double noise = std::max(missing * std::sqrt(inverse_diagonal_[i]), cancelled * std::abs(dq_[i]));
-    if (std::abs(q_[i]) <= noise) {
+    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), dq_[i])) {
       silenced += problem_.A.diagonal()[i] * q_[i] * q_[i];
       q_[i] = q_low_[i] = 0;
     }
@@ -231,14 +247,16 @@ void ShortWay::take_noise_for_zero() {
   }
   for (Index j = 0; j < set_->size(); ++j) {
     const Index place = set_->place(j);
-    const double noise = std::max(missing * inverse_norm_, cancelled * std::abs(y_[place]));
-    if (std::abs(lambda_[j]) <= noise) lambda_[j] = total_[place] = 0;
+    // Rows may be told in units far apart: each multiplier is measured by the length of its own.
+    const double unit = std::sqrt(gram_condition_ / set_->rows().square(place));
+    if (std::abs(lambda_[j]) <= noise_of(unit, y_[place])) lambda_[j] = total_[place] = 0;
     if (!set_->is_two_sided(rows_[j]))
       wrong_ = std::max(wrong_, -lambda_[j] * std::sqrt(set_->rows().square(place)));
   }
   rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
   silenced_ = std::sqrt(static_cast<double>(n_) * silenced);
   bound_ = 2 * remaining_ + silenced_ + rounding_;
+  return true;
 }
 
 /// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing

@@ -34,7 +34,7 @@ class ShortWay {
   void take_point();
   void list_rows_held();
   bool correct(bool is_first, double small);
-  void take_noise_for_zero();
+  bool take_noise_for_zero(bool more);
   void residual(bool is_first);
   void rest_loads(bool is_first, bool with_outside);
   bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
@@ -73,6 +73,7 @@ class ShortWay {
   double wrong_ = 0;     ///< the largest wrong multiplier, times its length, or slack, over it
   double moved_ = 0;     ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
+  bool is_fresh_ = true;  ///< the last correction was the first of these rows
 };
 
 }  // namespace convex

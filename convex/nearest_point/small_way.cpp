@@ -137,7 +137,8 @@ bool SmallWay::round() {
   if (small > 0) return false;
   for (Index k = 0; k < t.size; ++k) {
     const double step = t.correction[k], sum = t.held_lambda[k] + step;
-    const bool is_zero = std::abs(sum) <= std::max(missing * t.inverse_norm, cancelled * std::abs(step));
+    const double unit = std::sqrt(t.gram_condition / t.square[t.rows[k]]);
+    const bool is_zero = std::abs(sum) <= std::max(missing * unit, cancelled * std::abs(step));
     t.held_lambda[k] = is_zero ? 0 : sum;
     if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
   }

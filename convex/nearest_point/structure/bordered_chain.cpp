@@ -155,6 +155,8 @@ class BorderedChain {
         active_set({Metric::dense(H), left, ConstraintRows(std::move(U)), s, {}}, {.limit = 0});
     if (found.status != Status::solved && found.status != Status::inaccurate) return false;
     d = found.q;
+    // Rows held are bounds on entries of d: they hold without rounding.
+    for (Index j : found.basis) d[bounded[at(j)]] = s[j];
     return d.allFinite();
   }
 
