@@ -118,8 +118,7 @@ bool SmallWay::correct() {
 /// would tell it, or a multiplier turns out negative.
 bool SmallWay::round() {
   SmallScene& t = scene_;
-  const double usual =
-      std::max(scale_ > 0 ? t.first / scale_ : 0, usual_contraction(t.factor_condition, t.gram_condition));
+  const double usual = usual_contraction(t.factor_condition, t.gram_condition);
   const double missing = 4 * std::min(remaining_, t.first * usual) * t.factor_condition;
   const double* const diagonal = problem_.A.diagonal().data();
   double rounded = 0, silenced = 0;

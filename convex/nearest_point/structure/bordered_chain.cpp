@@ -155,8 +155,16 @@ class BorderedChain {
         active_set({Metric::dense(H), left, ConstraintRows(std::move(U)), s, {}}, {.limit = 0});
     if (found.status != Status::solved && found.status != Status::inaccurate) return false;
     d = found.q;
-    // Rows held are bounds on entries of d: they hold without rounding.
-    for (Index j : found.basis) d[bounded[at(j)]] = s[j];
+    // Which bounds hold is settled. They hold without rounding, and the rest is small beside what they bear.
+    std::vector<bool> holds(at(count_), false);
+    for (Index j : found.basis) {
+      d[bounded[at(j)]] = s[j];
+      holds[at(bounded[at(j)])] = true;
+    }
+    std::vector<Index> rest, held;
+    for (Index b = 0; b < count_; ++b) (holds[at(b)] ? held : rest).push_back(b);
+    const Vector load = left(rest) - H(rest, held) * d(held);
+    if (!rest.empty()) d(rest) = Metric::dense(H(rest, rest)).solve(load);
     return d.allFinite();
   }
 
