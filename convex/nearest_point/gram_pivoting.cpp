@@ -14,6 +14,9 @@ constexpr Index rooms = 2, rooms_up_to_200 = 3, unfilled = 128;
 /// A smaller violation than this part of the scale does not count.
 constexpr double violation = 1e-12;
 
+/// Where no more than one row in so many changes, the factor is brought up to date; else it is made anew.
+constexpr Index most_changes = 6;
+
 /// Blocks that do not lower the number of wrong rows before pivoting has lost its way.
 constexpr int patience = 4;
 
@@ -55,12 +58,13 @@ GramPivoting::GramPivoting(const NearestPointProblem& problem, Arena& arena, con
   column_ = arena.take<double>(capacity_);
   state_ = arena.take_filled<Index>(m_, outside);
   list_ = arena.take<Index>(m_);
+  entering_ = arena.take<Index>(m_);
 }
 
 Index GramPivoting::lines(Index n, Index m) {
   const Index most = places(n, m), k = std::min(n, m);
   return GramRows::lines(n, m, most) + GramFactor::lines(k) +
-         (3 * most + 2 * padded(n) + 3 * padded(m) + 2 * padded(k)) / 8;
+         (3 * most + 2 * padded(n) + 4 * padded(m) + 2 * padded(k)) / 8;
 }
 
 bool GramPivoting::all_known() const { return m_ <= few_rows; }
@@ -138,6 +142,7 @@ bool GramPivoting::settle_again() {
   rows_.reload();
   for (Index a = 0; a < m_; ++a)
     if (state_[a] == passed) state_[a] = outside;
+  has_dependent_rows_ = false;
   steps_ = 0;
   return pivot();
 }
@@ -251,9 +256,10 @@ Index GramPivoting::choose_deepest(Index count, Index room) {
   return std::min(kept, std::max<Index>(2, room * kept / among));
 }
 
-/// Holds the first `count` rows of the list.
+/// Holds the first `count` rows of the list, and lets go of those that count as held no more.
 bool GramPivoting::take_in(Index count) {
   steps_ += count;
+  std::copy_n(list_, count, entering_);
   Index fresh = 0;
   for (Index k = 0; k < count; ++k) {
     state_[list_[k]] = held;
@@ -262,8 +268,29 @@ bool GramPivoting::take_in(Index count) {
   const bool room = fresh == 0 || rows_.add(list_, fresh);
   for (Index k = 0; k < fresh; ++k)
     if (rows_.place(list_[k]) < 0) state_[list_[k]] = outside;
-  collect();
+  Index leaving = 0;
+  for (Index j = 0; j < set_.size(); ++j) leaving += !holds(row(j));
+  if (!room || !set_.is_factored() || most_changes * (leaving + count) > set_.size())
+    collect();
+  else
+    change(count);
   return room;
+}
+
+/// Brings the factor up to date, row by row, the first `count` of entering_ being new.
+void GramPivoting::change(Index count) {
+  for (Index j = set_.size(); j-- > 0;)
+    if (!holds(row(j))) set_.remove(j);
+  for (Index k = 0; k < count; ++k) {
+    const Index place = rows_.place(entering_[k]);
+    const double rest = set_.distance(place, column_);
+    if (rest > near_dependence * rows_.square(place)) {
+      set_.append(place, column_, rest);
+    } else {
+      state_[entering_[k]] = passed;
+      has_dependent_rows_ = true;
+    }
+  }
 }
 
 bool GramPivoting::hold_also(const Index* rows, Index count) {

@@ -90,6 +90,7 @@ class GramPivoting {
   Index choose_deepest(Index count, Index room);
   Index skip_parallel_rows(Index count);
   bool take_in(Index count);
+  void change(Index count);
   bool pivot_by_parts();
   void find_slacks_of_known();
   Index list_violated_known(State state);
@@ -113,7 +114,7 @@ class GramPivoting {
   const double *w_free_, *row_scale_;
   GramFactor set_;  // of the rows held
   double *lambda_, *w_, *q_, *slack_, *known_slack_, *load_, *column_;
-  Index *state_, *list_;
+  Index *state_, *list_, *entering_;
   Index steps_ = 0;
   Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
   double energy_ = 0, force_norm_ = 0;

@@ -5,9 +5,6 @@
 namespace convex {
 namespace {
 
-/// A correction below this is made of the rounding of the residuals, which the condition of A enlarges.
-constexpr double at_rounding = 0x1p-80;
-
 /// Beyond this the corrections do not converge fast enough to be trusted.
 constexpr double slowest_contraction = 0.25;
 

@@ -10,6 +10,10 @@ namespace convex {
 /// rounded answer and the signs of its slacks can need.
 inline constexpr double enough = 0x1p-68;
 
+/// A correction below this part of the scale is made of the rounding of the residuals, which the condition of
+/// A enlarges: it does not shrink any more.
+inline constexpr double at_rounding = 0x1p-80;
+
 /// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
 /// what is missing by this much.
 inline constexpr double largest_contraction = 0x1p-20;

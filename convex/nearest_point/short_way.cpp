@@ -174,7 +174,9 @@ bool ShortWay::correct(bool is_first, double small) {
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   scale_ = std::max(acceleration_norm_, force_norm_);
   is_fresh_ = is_first || has_changed;
-  const double seen = is_fresh_ ? (scale_ > 0 ? first_ / scale_ : 0) : previous > 0 ? first_ / previous : 0;
+  const double seen = is_fresh_ ? (scale_ > 0 ? first_ / scale_ : 0)
+                      : first_ > at_rounding * scale_ && previous > 0 ? first_ / previous
+                                                                      : 0;
   const double usual = std::max(seen, usual_contraction(problem_.A.factor_condition(), gram_condition_));
   // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
   // with the same rows shows by how much.
