@@ -95,7 +95,7 @@ bool GramPivoting::factor() {
     const bool left = set_.leave_dependent(2 * near_dependence, [&](Index j) {
       if (state_[row(j)] != held || (firm_ >= 0 && j < firm_)) return false;
       state_[row(j)] = passed;
-      has_dependent_rows_ = true;
+      by_single_steps_ = true;
       return true;
     });
     if (!left) return false;
@@ -142,9 +142,10 @@ bool GramPivoting::settle_again() {
   rows_.reload();
   for (Index a = 0; a < m_; ++a)
     if (state_[a] == passed) state_[a] = outside;
-  has_dependent_rows_ = false;
   steps_ = 0;
-  return pivot();
+  start_pivoting();
+  by_single_steps_ = true;  // little is wrong
+  return pivot_by_parts();
 }
 
 void GramPivoting::point(double* w, double* q) const {
@@ -194,18 +195,28 @@ std::vector<Index> GramPivoting::one_sided_rows_held() const {
   return rows;
 }
 
-bool GramPivoting::pivot() {
+void GramPivoting::start_pivoting() {
   contradiction_.reset();
+  by_single_steps_ = false;
   force_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
+}
+
+bool GramPivoting::pivot() {
+  start_pivoting();
   return (m_ <= few_per_coordinate * n_ && pivot_at_once()) || pivot_by_parts();
 }
 
 bool GramPivoting::pivot_at_once() {
   Index fewest = m_ + 1;
   for (int impatience = 0; impatience <= patience;) {
-    if (!find_multipliers() || has_dependent_rows_) return false;
+    if (!find_multipliers() || by_single_steps_) return false;
     find_slacks();
     Index count = list_violated(outside);
+    // At a vertex, of which there may be many where rows just hold, single steps do not lose their way.
+    if (set_.size() == n_ && has_negative()) {
+      by_single_steps_ = true;
+      return false;
+    }
     const Index leaving = drop_negative();
     if (leaving + count == 0) return list_violated(passed) == 0;
     impatience = leaving + count < fewest ? 0 : impatience + 1;
@@ -229,6 +240,12 @@ Index GramPivoting::list_violated(State state) {
   return count;
 }
 
+bool GramPivoting::has_negative() const {
+  for (Index j = 0; j < set_.size(); ++j)
+    if (state_[row(j)] == held && lambda_[set_.place(j)] < 0) return true;
+  return false;
+}
+
 /// Lets go of the one-sided rows whose multiplier is not positive; `collect` is to follow.
 Index GramPivoting::drop_negative() {
   Index leaving = 0;
@@ -246,13 +263,13 @@ Index GramPivoting::choose_deepest(Index count, Index room) {
   const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
   // Whether rows are repeated is seen when a large block comes in first.
   const bool is_first = set_.size() == 0 && count >= few_rows && !all_known();
-  const bool some_repeat = has_dependent_rows_ || is_first;
+  const bool some_repeat = by_single_steps_ || is_first;
   const Index among = std::min(count, some_repeat ? 2 * room : room);
   if (count > among) std::nth_element(list_, list_ + among, list_ + count, deeper);
   if (!some_repeat) return among;
   const Index kept = skip_parallel_rows(among);
   if (kept == among) return std::min(kept, room);
-  has_dependent_rows_ = true;
+  by_single_steps_ = true;
   return std::min(kept, std::max<Index>(2, room * kept / among));
 }
 
@@ -288,7 +305,7 @@ void GramPivoting::change(Index count) {
       set_.append(place, column_, rest);
     } else {
       state_[entering_[k]] = passed;
-      has_dependent_rows_ = true;
+      by_single_steps_ = true;
     }
   }
 }

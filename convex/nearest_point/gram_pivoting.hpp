@@ -81,17 +81,20 @@ class GramPivoting {
 
   bool all_known() const;
   bool start(const std::vector<Index>& guess);
+  void start_pivoting();
   bool pivot();
   bool pivot_at_once();
   Index block_of(Index violated) const;
   double counted_violation() const;
   Index list_violated(State state);
+  bool has_negative() const;
   Index drop_negative();
   Index choose_deepest(Index count, Index room);
   Index skip_parallel_rows(Index count);
   bool take_in(Index count);
   void change(Index count);
   bool pivot_by_parts();
+  Index fill_up(Index count);
   void find_slacks_of_known();
   Index list_violated_known(State state);
   bool settle_known();
@@ -118,7 +121,7 @@ class GramPivoting {
   Index steps_ = 0;
   Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
   double energy_ = 0, force_norm_ = 0;
-  bool has_dependent_rows_ = false, any_close_ = false;
+  bool by_single_steps_ = false, any_close_ = false;
   const double* target_;  // the loads that are solved for, at places
   std::optional<Vector> contradiction_;
 };

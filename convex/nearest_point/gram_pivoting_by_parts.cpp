@@ -22,22 +22,29 @@ constexpr double noise = 1e-9;
 /// Many rows to a coordinate: a block of violated rows is settled among the rows looked at before all are
 /// looked at again. What has been looked at only grows and its dual objective with it, so this ends.
 bool GramPivoting::pivot_by_parts() {
-  for (Index a = 0; a < m_; ++a)
+  Index count_held = 0, kept = 0;
+  for (Index a = 0; a < m_; ++a) {
     if (state_[a] == passed) state_[a] = outside;
-  collect();
+    count_held += holds(a);
+  }
+  for (Index j = 0; j < set_.size(); ++j) kept += holds(row(j));
+  if (kept < count_held || kept < set_.size() || !set_.is_factored()) collect();
   const Index part = padded(1 + static_cast<Index>(part_of_coordinates * static_cast<double>(n_)));
   while (true) {
-    if ((has_dependent_rows_ || !settle_known()) && !descend_known()) return false;
+    if ((by_single_steps_ || !settle_known()) && !descend_known()) return false;
     if (all_known()) return true;
     find_slacks();
     Index count = list_violated(outside);
     if (count == 0) return true;
-    count = choose_deepest(count, has_dependent_rows_ ? 8 : std::min(block_of(count), part));
+    count = choose_deepest(count, by_single_steps_ ? 8 : std::min(block_of(count), part));
     for (Index k = 0; k < count; ++k)
       if (rows_.place(list_[k]) >= 0) return false;  // settled, and yet violated: doubles do not tell
-    if (!rows_.add(list_, count)) return false;
     steps_ += count;
-    if (has_dependent_rows_) continue;
+    if (by_single_steps_) {
+      if (!rows_.add(list_, fill_up(count))) return false;
+      continue;
+    }
+    if (!rows_.add(list_, count)) return false;
     for (Index k = 0; k < std::min(count, capacity_ - set_.size()); ++k) state_[list_[k]] = held;
     collect();
   }
@@ -63,6 +70,14 @@ Index GramPivoting::skip_parallel_rows(Index count) {
     if (!repeats) list_[kept++] = list_[k];
   }
   return kept;
+}
+
+/// Fills the list up to a whole block with rows that have not been looked at. Its new length.
+Index GramPivoting::fill_up(Index count) {
+  const Index chosen = count;
+  for (Index a = 0; a < m_ && count % 8 != 0; ++a)
+    if (rows_.place(a) < 0 && std::find(list_, list_ + chosen, a) == list_ + chosen) list_[count++] = a;
+  return count;
 }
 
 void GramPivoting::find_slacks_of_known() {

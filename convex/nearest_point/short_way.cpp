@@ -18,6 +18,9 @@ constexpr double near = 1e-8;
 /// Multipliers and slacks up to so many times the largest wrong one may change.
 constexpr double room_for_change = 256;
 
+/// Corrections are cheap here: they are made until what is left lies so far below the scale.
+constexpr double plenty = 0x1p-76;
+
 /// Slower corrections are left to an orthogonal factor.
 constexpr double slowest_contraction = 0x1p-6;
 
@@ -100,7 +103,7 @@ bool ShortWay::finish(const Accuracy& accuracy, Solution& solution) {
   for (int pass = 0; pass < most_passes; ++pass) {
     if (!correct(pass == 0, small)) return false;
     small = 0;
-    if (!(remaining_ <= enough * scale_)) continue;
+    if (!(remaining_ <= plenty * scale_)) continue;
     wrong_ = 0;
     if (!take_noise_for_zero(more > 0)) {
       more -= 1;
@@ -233,11 +236,13 @@ bool ShortWay::take_noise_for_zero(bool more) {
   const double missing = 4 * likely_ * problem_.A.factor_condition();
   // The second correction of an entry is more than what is missing in it.
   const auto noise_of = [&](double unit, double step) {
-    return is_fresh_ ? std::max(missing * unit, cancelled * std::abs(step)) : 2 * std::abs(step);
+    return is_fresh_ ? std::max(missing * unit, cancelled * std::abs(step))
+                     : std::max(at_rounding * scale_ * unit, 2 * std::abs(step));
   };
   for (Index i = 0; i < n_ && more; ++i)
     if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), dq_[i]) &&
-        !(std::abs(q_[i]) <= 16 * usual * std::abs(dq_[i])))
+        !(std::abs(q_[i]) <= std::max(16 * usual * std::abs(dq_[i]),
+                                      at_rounding * scale_ * std::sqrt(inverse_diagonal_[i]))))
       return false;
   double rounded = 0, silenced = 0;
   for (Index i = 0; i < n_; ++i) {
