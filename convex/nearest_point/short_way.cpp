@@ -187,8 +187,7 @@ bool ShortWay::correct(bool is_first, double small) {
       is_fresh_ ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
                : usual;
   if (!(contraction <= slowest_contraction)) return false;
-  remaining_ =
-      first_ * contraction / (1 - contraction) + 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
+  remaining_ = first_ * contraction / (1 - contraction) + floor_of_residuals();
   likely_ = std::min(remaining_, first_ * usual);
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
@@ -229,24 +228,30 @@ void ShortWay::rest_loads(bool is_first, bool with_outside) {
   }
 }
 
+/// What the rounding of residuals in twice the working precision leaves.
+double ShortWay::floor_of_residuals() const {
+  return 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
+}
+
 /// Takes what cancels for 0; or false, if `more`, when another correction may tell some of it from 0.
 /// `wrong_` becomes the size of a negative multiplier, if there is one.
 bool ShortWay::take_noise_for_zero(bool more) {
   const double usual = usual_contraction(problem_.A.factor_condition(), gram_condition_);
   const double missing = 4 * likely_ * problem_.A.factor_condition();
   // The second correction of an entry is more than what is missing in it.
-  const auto noise_of = [&](double unit, double step) {
+  const auto noise_of = [&](double unit, double floor, double step) {
     return is_fresh_ ? std::max(missing * unit, cancelled * std::abs(step))
-                     : std::max(at_rounding * scale_ * unit, 2 * std::abs(step));
+                     : std::max(floor * unit, 2 * std::abs(step));
   };
+  const double floor = at_rounding * scale_, floor_of_multipliers = floor_of_residuals();
   for (Index i = 0; i < n_ && more; ++i)
-    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), dq_[i]) &&
+    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), floor, dq_[i]) &&
         !(std::abs(q_[i]) <= std::max(16 * usual * std::abs(dq_[i]),
-                                      at_rounding * scale_ * std::sqrt(inverse_diagonal_[i]))))
+                                      floor * std::sqrt(inverse_diagonal_[i]))))
       return false;
-  double rounded = 0, silenced = 0;
+  double rounded = 0, silenced = 0, let_pull = 0;
   for (Index i = 0; i < n_; ++i) {
-    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), dq_[i])) {
+    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), floor, dq_[i])) {
       silenced += problem_.A.diagonal()[i] * q_[i] * q_[i];
       q_[i] = q_low_[i] = 0;
     }
@@ -256,13 +261,18 @@ bool ShortWay::take_noise_for_zero(bool more) {
     const Index place = set_->place(j);
     // Rows may be told in units far apart: each multiplier is measured by the length of its own.
     const double unit = std::sqrt(gram_condition_ / set_->rows().square(place));
-    if (std::abs(lambda_[j]) <= noise_of(unit, y_[place])) lambda_[j] = total_[place] = 0;
-    if (!set_->is_two_sided(rows_[j]))
-      wrong_ = std::max(wrong_, -lambda_[j] * std::sqrt(set_->rows().square(place)));
+    const double pull = -lambda_[j] * std::sqrt(set_->rows().square(place));
+    const bool may_be_wrong = pull > 0 && !set_->is_two_sided(rows_[j]);
+    if (std::abs(lambda_[j]) <= noise_of(unit, floor_of_multipliers, y_[place])) {
+      lambda_[j] = total_[place] = 0;
+      if (may_be_wrong) let_pull += pull;
+    } else if (may_be_wrong) {
+      wrong_ = std::max(wrong_, pull);
+    }
   }
   rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
   silenced_ = std::sqrt(static_cast<double>(n_) * silenced);
-  bound_ = 2 * remaining_ + silenced_ + rounding_;
+  bound_ = 2 * remaining_ + silenced_ + rounding_ + let_pull;
   return true;
 }
 

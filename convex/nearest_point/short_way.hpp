@@ -34,6 +34,7 @@ class ShortWay {
   void take_point();
   void list_rows_held();
   bool correct(bool is_first, double small);
+  double floor_of_residuals() const;
   bool take_noise_for_zero(bool more);
   void residual(bool is_first);
   void rest_loads(bool is_first, bool with_outside);

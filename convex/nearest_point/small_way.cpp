@@ -121,7 +121,7 @@ bool SmallWay::round() {
   const double usual = usual_contraction(t.factor_condition, t.gram_condition);
   const double missing = 4 * std::min(remaining_, t.first * usual) * t.factor_condition;
   const double* const diagonal = problem_.A.diagonal().data();
-  double rounded = 0, silenced = 0;
+  double rounded = 0, silenced = 0, let_pull = 0;
   Index small = 0;
   for (Index i = 0; i < t.n; ++i) {
     const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
@@ -139,11 +139,12 @@ bool SmallWay::round() {
     const double unit = std::sqrt(t.gram_condition / t.square[t.rows[k]]);
     const bool is_zero = std::abs(sum) <= std::max(missing * unit, cancelled * std::abs(step));
     t.held_lambda[k] = is_zero ? 0 : sum;
+    if (is_zero && sum < 0 && !t.two_sided[t.rows[k]]) let_pull -= sum * std::sqrt(t.square[t.rows[k]]);
     if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
   }
   rounding_ = std::sqrt(static_cast<double>(t.n) * rounded);
   silenced_ = std::sqrt(static_cast<double>(t.n) * silenced);
-  bound_ = 2 * remaining_ + silenced_ + rounding_;
+  bound_ = 2 * remaining_ + silenced_ + rounding_ + let_pull;
   return true;
 }
 
