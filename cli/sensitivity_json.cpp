@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/sensitivity.hpp"
+#include "convex/nearest_point/multipliers/sensitivity.hpp"
 
 namespace cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cli/text_table.hpp"
-#include "convex/nearest_point/sensitivity.hpp"
+#include "convex/nearest_point/multipliers/sensitivity.hpp"
 
 namespace cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/largest_move.hpp"
+#include "convex/nearest_point/multipliers/largest_move.hpp"
 #include "mechanics/data_radii.hpp"
 #include "mechanics/units.hpp"
 

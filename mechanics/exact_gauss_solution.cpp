@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/residuals.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "convex/laws/worst_check.hpp"
-#include "convex/nearest_point/kkt_residual.hpp"
-#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {

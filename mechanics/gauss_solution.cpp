@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 #include "mechanics/vertex.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/methods.hpp"
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "mechanics/hypothesis.hpp"
 #include "mechanics/reaction_from_dual.hpp"
 

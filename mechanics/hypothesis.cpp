@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace mechanics {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 

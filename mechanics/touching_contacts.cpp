@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace mechanics {
 

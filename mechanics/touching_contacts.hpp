@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 
 namespace mechanics {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "convex/exact/fraction.hpp"
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 

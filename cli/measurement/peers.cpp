@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "convex/nearest_point/judged.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 
 namespace cli {
 namespace {

@@ -40,7 +40,8 @@ GridSum::GridSum(const Vector& q) : q_(q) {
     step = std::min(step, lowest_bit(x));
     largest = std::max(largest, std::abs(x));
   }
-  if (largest == 0) step = 1;
+  is_zero_ = largest == 0;
+  if (is_zero_) return;
   const double steps = static_cast<double>(q.size()) * largest / step;
   if (!(steps <= most_steps) || !std::isnormal(step)) return;
   step_ = step;
@@ -48,6 +49,7 @@ GridSum::GridSum(const Vector& q) : q_(q) {
 }
 
 std::optional<double> GridSum::value(const double* u, double s) const {
+  if (is_zero_) return -s;
   if (step_ == 0) return std::nullopt;
   const Index n = q_.size();
   double largest = 0;

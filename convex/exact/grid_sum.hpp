@@ -16,6 +16,7 @@ class GridSum {
 
  private:
   const Vector& q_;
+  bool is_zero_ = false;
   double step_ = 0;   ///< all of q are multiples of this power of 2; 0 when there are too many of them
   double steps_ = 0;  ///< at least n max |q_i| / step_
 };

@@ -8,7 +8,7 @@
 #include "convex/linear_quadratic/definite_part.hpp"
 #include "convex/linear_quadratic/polish.hpp"
 #include "convex/linear_quadratic/stationarity.hpp"
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 
 namespace convex {
 namespace {

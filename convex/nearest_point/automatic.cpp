@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/guess.hpp"
-#include "convex/nearest_point/kkt_residual.hpp"
+#include "convex/nearest_point/isotonic/bordered_chain.hpp"
+#include "convex/nearest_point/isotonic/chain.hpp"
 #include "convex/nearest_point/methods/proximal_point.hpp"
-#include "convex/nearest_point/residuals.hpp"
-#include "convex/nearest_point/structure/bordered_chain.hpp"
-#include "convex/nearest_point/structure/chain.hpp"
-#include "convex/nearest_point/structure/closed_form.hpp"
-#include "convex/nearest_point/structure/islands.hpp"
-#include "convex/nearest_point/structure/joined_islands.hpp"
-#include "convex/nearest_point/structure/left_out.hpp"
-#include "convex/nearest_point/structure/obstacle.hpp"
-#include "convex/nearest_point/structure/sparse_active_set.hpp"
+#include "convex/nearest_point/obstacle/obstacle.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/reductions/closed_form.hpp"
+#include "convex/nearest_point/reductions/islands.hpp"
+#include "convex/nearest_point/reductions/joined_islands.hpp"
+#include "convex/nearest_point/reductions/left_out.hpp"
+#include "convex/nearest_point/sparse/sparse_active_set.hpp"
 
 namespace convex {
 namespace {

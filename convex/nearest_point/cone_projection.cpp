@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/orthogonal_factor.hpp"
+#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
 
 namespace convex {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <array>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/judged.hpp"
 #include "convex/nearest_point/methods/accelerated_gradient.hpp"
 #include "convex/nearest_point/methods/admm.hpp"
 #include "convex/nearest_point/methods/block_pivoting.hpp"
 #include "convex/nearest_point/methods/ceres_method.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/drop_negative.hpp"
 #include "convex/nearest_point/methods/enumerate.hpp"
 #include "convex/nearest_point/methods/interior_point.hpp"

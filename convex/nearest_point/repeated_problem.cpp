@@ -1,10 +1,10 @@
 #include "convex/nearest_point/repeated_problem.hpp"
 
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/active_set.hpp"
-#include "convex/nearest_point/short_way.hpp"
-#include "convex/nearest_point/small_way.hpp"
-#include "convex/nearest_point/well_conditioned.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/pivoting/gram_method.hpp"
+#include "convex/nearest_point/pivoting/gram_solve.hpp"
+#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
 
 namespace convex {
 
@@ -12,9 +12,9 @@ struct RepeatedProblem::State {
   NearestPointProblem problem;
   Accuracy accuracy;
   Arena arena;
-  std::optional<ShortWay> way;
-  std::unique_ptr<SmallScene> scene;
-  std::optional<SmallWay> small_way;
+  std::optional<GramSolve> way;
+  std::unique_ptr<SmallTableau> scene;
+  std::optional<SmallGramSolve> small_way;
   bool settled = false, small_settled = false;  // each way ended with rows to begin from
   Solution solution;
 };
@@ -38,9 +38,9 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.z = z;
   state.problem.s = s;
   if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
-    if (SmallWay::fits(state.problem)) {
+    if (SmallGramSolve::fits(state.problem)) {
       if (!state.small_settled) {
-        if (!state.scene) state.scene = std::make_unique<SmallScene>();
+        if (!state.scene) state.scene = std::make_unique<SmallTableau>();
         state.small_way.emplace(state.problem, *state.scene);
         state.small_settled = state.small_way->solve({}, state.accuracy, state.solution);
       } else {

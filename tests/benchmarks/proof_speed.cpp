@@ -3,7 +3,7 @@
 #include <ctime>
 #include <random>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 

@@ -1,7 +1,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "convex/nearest_point/orthogonal_factor.hpp"
+#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
 
 using convex::DoubleDouble;
 using convex::Index;

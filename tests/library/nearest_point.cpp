@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "convex/nearest_point/farkas.hpp"
 #include "convex/nearest_point/methods.hpp"
+#include "convex/nearest_point/optimality/farkas.hpp"
 
 using namespace convex;
 

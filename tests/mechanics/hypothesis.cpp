@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <random>
 
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "mechanics/gauss_solution.hpp"
 
 using convex::Index;

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "convex/nearest_point/methods.hpp"
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "tests/stability/naive_methods.hpp"
 
 using convex::GalleryInstance;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/judged.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 
 using convex::Index;
 using convex::Matrix;
@@ -149,14 +149,14 @@ Answer barrier(const NearestPointProblem& problem, double weight) {
 }
 
 convex::Status judged(const NearestPointProblem& problem, const Answer& answer) {
-  return convex::judged(problem,
-                        {.method = "naive",
-                         .q = answer.q,
-                         .lambda = answer.lambda,
-                         .farkas = {},
-                         .finished = answer.says_solved,
-                         .may_polish = false},
-                        {})
+  return convex::crossover(problem,
+                           {.method = "naive",
+                            .q = answer.q,
+                            .lambda = answer.lambda,
+                            .farkas = {},
+                            .finished = answer.says_solved,
+                            .may_polish = false},
+                           {})
       .status;
 }
 

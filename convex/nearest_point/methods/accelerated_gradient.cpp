@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/iteration.hpp"
-#include "convex/nearest_point/scaled_problem.hpp"
-#include "convex/nearest_point/working_set.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/methods/iteration.hpp"
+#include "convex/nearest_point/reductions/scaled_problem.hpp"
 
 namespace convex {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/iteration.hpp"
-#include "convex/nearest_point/regularised_kkt.hpp"
-#include "convex/nearest_point/scaled_problem.hpp"
+#include "convex/nearest_point/methods/iteration.hpp"
+#include "convex/nearest_point/reductions/scaled_problem.hpp"
+#include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
 namespace convex {
 namespace {

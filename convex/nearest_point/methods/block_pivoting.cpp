@@ -2,8 +2,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "convex/nearest_point/active_set.hpp"
-#include "convex/nearest_point/complementarity.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/optimality/complementarity.hpp"
 
 namespace convex {
 namespace {
@@ -111,7 +111,7 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
     if (!candidate.finished) break;
     candidate.lambda = white.multipliers(problem, lcp.with_free(white, y));
     candidate.farkas = white.weights(problem, lcp.with_free(white, y - center));
-    Solution found = judged(problem, candidate, accuracy);
+    Solution found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
     center = y;
   }
@@ -130,7 +130,7 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
     candidate.farkas = one_by_one.farkas;
     candidate.steps += one_by_one.steps;
   }
-  return judged(problem, candidate, accuracy);
+  return crossover(problem, candidate, accuracy);
 }
 
 }  // namespace convex

@@ -4,8 +4,8 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/loaded_module.hpp"
-#include "convex/nearest_point/iteration.hpp"
-#include "convex/nearest_point/whitened_problem.hpp"
+#include "convex/nearest_point/methods/iteration.hpp"
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 namespace convex {
 namespace {

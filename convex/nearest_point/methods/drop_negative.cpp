@@ -2,8 +2,8 @@
 
 #include <numeric>
 
-#include "convex/nearest_point/judged.hpp"
-#include "convex/nearest_point/refinement.hpp"
+#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 
 namespace convex {
 namespace {
@@ -50,7 +50,7 @@ Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accur
   Candidate candidate{.method = "drop-negative", .q = second.q, .lambda = second.lambda, .farkas = {}};
   candidate.steps = problem.rows() - static_cast<Index>(kept.size());
   candidate.may_polish = false;
-  return judged(problem, candidate, accuracy);
+  return crossover(problem, candidate, accuracy);
 }
 
 }  // namespace convex

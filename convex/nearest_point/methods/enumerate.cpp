@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/dependent_row.hpp"
-#include "convex/nearest_point/farkas.hpp"
-#include "convex/nearest_point/judged.hpp"
+#include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/optimality/farkas.hpp"
 
 namespace convex {
 namespace {
@@ -67,7 +67,7 @@ class Enumeration {
   Solution verdict(const Vector& lambda) const {
     Candidate candidate{.method = "enumerate", .q = {}, .lambda = lambda, .farkas = farkas_};
     candidate.finished = steps_ <= limit_;
-    return judged(problem_, candidate, accuracy_);
+    return crossover(problem_, candidate, accuracy_);
   }
 
   /// Judges W if its point violates little, or if it is the one that violates least so far.

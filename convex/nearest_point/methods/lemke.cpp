@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/complementarity.hpp"
+#include "convex/nearest_point/optimality/complementarity.hpp"
 
 namespace convex {
 namespace {
@@ -138,7 +138,7 @@ Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
   if (pivoting.end == End::ray) candidate.farkas = white.weights(problem, y);
   if (pivoting.end == End::solution) candidate.lambda = white.multipliers(problem, y);
   candidate.finished = pivoting.end == End::solution;
-  Solution found = judged(problem, candidate, accuracy);
+  Solution found = crossover(problem, candidate, accuracy);
   if (found.status == Status::solved || found.status == Status::infeasible || accuracy.step_limit > 0)
     return found;
   // Dependent rows, or rows with no strictly feasible motion, that rounding has spoiled.
@@ -154,7 +154,7 @@ Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
     if (pivoting.end != End::solution) break;
     candidate.lambda = white.multipliers(problem, lcp.with_free(white, center));
     candidate.farkas = white.weights(problem, lcp.with_free(white, center - previous));
-    found = judged(problem, candidate, accuracy);
+    found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
   }
   return found;

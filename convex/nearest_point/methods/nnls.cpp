@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 
 #include "convex/nearest_point/cone_projection.hpp"
-#include "convex/nearest_point/whitened_problem.hpp"
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 namespace convex {
 namespace {
@@ -26,7 +26,7 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
     const ConeProjection cone = cone_projection(white.V, vertex, white.free_columns());
     candidate.lambda = white.multipliers(problem, cone.lambda);
     candidate.finished = cone.finished;
-    Solution found = judged(problem, candidate, accuracy);
+    Solution found = crossover(problem, candidate, accuracy);
     if (found.status == Status::solved) return found;
   }
   Matrix E(n + 1, k);
@@ -38,7 +38,7 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
   candidate.finished = cone.finished;
   if (rest > consistent * consistent) candidate.lambda = white.multipliers(problem, cone.lambda / rest);
   if (rest <= 1e-6) candidate.farkas = white.weights(problem, cone.lambda);
-  return judged(problem, candidate, accuracy);
+  return crossover(problem, candidate, accuracy);
 }
 
 }  // namespace convex

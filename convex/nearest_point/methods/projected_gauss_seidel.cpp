@@ -1,7 +1,7 @@
 #include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
 
-#include "convex/nearest_point/iteration.hpp"
-#include "convex/nearest_point/whitened_problem.hpp"
+#include "convex/nearest_point/methods/iteration.hpp"
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
 
 namespace convex {
 namespace {

@@ -1,7 +1,7 @@
 #include "convex/nearest_point/methods/proximal_point.hpp"
 
-#include "convex/nearest_point/augmented_lagrangian.hpp"
-#include "convex/nearest_point/iteration.hpp"
+#include "convex/nearest_point/methods/augmented_lagrangian.hpp"
+#include "convex/nearest_point/methods/iteration.hpp"
 
 namespace convex {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/residuals.hpp"
 
 namespace convex {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "convex/exact/elimination.hpp"
-#include "convex/nearest_point/active_set.hpp"
-#include "convex/nearest_point/residuals.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace convex {
 

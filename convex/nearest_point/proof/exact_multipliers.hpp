@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/multipliers.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
 namespace convex {

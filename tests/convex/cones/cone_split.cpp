@@ -4,7 +4,7 @@
 
 #include "convex/cones/cone_operations.hpp"
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "tests/convex/cones/random_cone.hpp"
 #include "tests/oracles/brute_force_cone.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/active_set.hpp"
+#include "convex/nearest_point/active_set/active_set.hpp"
 #include "tests/oracles/rational_kkt.hpp"
 
 using convex::GalleryFamily;

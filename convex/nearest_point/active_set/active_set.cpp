@@ -1,0 +1,343 @@
+#include "convex/nearest_point/active_set/active_set.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/active_set/active_set_answer.hpp"
+#include "convex/nearest_point/active_set/degenerate_rows.hpp"
+#include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/active_set/refined_slacks.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/guess.hpp"
+#include "convex/nearest_point/pivoting/gram_method.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Roundings of the terms of w that it carries; a violation below is left to the check in twice the
+/// precision.
+constexpr double rounding_of_w = 8 * unit_roundoff;
+
+/// In a block a row this close to the span of the others is left to the careful steps.
+constexpr double block_dependence = 1e-7;
+
+/// Changes of the working set after a refinement before the method gives up, beyond one for each row, and
+/// before it blames doubles.
+constexpr Index most_rounds = 100, patient_rounds = 4;
+
+template <int MaxSize>
+class DualActiveSet {
+ public:
+  using Set = WorkingSet<MaxSize>;
+  using Split = typename Set::Split;
+
+  DualActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
+      : problem_(problem),
+        accuracy_(accuracy),
+        set_(problem),
+        row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())) {
+    two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
+    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
+    passed_.assign(static_cast<std::size_t>(problem.rows()), false);
+  }
+
+  Solution run(const std::vector<Index>& guess) {
+    if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+    start(guess);
+    const Index limit =
+        accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
+    RefinedPoint refined;
+    for (Index round = 0; round < most_rounds + problem_.rows(); ++round) {
+      if (!descend(limit)) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+      refined = refine(set_);
+      // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
+      if (refined.contraction < 1)
+        seen_noise_ = round < patient_rounds ? std::max(seen_noise_, refined.first) : 2 * w_noise_;
+      if (!(refined.contraction < 1)) return answer(refined, false);
+      if (drop_negative(refined)) continue;
+      const Outcome outcome = admit_violated(refined);
+      if (outcome == Outcome::infeasible) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+      if (outcome == Outcome::unchanged) return answer(refined, true);
+    }
+    set_.solve();
+    return answer(refine(set_), false);
+  }
+
+ private:
+  enum class Outcome { unchanged, changed, infeasible };
+
+  /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
+  /// condition of W amplifies; and what a refinement has seen, which has the condition of A in it.
+  void judge_noise() {
+    double terms = set_.w_free().norm() + set_.w().norm(), longest = 0;
+    for (Index k = 0; k < set_.size(); ++k) {
+      const double length = set_.factor().length(k);
+      terms += std::abs(set_.lambda()[k]) * length;
+      longest = std::max(longest, length);
+    }
+    inverse_norm_ = set_.factor().inverse_norm();
+    w_noise_ = std::max(seen_noise_, rounding_of_w * terms * std::max(1.0, inverse_norm_ * longest));
+  }
+
+  /// What that does to lambda_k |v_k|.
+  double multiplier_noise(Index k) const {
+    return w_noise_ * std::max(1.0, inverse_norm_ * set_.factor().length(k));
+  }
+
+  /// False when the two-sided rows contradict each other.
+  bool hold_two_sided() {
+    Matrix whitened = whitened_rows(problem_, problem_.two_sided);
+    set_.append_block(problem_.two_sided, whitened, block_dependence);
+    for (Index p : problem_.two_sided) {
+      if (set_.holds(p)) continue;
+      if (passed_[static_cast<std::size_t>(p)]) continue;
+      set_.split(p, split_);
+      if (split_.rho > 0) {
+        set_.append(p, split_, 0);
+      } else if (const double gap = contradiction(set_, p, split_); std::abs(gap) > 0) {
+        farkas_ = contradiction_weights(set_, p, split_, gap > 0 ? 1 : -1);
+        return false;
+      }
+    }
+    set_.fix();
+    set_.solve();
+    judge_noise();
+    return true;
+  }
+
+  /// Drops rows with negative multipliers, the most negative first, until none is left.
+  void drop_until_dual_feasible() {
+    while (true) {
+      set_.solve();
+      judge_noise();
+      Index worst = -1;
+      double lowest = 0;
+      for (Index k = 0; k < set_.size(); ++k) {
+        const double push = set_.lambda()[k] * set_.factor().length(k);
+        if (!set_.one_sided(k) || !(push < std::min(lowest, -multiplier_noise(k)))) continue;
+        lowest = push;
+        worst = k;
+      }
+      if (worst < 0) break;
+      set_.remove(worst);
+      ++steps_;
+    }
+    for (Index k = 0; k < set_.size(); ++k)
+      if (set_.one_sided(k)) set_.lambda()[k] = std::max(0.0, set_.lambda()[k]);
+  }
+
+  /// One-sided rows outside W with u_a·q - s_a below `side` times what rounding may make of a zero.
+  std::vector<Index> rows_below(double side) const {
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const double zero = row_scale_[a] * w_noise_ + rounding_of_w * std::abs(problem_.s[a]);
+      const auto i = static_cast<std::size_t>(a);
+      if (slack_[a] < side * zero && !set_.holds(a) && !two_sided_[i] && !passed_[i]) rows.push_back(a);
+    }
+    return rows;
+  }
+
+  /// Rows with u_a·q < s_a beyond rounding.
+  std::vector<Index> violated_rows() {
+    slack_ = problem_.U.times(set_.point()) - problem_.s;
+    return rows_below(-1);
+  }
+
+  void sort_by_violation(std::vector<Index>& rows) const {
+    const auto depth = [&](Index a) {
+      return slack_[a] / std::max(row_scale_[a], std::numeric_limits<double>::min());
+    };
+    std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
+  }
+
+  /// Tries the hypothesis that all touched contacts persist; true when their multipliers allow it.
+  bool start_by_touched(const std::vector<Index>& rows) {
+    Matrix whitened = whitened_rows(problem_, rows);
+    set_.append_block(rows, whitened, block_dependence);
+    set_.solve();
+    judge_noise();
+    steps_ += static_cast<Index>(rows.size());
+    bool allowed = true;
+    for (Index k = 0; k < set_.size() && allowed; ++k)
+      allowed = !set_.one_sided(k) || set_.lambda()[k] * set_.factor().length(k) >= -multiplier_noise(k);
+    if (!allowed)
+      while (set_.size() > 0 && set_.one_sided(set_.size() - 1)) set_.remove(set_.size() - 1);
+    else
+      drop_until_dual_feasible();
+    return allowed;
+  }
+
+  /// Takes in rows to start from, as far as they are independent with multipliers >= 0: those guessed, else
+  /// the rows that the free motion violates or just keeps, as at rest.
+  void start(const std::vector<Index>& guess) {
+    std::vector<Index> rows = guess;
+    if (rows.empty()) {
+      const std::size_t violated = violated_rows().size();
+      if (violated == 0) return;
+      rows = rows_below(1);
+      if (rows.size() > violated && static_cast<Index>(rows.size()) <= set_.factor().capacity() &&
+          start_by_touched(rows))
+        return;
+      rows.clear();
+    }
+    std::erase_if(rows, [&](Index a) { return two_sided_[static_cast<std::size_t>(a)]; });
+    Matrix whitened = whitened_rows(problem_, rows);
+    set_.append_block(rows, whitened, block_dependence);
+    steps_ += static_cast<Index>(rows.size());
+    drop_until_dual_feasible();
+  }
+
+  /// Steps of Goldfarb and Idnani in doubles until no row is violated beyond rounding, or the limit is
+  /// reached. False when a violated row cannot be satisfied.
+  bool descend(Index limit) {
+    while (steps_ < limit) {
+      std::vector<Index> rows = violated_rows();
+      if (rows.empty()) return true;
+      sort_by_violation(rows);
+      bool moved = false;
+      for (Index p : rows) {
+        set_.split(p, split_);
+        if (-slack_[p] <= w_noise_ * split_.length) continue;
+        const Outcome outcome = admit(p, -slack_[p], w_noise_);
+        if (outcome == Outcome::infeasible) return false;
+        if (outcome == Outcome::changed) {
+          moved = true;
+          break;
+        }
+      }
+      if (!moved) return true;
+    }
+    return true;
+  }
+
+  /// Takes in the violated row p, whose split is at hand, dropping the rows that block it on the way.
+  Outcome admit(Index p, double violation, double w_noise) {
+    double multiplier = 0;
+    bool changed = false;
+    while (true) {
+      const bool dependent = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
+      if (dependent) {
+        const double gap = contradiction(set_, p, split_);
+        // A row that is not quite a combination of W takes the place of one that can give way: where nothing
+        // else stops them that is a step of rounding, else the next rows tell.
+        const bool takes_place = w_noise == 0 && !changed && !is_exact_combination(set_, split_);
+        if (gap > 0 || !takes_place || blocking_row(set_, split_) < 0) violation = gap;
+        if (!(violation > 0)) {
+          // Consistent with W to rounding: it holds as well as W does.
+          passed_[static_cast<std::size_t>(p)] = true;
+          flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, p, split_);
+          left_outside_ += split_.rest / split_.length;
+          return changed ? finish_change() : Outcome::unchanged;
+        }
+      }
+      const double full = dependent ? infinity : violation / (split_.rho * split_.rho);
+      const Index blocking = blocking_row(set_, split_);
+      const double partial =
+          blocking < 0 ? infinity : std::max(0.0, set_.lambda()[blocking]) / split_.coefficients[blocking];
+      if (full == infinity && partial == infinity) {
+        farkas_ = contradiction_weights(set_, p, split_, 1);
+        return Outcome::infeasible;
+      }
+      const double step = std::min(full, partial);
+      set_.lambda().head(set_.size()) -= step * split_.coefficients.head(set_.size());
+      multiplier += step;
+      if (!dependent) {
+        set_.w() += step * split_.direction;
+        violation -= step * split_.rho * split_.rho;
+      }
+      ++steps_;
+      changed = true;
+      if (full <= partial) {
+        set_.append(p, split_, multiplier);
+        return finish_change();
+      }
+      set_.remove(blocking);
+      set_.split(p, split_);
+      if (violation <= w_noise * split_.length) {
+        // Both steps end here as far as rounding tells: the row stays, with the multiplier that it has
+        // gained.
+        if (split_.rho > 0) set_.append(p, split_, multiplier);
+        return finish_change();
+      }
+    }
+  }
+
+  Outcome finish_change() {
+    drop_until_dual_feasible();
+    std::fill(passed_.begin(), passed_.end(), false);
+    flat_wedge_ = false;
+    left_outside_ = 0;
+    return Outcome::changed;
+  }
+
+  /// Drops the row whose refined multiplier is most negative; false when there is none.
+  bool drop_negative(const RefinedPoint& refined) {
+    const Index worst = most_negative(set_, refined);
+    if (worst < 0) return false;
+    set_.remove(worst);
+    ++steps_;
+    finish_change();
+    return true;
+  }
+
+  /// Takes in a row that the refined point violates.
+  Outcome admit_violated(RefinedPoint& refined) {
+    slack_ = refined_slacks(set_, refined, row_scale_);
+    const double left = refined.remaining();
+    std::vector<Index> rows;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (slack_[a] < 0 && !two_sided_[static_cast<std::size_t>(a)]) rows.push_back(a);
+    sort_by_violation(rows);
+    for (Index p : rows) {
+      if (passed_[static_cast<std::size_t>(p)]) continue;
+      set_.split(p, split_);
+      if (split_.rho > 0 && -slack_[p] <= 2 * left * split_.length) continue;
+      set_.lambda().head(set_.size()) = refined.lambda.hi;
+      const Outcome outcome = admit(p, -slack_[p], 0);
+      if (outcome != Outcome::unchanged) return outcome;
+    }
+    return Outcome::unchanged;
+  }
+
+  Solution answer(const RefinedPoint& refined, bool finished) {
+    if (!finished || slack_.size() != problem_.rows()) slack_ = problem_.U.times(refined.q.hi) - problem_.s;
+    const std::string_view open =
+        finished ? decide_degenerate_rows(set_, refined.q, row_scale_, slack_) : open_question::conditioning;
+    const double outside = open.empty() ? 0 : finished && !flat_wedge_ ? left_outside_ : infinity;
+    Solution solution = judged_answer(set_, refined, slack_, row_scale_, outside, accuracy_, steps_);
+    solution.undecided = open;
+    return solution;
+  }
+
+  const NearestPointProblem& problem_;
+  const Accuracy& accuracy_;
+  Set set_;
+  Vector row_scale_;  // ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n²
+  std::vector<bool> two_sided_, passed_;
+  Vector slack_, farkas_;
+  Split split_;
+  bool flat_wedge_ = false;
+  Index steps_ = 0;
+  // left_outside_: parts of the rows passed over that W does not span
+  double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0, left_outside_ = 0;
+};
+
+}  // namespace
+
+Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
+                    const std::vector<Index>& guess) {
+  validate(problem);
+  validate_guess(problem, guess);
+  GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
+  if (quick.solution) return *std::move(quick.solution);
+  Solution found = problem.dimension() <= 8
+                       ? DualActiveSet<8>(problem, accuracy).run(quick.rows)
+                       : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(quick.rows);
+  if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
+    found.undecided = open_question::conditioning;
+  return decided_in_fractions(problem, std::move(found), accuracy);
+}
+
+}  // namespace convex

@@ -1,0 +1,98 @@
+#include "convex/nearest_point/active_set/active_set_answer.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/optimality/farkas.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::string_view method = "active-set";
+
+/// A combination of rows that is not exactly 0 excludes motions up to some size only: up to this many times
+/// the free one.
+constexpr double farthest = 1e3;
+
+/// Rounding q to doubles leaves `lo` behind: ||lo||_A² <= n Σ a_ii lo_i².
+double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
+  return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
+}
+
+}  // namespace
+
+template <int MaxSize>
+Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
+                       const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps) {
+  const NearestPointProblem& problem = set.problem();
+  Solution solution;
+  solution.method = method;
+  solution.steps = steps;
+  solution.q = refined.q.hi;
+  solution.lambda = Vector::Zero(problem.rows());
+  Vector length = Vector::Zero(problem.rows());
+  for (Index k = 0; k < set.size(); ++k) {
+    const Index a = set.rows()[static_cast<std::size_t>(k)];
+    solution.lambda[a] = set.one_sided(k) ? std::max(0.0, refined.lambda.hi[k]) : refined.lambda.hi[k];
+    length[a] = set.factor().length(k);
+  }
+  solution.basis = set.rows();
+  solution.slack = slack;
+  solution.acceleration_norm = set.w().norm();
+  solution.force_norm = set.w_free().norm();
+  const double diagonal_norm = std::sqrt(problem.A.diagonal().dot(solution.q.cwiseAbs2()));
+  solution.residuals = residuals(problem, solution.q, solution.lambda,
+                                 KnownParts{std::move(length), slack, row_scale * diagonal_norm,
+                                            solution.acceleration_norm, solution.force_norm});
+
+  double worst = 0;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!set.holds(a)) worst = std::max(worst, -slack[a]);
+  for (Index a : problem.two_sided)
+    if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
+  solution.rounding = rounding_norm(problem, refined.q.lo);
+  double forces = 0, taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
+  for (Index k = 0; k < set.size(); ++k) {
+    const double force = refined.lambda.hi[k] * set.factor().length(k);
+    forces += std::abs(force);
+    if (set.one_sided(k)) taken_for_zero += std::max(0.0, -force);
+  }
+  solution.error_bound =
+      2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
+      worst * set.factor().inverse_norm() +
+      (left_outside > 0 ? left_outside * std::max(forces, std::numeric_limits<double>::min()) : 0);
+  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
+  solution.status = close ? Status::solved : Status::inaccurate;
+  return solution;
+}
+
+Solution infeasible_answer(const NearestPointProblem& problem, const Vector& weights, double scale,
+                           Index steps) {
+  Solution solution;
+  solution.method = method;
+  solution.steps = steps;
+  solution.status = Status::infeasible;
+  if (problem.radii) {
+    if (!proves_infeasibility(problem, weights, farthest * scale)) solution.status = Status::gave_up;
+  } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem, weights)) {
+    solution.farkas = std::move(proof->farkas);
+    return solution;
+  } else {
+    solution.status = Status::gave_up;
+    solution.undecided = open_question::contradiction;
+  }
+  // The smallest weight is 1: combinations of whole contacts read as whole numbers.
+  solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
+  return solution;
+}
+
+template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&,
+                                const Vector&, double, const Accuracy&, Index);
+template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&,
+                                double, const Accuracy&, Index);
+
+}  // namespace convex

@@ -1,0 +1,38 @@
+#include "convex/nearest_point/active_set/degenerate_rows.hpp"
+
+#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+
+namespace convex {
+
+template <int MaxSize>
+std::string_view decide_degenerate_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q,
+                                        const Vector& row_scale, Vector& slack) {
+  const NearestPointProblem& problem = set.problem();
+  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  std::vector<Index> touched;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);
+  if (problem.radii) return touched.empty() ? std::string_view() : open_question::touched;
+  const bool is_exact = keeps_exactly(problem, q.hi, set.rows(), touched);
+  typename WorkingSet<MaxSize>::Split split;
+  SlackOnEdge edge(problem, row_scale.data());
+  for (Index a : touched) {
+    if (is_exact) break;
+    set.split(a, split);
+    const std::optional<int> sign = edge.sign(a, set.rows().data(), set.size(), split.coefficients.data());
+    if (!sign && split.rho > 0) return open_question::touched;
+    if (!sign || *sign < 0 || (*sign > 0 && two_sided[static_cast<std::size_t>(a)]))
+      return open_question::dependence;
+  }
+  for (Index a : touched) slack[a] = 0;
+  return {};
+}
+
+template std::string_view decide_degenerate_rows(WorkingSet<Eigen::Dynamic>&, const DoubleDoubleVector&,
+                                                 const Vector&, Vector&);
+template std::string_view decide_degenerate_rows(WorkingSet<8>&, const DoubleDoubleVector&, const Vector&,
+                                                 Vector&);
+
+}  // namespace convex

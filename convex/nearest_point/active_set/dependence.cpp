@@ -1,0 +1,146 @@
+#include "convex/nearest_point/active_set/dependence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/reductions/islands.hpp"
+
+namespace convex {
+namespace {
+
+/// Beyond so many multiplications there is no dense factor of tight rows.
+constexpr double most_dense_work = 3e9;
+
+bool is_small_enough(Index coordinates, std::size_t rows) {
+  const double n = static_cast<double>(coordinates), k = static_cast<double>(rows);
+  return n * k * std::min(n, k) <= most_dense_work;
+}
+
+Dependence dependence(const NearestPointProblem& problem, const std::vector<Index>& basis,
+                      const std::vector<Index>& tight) {
+  using Set = WorkingSet<Eigen::Dynamic>;
+  Set set(problem);
+  Matrix whitened = whitened_rows(problem, basis);
+  set.append_block(basis, whitened, 0);
+  Dependence found;
+  Set::Split split;
+  std::vector<Vector> expansions;  // rows taken in later have no part in them
+  for (Index a : tight) {
+    if (set.holds(a)) continue;
+    set.split(a, split);
+    if (split.rho > 0 && set.size() < set.factor().capacity()) {
+      set.append(a, split, 0);
+      continue;
+    }
+    found.dependent.push_back(a);
+    const double noise = 64 * unit_roundoff * split.magnitude;  // of a coefficient times its row's length
+    Vector& expansion = expansions.emplace_back(Vector::Zero(set.size()));
+    for (Index k = 0; k < set.size(); ++k)
+      if (std::abs(split.coefficients[k]) * set.factor().length(k) > noise)
+        expansion[k] = split.coefficients[k];
+  }
+  found.basic = set.rows();
+  found.T = Matrix::Zero(set.size(), static_cast<Index>(found.dependent.size()));
+  for (std::size_t p = 0; p < expansions.size(); ++p)
+    found.T.col(static_cast<Index>(p)).head(expansions[p].size()) = expansions[p];
+  return found;
+}
+
+/// The groups of rows that nonzero entries of T tie together, each with its part of T.
+void split_by_ties(const Dependence& whole, std::vector<Dependence>& groups) {
+  const Index k = whole.T.rows(), d = whole.T.cols();
+  std::vector<Index> group_of_row(static_cast<std::size_t>(k), -1);
+  std::vector<bool> seen(static_cast<std::size_t>(d), false);
+  for (Index first = 0; first < d; ++first) {
+    if (seen[static_cast<std::size_t>(first)]) continue;
+    std::vector<Index> rows, columns{first};
+    seen[static_cast<std::size_t>(first)] = true;
+    for (std::size_t next = 0; next < columns.size(); ++next)
+      for (Index r = 0; r < k; ++r) {
+        if (whole.T(r, columns[next]) == 0 || group_of_row[static_cast<std::size_t>(r)] >= 0) continue;
+        group_of_row[static_cast<std::size_t>(r)] = first;
+        rows.push_back(r);
+        for (Index p = 0; p < d; ++p) {
+          if (whole.T(r, p) == 0 || seen[static_cast<std::size_t>(p)]) continue;
+          seen[static_cast<std::size_t>(p)] = true;
+          columns.push_back(p);
+        }
+      }
+    std::sort(rows.begin(), rows.end());
+    std::sort(columns.begin(), columns.end());
+    Dependence group;
+    for (Index r : rows) group.basic.push_back(whole.basic[static_cast<std::size_t>(r)]);
+    for (Index p : columns) group.dependent.push_back(whole.dependent[static_cast<std::size_t>(p)]);
+    group.T = whole.T(rows, columns);
+    groups.push_back(std::move(group));
+  }
+}
+
+void rename(std::vector<Index>& rows, const std::vector<Index>& names) {
+  for (Index& row : rows) row = names[static_cast<std::size_t>(row)];
+}
+
+}  // namespace
+
+std::optional<std::vector<Dependence>> dependences(const NearestPointProblem& problem,
+                                                   const std::vector<Index>& basis,
+                                                   const std::vector<Index>& tight) {
+  std::vector<Dependence> groups;
+  if (tight.size() == basis.size()) return groups;
+  constexpr std::size_t few = 64;
+  if (tight.size() <= few && is_small_enough(problem.dimension(), tight.size())) {
+    split_by_ties(dependence(problem, basis, tight), groups);
+    return groups;
+  }
+  // Rows that share no coordinate do not depend on each other, whatever A couples.
+  const Index k = static_cast<Index>(tight.size());
+  const NearestPointProblem held{
+      Metric::diagonal(problem.A.diagonal()), problem.z, problem.U.select(tight), Vector::Zero(k), {}};
+  const IslandLists islands = list_islands(find_islands(held));
+  std::vector<bool> in_basis(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : basis) in_basis[static_cast<std::size_t>(a)] = true;
+  std::vector<Index> place(static_cast<std::size_t>(problem.dimension()));
+  for (std::size_t i = 0; i < islands.rows.size(); ++i) {
+    std::vector<Index> names, own_basis;
+    for (std::size_t r = 0; r < islands.rows[i].size(); ++r) {
+      names.push_back(tight[static_cast<std::size_t>(islands.rows[i][r])]);
+      if (in_basis[static_cast<std::size_t>(names.back())]) own_basis.push_back(static_cast<Index>(r));
+    }
+    if (own_basis.size() == names.size()) continue;
+    if (!is_small_enough(static_cast<Index>(islands.coordinates[i].size()), names.size()))
+      return std::nullopt;
+    std::vector<Index> all(names.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    const bool is_whole = islands.rows[i].size() == tight.size() && islands.coordinates.size() == 1;
+    Dependence found = is_whole
+                           ? dependence(problem, basis, tight)
+                           : dependence(island_problem(held, islands.coordinates[i], islands.rows[i], place),
+                                        own_basis, all);
+    if (!is_whole) {
+      rename(found.basic, names);
+      rename(found.dependent, names);
+    }
+    split_by_ties(found, groups);
+  }
+  return groups;
+}
+
+std::vector<NullVector> null_space(const std::vector<Dependence>& groups) {
+  std::vector<NullVector> found;
+  for (const Dependence& group : groups)
+    for (std::size_t p = 0; p < group.dependent.size(); ++p) {
+      NullVector mu{{group.dependent[p], 1.0}};
+      for (std::size_t k = 0; k < group.basic.size(); ++k) {
+        const double coefficient = group.T(static_cast<Index>(k), static_cast<Index>(p));
+        if (coefficient != 0) mu.emplace_back(group.basic[k], -coefficient);
+      }
+      std::sort(mu.begin(), mu.end());
+      found.push_back(std::move(mu));
+    }
+  std::sort(found.begin(), found.end(), [](const NullVector& a, const NullVector& b) { return a < b; });
+  return found;
+}
+
+}  // namespace convex

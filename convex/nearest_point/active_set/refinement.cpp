@@ -1,0 +1,121 @@
+#include "convex/nearest_point/active_set/refinement.hpp"
+
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+
+namespace convex {
+namespace {
+
+/// Beyond this the corrections do not converge fast enough to be trusted.
+constexpr double slowest_contraction = 0.25;
+
+constexpr int most_corrections = 40;
+
+/// When the first correction is this small a part of what it corrects, the second would be below `enough` by
+/// far: the first is then the last.
+constexpr double certain_contraction = 0x1p-44;
+
+/// An entry no larger than what may be missing in it is rounding noise about zero.
+template <class Noise, class Weight>
+double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
+  double silenced = 0;
+  for (Index i = 0; i < x.size(); ++i) {
+    if (!(std::abs(x.hi[i]) <= noise(i))) continue;
+    silenced += weight(i) * x.hi[i] * x.hi[i];
+    x.hi[i] = x.lo[i] = 0;
+  }
+  return silenced;
+}
+
+/// The condition of the whitened rows held.
+template <int MaxSize>
+double row_condition(const WorkingSet<MaxSize>& set) {
+  double longest = 0;
+  for (Index k = 0; k < set.size(); ++k) longest = std::max(longest, set.factor().length(k));
+  return set.factor().inverse_norm() * longest;
+}
+
+}  // namespace
+
+template <int MaxSize>
+RefinedPoint refine(const WorkingSet<MaxSize>& set) {
+  using Column = typename WorkingSet<MaxSize>::Column;
+  const NearestPointProblem& problem = set.problem();
+  RefinedPoint point{DoubleDoubleVector(set.point()),
+                     DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
+  const double scale = set.scale();
+  const double of_A = problem.A.factor_condition(), of_rows = row_condition(set);
+  // A residual is rounded once, its terms in twice the precision.
+  point.floor = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
+  const double expected = expected_contraction(of_A, of_rows * of_rows, false);
+  const double usual = std::min(slowest_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
+  double previous = scale;  // the first solve is the correction of nothing
+  Column dw, dlambda, r2(set.size());
+  Vector dq, step;
+  const auto silence_q = [&](auto noise) {
+    const double silenced = silence_noise(point.q, noise, [&](Index i) { return problem.A.diagonal()[i]; });
+    point.silenced = std::sqrt(static_cast<double>(problem.dimension()) * silenced);
+  };
+  const auto silence_lambda = [&](auto noise) {
+    silence_noise(point.lambda, noise, [](Index) { return 0; });
+  };
+  for (int k = 0; k < most_corrections; ++k) {
+    const Vector r1 = stationarity_residual(problem, point.q, set.rows(), point.lambda);
+    for (Index j = 0; j < set.size(); ++j)
+      r2[j] = -slack(problem, set.rows()[static_cast<std::size_t>(j)], point.q).value();
+    set.correct(problem.A.whiten(r1), r2, dw, dlambda);
+    point.last = dw.norm();
+    if (k == 0) point.first = point.last;
+    // Once at the rounding of the residuals themselves, corrections no longer shrink: that is the end, not a
+    // failure.
+    const double floor = at_rounding * scale;
+    const double seen = (k == 0 ? point.last > 0 : point.last > floor) ? point.last / previous : 0;
+    if (k == 0)
+      point.contraction = std::max(seen, std::min(slowest_contraction / 2, expected));
+    else  // the second correction shows what the first could only be expected to leave
+      point.contraction = std::max({seen, k == 1 ? 0 : point.contraction, usual});
+    dq = problem.A.unwhiten(dw);
+    step = dlambda;
+    if (!(point.contraction < slowest_contraction)) break;
+    point.q.add(dq);
+    point.lambda.add(step);
+    if (k == 0 && point.contraction <= certain_contraction && point.last > 0) {
+      const double missing = 4 * point.remaining() * problem.A.factor_condition();
+      silence_q([&](Index i) {
+        return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
+      });
+      silence_lambda([&](Index k_th) {
+        return std::max(missing * of_rows / set.factor().length(k_th), cancelled * std::abs(step[k_th]));
+      });
+      return point;
+    }
+    if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
+    previous = point.last;
+  }
+  if (point.contraction < slowest_contraction) {
+    // The last correction of an entry is more than what is missing in it.
+    silence_q([&](Index i) { return 2 * std::abs(dq[i]); });
+    silence_lambda([&](Index k) { return 2 * std::abs(step[k]); });
+  }
+  return point;
+}
+
+template <int MaxSize>
+Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined) {
+  const double noise = 4 * refined.remaining() * row_condition(set);  // of a multiplier times its length
+  Index worst = -1;
+  double lowest = 0;
+  for (Index k = 0; k < set.size(); ++k) {
+    const double push = refined.lambda.hi[k] * set.factor().length(k);
+    if (!set.one_sided(k) || !(push < -noise) || !(push < lowest)) continue;
+    lowest = push;
+    worst = k;
+  }
+  return worst;
+}
+
+template RefinedPoint refine(const WorkingSet<Eigen::Dynamic>&);
+template RefinedPoint refine(const WorkingSet<8>&);
+template Index most_negative(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&);
+template Index most_negative(const WorkingSet<8>&, const RefinedPoint&);
+
+}  // namespace convex

@@ -1,0 +1,141 @@
+#include "convex/nearest_point/active_set/working_set.hpp"
+
+namespace convex {
+namespace {
+
+/// Below this part of |v_p| outside the span of W, doubles alone no longer tell how much is left, and the
+/// split is sharpened in twice the working precision.
+constexpr double doubtful_part = 1e-5;
+
+/// Where the data have no radii, the way goes on as if a row were dependent on W when what is left of it is
+/// at most so many roundings of what it is made of; the end decides it without rounding.
+constexpr double dependence_roundings = 8;
+
+/// What twice the working precision leaves of a row that depends on the others, of its magnitude.
+constexpr double smallest_rest = 0x1p-90;
+
+}  // namespace
+
+Matrix whitened_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  Matrix block(problem.dimension(), static_cast<Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) problem.U.copy_row(rows[k], block.col(static_cast<Index>(k)));
+  problem.A.whiten_in_place(block);
+  return block;
+}
+
+template <int MaxSize>
+WorkingSet<MaxSize>::WorkingSet(const NearestPointProblem& problem)
+    : problem_(problem),
+      factor_(problem.dimension(), std::min(problem.dimension(), problem.rows())),
+      position_(static_cast<std::size_t>(problem.rows()), -1),
+      w_free_(problem.A.whiten(problem.z)),
+      w_(w_free_),
+      lambda_(factor_.capacity()) {
+  rows_.reserve(static_cast<std::size_t>(factor_.capacity()));
+}
+
+template <int MaxSize>
+Vector WorkingSet<MaxSize>::point() const {
+  return problem_.A.unwhiten(w_);
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::split(Index p, Split& into) {
+  into.direction.resize(problem_.dimension());
+  problem_.U.copy_row(p, into.direction);
+  problem_.A.whiten_in_place(Eigen::Map<Matrix>(into.direction.data(), problem_.dimension(), 1));
+  into.length = into.direction.norm();
+  into.c.resize(factor_.capacity());
+  into.rho = factor_.split(into.direction, into.c);
+  into.coefficients = into.c.head(size());
+  factor_.solve_upper(into.coefficients);
+  into.magnitude = into.length;
+  into.rest = into.rho;
+  if (into.rho < doubtful_part * into.length) sharpen(p, into);
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
+  DoubleDoubleVector r(Vector(split.coefficients));
+  constexpr int passes =
+      3;  // each multiplies the error of r by the condition of W times u; then W is near singular
+  for (int pass = 0; pass < passes; ++pass) {
+    DoubleDoubleVector rest(problem_.U.row(p));
+    for (Index k = 0; k < size(); ++k)
+      problem_.U.add_multiple(rows_[static_cast<std::size_t>(k)], {-r.hi[k], -r.lo[k]}, rest);
+    split.direction = problem_.A.whiten(rest.value());
+    Column correction(factor_.capacity());
+    split.rho = factor_.split(split.direction, correction);
+    Column step = correction.head(size());
+    factor_.solve_upper(step);
+    r.add(step);
+  }
+  split.coefficients = r.hi;
+  for (Index k = 0; k < size(); ++k) split.magnitude += std::abs(r.hi[k]) * factor_.length(k);
+  split.rest = split.rho;
+  double unsure = dependence_roundings * unit_roundoff * split.magnitude;
+  if (const std::optional<DataRadii>& radii = problem_.radii) {
+    unsure = radii->row[p];
+    for (Index k = 0; k < size(); ++k)
+      unsure += std::abs(r.hi[k]) * radii->row[rows_[static_cast<std::size_t>(k)]];
+    unsure = std::max(unsure, smallest_rest * split.magnitude);
+  }
+  if (split.rho <= unsure) split.rho = 0;
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::take(Index p) {
+  position_[static_cast<std::size_t>(p)] = static_cast<Index>(rows_.size());
+  rows_.push_back(p);
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::append(Index p, const Split& split, double multiplier) {
+  lambda_[size()] = multiplier;
+  factor_.append(split.c, split.direction, split.rho);
+  take(p);
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::remove(Index k) {
+  factor_.remove(k);
+  position_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])] = -1;
+  rows_.erase(rows_.begin() + k);
+  for (Index l = k; l < size(); ++l) {
+    lambda_[l] = lambda_[l + 1];
+    position_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(l)])] = l;
+  }
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened,
+                                       double threshold) {
+  factor_.append_block(whitened, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::solve() {
+  Column y(size());
+  for (Index k = 0; k < size(); ++k) y[k] = problem_.s[rows_[static_cast<std::size_t>(k)]];
+  factor_.solve_lower(y);
+  y.noalias() -= factor_.Q().transpose() * w_free_;
+  w_ = w_free_;
+  w_.noalias() += factor_.Q() * y;
+  factor_.solve_upper(y);
+  lambda_.head(size()) = y;
+}
+
+template <int MaxSize>
+void WorkingSet<MaxSize>::correct(const Column& g, Column r2, Column& dw, Column& dlambda) const {
+  factor_.solve_lower(r2);
+  r2.noalias() -= factor_.Q().transpose() * g;
+  dw = g;
+  dw.noalias() += factor_.Q() * r2;
+  factor_.solve_upper(r2);
+  dlambda = r2;
+}
+
+template class WorkingSet<Eigen::Dynamic>;
+template class WorkingSet<8>;
+
+}  // namespace convex

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/double_double.hpp"
+#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
+#include "convex/nearest_point/problem.hpp"
+
+namespace convex {
+
+/// F⁻¹u_a of the rows given, as columns.
+Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows);
+
+/// The rows held with equality, W, and the point that they define, in whitened terms: v_a = F⁻¹u_a, w = Fᵀq,
+/// w_free = F⁻¹z; w = w_free + Σ_W lambda_a v_a with v_a·w = s_a on W. Two-sided rows stand first and stay.
+template <int MaxSize>
+class WorkingSet {
+ public:
+  using Factor = OrthogonalFactor<MaxSize>;
+  using Column = typename Factor::Column;
+
+  explicit WorkingSet(const NearestPointProblem&);
+
+  const NearestPointProblem& problem() const { return problem_; }
+  Index size() const { return factor_.size(); }
+  const std::vector<Index>& rows() const { return rows_; }
+  bool holds(Index a) const { return position_[static_cast<std::size_t>(a)] >= 0; }
+  bool one_sided(Index k) const { return k >= fixed_; }
+  /// Declares the rows held so far two-sided: they are never dropped.
+  void fix() { fixed_ = size(); }
+
+  const Factor& factor() const { return factor_; }
+  const Column& w_free() const { return w_free_; }
+  Column& w() { return w_; }
+  const Column& w() const { return w_; }
+  Column& lambda() { return lambda_; }
+  const Column& lambda() const { return lambda_; }
+  /// q = F⁻ᵀw.
+  Vector point() const;
+  /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to.
+  double scale() const { return std::max(w_.norm(), w_free_.norm()); }
+
+  /// u_p = Σ_W r_k u_k + (what W does not span): `direction` is the whitened rest d, `coefficients` is r (k
+  /// entries), `c` = Qᵀv. When the row is nearly dependent, found with residuals of the *original* rows in
+  /// twice the working precision, so that d keeps its digits whatever the angle.
+  struct Split {
+    Column c, coefficients, direction;
+    double length = 0;     ///< |v_p|
+    double rho = 0;        ///< |d|; 0 when the row is dependent within the rounding of the data
+    double rest = 0;       ///< |d| as twice the working precision has it
+    double magnitude = 0;  ///< |v_p| + Σ |r_k| |v_k|: what rounding of the rows is relative to
+  };
+  void split(Index p, Split& into);
+
+  void append(Index p, const Split&, double multiplier);
+  void remove(Index k);
+  /// Takes in those of the rows, given with their F⁻¹u_a as columns (overwritten), that are independent of
+  /// the others to the relative threshold; w and the multipliers are not touched.
+  void append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold);
+  /// Sets w and lambda to the point where every row of W holds with equality.
+  void solve();
+  /// Solves A dq - U_Wᵀ dlambda = r1, U_W dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.
+  void correct(const Column& g, Column r2, Column& dw, Column& dlambda) const;
+
+ private:
+  void sharpen(Index p, Split& split);
+  void take(Index p);
+
+  const NearestPointProblem& problem_;
+  Factor factor_;
+  std::vector<Index> rows_;
+  std::vector<Index> position_;  // of row a in rows_, or -1
+  Index fixed_ = 0;
+  Column w_free_, w_, lambda_;
+};
+
+}  // namespace convex

@@ -1,0 +1,157 @@
+#include "convex/nearest_point/isotonic/chain_pools.hpp"
+
+#include <cmath>
+#include <memory>
+
+namespace convex {
+namespace {
+
+/// Members that move together, from `begin` to the next pool.
+template <class Sum>
+struct Pool {
+  int begin;
+  Sum weight, sum;
+};
+
+void absorb(Pool<double>& pool, const Pool<double>& other) {
+  pool.weight += other.weight;
+  pool.sum += other.sum;
+}
+
+void absorb(Pool<RunningSum>& pool, const Pool<RunningSum>& other) {
+  pool.weight.add(DoubleDouble{other.weight.hi, other.weight.lo});
+  pool.sum.add(DoubleDouble{other.sum.hi, other.sum.lo});
+}
+
+/// Whether the mean of x is less than that of y.
+bool rises(const Pool<double>& x, const Pool<double>& y) { return x.sum * y.weight < y.sum * x.weight; }
+
+bool rises(const Pool<RunningSum>& x, const Pool<RunningSum>& y) {
+  // Doubles tell two means apart unless the products that compare them are closer, or out of range.
+  constexpr double doubt = 0x1p-48, tiny = 0x1p-960, huge = 0x1p990;
+  const double below = x.sum.value() * y.weight.value(), above = y.sum.value() * x.weight.value();
+  const double difference = above - below, terms = std::abs(above) + std::abs(below);
+  if (std::abs(difference) > doubt * terms + tiny && terms < huge) return difference > 0;
+  const DoubleDouble x_sum = x.sum.tidy(), x_weight = x.weight.tidy(), y_sum = y.sum.tidy(),
+                     y_weight = y.weight.tidy();
+  if (terms < huge && terms > tiny / doubt)
+    return less(product_of_pairs(x_sum, y_weight), product_of_pairs(y_sum, x_weight));
+  return less(quotient(x_sum, x_weight), quotient(y_sum, y_weight));
+}
+
+/// Pools of the members that `member` makes, n of them, adjacent violators together.
+template <class Sum, class Member>
+std::vector<int> pool_members(Index n, const Member member) {
+  const auto storage = std::make_unique_for_overwrite<Pool<Sum>[]>(static_cast<std::size_t>(n));
+  Pool<Sum>* const bottom = storage.get();
+  Pool<Sum>* free = bottom;
+  Pool<Sum> top = member(0);
+  for (Index k = 1; k < n; ++k) {
+    const Pool<Sum> next = member(k);
+    if (rises(top, next)) {
+      *free++ = top;
+      top = next;
+    } else {
+      absorb(top, next);
+      for (; free != bottom && !rises(free[-1], top); --free) {
+        absorb(top, free[-1]);
+        top.begin = free[-1].begin;
+      }
+    }
+  }
+  *free++ = top;
+  std::vector<int> first(static_cast<std::size_t>(free - bottom) + 1, static_cast<int>(n));
+  for (const Pool<Sum>* pool = bottom; pool != free; ++pool)
+    first[static_cast<std::size_t>(pool - bottom)] = pool->begin;
+  return first;
+}
+
+}  // namespace
+
+std::optional<InOrder> in_order(const NearestPointProblem& problem) {
+  const MetricKind kind = problem.A.kind();
+  if ((kind != MetricKind::diagonal && kind != MetricKind::identity) || !problem.U.is_sparse() ||
+      !problem.two_sided.empty())
+    return std::nullopt;
+  const SparseRows& U = problem.U.sparse();
+  const Index n = problem.dimension(), m = problem.rows();
+  if (n == 0 || !U.isCompressed() || (m != n && m != n - 1)) return std::nullopt;
+  const int floor = m == n ? 1 : 0;
+  if (U.nonZeros() != 2 * (n - 1) + floor) return std::nullopt;
+  const int *outer = U.outerIndexPtr() + floor, *inner = U.innerIndexPtr();
+  const double* value = U.valuePtr();
+  if (floor == 1 && !(outer[0] == 1 && inner[0] == 0 && value[0] > 0)) return std::nullopt;
+  inner += floor;
+  value += floor;
+  constexpr int block = 512;  // looked at without a branch
+  const int links = static_cast<int>(n) - 1;
+  int ones = 0;
+  for (int first = 0; first < links; first += block) {
+    const int end = std::min(links, first + block);
+    int wrong = 0;
+    for (int a = first; a < end; ++a)
+      wrong |= (outer[a] ^ (2 * a + floor)) | (inner[2 * a] ^ a) | (inner[2 * a + 1] ^ (a + 1));
+    int fit = 0;
+    for (int a = first; a < end; ++a) {
+      fit += value[2 * a + 1] > 0 && value[2 * a] == -value[2 * a + 1];
+      ones += value[2 * a + 1] == 1;
+    }
+    if (wrong != 0 || fit != end - first) return std::nullopt;
+  }
+  return InOrder{U.valuePtr(), floor, ones == links};
+}
+
+template <class Order>
+DoubleDouble Chain<Order>::bound(Index k) const {
+  const double c = order.factor(k), height = s[order.row(k)];
+  return c == 1 ? DoubleDouble{height, 0} : quotient({height, 0}, {c, 0});
+}
+
+template <class Order>
+Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
+    : n(problem.dimension()),
+      mass(problem.A.diagonal().data()),
+      force(problem.z.data()),
+      s(problem.s.data()),
+      order(the_order) {
+  bool level = problem.s.cwiseAbs().sum() <= 0;
+  if (level) return;
+  level = true;  // but for the floor
+  for (Index k = 1; k < n && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
+  if (level) return;
+  offset.resize(static_cast<std::size_t>(n));
+  DoubleDouble sum{};
+  for (Index k = 1; k < n; ++k) offset[static_cast<std::size_t>(k)] = sum = add(sum, bound(k));
+}
+
+template <class Order>
+std::vector<int> pool(const Chain<Order>& chain) {
+  const auto member = [order = chain.order, mass = chain.mass, force = chain.force](Index k) {
+    const Index i = order.coordinate(k);
+    return Pool<double>{static_cast<int>(k), mass[i], force[i]};
+  };
+  if (chain.offset.empty()) return pool_members<double>(chain.n, member);
+  return pool_members<double>(chain.n, [member, offset = chain.offset.data()](Index k) {
+    Pool<double> lowered = member(k);
+    lowered.sum -= offset[k].hi * lowered.weight;
+    return lowered;
+  });
+}
+
+template <class Order>
+std::vector<int> pool_carefully(const Chain<Order>& chain) {
+  return pool_members<RunningSum>(chain.n, [&](Index k) {
+    const DoubleDouble load = chain.load(k);
+    return Pool<RunningSum>{
+        static_cast<int>(k), {chain.mass[chain.order.coordinate(k)], 0}, {load.hi, load.lo}};
+  });
+}
+
+template struct Chain<InOrder>;
+template struct Chain<Listed>;
+template std::vector<int> pool(const Chain<InOrder>&);
+template std::vector<int> pool(const Chain<Listed>&);
+template std::vector<int> pool_carefully(const Chain<InOrder>&);
+template std::vector<int> pool_carefully(const Chain<Listed>&);
+
+}  // namespace convex

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "convex/double_double.hpp"
+#include "convex/nearest_point/isotonic/strings.hpp"
+
+namespace convex {
+
+/// x y for pairs, exact to some u².
+inline DoubleDouble product_of_pairs(DoubleDouble x, DoubleDouble y) {
+  DoubleDouble p = two_product(x.hi, y.hi);
+  p.lo += x.lo * y.hi + x.hi * y.lo;
+  return two_sum(p.hi, p.lo);
+}
+
+/// Of pairs that are tidy.
+inline bool less(DoubleDouble x, DoubleDouble y) { return x.hi < y.hi || (x.hi <= y.hi && x.lo < y.lo); }
+
+/// A chain whose rows lead from each coordinate to the next, the floor first: member k is coordinate k.
+struct InOrder {
+  const double* value;  ///< of U
+  Index floor;          ///< rows before the first link: 1 or 0
+  bool plain;           ///< all factors of links are 1
+  Index coordinate(Index k) const { return k; }
+  Index row(Index k) const { return k - 1 + floor; }
+  double factor(Index k) const { return value[2 * k - 1 + floor]; }
+};
+
+/// None when the rows stand otherwise, or when the problem is no chain.
+std::optional<InOrder> in_order(const NearestPointProblem&);
+
+/// A chain in any order.
+struct Listed {
+  const Strings& strings;
+  const SparseRows& U;
+  static constexpr bool plain = false;
+  Index coordinate(Index k) const { return strings.coordinate[static_cast<std::size_t>(k)]; }
+  Index row(Index k) const { return strings.row[static_cast<std::size_t>(k)]; }
+  double factor(Index k) const { return std::abs(U.valuePtr()[U.outerIndexPtr()[row(k)]]); }
+};
+
+/// A chain, bottom to top, as pooling sees it: member k is coordinate order.coordinate(k), the row below it
+/// order.row(k), -1 for none, with the factor order.factor(k).
+template <class Order>
+struct Chain {
+  Chain(const NearestPointProblem&, const Order&);
+  /// s/c of the row below member k.
+  DoubleDouble bound(Index k) const;
+  /// The force on member k in the coordinates y that pools have in common.
+  DoubleDouble load(Index k) const {
+    const Index i = order.coordinate(k);
+    const DoubleDouble plain{force[i], 0};
+    return offset.empty() ? plain
+                          : add(plain, negative(product(offset[static_cast<std::size_t>(k)], mass[i])));
+  }
+  Index n;
+  const double *mass, *force, *s;
+  Order order;
+  std::vector<DoubleDouble> offset;  ///< of a member over the first; empty when all are 0
+};
+
+/// The first members of the pools, by sums in doubles: right but for rounding. Then n.
+template <class Order>
+std::vector<int> pool(const Chain<Order>&);
+
+/// The same with sums in twice the precision, which are compared in that precision where doubles do not tell.
+template <class Order>
+std::vector<int> pool_carefully(const Chain<Order>&);
+
+}  // namespace convex

@@ -1,0 +1,232 @@
+#include "convex/nearest_point/isotonic/pooling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/isotonic/chain_pools.hpp"
+
+namespace convex {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+/// A multiplier below this part of the largest sum it was made of is 0.
+constexpr double silence = 0x1p-90;
+
+}  // namespace
+
+Pooling::Pooling(const NearestPointProblem& problem, const Strings& strings)
+    : mass_(problem.A.diagonal()),
+      U_(problem.U.sparse()),
+      s_(problem.s),
+      strings_(strings),
+      q_(problem.dimension()),
+      lambda_(Vector::Zero(problem.rows())) {
+  find_offsets();
+  find_parts(problem);
+  pools_.reserve(parts_.size());
+}
+
+double Pooling::factor(int row) const { return std::abs(U_.valuePtr()[U_.outerIndexPtr()[row]]); }
+
+DoubleDouble Pooling::bound(int row) const {
+  const double c = factor(row);
+  if (c == 1) return {s_[row], 0};
+  return quotient({s_[row], 0}, {c, 0});
+}
+
+void Pooling::find_offsets() {
+  bool level = true;
+  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+    const int first = strings_.first[t], floor = floor_of(first);
+    floor_.push_back(floor >= 0 ? bound(floor).hi : -INFINITY);
+    for (int k = first + 1; k < strings_.first[t + 1]; ++k)
+      level = level && std::abs(s_[strings_.row[at(k)]]) <= 0;
+  }
+  if (level) return;
+  offset_.resize(strings_.coordinate.size());
+  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t)
+    for (int k = strings_.first[t] + 1; k < strings_.first[t + 1]; ++k)
+      offset_[at(k)] = add(offset_[at(k - 1)], bound(strings_.row[at(k)]));
+}
+
+Pooling::Pool Pooling::member(int k, const Vector& force) const {
+  Pool pool{k, k + 1, mass(k), force[strings_.coordinate[at(k)]], 0};
+  if (!offset_.empty()) pool.sum -= offset_[at(k)].hi * pool.weight;
+  pool.mean = pool.sum / pool.weight;
+  return pool;
+}
+
+/// Puts a pool on those from `bottom` on, and pools it with them while means do not rise.
+void Pooling::put(std::vector<Pool>& pools, std::size_t bottom, Pool pool) {
+  while (pools.size() > bottom && pools.back().mean >= pool.mean) {
+    const Pool& last = pools.back();
+    pool.begin = last.begin;
+    pool.weight += last.weight;
+    pool.sum += last.sum;
+    pool.mean = pool.sum / pool.weight;
+    pools.pop_back();
+  }
+  pools.push_back(pool);
+}
+
+void Pooling::find_parts(const NearestPointProblem& problem) {
+  std::vector<bool> moves(strings_.coordinate.size(), false);
+  for (Index a : strings_.border)
+    for (SparseRows::InnerIterator it(U_, a); it; ++it) moves[at(it.col())] = true;
+  std::vector<Pool> between;
+  const auto end_part = [&] {
+    parts_.insert(parts_.end(), between.begin(), between.end());
+    stays_.resize(parts_.size(), true);
+    between.clear();
+  };
+  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+    first_part_.push_back(parts_.size());
+    for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
+      const Pool one = member(k, problem.z);
+      if (!moves[at(strings_.coordinate[at(k)])]) {
+        put(between, 0, one);
+        continue;
+      }
+      end_part();
+      parts_.push_back(one);
+      stays_.push_back(false);
+    }
+    end_part();
+  }
+  first_part_.push_back(parts_.size());
+}
+
+void Pooling::pool(const Vector& force) {
+  pools_.clear();
+  first_pool_.clear();
+  for (std::size_t t = 0; t + 1 < first_part_.size(); ++t) {
+    first_pool_.push_back(pools_.size());
+    for (std::size_t p = first_part_[t]; p < first_part_[t + 1]; ++p)
+      put(pools_, first_pool_.back(), stays_[p] ? parts_[p] : member(parts_[p].begin, force));
+  }
+  first_pool_.push_back(pools_.size());
+}
+
+void Pooling::place(Vector& q) const {
+  q.resize(mass_.size());
+  for (std::size_t t = 0; t + 1 < first_pool_.size(); ++t)
+    for (std::size_t p = first_pool_[t]; p < first_pool_[t + 1]; ++p) {
+      const double level = std::max(pools_[p].mean, floor_[t]);
+      for (int k = pools_[p].begin; k < pools_[p].end; ++k)
+        q[strings_.coordinate[at(k)]] = offset_.empty() ? level : level + offset_[at(k)].hi;
+    }
+}
+
+bool Pooling::is_lifted(std::size_t pool) const {
+  const auto string =
+      std::upper_bound(first_pool_.begin(), first_pool_.end(), pool) - first_pool_.begin() - 1;
+  return pools_[pool].mean < floor_[at(string)];
+}
+
+DoubleDouble Pooling::load(int k, const Vector& force, const Vector& rest) const {
+  const int i = strings_.coordinate[at(k)];
+  const DoubleDouble push{force[i], rest.size() > 0 ? rest[i] : 0};
+  return offset_.empty() ? push : add(push, negative(product(offset_[at(k)], mass_[i])));
+}
+
+Pooling::Sums Pooling::sums(const Pool& pool, const Vector& force, const Vector& rest) const {
+  RunningSum weight, sum;
+  for (int k = pool.begin; k < pool.end; ++k) {
+    weight.add(mass(k));
+    sum.add(load(k, force, rest));
+  }
+  Sums found{weight.tidy(), sum.tidy(), {}};
+  found.mean = quotient(found.sum, found.weight);
+  return found;
+}
+
+void Pooling::pool_carefully(const Vector& force, const Vector& rest) {
+  pools_.clear();
+  first_pool_.clear();
+  std::vector<Sums> stack;
+  for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t) {
+    first_pool_.push_back(pools_.size());
+    stack.clear();
+    for (int k = strings_.first[t]; k < strings_.first[t + 1]; ++k) {
+      Pool pool{k, k + 1, 0, 0, 0};
+      Sums exact{{mass(k), 0}, load(k, force, rest), {}};
+      exact.mean = quotient(exact.sum, exact.weight);
+      while (!stack.empty() && !less(stack.back().mean, exact.mean)) {
+        exact.weight = add(stack.back().weight, exact.weight);
+        exact.sum = add(stack.back().sum, exact.sum);
+        exact.mean = quotient(exact.sum, exact.weight);
+        pool.begin = pools_.back().begin;
+        stack.pop_back();
+        pools_.pop_back();
+      }
+      pools_.push_back({pool.begin, pool.end, exact.weight.hi, exact.sum.hi, exact.mean.hi});
+      stack.push_back(exact);
+    }
+  }
+  first_pool_.push_back(pools_.size());
+}
+
+void Pooling::refine(const Vector& force, const Vector& rest) {
+  if (place_all(force, rest, false)) return;
+  pool_carefully(force, rest);
+  place_all(force, rest, true);
+}
+
+bool Pooling::place_all(const Vector& force, const Vector& rest, bool careful) {
+  for (std::size_t t = 0; t + 1 < first_pool_.size(); ++t)
+    if (!place_string(force, rest, careful, t)) return false;
+  return true;
+}
+
+/// False when the pools prove wrong: means that fall, or a negative multiplier. `careful`: then it is
+/// rounding.
+bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful, std::size_t string) {
+  const std::size_t first = first_pool_[string], end = first_pool_[string + 1];
+  const int floor = floor_of(strings_.first[string]), last_member = strings_.first[string + 1];
+  std::size_t lifted = first;  // pools below the floor end here
+  RunningSum push;             // what the rows below push up with
+  double largest = 0;
+  DoubleDouble least{};
+  if (floor >= 0) {
+    least = bound(floor);
+    for (; lifted < end; ++lifted) {
+      const Sums exact = sums(pools_[lifted], force, rest);
+      if (!less(exact.mean, least)) break;
+      push.add(add(product_of_pairs(exact.weight, least), negative(exact.sum)));
+    }
+    largest = push.hi;
+    lambda_[floor] = std::max(0.0, push.value() / factor(floor));
+  }
+  DoubleDouble previous{-INFINITY, 0};
+  for (std::size_t p = first; p < end; ++p) {
+    const Pool& pool = pools_[p];
+    DoubleDouble level = sums(pool, force, rest).mean;
+    if (!careful && less(level, previous)) return false;
+    previous = level;
+    if (p < lifted) level = least;
+    for (int k = pool.begin; k < pool.end; ++k) {
+      const int i = strings_.coordinate[at(k)];
+      const DoubleDouble x = offset_.empty() ? level : add(level, offset_[at(k)]);
+      q_.hi[i] = x.hi;
+      q_.lo[i] = x.lo;
+      const DoubleDouble inertia = product(x, mass_[i]);
+      push.add(DoubleDouble{force[i], rest.size() > 0 ? rest[i] : 0});
+      push.add(negative(inertia));
+      largest = std::max({largest, std::abs(push.hi), std::abs(inertia.hi)});
+      if (k + 1 == last_member) break;
+      const int above = strings_.row[at(k + 1)];
+      const bool loaded = k + 1 < pool.end || p + 1 < lifted;
+      const double pushed = push.value();
+      if (loaded && pushed < -silence * largest && !careful) return false;
+      lambda_[above] = loaded && pushed > silence * largest ? pushed / factor(above) : 0;
+    }
+    if (p + 1 >= lifted) {
+      push = {};
+      largest = 0;
+    }
+  }
+  return true;
+}
+
+}  // namespace convex

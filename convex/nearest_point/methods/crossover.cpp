@@ -1,0 +1,254 @@
+#include "convex/nearest_point/methods/crossover.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/active_set/dependent_row.hpp"
+#include "convex/nearest_point/methods/crossover_rows.hpp"
+#include "convex/nearest_point/optimality/farkas.hpp"
+#include "convex/nearest_point/optimality/farkas_circuit.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// As in the active-set method: weights must exclude motions of up to so many times the scale of the problem.
+constexpr double farthest = 1e3;
+
+/// Up to so many numbers, a factor is dense.
+constexpr double most_dense_numbers = 4e6;
+
+/// Rows that may change while the active rows are held: those whose sign a converged iteration leaves open,
+/// many where multipliers and slacks are both small.
+Index most_changes(Index held) { return std::min<Index>(32, 2 + held / 2); }
+
+/// Weights of two-sided rows that contradict each other.
+std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& problem) {
+  if (problem.two_sided.empty() || !is_dense_size(problem)) return std::nullopt;
+  WorkingSet<Eigen::Dynamic> set(problem);
+  WorkingSet<Eigen::Dynamic>::Split split;
+  for (Index p : problem.two_sided) {
+    set.split(p, split);
+    if (split.rho > 0 && set.size() < set.factor().capacity())
+      set.append(p, split, 0);
+    else if (const double gap = contradiction(set, p, split); std::abs(gap) > 0)
+      return contradiction_weights(set, p, split, gap > 0 ? 1 : -1);
+  }
+  return std::nullopt;
+}
+
+class Judge {
+ public:
+  Judge(const NearestPointProblem& problem, const Candidate& candidate, const Accuracy& accuracy)
+      : problem_(problem),
+        candidate_(candidate),
+        accuracy_(accuracy),
+        row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())),
+        two_sided_(static_cast<std::size_t>(problem.rows()), false) {
+    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
+    force_norm_ = problem.A.dual_norm(problem.z);
+  }
+
+  Solution verdict() {
+    if (std::optional<Solution> proved = infeasible(candidate_.farkas)) return *proved;
+    Vector lambda = signed_right(candidate_.lambda);
+    Vector q = candidate_.q.size() > 0 ? candidate_.q
+                                       : problem_.A.solve(problem_.z + problem_.U.transpose_times(lambda));
+    if (!q.allFinite() || !lambda.allFinite()) {
+      q = problem_.A.solve(problem_.z);
+      lambda = Vector::Zero(problem_.rows());
+    }
+    Solution raw = measured(q, lambda, problem_.U.times(q) - problem_.s);
+    const Index loaded = (lambda.array() != 0).count();
+    const Holding holding = is_dense_size(problem_)
+                                ? hold_active_rows(problem_, q, lambda, row_scale_, most_changes(loaded))
+                                : hold_active_rows_sparse(problem_, q, lambda, row_scale_);
+    if (std::optional<Solution> proved = infeasible(holding.farkas); proved && candidate_.may_polish)
+      return *proved;
+    if (!holding.held) {
+      raw.error_bound = bound_of_gap(q, lambda);
+      return with_status(raw);
+    }
+    const HeldRows& held = *holding.held;
+    if (!held.undecided.empty()) return decided(held, std::move(raw));
+    const double error_of_held = bound_of_held(held);
+    raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
+    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
+    Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
+    polished.rounding = rounding_norm(held.q.lo);
+    polished.error_bound = error_of_held + polished.rounding;
+    if (is_dense_size(problem_)) polished.basis = held.rows;  // else they may depend on each other
+    polished.polished = true;
+    return with_status(polished.error_bound <= raw.error_bound ? polished : raw);
+  }
+
+  /// The verdict where doubles leave open what becomes of rows that the point of the rows held touches.
+  Solution decided(const HeldRows& held, Solution raw) const {
+    Solution open = measured(held.q.hi, signed_right(held.lambda), held.slack);
+    open.basis = held.rows;
+    open.undecided = held.undecided;
+    Solution exact = decided_in_fractions(problem_, std::move(open), accuracy_);
+    if (exact.status == Status::infeasible) return exact;
+    if (!exact.undecided.empty()) {
+      raw.undecided = exact.undecided;
+      raw.error_bound = infinity;
+      return with_status(raw);
+    }
+    raw.error_bound = problem_.A.norm(raw.q - exact.q) + exact.rounding;
+    if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
+    exact.polished = true;
+    return exact.error_bound <= raw.error_bound ? exact : with_status(raw);
+  }
+
+  std::optional<Solution> infeasible(const Vector& weights) {
+    if (weights.size() != problem_.rows() || problem_.rows() == 0 || !weights.allFinite())
+      return std::nullopt;
+    double reach = farthest * force_norm_;  // or the size that the rows speak of
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (row_scale_[a] > 0) reach = std::max(reach, farthest * std::abs(problem_.s[a]) / row_scale_[a]);
+    Vector proof = signed_right(weights);
+    if (!(proof.cwiseAbs().maxCoeff() > 0)) return std::nullopt;
+    if (is_dense_size(problem_)) {
+      const std::optional<Vector> circuit = farkas_circuit(problem_, proof, reach);
+      if (circuit)
+        proof = *circuit;
+      else if (!proves_infeasibility(problem_, proof, reach))
+        return std::nullopt;
+    } else if (!proves_infeasibility(problem_, proof, reach)) {
+      return std::nullopt;
+    }
+    Solution solution;
+    solution.method = candidate_.method;
+    solution.steps = candidate_.steps;
+    solution.status = Status::infeasible;
+    solution.force_norm = force_norm_;
+    if (!problem_.radii) {
+      std::optional<InfeasibilityProof> exact = infeasibility_proof(problem_, proof);
+      if (exact) {
+        solution.farkas = std::move(exact->farkas);
+        return solution;
+      }
+      solution.status = Status::gave_up;
+      solution.farkas = std::move(proof);
+      solution.undecided = open_question::contradiction;
+      solution = decided_in_fractions(problem_, std::move(solution), accuracy_);
+      return solution.status == Status::infeasible ? std::optional(std::move(solution)) : std::nullopt;
+    }
+    solution.farkas = proof / (proof.array() != 0).select(proof.cwiseAbs(), infinity).minCoeff();
+    return solution;
+  }
+
+ private:
+  Vector signed_right(const Vector& lambda) const {
+    Vector clipped = lambda.size() == problem_.rows() ? lambda : Vector(Vector::Zero(problem_.rows()));
+    for (Index a = 0; a < clipped.size(); ++a)
+      if (!two_sided_[static_cast<std::size_t>(a)]) clipped[a] = std::max(0.0, clipped[a]);
+    return clipped;
+  }
+
+  double rounding_norm(const Vector& lo) const {
+    return std::sqrt(static_cast<double>(problem_.dimension()) * problem_.A.diagonal().dot(lo.cwiseAbs2()));
+  }
+
+  Solution measured(const Vector& q, const Vector& lambda, const Vector& slack) const {
+    Solution solution;
+    solution.method = candidate_.method;
+    solution.steps = candidate_.steps;
+    solution.q = q;
+    solution.lambda = lambda;
+    solution.slack = slack;
+    solution.acceleration_norm = problem_.A.norm(q);
+    solution.force_norm = force_norm_;
+    // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
+    KnownParts known{is_dense_size(problem_) ? Vector(Vector::Zero(problem_.rows())) : row_scale_,
+                     problem_.U.times(q) - problem_.s,
+                     {},
+                     solution.acceleration_norm,
+                     force_norm_};
+    solution.residuals = residuals(problem_, q, lambda, std::move(known));
+    return solution;
+  }
+
+  /// The bound from the candidate alone; none where a row is violated.
+  double bound_of_gap(const Vector& q, const Vector& lambda) const {
+    const DoubleDoubleVector point(q);
+    std::vector<Index> loaded;
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (lambda[a] != 0) loaded.push_back(a);
+    DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
+    for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
+    const double off = problem_.A.dual_norm(stationarity_residual(problem_, point, loaded, weights));
+    const Vector plain = problem_.U.times(q) - problem_.s;
+    double gap = 0;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const bool is_two_sided = two_sided_[static_cast<std::size_t>(a)];
+      if (plain[a] > 0 && lambda[a] == 0 && !is_two_sided) continue;
+      const double rest = slack(problem_, a, point).value();
+      if (rest < 0 || (is_two_sided && rest != 0)) return infinity;
+      gap += lambda[a] * rest;
+    }
+    return off + std::sqrt(gap);
+  }
+
+  double bound_of_held(const HeldRows& held) const {
+    const Vector negative = held.lambda - signed_right(held.lambda);
+    return 2 * held.remaining + 2 * held.contradiction * held.inverse_norm +
+           problem_.A.dual_norm(problem_.U.transpose_times(negative));
+  }
+
+  Solution with_status(Solution solution) const {
+    if (!std::isfinite(solution.error_bound)) solution.error_bound = infinity;
+    const double most = accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
+    solution.status = solution.error_bound <= most ? Status::solved
+                      : candidate_.finished        ? Status::inaccurate
+                                                   : Status::gave_up;
+    return solution;
+  }
+
+  const NearestPointProblem& problem_;
+  const Candidate& candidate_;
+  const Accuracy& accuracy_;
+  Vector row_scale_;
+  std::vector<bool> two_sided_;
+  double force_norm_ = 0;
+};
+
+}  // namespace
+
+Solution crossover(const NearestPointProblem& problem, const Candidate& candidate, const Accuracy& accuracy) {
+  return Judge(problem, candidate, accuracy).verdict();
+}
+
+std::optional<Solution> without_a_method(const NearestPointProblem& problem, std::string_view method,
+                                         const Accuracy& accuracy) {
+  const Index m = problem.rows();
+  Candidate candidate{.method = method, .q = {}, .lambda = Vector::Zero(m), .farkas = {}};
+  const Vector length = problem.U.lengths(Vector::Ones(problem.dimension()));
+  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  for (Index a = 0; a < m; ++a) {
+    const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
+    if (length[a] > 0 || !(problem.s[a] > 0 || (is_two_sided && problem.s[a] < 0))) continue;
+    candidate.farkas = Vector::Zero(m);
+    candidate.farkas[a] = problem.s[a] > 0 ? 1 : -1;
+    return crossover(problem, candidate, accuracy);
+  }
+  if (const std::optional<Vector> weights = contradictory_two_sided_rows(problem)) {
+    candidate.farkas = *weights;
+    return crossover(problem, candidate, accuracy);
+  }
+  if (length.size() > 0 && length.maxCoeff() > 0) return std::nullopt;
+  return crossover(problem, candidate, accuracy);
+}
+
+bool is_dense_size(const NearestPointProblem& problem) {
+  const double n = static_cast<double>(problem.dimension()), m = static_cast<double>(problem.rows());
+  return n * std::min(n, m) <= most_dense_numbers;
+}
+
+}  // namespace convex

@@ -1,0 +1,155 @@
+#include "convex/nearest_point/multipliers/multipliers.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/active_set/dependence.hpp"
+#include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
+#include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+
+namespace convex {
+namespace {
+
+std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
+  std::vector<bool> mark(static_cast<std::size_t>(count), false);
+  for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
+  return mark;
+}
+
+/// lambda of least norm: with lambda = lambda_0 + N mu, N the null vectors e_p - Σ T(k, p) e_k, the nearest
+/// point to 0 in {mu : lambda >= 0 on one-sided rows}.
+void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector& lambda) {
+  const Index d = rows.T.cols(), k = rows.T.rows();
+  std::vector<Index> names = rows.basic;
+  names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
+  Matrix N(k + d, d);
+  N.topRows(k) = -rows.T;
+  N.bottomRows(d).setIdentity();
+  // The condition of N is at most about the size of T. Beyond, an orthonormal basis of its columns serves.
+  constexpr double steep = 1e5;
+  if (rows.T.norm() > steep) N = Eigen::HouseholderQR<Matrix>(N).householderQ() * Matrix::Identity(k + d, d);
+  Vector start(k + d);
+  for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
+  std::vector<Index> signed_rows;
+  for (Index j = 0; j < k + d; ++j)
+    if (!is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
+  const ConstraintRows all{RowMatrix(N)};
+  NearestPointProblem problem{
+      Metric::dense(N.transpose() * N), -N.transpose() * start, all.select(signed_rows), Vector(), {}};
+  problem.s.resize(static_cast<Index>(signed_rows.size()));
+  for (std::size_t j = 0; j < signed_rows.size(); ++j)
+    problem.s[static_cast<Index>(j)] = -start[signed_rows[j]];
+  const Solution solution = active_set(problem, {.limit = 0});
+  if (solution.q.size() != d) return;
+  const Vector best = start + N * solution.q;
+  const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < k + d; ++j) {
+    const Index a = names[static_cast<std::size_t>(j)];
+    lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
+    if (!is_free[static_cast<std::size_t>(a)]) lambda[a] = std::max(0.0, lambda[a]);
+  }
+}
+
+/// The tableau of a group of rows, whose multipliers are named by their places in it.
+class MultiplierPolyhedron {
+ public:
+  MultiplierPolyhedron(const Dependence& rows, const Vector& lambda, const std::vector<bool>& is_free)
+      : names_(rows.basic), tableau_(made(rows, lambda, is_free, names_)) {}
+
+  Interval range(Index a) {
+    return tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
+  }
+
+ private:
+  static MultiplierTableau made(const Dependence& rows, const Vector& lambda,
+                                const std::vector<bool>& is_free, std::vector<Index>& names) {
+    const std::size_t k = rows.basic.size();
+    names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
+    std::vector<Index> places(names.size());
+    std::iota(places.begin(), places.end(), Index{0});
+    std::vector<bool> free;
+    for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
+    const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
+    return {{places.begin(), end_of_basic}, lambda(rows.basic), {end_of_basic, places.end()}, rows.T, free};
+  }
+
+  std::vector<Index> names_;
+  MultiplierTableau tableau_;
+};
+
+}  // namespace
+
+std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
+                              double tolerance) {
+  const double scale = std::max(solution.acceleration_norm, solution.force_norm);
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
+  const std::vector<bool> basis = marked(problem.rows(), solution.basis);
+  std::vector<Index> candidates;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!two_sided[static_cast<std::size_t>(a)] && !basis[static_cast<std::size_t>(a)] &&
+        !(solution.slack[a] <= 0))
+      candidates.push_back(a);
+  const Vector length = dual_lengths(problem, candidates);
+  std::vector<Index> tight;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
+        solution.slack[a] <= tolerance * (std::abs(problem.s[a]) + length[a] * scale))
+      tight.push_back(a);
+  return tight;
+}
+
+Multipliers multipliers(const NearestPointProblem& problem, const Solution& solution, double tolerance,
+                        bool want_ranges) {
+  Multipliers found;
+  found.least_norm = solution.lambda;
+  found.tight = tight_rows(problem, solution, tolerance);
+  const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
+  std::vector<Interval> ranges(static_cast<std::size_t>(problem.rows()));
+  for (Index a = 0; a < problem.rows(); ++a)
+    ranges[static_cast<std::size_t>(a)] = {solution.lambda[a], solution.lambda[a]};
+
+  const auto groups = dependences(problem, solution.basis, found.tight);
+  if (!groups) {
+    std::vector<Index> loaded;
+    for (Index a : found.tight)
+      if (solution.lambda[a] != 0 || is_free[static_cast<std::size_t>(a)]) loaded.push_back(a);
+    found.unique = sparse_rows_are_independent(problem, loaded);
+    if (found.unique)
+      found.ranges = std::move(ranges);
+    else
+      least_norm_multipliers(problem, found.tight, found.least_norm);
+    return found;
+  }
+
+  found.null_space = null_space(*groups);
+  // They are unique when every dependent row keeps its multiplier 0.
+  const double noise =
+      tolerance * std::max(solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().maxCoeff() : 0.0,
+                           std::numeric_limits<double>::min());
+  for (const Dependence& rows : *groups) {
+    const auto start = std::chrono::steady_clock::now();
+    MultiplierPolyhedron polyhedron(rows, solution.lambda, is_free);
+    bool unique = true;
+    for (Index p : rows.dependent) {
+      const Interval range = polyhedron.range(p);
+      ranges[static_cast<std::size_t>(p)] = range;
+      if (range.high - range.low > noise) unique = false;
+      if (!unique && !want_ranges) break;
+    }
+    if (unique) continue;
+    found.unique = false;
+    if (want_ranges)
+      for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
+    found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    least_norm(rows, is_free, found.least_norm);
+  }
+  if (want_ranges || found.unique) found.ranges = std::move(ranges);
+  return found;
+}
+
+}  // namespace convex

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "convex/interval.hpp"
+#include "convex/nearest_point/active_set/dependence.hpp"
+#include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/solution.hpp"
+
+namespace convex {
+
+/// All multipliers of a solved problem. They form the polyhedron {lambda : Uᵀlambda = R, lambda_a >= 0 on
+/// one-sided rows, lambda_a = 0 off the tight rows}, R = Aq - z being unique even where they are not.
+struct Multipliers {
+  bool unique = true;
+  Vector least_norm;  ///< of least Euclidean norm: m
+  /// The m intervals of the multipliers over all dual optima; none when not asked for.
+  std::optional<std::vector<Interval>> ranges;
+  /// A basis of {mu : Uᵀmu = 0} over the tight rows; none when they are too many for a dense factor.
+  std::optional<std::vector<NullVector>> null_space;
+  double range_seconds = 0;  ///< what the ranges took, which nobody needs to solve a problem
+  std::vector<Index> tight;  ///< rows with u_a·q = s_a within the tolerance, in order
+};
+
+/// Rows with |u_a·q - s_a| <= tolerance (|s_a| + ||u_a||_(A⁻¹) max(||q||_A, ||z||_(A⁻¹))), and the two-sided
+/// ones.
+std::vector<Index> tight_rows(const NearestPointProblem&, const Solution&, double tolerance);
+
+/// The dual optima of a solved (or inaccurately solved) problem. `want_ranges`: two linear programs for every
+/// row that depends on others or is needed for them, each from where the last one ended, so leave it out for
+/// thousands of rows; uniqueness is then found all the same.
+Multipliers multipliers(const NearestPointProblem&, const Solution&, double tolerance, bool want_ranges);
+
+}  // namespace convex

@@ -1,0 +1,149 @@
+#include "convex/nearest_point/multipliers/sensitivity.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/cone_projection.hpp"
+
+namespace convex {
+namespace {
+
+std::vector<bool> marked(Index size, const std::vector<Index>& rows) {
+  std::vector<bool> mark(static_cast<std::size_t>(size), false);
+  for (Index a : rows) mark[static_cast<std::size_t>(a)] = true;
+  return mark;
+}
+
+/// Multipliers that are this part of the largest push, each measured by its row's length, count as 0.
+constexpr double weak = 1e-12;
+
+/// By row: two-sided, or with a multiplier that is not 0.
+std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipliers& multipliers) {
+  std::vector<bool> loaded = marked(problem.rows(), problem.two_sided);
+  const Vector push =
+      multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
+  const double largest = push.size() > 0 ? push.maxCoeff() : 0;
+  for (Index a = 0; a < push.size(); ++a)
+    if (push[a] > weak * largest) loaded[static_cast<std::size_t>(a)] = true;
+  return loaded;
+}
+
+/// Of the rows of `face`, those with a positive multiplier where lambda·s is largest, lambda over all >= 0 on
+/// one-sided rows with Uᵀlambda = R, and the two-sided ones. By duality these lambda are complementary to the
+/// motions d with the least R·d; and such a motion is that of the quadratic problem with a force -t R, t
+/// large enough. Whether t is: R is then a sum of pushes of the rows that d touches. None when no t will do.
+std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& face, const Vector& R) {
+  const double push = face.A.dual_norm(R);
+  const std::vector<bool> two_sided = marked(face.rows(), face.two_sided);
+  if (!(push > 0)) return face.two_sided;
+  NearestPointProblem pulled = face;
+  constexpr int most_trials = 8;
+  constexpr double factor = 32, touched = 1e-9, balanced = 1e-9;
+  double t = (1 + face.s.cwiseAbs().maxCoeff() + face.A.dual_norm(face.z)) / push;
+  for (int trial = 0; trial < most_trials; ++trial, t *= factor) {
+    pulled.z = face.z - t * R;
+    const Solution moved = active_set(pulled);
+    if (moved.q.size() != face.dimension()) return std::nullopt;
+    const Vector lengths = face.U.lengths(face.A.diagonal().cwiseInverse());
+    std::vector<Index> rows, free;
+    for (Index a = 0; a < face.rows(); ++a) {
+      const bool held = two_sided[static_cast<std::size_t>(a)];
+      const double scale = std::abs(face.s[a]) + lengths[a] * moved.acceleration_norm;
+      if (!held && !(moved.slack[a] <= touched * scale)) continue;
+      if (held) free.push_back(static_cast<Index>(rows.size()));
+      rows.push_back(a);
+    }
+    const Vector whole = face.A.whiten(R);
+    const ConeProjection found = cone_projection(whitened_rows(face, rows), whole, free);
+    if (!((found.point - whole).norm() <= balanced * push)) continue;
+    std::vector<Index> loaded;
+    const double largest = found.lambda.size() > 0 ? found.lambda.cwiseAbs().maxCoeff() : 0;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (two_sided[static_cast<std::size_t>(rows[k])] ||
+          found.lambda[static_cast<Index>(k)] > weak * largest)
+        loaded.push_back(rows[k]);
+    return loaded;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution&,
+                                                 const Multipliers& multipliers, const Vector& dz,
+                                                 const Vector& ds) {
+  const std::vector<Index>& tight = multipliers.tight;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
+                          loaded = loaded_rows(problem, multipliers);
+  const bool choose = !multipliers.unique && (ds.array() != 0).any();
+  const std::vector<bool>& held = choose ? two_sided : loaded;
+  NearestPointProblem face{
+      problem.A, dz, problem.U.select(tight), Vector(static_cast<Index>(tight.size())), {}};
+  for (std::size_t k = 0; k < tight.size(); ++k) {
+    face.s[static_cast<Index>(k)] = ds[tight[k]];
+    if (held[static_cast<std::size_t>(tight[k])]) face.two_sided.push_back(static_cast<Index>(k));
+  }
+  if (choose) {
+    const auto rows = loaded_by_change(face, problem.U.transpose_times(multipliers.least_norm));
+    if (!rows) return std::nullopt;
+    face.two_sided = *rows;
+  }
+  const Solution moved = active_set(face, {.limit = 0});
+  if (moved.q.size() != problem.dimension()) return std::nullopt;
+  Derivative found{moved.q, face.U.transpose_times(moved.lambda), std::nullopt};
+  if (multipliers.unique) {
+    found.multipliers = Vector::Zero(problem.rows());
+    for (std::size_t k = 0; k < tight.size(); ++k)
+      (*found.multipliers)[tight[k]] = moved.lambda[static_cast<Index>(k)];
+  }
+  return found;
+}
+
+std::optional<Vector> margins(const NearestPointProblem& problem, const Solution& solution,
+                              const Multipliers& multipliers) {
+  if (!multipliers.unique) return std::nullopt;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Index m = problem.rows();
+  const std::vector<bool> loaded = loaded_rows(problem, multipliers),
+                          two_sided = marked(m, problem.two_sided);
+  std::vector<Index> held;
+  for (Index a : solution.basis)
+    if (loaded[static_cast<std::size_t>(a)]) held.push_back(a);
+  const auto k = static_cast<Index>(held.size());
+  Matrix Q(problem.dimension(), 0), R_inverse(0, 0);
+  if (k > 0) {
+    const Eigen::HouseholderQR<Matrix> factor(whitened_rows(problem, held));
+    Q = factor.householderQ() * Matrix::Identity(problem.dimension(), k);
+    R_inverse = Matrix::Identity(k, k);
+    factor.matrixQR().topRows(k).triangularView<Eigen::Upper>().solveInPlace(R_inverse);
+  }
+  Vector found = Vector::Constant(m, infinity);
+  for (Index r = 0; r < k; ++r) {
+    // dlambda = (VᵀV)⁻¹Vᵀ F⁻¹dz, whose row r has the length |R⁻¹|_r.
+    const Index a = held[static_cast<std::size_t>(r)];
+    if (!two_sided[static_cast<std::size_t>(a)])
+      found[a] = std::max(0.0, multipliers.least_norm[a]) / R_inverse.row(r).norm();
+  }
+  const std::vector<bool> is_tight = marked(m, multipliers.tight), is_held = marked(m, held);
+  std::vector<Index> others;
+  for (Index a = 0; a < m; ++a)
+    if (!is_held[static_cast<std::size_t>(a)] && !two_sided[static_cast<std::size_t>(a)]) others.push_back(a);
+  const Matrix V = whitened_rows(problem, others);
+  const Matrix free = V - Q * (Q.transpose() * V);
+  for (std::size_t j = 0; j < others.size(); ++j) {
+    const Index a = others[j];
+    const double reach = free.col(static_cast<Index>(j)).norm(), length = V.col(static_cast<Index>(j)).norm();
+    const bool reachable = reach > 64 * unit_roundoff * static_cast<double>(problem.dimension()) * length;
+    if (is_tight[static_cast<std::size_t>(a)])
+      found[a] = 0;
+    else if (reachable)
+      found[a] = std::max(0.0, solution.slack[a]) / reach;
+  }
+  return found;
+}
+
+}  // namespace convex

@@ -1,0 +1,80 @@
+#include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "convex/nearest_point/isotonic/peeling.hpp"
+#include "convex/nearest_point/sparse/row_system.hpp"
+#include "convex/nearest_point/sparse/sparse_active_set.hpp"
+
+namespace convex {
+
+bool sparse_rows_are_independent(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  const std::vector<Index> core = rows_left_by_peeling(problem.U, rows);
+  if (core.empty()) return true;
+  if (static_cast<Index>(core.size()) > problem.dimension()) return false;
+  constexpr double weight_of_rows = 1e9, part_left = 1e-5;
+  constexpr int projections = 4;
+  NearestPointProblem part{Metric::identity(problem.dimension()),
+                           Vector::Zero(problem.dimension()),
+                           problem.U.select(core),
+                           Vector::Zero(static_cast<Index>(core.size())),
+                           {}};
+  const BalancedProblem balanced = balanced_problem(part);
+  RowSystem system(balanced);
+  if (!system.factor(Vector::Constant(part.rows(), weight_of_rows))) return false;
+  Vector kept(part.rows());
+  for (Index k = 0; k < kept.size(); ++k) {  // fixed numbers without a pattern
+    const double x = 0.6180339887498949 * static_cast<double>(k + 1);
+    kept[k] = x - std::floor(x) - 0.5;
+  }
+  const double drawn = kept.norm();
+  for (int k = 0; k < projections; ++k)
+    kept -= weight_of_rows * (balanced.U * system.solve(balanced.U.transpose() * kept));
+  return kept.norm() <= part_left * drawn;
+}
+
+bool least_norm_multipliers(const NearestPointProblem& problem, const std::vector<Index>& tight,
+                            Vector& lambda) {
+  const Index k = static_cast<Index>(tight.size()), n = problem.dimension();
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Index> signed_rows;
+  for (Index j = 0; j < k; ++j) {
+    const Index a = tight[static_cast<std::size_t>(j)];
+    if (problem.U.is_sparse())
+      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it)
+        entries.emplace_back(static_cast<int>(it.col()), static_cast<int>(j), it.value());
+    else
+      for (Index i = 0; i < n; ++i)
+        if (problem.U.dense()(a, i) != 0)
+          entries.emplace_back(static_cast<int>(i), static_cast<int>(j), problem.U.dense()(a, i));
+    if (!std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) signed_rows.push_back(j);
+  }
+  const Index m = n + static_cast<Index>(signed_rows.size());
+  Vector start(k), s = Vector::Zero(m);
+  for (Index j = 0; j < k; ++j) start[j] = lambda[tight[static_cast<std::size_t>(j)]];
+  for (std::size_t j = 0; j < signed_rows.size(); ++j) {
+    entries.emplace_back(static_cast<int>(n) + static_cast<int>(j), static_cast<int>(signed_rows[j]), 1.0);
+    s[n + static_cast<Index>(j)] = -start[signed_rows[j]];
+  }
+  SparseRows U(m, k);
+  U.setFromTriplets(entries.begin(), entries.end());
+  std::vector<Index> equations(static_cast<std::size_t>(n));
+  std::iota(equations.begin(), equations.end(), Index{0});
+  const Solution found =
+      sparse_active_set({Metric::identity(k), -start, ConstraintRows(std::move(U)), s, std::move(equations)});
+  if (found.status != Status::solved) return false;
+  const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
+  for (Index j = 0; j < k; ++j) {
+    const double best = start[j] + found.q[j];
+    lambda[tight[static_cast<std::size_t>(j)]] = std::abs(best) <= noise ? 0 : best;
+  }
+  for (Index j : signed_rows) {
+    double& value = lambda[tight[static_cast<std::size_t>(j)]];
+    value = std::max(0.0, value);
+  }
+  return true;
+}
+
+}  // namespace convex

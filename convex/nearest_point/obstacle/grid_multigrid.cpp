@@ -1,0 +1,190 @@
+#include "convex/nearest_point/obstacle/grid_multigrid.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/obstacle/grid_kernels.hpp"
+
+namespace convex {
+namespace {
+
+constexpr Index smallest = 3, most_steps = 200;
+/// Sweeps in each direction that solve the coarsest grid well enough.
+constexpr int coarsest_sweeps = 12;
+
+/// For grids whose rows nobody waits for.
+struct Unheard {
+  void operator()(Index) const {}
+};
+
+}  // namespace
+
+GridOperator coarsened(const GridOperator& fine) {
+  return {fine.width / 2, fine.height / 2, 4 * fine.c + 4 * (fine.d - 4 * fine.c), fine.c};
+}
+
+GridMultigrid::Level GridMultigrid::level(const GridOperator& A) {
+  Level made{A.width, A.height, static_cast<float>(A.d / A.c), 1, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  const auto size = static_cast<std::size_t>(A.size()), row = static_cast<std::size_t>(A.stride());
+  for (std::vector<float>* field : {&made.free, &made.u, &made.r}) field->assign(size, 0);
+  for (std::vector<float>* one : {&made.even, &made.odd, &made.row, &made.mean, &made.sum, &made.last})
+    one->assign(row, 0);
+  for (std::size_t i = 0; i < row; ++i) (i % 2 == 1 ? made.even : made.odd)[i] = 1;  // entry i is point i - 1
+  return made;
+}
+
+GridMultigrid::GridMultigrid(const GridOperator& finest) : finest_(finest) {
+  GridOperator grid = finest;
+  levels_.push_back(level(grid));
+  while (std::min(grid.width, grid.height) > smallest) {
+    grid = coarsened(grid);
+    levels_.push_back(level(grid));
+  }
+}
+
+void GridMultigrid::set_free(const Vector& free) {
+  for (Index k = 0; k < free.size(); ++k)
+    levels_.front().free[static_cast<std::size_t>(k)] = static_cast<float>(free[k]);
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    const Level& fine = levels_[l - 1];
+    Level& coarse = levels_[l];
+    for (Index j = 0; j < coarse.height; ++j) {
+      const float* from = fine.free.data() + fine.at(2 * j + 1) + 1;
+      float* to = coarse.free.data() + coarse.at(j);
+      for (Index i = 0; i < coarse.width; ++i) to[i] = from[2 * i];
+    }
+  }
+}
+
+/// One colour of a row relaxed; colours of points beside differ, so the order within a row is no matter.
+void GridMultigrid::sweep_row(Level& grid, Index j, bool red) {
+  float* u = grid.u.data() + grid.at(j);
+  grid_kernels::relax(grid.width, grid.stride(), grid.c, 1 / grid.d, grid.colour(j, red),
+                      grid.free.data() + grid.at(j), grid.r.data() + grid.at(j), u, grid.row.data() + 1);
+  std::copy_n(grid.row.data() + 1, grid.width, u);
+}
+
+/// A red-black sweep from 0 on the fine grid, and what it leaves, restricted.
+void GridMultigrid::descend(Level& fine, Level& coarse) {
+  const Index n = fine.width;
+  const auto first = [&](Index j) {
+    grid_kernels::relax_zero(n, 1 / fine.d, fine.colour(j, true), fine.free.data() + fine.at(j),
+                             fine.r.data() + fine.at(j), fine.u.data() + fine.at(j));
+  };
+  // `row` gathers the residuals of three rows, the outer two by half, `mean` those of the last one.
+  const auto residual = [&](Index j, float weight, const std::vector<float>& before,
+                            std::vector<float>& into) {
+    grid_kernels::add_residual(n, fine.stride(), fine.d, fine.c, fine.free.data() + fine.at(j),
+                               fine.r.data() + fine.at(j), fine.u.data() + fine.at(j), weight,
+                               before.data() + 1, into.data() + 1);
+  };
+  std::vector<float>&sum = fine.sum, &last = fine.last, &nothing = fine.mean;
+  std::fill(nothing.begin(), nothing.end(), 0.0F);
+  first(0);
+  Index relaxed = 0;  // rows relaxed in both colours
+  const auto relax_to = [&](Index end) {
+    for (; relaxed < std::min(end, fine.height); ++relaxed) {
+      if (relaxed + 1 < fine.height) first(relaxed + 1);
+      sweep_row(fine, relaxed, false);
+    }
+  };
+  relax_to(2);
+  residual(0, 0.5F, nothing, last);
+  for (Index j = 0; j < coarse.height; ++j) {
+    relax_to(2 * j + 4);
+    residual(2 * j + 1, 1, last, sum);
+    std::fill(last.begin(), last.end(), 0.0F);
+    if (2 * j + 2 < fine.height) residual(2 * j + 2, 0.5F, nothing, last);
+    for (Index i = 0; i < n; ++i)
+      sum[static_cast<std::size_t>(i + 1)] += last[static_cast<std::size_t>(i + 1)];
+    grid_kernels::gather(coarse.width, sum.data() + 1, coarse.free.data() + coarse.at(j),
+                         coarse.r.data() + coarse.at(j));
+  }
+  relax_to(fine.height);
+}
+
+/// The correction interpolated, and a black-red sweep, each row as soon as those beside it are ready;
+/// row_done(j) hears of rows that are through.
+template <class RowDone>
+void GridMultigrid::ascend(const Level& coarse, Level& fine, RowDone row_done) {
+  const float* e = coarse.u.data();
+  for (Index j = 0; j < fine.height + 2; ++j) {
+    if (j < fine.height) {
+      // Fine row 2k + 1 lies on coarse row k, 2k between k - 1 and k.
+      const Index below = j / 2 - 1 + j % 2, above = std::min(j / 2, coarse.height);
+      grid_kernels::spread(fine.width, coarse.width, e + coarse.at(below), e + coarse.at(above),
+                           fine.free.data() + fine.at(j), fine.mean.data() + 1, fine.u.data() + fine.at(j));
+    }
+    if (j >= 1 && j - 1 < fine.height) sweep_row(fine, j - 1, false);
+    if (j < 2) continue;
+    sweep_row(fine, j - 2, true);
+    if (j >= 3) row_done(j - 3);
+  }
+  row_done(fine.height - 1);
+}
+
+template <class RowDone>
+void GridMultigrid::cycle(std::size_t level, RowDone row_done) {
+  Level& grid = levels_[level];
+  if (level + 1 == levels_.size()) {
+    std::fill(grid.u.begin(), grid.u.end(), 0.0F);
+    for (int k = 0; k < 2 * coarsest_sweeps; ++k)
+      for (const bool red : {k < coarsest_sweeps, k >= coarsest_sweeps})
+        for (Index j = 0; j < grid.height; ++j) sweep_row(grid, j, red);
+    for (Index j = 0; j < grid.height; ++j) row_done(j);
+    return;
+  }
+  descend(grid, levels_[level + 1]);
+  cycle(level + 1, Unheard{});
+  ascend(levels_[level + 1], grid, row_done);
+}
+
+GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vector& u, double absolute) {
+  Level& grid = levels_.front();
+  const Index size = finest_.size(), n = grid.width;
+  double square = 0;
+  for (Index j = 0; j < grid.height; ++j)
+    for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
+      square += grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] * right[k] : 0;
+  u.setZero(size);
+  if (!(square > 0)) return {0, 0};
+  // Numbers of size 1, and c = 1: of A/c x = r, r scaled, energies are those of A u = r over unit²/c.
+  const double unit = std::sqrt(square / static_cast<double>(n * grid.height));
+  for (std::vector<float>* field : {&x_, &p_, &Ap_}) field->assign(static_cast<std::size_t>(size), 0);
+  for (Index k = 0; k < size; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    grid.r[i] = grid.free[i] * static_cast<float>(right[k] / unit);
+  }
+  const double energy_unit = unit * unit / finest_.c;
+  double energy = 0, previous = 0, step = 0;
+  for (Index count = 0; count < most_steps; ++count) {
+    grid_kernels::Products with;
+    cycle(0, [&](Index j) {
+      const Index k = grid.at(j);
+      grid_kernels::add_products(n, grid.r.data() + k, Ap_.data() + k, grid.u.data() + k, with);
+    });
+    const double beta = count == 0 ? 0 : -step * with.of_Ap / previous;
+    double curvature = 0;
+    for (Index j = -1; j < grid.height; ++j) {  // a row is turned before the one below it is applied
+      if (j + 1 < grid.height)
+        grid_kernels::turn(n, static_cast<float>(beta), grid.u.data() + grid.at(j + 1),
+                           p_.data() + grid.at(j + 1));
+      if (j < 0) continue;
+      const Index k = grid.at(j);
+      curvature += grid_kernels::apply(n, grid.stride(), grid.d, grid.c, grid.free.data() + k, p_.data() + k,
+                                       Ap_.data() + k);
+    }
+    if (!(curvature > 0) || !(with.of_r > 0)) break;
+    step = with.of_r / curvature;  // r·p = r·z, for r is at right angles to the direction before
+    grid_kernels::advance(size, static_cast<float>(step), p_.data(), Ap_.data(), x_.data(), grid.r.data());
+    energy += step * with.of_r;
+    previous = with.of_r;
+    ++steps_;
+    if (previous <= std::max(part * part * energy, absolute * absolute / energy_unit)) break;
+  }
+  const double back = unit / finest_.c;
+  for (Index k = 0; k < size; ++k) u[k] = back * static_cast<double>(x_[static_cast<std::size_t>(k)]);
+  return {std::sqrt(energy * energy_unit), std::sqrt(previous * energy_unit)};
+}
+
+}  // namespace convex

@@ -1,0 +1,153 @@
+#include "convex/nearest_point/obstacle/obstacle.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/obstacle/grid_kernels.hpp"
+#include "convex/nearest_point/obstacle/obstacle_grid.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double none = -std::numeric_limits<double>::infinity();
+
+Vector all_points(const GridOperator& A) {
+  Vector all = A.field();
+  for (Index j = 0; j < A.height; ++j) all.segment(A.at(0, j), A.width).setOnes();
+  return all;
+}
+
+Vector on_grid(const GridOperator& A, const Vector& x) {
+  Vector field = A.field();
+  for (Index j = 0; j < A.height; ++j) field.segment(A.at(0, j), A.width) = x.segment(j * A.width, A.width);
+  return field;
+}
+
+std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
+  constexpr Index smallest = 8;
+  if (problem.A.kind() != MetricKind::sparse || !problem.U.is_sparse()) return std::nullopt;
+  const SparseMatrix& W = problem.A.sparse_gram();
+  const Index n = W.rows();
+  SparseMatrix::InnerIterator first(W, 0);
+  if (!first || first.row() != 0) return std::nullopt;
+  ObstacleGrid grid;
+  grid.A.d = first.value();
+  ++first;
+  if (!first || first.row() != 1) return std::nullopt;
+  grid.A.c = -first.value();
+  ++first;
+  if (!first || n % first.row() != 0) return std::nullopt;
+  const Index width = first.row();
+  grid.A.width = width;
+  grid.A.height = n / width;
+  if (std::min(width, grid.A.height) < smallest || !(grid.A.c > 0) || !(grid.A.d >= 4 * grid.A.c))
+    return std::nullopt;
+  for (Index k = 0; k < n; ++k) {
+    Index expected = 1 + (k % width > 0) + (k % width + 1 < width) + (k >= width) + (k + width < n);
+    for (SparseMatrix::InnerIterator it(W, k); it; ++it, --expected) {
+      const Index by = std::abs(it.row() - k);
+      const bool beside = by == 1 && it.row() / width == k / width;
+      if (by == 0 ? it.value() != grid.A.d : (!(beside || by == width) || it.value() != -grid.A.c))
+        return std::nullopt;
+    }
+    if (expected != 0) return std::nullopt;
+  }
+  grid.z = on_grid(grid.A, problem.z);
+  grid.lower = Vector::Constant(grid.A.size(), none);
+  if (!problem.two_sided.empty()) grid.held = grid.A.field();
+  auto next_two_sided = problem.two_sided.begin();
+  for (Index a = 0; a < problem.rows(); ++a) {
+    SparseRows::InnerIterator it(problem.U.sparse(), a);
+    if (!it || !(it.value() > 0)) return std::nullopt;
+    const Index point = grid.A.at(it.col() % width, it.col() / width);
+    if (next_two_sided != problem.two_sided.end() && *next_two_sided == a) {
+      grid.held[point] = 1;
+      ++next_two_sided;
+    }
+    double& lower = grid.lower[point];
+    if (lower > none) return std::nullopt;
+    lower = problem.s[a] / it.value();
+    if (lower * it.value() != problem.s[a]) return std::nullopt;
+    ++it;
+    if (it) return std::nullopt;
+  }
+  return grid;
+}
+
+/// ||c||_(A⁻¹) of fields without a factor of A.
+class GridNorm {
+ public:
+  explicit GridNorm(const GridOperator& A) : A_(A), multigrid_(A) { multigrid_.set_free(all_points(A)); }
+
+  /// To the square of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
+  double dual(const Vector& c) {
+    constexpr double close = 1e-4;
+    Vector u, r = A_.field(), correction;
+    multigrid_.solve(c, close, u);
+    for (Index j = 0; j < A_.height; ++j) {
+      const Index k = A_.at(0, j);
+      grid_kernels::residual(A_.width, A_.stride(), A_.d, A_.c, c.data() + k, u.data() + k, r.data() + k);
+    }
+    const double rest = multigrid_.solve(r, close, correction).found;
+    return std::sqrt(std::max(0.0, u.dot(c) + u.dot(r) + rest * rest));
+  }
+  double rough_dual(const Vector& c) {
+    Vector u;
+    return multigrid_.solve(c, 1e-2, u).found;
+  }
+
+ private:
+  const GridOperator& A_;
+  GridMultigrid multigrid_;
+};
+
+}  // namespace
+
+std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  const std::optional<ObstacleGrid> grid = grid_problem(problem);
+  if (!grid) return std::nullopt;
+  const ObstaclePoint point = solve_obstacle_grid(*grid);
+  if (!point.ended) return std::nullopt;
+  const Index n = problem.dimension(), width = grid->A.width;
+  const auto place = [&](Index k) { return grid->A.at(k % width, k / width); };
+  Solution found;
+  found.method = "obstacle";
+  found.q.resize(n);
+  Vector lost(n);
+  for (Index k = 0; k < n; ++k) {
+    found.q[k] = point.q.hi[place(k)];
+    lost[k] = point.q.lo[place(k)];
+  }
+  found.lambda = Vector::Zero(problem.rows());
+  found.slack = Vector::Zero(problem.rows());
+  Vector length(problem.rows());
+  for (Index a = 0; a < problem.rows(); ++a) {
+    const SparseRows::InnerIterator it(problem.U.sparse(), a);
+    length[a] = it.value() / std::sqrt(grid->A.d);  // a lower bound, (u·v)/||v||_A with v = u, is enough
+    const Index k = place(it.col());
+    if (grid->holds(k) || point.q.hi[k] <= grid->lower[k]) {
+      const double push = -point.rest[k] / it.value();
+      found.lambda[a] = grid->holds(k) ? push : std::max(0.0, push);
+      found.basis.push_back(a);
+    } else {
+      found.slack[a] = it.value() * found.q[it.col()] - problem.s[a];
+    }
+  }
+  found.steps = point.steps;
+  found.acceleration_norm = problem.A.norm(found.q);
+  GridNorm norm(grid->A);
+  found.force_norm = norm.dual(grid->z);
+  KnownParts known{std::move(length), found.slack, {}, found.acceleration_norm, found.force_norm};
+  known.dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };
+  found.residuals = residuals(problem, found.q, found.lambda, std::move(known));
+  found.rounding = std::sqrt(2 * grid->A.d * lost.squaredNorm());
+  found.error_bound = 2 * point.missing + found.rounding;
+  const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
+  found.status = close ? Status::solved : Status::inaccurate;
+  found.model.islands = {{found.method, n, problem.rows(), 0, 60.0 * static_cast<double>(point.steps * n),
+                          6.0 * static_cast<double>(n)}};
+  return found;
+}
+
+}  // namespace convex

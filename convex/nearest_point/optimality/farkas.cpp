@@ -1,0 +1,47 @@
+#include "convex/nearest_point/optimality/farkas.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace convex {
+namespace {
+
+/// wᵀU may be off by so many roundings of its terms: w itself is rounded, and rows that depend on each other
+/// may be rounded too.
+constexpr double combination_roundings = 16;
+
+/// A gap of so many roundings of the s it is made of is a rounded s, not a contradiction.
+constexpr double gap_roundings = 16;
+
+double largest_entry(const ConstraintRows& U, Index a) {
+  if (!U.is_sparse()) return U.dense().row(a).cwiseAbs().maxCoeff();
+  double largest = 0;
+  for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it)
+    largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
+
+}  // namespace
+
+bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, double reach) {
+  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  DoubleDoubleVector combination(problem.dimension());
+  DoubleDouble gap;
+  double terms = 0, magnitude = 0;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (w[a] == 0) continue;
+    if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
+    problem.U.add_multiple(a, {w[a], 0}, combination);
+    gap = add(gap, two_product(w[a], problem.s[a]));
+    terms += std::abs(w[a]) * largest_entry(problem.U, a);
+    magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
+  }
+  const Vector rest = combination.value();
+  const bool combines =
+      rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_roundings * unit_roundoff * terms;
+  return combines &&
+         gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach;
+}
+
+}  // namespace convex

@@ -1,0 +1,118 @@
+#include "convex/nearest_point/optimality/residuals.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/optimality/sparse_residuals.hpp"
+
+namespace convex {
+
+Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  Vector length = Vector::Zero(problem.rows());
+  const MetricKind kind = problem.A.kind();
+  if (problem.U.is_sparse() && (kind == MetricKind::diagonal || kind == MetricKind::identity)) {
+    const Vector all = problem.U.lengths(problem.A.diagonal().cwiseInverse());
+    for (Index a : rows) length[a] = all[a];
+    return length;
+  }
+  // With a sparse factor a length is a solve: beyond `many` a lower bound stands for it, (u·v)/||v||_A for v
+  // = D⁻¹u, which makes residuals larger.
+  constexpr std::size_t many = 2000;
+  if (problem.U.is_sparse() && kind == MetricKind::sparse && rows.size() > many) {
+    const Vector inverse = problem.A.diagonal().cwiseInverse();
+    Vector v = Vector::Zero(problem.dimension());
+    for (Index a : rows) {
+      double along = 0, square = 0;
+      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it) {
+        v[it.col()] = it.value() * inverse[it.col()];
+        along += it.value() * v[it.col()];
+      }
+      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it)
+        for (SparseMatrix::InnerIterator entry(problem.A.sparse_gram(), it.col()); entry; ++entry)
+          square += v[it.col()] * entry.value() * v[entry.row()];
+      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it) v[it.col()] = 0;
+      length[a] = square > 0 ? along / std::sqrt(square) : 0;
+    }
+    return length;
+  }
+  constexpr std::size_t width = 64;  // rows whitened at once
+  for (std::size_t first = 0; first < rows.size(); first += width) {
+    const std::size_t count = std::min(width, rows.size() - first);
+    Matrix block(problem.dimension(), static_cast<Index>(count));
+    for (std::size_t k = 0; k < count; ++k)
+      problem.U.copy_row(rows[first + k], block.col(static_cast<Index>(k)));
+    problem.A.whiten_in_place(block);
+    for (std::size_t k = 0; k < count; ++k) length[rows[first + k]] = block.col(static_cast<Index>(k)).norm();
+  }
+  return length;
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                    const Vector& length) {
+  return residuals(
+      problem, q, lambda,
+      KnownParts{
+          length, problem.U.times(q) - problem.s, {}, problem.A.norm(q), problem.A.dual_norm(problem.z)});
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
+                    KnownParts known) {
+  const bool plain = problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
+  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, q, lambda, known);
+  Vector& length = known.length;
+  Vector& rest = known.slack;
+  const Index m = problem.rows();
+  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+
+  const DoubleDoubleVector point(q);
+  // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
+  constexpr double near = 1e-8;
+  const Vector magnitude = q.cwiseAbs();
+  std::vector<Index> matter, unknown, loaded;
+  for (Index a = 0; a < m; ++a) {
+    const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
+    if (lambda[a] != 0) loaded.push_back(a);
+    if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
+      const double s = std::abs(problem.s[a]);
+      if (known.magnitude.size() > 0 && rest[a] > near * (s + known.magnitude[a])) continue;
+      if (rest[a] > near * (s + problem.U.absolute_dot(a, magnitude))) continue;
+    }
+    rest[a] = slack(problem, a, point).value();
+    if (lambda[a] == 0 && rest[a] >= 0 && !is_two_sided) continue;
+    matter.push_back(a);
+    if (length[a] <= 0) unknown.push_back(a);
+  }
+  if (!unknown.empty()) length += dual_lengths(problem, unknown);
+
+  DoubleDoubleVector weights(static_cast<Index>(loaded.size()));
+  for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
+  const Vector unbalanced = stationarity_residual(problem, point, loaded, weights);
+  const double stationarity = known.dual_norm ? known.dual_norm(unbalanced) : problem.A.dual_norm(unbalanced);
+  const double q_norm = known.q_norm, scale = std::max(q_norm, known.force_norm);
+  const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
+
+  Residuals found;
+  double gap = 0.5 * stationarity * stationarity;
+  for (Index a : matter) {
+    const double row_scale = std::abs(problem.s[a]) + length[a] * q_norm;
+    const double violation =
+        two_sided[static_cast<std::size_t>(a)] ? std::abs(rest[a]) : std::max(0.0, -rest[a]);
+    gap += lambda[a] * rest[a];
+    // A violation on a row of scale 0 (at rest, s = 0) is relative to what the forces could do to it instead.
+    const double over = row_scale > 0 ? row_scale : length[a] * scale;
+    if (over > 0) {
+      found.feasibility = std::max(found.feasibility, violation / over);
+      if (largest > 0)
+        found.complementarity =
+            std::max(found.complementarity, std::abs(lambda[a] / largest * rest[a]) / over);
+    }
+  }
+  if (scale > 0) {
+    found.stationarity = stationarity / scale;
+    found.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
+  }
+  return found;
+}
+
+}  // namespace convex

@@ -1,0 +1,123 @@
+#include "convex/nearest_point/pivoting/gram_factor.hpp"
+
+#include <cmath>
+
+namespace convex {
+
+GramFactor::GramFactor(const GramRows& rows, Arena& arena, Index capacity)
+    : rows_(rows), kernels_(dense_kernels()), capacity_(capacity), ld_(padded(capacity)) {
+  L_ = arena.take<double>(ld_ * ld_);
+  inverse_ = arena.take<double>(16 * ld_);
+  column_ = arena.take<double>(ld_);
+  at_ = arena.take<Index>(ld_);
+}
+
+Index GramFactor::lines(Index capacity) {
+  const Index k = padded(capacity);
+  return (k * k + 18 * k) / 8;
+}
+
+/// The unit matrix from row and column `from` on, up to the end of their pack.
+void GramFactor::pad(Index from) {
+  for (Index j = from; j < padded(from); ++j) {
+    for (Index c = 0; c < padded(from); ++c) L_[c * ld_ + j] = L_[j * ld_ + c] = 0;
+    L_[j * (ld_ + 1)] = 1;
+  }
+}
+
+/// L := the Gram matrix of the rows held, its lower part.
+void GramFactor::gather() {
+  for (Index j = 0; j < size_; ++j) {
+    const double* from = rows_.gram(at_[j]);
+    for (Index i = j; i < size_; ++i) L_[j * ld_ + i] = from[at_[i]];
+  }
+  pad(size_);
+}
+
+void GramFactor::eliminate_plainly(Index j) {
+  const double* const column = L_ + j * ld_;
+  for (Index i = j + 1; i < size_; ++i) {
+    const Index first = i / 8 * 8;
+    kernels_.add_multiple(padded(size_) - first, -column[i] / column[j], column + first,
+                          L_ + i * ld_ + first);
+  }
+}
+
+bool GramFactor::factor(double part) {
+  gather();
+  kernels_.factor(size_, ld_, L_, inverse_);
+  factored_ = true;
+  for (Index j = 0; j < size_ && factored_; ++j)
+    factored_ = pivot(j) * pivot(j) > part * rows_.square(at_[j]);
+  return factored_;
+}
+
+double GramFactor::distance(Index place, double* x) const {
+  const double* const gram = rows_.gram(place);
+  for (Index j = 0; j < padded(size_); ++j) x[j] = j < size_ ? gram[at_[j]] : 0;
+  if (size_ == 0) return rows_.square(place);
+  kernels_.forward(size_, ld_, L_, inverse_, x);
+  return rows_.square(place) - kernels_.dot(padded(size_), x, x);
+}
+
+void GramFactor::append(Index place, const double* x, double distance) {
+  const Index k = size_++;
+  at_[k] = place;
+  if (k % 8 == 0) pad(size_);
+  for (Index c = 0; c < k; ++c) L_[c * ld_ + k] = L_[k * ld_ + c] = x[c];
+  L_[k * (ld_ + 1)] = std::sqrt(distance);
+  const Index first = k / 8 * 8;
+  kernels_.invert_blocks(size_ - first, ld_, L_ + first * (ld_ + 1), inverse_ + 16 * first);
+}
+
+/// Without row j, L₃₃ of the rows behind it becomes L' with L'L'ᵀ = L₃₃L₃₃ᵀ + x xᵀ, x what they had in its
+/// column.
+void GramFactor::remove(Index j) {
+  const Index k = size_--;
+  double* const x = column_;
+  for (Index i = j + 1; i < k; ++i) {
+    x[i] = L_[j * ld_ + i];
+    at_[i - 1] = at_[i];
+  }
+  for (Index c = 0; c < j; ++c) {
+    double* const column = L_ + c * ld_;
+    for (Index i = j; i + 1 < k; ++i) L_[i * ld_ + c] = column[i] = column[i + 1];
+  }
+  for (Index c = j + 1; c < k; ++c) {
+    const double* const from = L_ + c * ld_;
+    double* const to = L_ + (c - 1) * ld_ - 1;
+    const double d = from[c], r = std::sqrt(d * d + x[c] * x[c]), inverse = d / r, cosine = r / d,
+                 sine = x[c] / d;
+    to[c] = r;
+    for (Index i = c + 1; i < k; ++i) {
+      to[i] = (from[i] + sine * x[i]) * inverse;
+      x[i] = cosine * x[i] - sine * to[i];
+    }
+    for (Index i = c + 1; i < k; ++i) L_[(i - 1) * ld_ + c - 1] = to[i];
+  }
+  pad(size_);
+  const Index first = j / 8 * 8;
+  if (first < size_)
+    kernels_.invert_blocks(size_ - first, ld_, L_ + first * (ld_ + 1), inverse_ + 16 * first);
+}
+
+void GramFactor::keep_first(Index count) {
+  if (count == size_) return;
+  size_ = count;
+  pad(size_);
+  const Index first = size_ / 8 * 8;
+  if (factored_ && first < size_)
+    kernels_.invert_blocks(size_ - first, ld_, L_ + first * (ld_ + 1), inverse_ + 16 * first);
+}
+
+void GramFactor::solve(double* x) const {
+  if (size_ == 0) return;
+  kernels_.forward(size_, ld_, L_, inverse_, x);
+  kernels_.backward(size_, ld_, L_, inverse_, x);
+}
+
+void GramFactor::solve_upper(double* x) const {
+  if (size_ > 0) kernels_.backward(size_, ld_, L_, inverse_, x);
+}
+
+}  // namespace convex

@@ -1,0 +1,51 @@
+#include "convex/nearest_point/pivoting/gram_method.hpp"
+
+#include "convex/nearest_point/active_set/active_set_answer.hpp"
+#include "convex/nearest_point/pivoting/gram_solve.hpp"
+#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+
+namespace convex {
+namespace {
+
+/// Beyond, the arrays by eights are no longer what the caches hold.
+constexpr Index largest = 600;
+
+constexpr Index most_kept_lines = Index{1} << 17;  // 8 MB
+
+}  // namespace
+
+bool has_gram_matrix(const NearestPointProblem& problem) {
+  const Index n = problem.dimension(), m = problem.rows();
+  return problem.A.kind() == MetricKind::dense && !problem.U.is_sparse() && n > 0 && n <= largest && m > 0 &&
+         m <= 4 * largest;
+}
+
+GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accuracy& accuracy,
+                                 const std::vector<Index>& guess) {
+  GramOutcome found{std::nullopt, guess};
+  if (!has_gram_matrix(problem) || accuracy.step_limit > 0) return found;
+  Solution solution;
+  if (SmallGramSolve::fits(problem)) {
+    SmallTableau scene;
+    SmallGramSolve small(problem, scene);
+    if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) {
+      found.solution = std::move(solution);
+      return found;
+    }
+    found.rows = small.one_sided_rows_held();
+  }
+  thread_local Arena arena;
+  GramSolve way(problem, arena);
+  if (way.solve(found.rows, accuracy, solution) && solution.status == Status::solved) {
+    found.solution = std::move(solution);
+  } else if (const std::optional<Vector>& weights = way.set().contradiction()) {
+    solution = infeasible_answer(problem, *weights, way.scale(), way.set().steps());
+    if (solution.status == Status::infeasible) found.solution = std::move(solution);
+  } else {
+    found.rows = way.set().one_sided_rows_held();
+  }
+  if (arena.lines() > most_kept_lines) arena.give_back();
+  return found;
+}
+
+}  // namespace convex

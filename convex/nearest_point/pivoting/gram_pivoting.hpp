@@ -1,0 +1,129 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "convex/nearest_point/pivoting/gram_factor.hpp"
+
+namespace convex {
+
+/// Principal pivoting by blocks (Júdice and Pires 1994; Kunisch and Rendl 2003) on the Gram matrix of
+/// whitened rows: the deepest of the violated rows come in and rows with a multiplier that is not positive go
+/// out, all at once, until none is wrong. With few rows the Gram matrix has all of them; with many, those
+/// that came in.
+class GramPivoting {
+ public:
+  /// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
+  /// left to an orthogonal factor; or dependent as far as doubles tell, and left out of the rows held.
+  static constexpr double near_dependence = 1e-11, dependence = 1e-13;
+
+  /// w_free = L⁻¹z, padded; row_scale: ||u_a||_(D⁻¹), D the diagonal of A, by which violations are compared.
+  GramPivoting(const NearestPointProblem& problem, Arena& arena, const double* w_free,
+               const double* row_scale);
+  /// Cache lines that it takes from the arena.
+  static Index lines(Index n, Index m);
+
+  /// False when it does not settle, or when rows held are nearly dependent. guess: rows to begin with.
+  bool settle(const std::vector<Index>& guess);
+  /// The same from the rows held now, after z and s of the problem have changed, and w_free with them.
+  bool settle_again();
+
+  /// Pivots at the scale of what a point misses of its equations, on the same Gram matrix. Rows held whose
+  /// multiplier is clear of 0 stay, rows outside that are clear of their edge stay out; the others change
+  /// sides as the loads tell, at places: s_a - u_a·q - v_a·g for a point q whose equations of motion,
+  /// whitened, miss g, the weak multipliers counted as 0. `lambda` has the multipliers to add then.
+  /// `clear_rows` comes first: which rows these are, by multipliers at places times lengths, and by slacks
+  /// over `row_scale`, that exceed `zero`.
+  void clear_rows(double zero, const double* multipliers, const double* slacks);
+  bool settle_rest(const double* load, double norm);
+  /// After `clear_rows`: held, but not clear of 0.
+  bool is_weak(Index a) const { return state_[a] == held; }
+  /// After `clear_rows`: held or close to its edge.
+  bool matters(Index a) const { return state_[a] != clear_outside; }
+  const double* slacks() const { return slack_; }  ///< m: at the point that `settle` ended with
+
+  /// Weights of rows that contradict each other, as doubles tell; none where pivoting met none.
+  const std::optional<Vector>& contradiction() const { return contradiction_; }
+  std::vector<Index> one_sided_rows_held() const;
+
+  const GramRows& rows() const { return rows_; }
+  Index size() const { return set_.size(); }            ///< rows held
+  Index place(Index j) const { return set_.place(j); }  ///< of the j-th
+  Index row(Index j) const { return set_.row(j); }
+  bool holds(Index a) const { return state_[a] >= held; }
+  bool has_passed(Index a) const { return state_[a] == passed; }  ///< left out as dependent
+  bool is_two_sided(Index a) const { return state_[a] == two_sided; }
+  Index steps() const { return steps_; }            ///< rows taken in or dropped
+  const double* lambda() const { return lambda_; }  ///< multipliers at their places
+
+  /// Takes rows into `rows`, without holding them. False when there is no room.
+  bool look_at(const Index* rows, Index count) { return rows_.add(rows, count); }
+
+  /// Holds more rows that have been looked at behind those held, as far as they are independent; they do not
+  /// count as held by `holds`. False when there is doubt. `hold_no_more` lets go of them.
+  bool hold_also(const Index* rows, Index count);
+  void hold_no_more();
+  Index firm() const { return firm_; }  ///< so many of the rows held come before those
+
+  /// x := (VᵀV)⁻¹x over the rows held; padded.
+  void solve(double* x) const { set_.solve(x); }
+  /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
+  void point(double* w, double* q) const;
+  /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
+  double inverse_norm() const;
+  /// An estimate of the condition of the Gram matrix of the rows held, each divided by its length, by inverse
+  /// iteration; x: room for the rows held, padded.
+  double condition(double* x) const;
+
+ private:
+  /// clear_outside, clear: of rows that `clear_rows` has found to be so.
+  enum State : Index { outside, passed, clear_outside, held, clear, two_sided };
+
+  bool all_known() const;
+  bool start(const std::vector<Index>& guess);
+  void start_pivoting();
+  bool pivot();
+  bool pivot_at_once();
+  Index block_of(Index violated) const;
+  double counted_violation() const;
+  Index list_violated(State state);
+  bool has_negative() const;
+  Index drop_negative();
+  Index choose_deepest(Index count, Index room);
+  Index skip_parallel_rows(Index count);
+  bool take_in(Index count);
+  void change(Index count);
+  bool pivot_by_parts();
+  Index fill_up(Index count);
+  void find_slacks_of_known();
+  Index list_violated_known(State state);
+  bool settle_known();
+  bool descend_known();
+  bool drop_most_negative();
+  Index deepest(Index count) const;
+  bool raise(Index a);
+  void find_point(double* w, double* q) const;
+  void collect();
+  bool factor();
+  bool find_multipliers();
+  void find_slacks();
+  void find_known_slacks(double* at_places) const;
+
+  const NearestPointProblem& problem_;
+  const DenseKernels& kernels_;
+  const DenseFactor A_;
+  const Index n_, m_, capacity_;
+  GramRows rows_;
+  const double *w_free_, *row_scale_;
+  GramFactor set_;  // of the rows held
+  double *lambda_, *w_, *q_, *slack_, *known_slack_, *load_, *column_;
+  Index *state_, *list_, *entering_;
+  Index steps_ = 0;
+  Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
+  double energy_ = 0, force_norm_ = 0;
+  bool by_single_steps_ = false, any_close_ = false;
+  const double* target_;  // the loads that are solved for, at places
+  std::optional<Vector> contradiction_;
+};
+
+}  // namespace convex

@@ -1,0 +1,101 @@
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/pivoting/gram_pivoting.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A coefficient of a row in terms of others is 0 when its part is below this part of the row.
+constexpr double noise = 1e-9;
+
+}  // namespace
+
+/// The dual method of Goldfarb and Idnani (1983) among the rows looked at, for what blocks do not settle:
+/// a violated row comes in, its multiplier raised until it holds; on the way those whose multiplier comes
+/// down to 0 go. Each row that has come in raises the dual objective, so that no set of rows returns. False
+/// when rows contradict each other or are nearly dependent.
+bool GramPivoting::descend_known() {
+  for (Index step = 0; step < 10 * (rows_.count() + n_); ++step) {
+    if (!find_multipliers()) return false;
+    if (drop_most_negative()) continue;
+    for (Index p = 0; p < rows_.count(); ++p)
+      if (const Index a = rows_.row(p); a >= 0 && state_[a] == passed) state_[a] = outside;
+    find_slacks_of_known();
+    const Index count = list_violated_known(outside);
+    if (count == 0) return true;
+    if (!raise(deepest(count))) return false;
+  }
+  return false;
+}
+
+bool GramPivoting::drop_most_negative() {
+  Index worst = -1;
+  double lowest = 0;
+  for (Index j = 0; j < set_.size(); ++j) {
+    const double push = lambda_[set_.place(j)] * std::sqrt(rows_.square(set_.place(j)));
+    if (state_[row(j)] != held || !(push < lowest)) continue;
+    lowest = push;
+    worst = j;
+  }
+  if (worst < 0) return false;
+  state_[row(worst)] = outside;
+  set_.remove(worst);
+  steps_ += 1;
+  return true;
+}
+
+Index GramPivoting::deepest(Index count) const {
+  return *std::min_element(list_, list_ + count, [&](Index a, Index b) {
+    return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a];
+  });
+}
+
+/// Raises the multiplier of a violated row until the row holds; rows whose multiplier comes down to 0 on the
+/// way are let go.
+bool GramPivoting::raise(Index a) {
+  const Index place = rows_.place(a);
+  const double square = rows_.square(place);
+  for (double violation = -slack_[a];; steps_ += 1) {
+    double* const r = load_;  // u_a = Σ r_j u_j + what the rows held do not span
+    const double rest = set_.distance(place, column_);
+    const bool dependent = set_.size() == capacity_ || !(rest > dependence * square);
+    if (!dependent && rest <= near_dependence * square) return false;
+    std::copy_n(column_, padded(set_.size()), r);
+    set_.solve_upper(r);
+    const double full = dependent ? infinity : violation / rest;
+    double partial = infinity;
+    Index blocking = -1;
+    for (Index j = 0; j < set_.size(); ++j) {
+      const double length = std::sqrt(rows_.square(set_.place(j)) / square);
+      if (state_[row(j)] != held || !(r[j] * length > noise)) continue;
+      const double ratio = std::max(0.0, lambda_[set_.place(j)]) / r[j];
+      if (ratio < partial) {
+        partial = ratio;
+        blocking = j;
+      }
+    }
+    if (full <= partial && !dependent) {
+      state_[a] = held;
+      set_.append(place, column_, rest);
+      return true;
+    }
+    if (blocking < 0) {
+      contradiction_ = Vector::Zero(m_);
+      (*contradiction_)[a] = 1;
+      for (Index j = 0; j < set_.size(); ++j)
+        if (std::abs(r[j]) * std::sqrt(rows_.square(set_.place(j)) / square) > noise)
+          (*contradiction_)[row(j)] = -r[j];
+      return false;
+    }
+    for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] -= partial * r[j];
+    if (!dependent) violation -= partial * rest;
+    state_[row(blocking)] = outside;
+    lambda_[set_.place(blocking)] = 0;
+    set_.remove(blocking);
+  }
+}
+
+}  // namespace convex

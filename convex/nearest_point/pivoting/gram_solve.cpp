@@ -1,0 +1,206 @@
+#include "convex/nearest_point/pivoting/gram_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/held_residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+
+namespace convex {
+namespace {
+
+/// A row closer than this part of its terms to being taken in or left keeps an answer from being left in
+/// doubles.
+constexpr double near = 1e-8;
+
+/// Multipliers and slacks up to so many times the largest wrong one may change.
+constexpr double room_for_change = 256;
+
+/// Corrections are cheap here: they are made until what is left lies so far below the scale.
+constexpr double plenty = 0x1p-76;
+
+/// Corrections beyond what is enough, for entries that are close to 0.
+constexpr int most_more = 3;
+
+/// Corrections before pivoting has lost its way.
+constexpr int most_passes = 12;
+
+}  // namespace
+
+GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
+    : problem_(problem),
+      kernels_(dense_kernels()),
+      A_(problem.A.dense_factor()),
+      n_(problem.dimension()),
+      m_(problem.rows()),
+      ld_(A_.ld) {
+  const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
+  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 11) * padded(k) + 4 * padded(places)) / 8 +
+              GramPivoting::lines(n_, m_));
+  z_ = arena.take_filled(n_, 0.0);
+  w_free_ = arena.take<double>(n_);
+  w_ = arena.take<double>(n_);
+  q_ = arena.take<double>(n_);
+  q_low_ = arena.take_filled(n_, 0.0);
+  r_ = arena.take<double>(n_);
+  dw_ = arena.take<double>(n_);
+  dq_ = arena.take<double>(n_);
+  inverse_diagonal_ = arena.take_filled(n_, 0.0);
+  row_scale_ = arena.take<double>(m_);
+  slack_ = arena.take<double>(m_);
+  load_ = arena.take<double>(k);
+  rows_ = arena.take<Index>(k);
+  lambda_ = arena.take<double>(k);
+  y_ = arena.take_filled(places, 0.0);
+  held_slack_ = arena.take<double>(places);
+  total_ = arena.take_filled(places, 0.0);
+  rest_ = arena.take<double>(places);
+  touched_ = arena.take<Index>(m_);
+  close_ = arena.take<Index>(m_);
+  fresh_ = arena.take<Index>(m_);
+  touched_slack_ = arena.take<double>(m_);
+  pack_ = arena.take<double>(8 * n_ + 8);  // two vectors at least
+  dual_ = arena.take<double>(n_ * padded(k));
+  products_ = arena.take<double>(8 * padded(k));
+  const double* diagonal = problem_.A.diagonal().data();
+  for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
+  kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
+  for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
+  edge_.emplace(problem, row_scale_);
+  set_.emplace(problem, arena, w_free_, row_scale_);
+}
+
+void GramSolve::whiten_force() {
+  for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
+  copy_packs(ld_, z_, w_free_);
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
+  scale_ = force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
+}
+
+bool GramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
+  whiten_force();
+  return set_->settle(guess) && finish(accuracy, solution);
+}
+
+bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
+  whiten_force();
+  return set_->settle_again() && finish(accuracy, solution);
+}
+
+/// The rows held are right as far as doubles tell. Their point is corrected in twice the working precision.
+/// What multipliers and slacks are wrong then, by rounding, is the scale of a problem of the same kind, for
+/// those that are that small: pivoting goes on there, on the same Gram matrix, until nothing is wrong.
+bool GramSolve::finish(const Accuracy& accuracy, Solution& solution) {
+  take_point();
+  if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
+  double small = 0;
+  int more = most_more;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    if (!correct(pass == 0, small)) return false;
+    small = 0;
+    if (!(remaining_ <= plenty * scale_)) continue;
+    wrong_ = 0;
+    if (!take_noise_for_zero(more > 0)) {
+      more -= 1;
+      continue;
+    }
+    const Slacks slacks = measure_slacks();
+    if (slacks == Slacks::doubtful) return false;
+    if (wrong_ > 0) {
+      small = room_for_change * wrong_;
+      continue;
+    }
+    write(solution);
+    solution.residuals = residuals_of_active();
+    solution.error_bound = bound_ + moved_;
+    const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+    solution.status = close ? Status::solved : Status::inaccurate;
+    return true;
+  }
+  return false;
+}
+
+/// q and lambda of the rows held, in doubles.
+void GramSolve::take_point() {
+  set_->point(w_, q_);
+  fill_packs(ld_, 0, q_low_);
+  copy_packs(set_->rows().count(), set_->lambda(), total_);
+  list_rows_held();
+  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
+  scale_ = std::max(acceleration_norm_, force_norm_);
+}
+
+void GramSolve::list_rows_held() {
+  for (Index j = 0; j < set_->size(); ++j) {
+    rows_[j] = set_->row(j);
+    lambda_[j] = total_[set_->place(j)];
+  }
+  inverse_norm_ = set_->inverse_norm();
+  gram_condition_ = set_->condition(load_);
+  condition_ = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
+}
+
+/// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing
+/// of the equations does not do.
+bool GramSolve::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
+  fill_packs(ld_, 0, q_low_);
+  remaining_ = rounding_ = silenced_ = 0;
+  for (Index j = 0; j < set_->size(); ++j)
+    if (!set_->is_two_sided(rows_[j]) &&
+        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * scale_))
+      return false;
+  if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
+  for (Index a = 0; a < m_; ++a)
+    if (!set_->holds(a) && !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)))
+      return false;
+  double missing = 0;
+  for (Index j = 0; j < set_->size(); ++j)
+    missing += held_slack_[set_->place(j)] * held_slack_[set_->place(j)];
+  solution.residuals = residuals_of_active();
+  bound_ = bound_of_doubles(n_, set_->size(), solution.residuals.stationarity * scale_,
+                            inverse_norm_ * std::sqrt(missing), condition_ * (scale_ + magnitude_));
+  write(solution);
+  solution.status = Status::solved;
+  return bound_ <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+}
+
+bool GramSolve::touches_rows() const {
+  return std::any_of(touched_, touched_ + touched_count_, [&](Index a) { return !(slack_[a] > 0); });
+}
+
+void GramSolve::write(Solution& solution) const {
+  solution.method = "active-set";
+  solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
+  solution.model.islands.clear();
+  solution.steps = set_->steps();
+  solution.q = Eigen::Map<const Vector>(q_, n_);
+  solution.lambda.setZero(m_);
+  for (Index j = 0; j < set_->size(); ++j) solution.lambda[rows_[j]] = lambda_[j];
+  solution.slack = Eigen::Map<const Vector>(slack_, m_);
+  solution.basis.assign(rows_, rows_ + set_->size());
+  solution.acceleration_norm = acceleration_norm_;
+  solution.force_norm = force_norm_;
+  solution.rounding = rounding_;
+  solution.error_bound = bound_;
+}
+
+/// `residuals`, to which only the rows held and touched matter; measured in doubles.
+Residuals GramSolve::residuals_of_active() {
+  kernels_.residual(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
+                    rows_, lambda_, z_, r_);
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
+  const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
+  double most = 0;
+  for (Index j = 0; j < set_->size(); ++j) most = std::max(most, std::abs(lambda_[j]));
+  HeldResiduals held(stationarity, acceleration_norm_, scale_, most);
+  for (Index j = 0; j < set_->size(); ++j)
+    held.add(problem_.s[rows_[j]], std::sqrt(set_->rows().square(set_->place(j))), lambda_[j],
+             held_slack_[set_->place(j)], set_->is_two_sided(rows_[j]));
+  Residuals found = held.all();
+  found.feasibility = violation_of_touched_rows(found.feasibility);
+  return found;
+}
+
+}  // namespace convex

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cmath>
+
+#include "convex/exact/exact_sum.hpp"
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/pivoting/gram_solve.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
+constexpr double silence = 0x1p-95;
+
+/// A way up is one for a row that it raises by more than this part of the row's length.
+constexpr double least_rise = 1e-3;
+
+/// Rows whose directions differ by less than this may be parallel; products without rounding tell.
+constexpr double noise = 1e-9;
+
+}  // namespace
+
+/// Slacks at q in doubles; those of rows held count as 0 and go to `held_slack_`.
+void GramSolve::set_slacks_of_doubles() {
+  kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
+  magnitude_ = 0;
+  for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
+  magnitude_ = std::sqrt(magnitude_);
+  Index held = 0;
+  for (Index a = 0; a < m_; ++a) {
+    if (!set_->holds(a)) continue;
+    held += 1;
+    held_slack_[set_->rows().place(a)] = slack_[a];
+    slack_[a] = 0;
+  }
+  invariant(held == set_->size(), "a row that counts as held is among the rows held");
+}
+
+/// Slacks at the refined point. Rows violated have been looked at then.
+GramSolve::Slacks GramSolve::measure_slacks() {
+  set_slacks_of_doubles();
+  const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
+  const double unsure_point = margin * (remaining_ + silenced_);
+  Index violated = 0;
+  touched_count_ = 0;
+  for (Index a = 0; a < m_; ++a) {
+    if (set_->holds(a)) continue;
+    const double unsure =
+        rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) + row_scale_[a] * unsure_point;
+    if (slack_[a] > unsure) continue;
+    if (slack_[a] < -unsure) {
+      close_[violated++] = a;
+      wrong_ = std::max(wrong_, -slack_[a] / row_scale_[a]);
+    } else {
+      touched_[touched_count_++] = a;
+    }
+  }
+  moved_ = 0;
+  if (violated > 0) return look_at_violated(violated);
+  if (wrong_ > 0) return Slacks::kept;
+  return touched_count_ == 0 ? Slacks::kept : decide_degenerate_rows();
+}
+
+/// Looks at the first `count` rows of close_, for the next correction to take them in.
+GramSolve::Slacks GramSolve::look_at_violated(Index count) {
+  Index fresh = 0;
+  for (Index k = 0; k < count; ++k)
+    if (set_->rows().place(close_[k]) < 0) fresh_[fresh++] = close_[k];
+  return fresh == 0 || set_->look_at(fresh_, fresh) ? Slacks::violated : Slacks::doubtful;
+}
+
+/// Rounding alone may hide that the exact point p of the rows held violates a row outside by 2⁻⁹⁵ or so.
+/// Where the doubles q are p and keep all rows without rounding, as at most vertices and at rest, nothing is
+/// left to tell; nor for a row that is a sum of rows held, not one bit left over, and asks for no more than
+/// they do. Where a motion e along the rows held raises all others that p touches, p + t e keeps all rows for
+/// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
+/// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
+GramSolve::Slacks GramSolve::decide_degenerate_rows() {
+  if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
+  if (keeps_touched_rows_exactly()) return Slacks::kept;
+  Index open = 0;  // close_ has so many rows that no exact sum has told of
+  for (Index k = 0; k < touched_count_; ++k)
+    if (!(slack_[touched_[k]] > 0)) close_[open++] = touched_[k];
+  open = leave_sums_of_rows_held(open);
+  if (open < 0) return Slacks::doubtful;
+  Index count = 0, fresh = 0, independent = 0;
+  for (Index k = 0; k < open; ++k) {
+    const Index a = close_[k];
+    if (const std::optional<int> sign = slack_sign_by_parallel_row(a)) {
+      if (*sign < 0) return Slacks::doubtful;
+      continue;
+    }
+    close_[count++] = a;
+    if (set_->rows().place(a) < 0) fresh_[fresh++] = a;
+  }
+  if (count == 0) return Slacks::kept;
+  if (fresh > 0 && !set_->look_at(fresh_, fresh)) return Slacks::doubtful;
+  for (Index k = 0; k < count; ++k) {
+    if (!is_independent(close_[k])) return Slacks::doubtful;
+    close_[independent++] = close_[k];
+  }
+  const bool holds_also = set_->hold_also(close_, independent),
+             rises = holds_also && find_way_up(independent);
+  set_->hold_no_more();
+  return rises ? Slacks::kept : Slacks::doubtful;
+}
+
+/// Slacks of the rows touched in twice the precision. The number of those that are negative beyond rounding,
+/// listed in close_.
+Index GramSolve::measure_touched_slacks() {
+  alignas(64) double s[8] = {}, rest[8], low[8];
+  Index violated = 0;
+  for (Index first = 0; first < touched_count_; first += 8) {
+    const Index count = std::min<Index>(8, touched_count_ - first);
+    for (Index k = 0; k < count; ++k) s[k] = problem_.s[touched_[first + k]];
+    set_->rows().copy_rows(touched_ + first, count, pack_);
+    kernels_.precise_slacks(n_, pack_, q_, s, rest);
+    kernels_.dots(n_, pack_, q_low_, low);
+    for (Index k = 0; k < count; ++k) {
+      const Index a = touched_[first + k];
+      const double sum = rest[k] + low[k], rounding = slack_noise(a);
+      if (!(sum >= -rounding)) {
+        close_[violated++] = a;
+        wrong_ = std::max(wrong_, -sum / row_scale_[a]);
+      }
+      touched_slack_[first + k] = rest[k];
+      slack_[a] = std::abs(sum) <= rounding ? 0 : sum;
+    }
+  }
+  return violated;
+}
+
+double GramSolve::slack_noise(Index a) const {
+  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) +
+         margin * row_scale_[a] * (remaining_ + silenced_);
+}
+
+/// Whether q is, without rounding, the point of the rows held and keeps those it touches.
+bool GramSolve::keeps_touched_rows_exactly() const {
+  const Vector q = Eigen::Map<const Vector>(q_, n_);
+  std::vector<Index> touched;
+  for (Index k = 0; k < touched_count_; ++k)
+    if (!(slack_[touched_[k]] > 0)) touched.push_back(touched_[k]);
+  return keeps_exactly(problem_, q, std::vector<Index>(rows_, rows_ + set_->size()), touched);
+}
+
+/// The sign of the slack of row a where a row held that is parallel to it, not one bit off, holds with
+/// equality; none where there is no such row.
+std::optional<int> GramSolve::slack_sign_by_parallel_row(Index a) const {
+  const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
+  const double part = std::abs(u[0]) / row_scale_[a];
+  for (Index j = 0; j < set_->size(); ++j) {
+    const double* const v = U + rows_[j] * n_;
+    if (std::abs(std::abs(v[0]) - part * row_scale_[rows_[j]]) > noise * std::abs(v[0])) continue;
+    const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
+    Index i = 0;
+    while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
+    if (i < n_ || u[p] == 0) continue;
+    const auto cross = [&](double x, double y) {  // of v[p] x - u[p] y
+      ExactSum sum;
+      sum.add_product(v[p], x);
+      sum.add_product(-u[p], y);
+      return sum.sign();
+    };
+    for (i = 0; i < n_ && cross(u[i], v[i]) == 0; ++i) continue;
+    // u = (u_p / v_p) v, so that v_p (u·q - s_a) = u_p s_v - v_p s_a.
+    if (i == n_) return -cross(problem_.s[a], problem_.s[rows_[j]]) * (v[p] > 0 ? 1 : -1);
+  }
+  return std::nullopt;
+}
+
+/// Whether a row that has been looked at is independent of those held.
+bool GramSolve::is_independent(Index a) {
+  const Index place = set_->rows().place(a), k = set_->size();
+  const double* const gram = set_->rows().gram(place);
+  for (Index j = 0; j < padded(k); ++j) load_[j] = j < k ? gram[set_->place(j)] : 0;
+  set_->solve(load_);
+  double rest = set_->rows().square(place);
+  for (Index j = 0; j < k; ++j) rest -= load_[j] * gram[set_->place(j)];
+  return rest > GramPivoting::near_dependence * set_->rows().square(place);
+}
+
+/// dual_ := A⁻¹u_j of the rows held, by eights side by side.
+void GramSolve::find_dual_rows() {
+  for (Index j = 0; j < padded(set_->size()); ++j) {
+    double* const into = dual_ + j / 8 * 8 * n_ + j % 8;
+    if (j < set_->size()) {
+      const double* const from = set_->rows().whitened() + set_->place(j) / 8 * 8 * n_ + set_->place(j) % 8;
+      fill_packs(ld_, 0, dq_);
+      for (Index i = 0; i < n_; ++i) dq_[i] = from[8 * i];
+      kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+    }
+    for (Index i = 0; i < n_; ++i) into[8 * i] = j < set_->size() ? dq_[i] : 0;
+  }
+}
+
+/// Takes out of the first `count` rows of close_ those that are sums of rows held with short fractions as
+/// coefficients, not one bit left over, and ask for no more than they do. The number of those left; -1 when
+/// one asks for more.
+Index GramSolve::leave_sums_of_rows_held(Index count) {
+  const Index k = set_->size();
+  if (count == 0 || k == 0) return count;
+  find_dual_rows();
+  Index left = 0;
+  for (Index first = 0; first < count; first += 8) {
+    const Index rows = std::min<Index>(8, count - first);
+    set_->rows().copy_rows(close_ + first, rows, pack_);
+    for (Index j = 0; j < padded(k); j += 8)
+      kernels_.gram(n_, dual_ + j * n_, pack_, products_ + j, padded(k));
+    for (Index l = 0; l < rows; ++l) {
+      double* const coefficients = products_ + l * padded(k);
+      set_->solve(coefficients);
+      const std::optional<int> sign = edge_->sign(close_[first + l], rows_, k, coefficients);
+      if (sign && *sign < 0) return -1;
+      if (!sign) close_[left++] = close_[first + l];
+    }
+  }
+  return left;
+}
+
+/// Looks for the motion e that raises the first `count` rows of close_, as far as independent held as well.
+/// False when there is none such.
+bool GramSolve::find_way_up(Index count) {
+  const Index k = set_->size(), blocks = set_->rows().count() / 8;
+  for (Index j = 0; j < padded(k); ++j)
+    load_[j] = set_->firm() <= j && j < k ? std::sqrt(set_->rows().square(set_->place(j))) : 0;
+  set_->solve(load_);
+  fill_packs(8 * blocks, 0, y_);
+  for (Index j = 0; j < k; ++j) y_[set_->place(j)] = load_[j];
+  fill_packs(ld_, 0, dw_);
+  kernels_.combine(n_, blocks, set_->rows().whitened(), y_, dw_);
+  copy_packs(ld_, dw_, dq_);
+  kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  double t = 0, length = 0;  // ||e||_D, D the diagonal of A
+  for (Index l = 0; l < count; ++l) {
+    const double up = rise(close_[l]);
+    if (!(up > least_rise * row_scale_[close_[l]])) return false;
+    t = std::max(t, slack_noise(close_[l]) / up);
+  }
+  for (Index i = 0; i < n_; ++i) length += dq_[i] * dq_[i] / inverse_diagonal_[i];
+  length = std::sqrt(length);
+  moved_ = t * std::sqrt(kernels_.dot(ld_, dw_, dw_));
+  for (Index a = 0; a < m_; ++a)
+    if (slack_[a] > 0 && slack_[a] < t * row_scale_[a] * length) return false;
+  return true;
+}
+
+double GramSolve::rise(Index a) const {
+  constexpr double zero = 0;
+  double up = 0;
+  kernels_.slacks(1, n_, problem_.U.dense().data() + a * n_, dq_, &zero, &up);
+  return up;
+}
+
+/// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
+/// what is known.
+double GramSolve::violation_of_touched_rows(double known) {
+  for (Index k = 0; k < touched_count_; ++k) {
+    const Index a = touched_[k];
+    const double violation = -touched_slack_[k], s = std::abs(problem_.s[a]);
+    // ||u||_(A⁻¹) is at least this
+    const double shortest = row_scale_[a] / std::sqrt(static_cast<double>(n_));
+    if (!(violation > known * (s + shortest * acceleration_norm_))) continue;
+    fill_packs(ld_, 0, dw_);
+    std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
+    kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
+    const double length = std::sqrt(kernels_.dot(ld_, dw_, dw_)), size = s + length * acceleration_norm_;
+    known = std::max(known, violation / (size > 0 ? size : length * scale_));
+  }
+  return known;
+}
+
+}  // namespace convex

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <span>
+#include "convex/dense_kernels.hpp"
+
+#include "convex/double_double.hpp"
+
+namespace convex {
+
+/// What `SmallGramSolve` and its kernels work on: a dense problem of at most `most` coordinates and rows, in
+/// arrays that stay in the first cache. Blocks are of eight rows side by side (`DenseKernels`).
+struct SmallTableau {
+  static constexpr Index most = 32;
+
+  Index n = 0, m = 0, ld = 0, stride = 0;  // stride: m in whole packs
+  const double *T = nullptr, *inverse = nullptr, *A = nullptr, *U = nullptr;
+  double factor_condition = 1;
+
+  alignas(64) double raw[most * most];       ///< u_a
+  alignas(64) double whitened[most * most];  ///< v_a = L⁻¹u_a
+  /// The Gram matrix G of the v_a, by columns of `stride`, swept at the rows held S: -G_SS⁻¹ there, G_oS
+  /// G_SS⁻¹ beside it, and the Schur complement of G_SS elsewhere (Beaton 1964).
+  alignas(64) double swept[most * most];
+  /// lambda_a of a row held, s_a - u_a·q of another.
+  alignas(64) double b[most];
+  alignas(64) double load[most];   ///< s_a - v_a·w_free
+  alignas(64) double level[most],  ///< s_a
+      square[most], row_scale[most], inverse_scale[most], inverse_diagonal[most];
+  /// Per row, by its state: `leave` and `stay` make a number that is not negative of a multiplier that asks
+  /// to leave, `enter` a positive one of a violated row; share: 1 for a row held.
+  alignas(64) double leave[most], stay[most], enter[most], share[most];
+  alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
+  alignas(64) double lambda[most], slack[most], held_slack[most], held_lambda[most], correction[most];
+  Index rows[most], size = 0;  ///< rows held, and how many
+  bool held[most], two_sided[most];
+
+  Index steps = 0;
+  double force_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
+  double gram_condition =
+      0;              ///< of the Gram matrix of the rows held, each divided by its length; an estimate
+  double growth = 1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
+};
+
+/// What `SmallGramSolve` does with it, for one processor family. Each is false when something is in doubt.
+struct SmallKernels {
+  /// Whitens, and takes in the rows marked in `held` and `two_sided`.
+  bool (*begin)(SmallTableau&);
+  /// Whitens z anew and goes on with the rows that are held.
+  bool (*begin_again)(SmallTableau&);
+  /// Pivots until no row is violated and no multiplier negative; then q, w, lambda.
+  bool (*settle)(SmallTableau&);
+  /// One correction with residuals in twice the working precision: dq, `correction` of held_lambda, `first`.
+  void (*correct)(SmallTableau&);
+  /// slack = Uq - s, and what is missing of the equations of motion, in doubles.
+  void (*measure)(SmallTableau&);
+};
+
+const SmallKernels& small_kernels();
+
+/// All that this processor can run.
+std::span<const SmallKernels* const> all_small_kernels();
+
+}  // namespace convex

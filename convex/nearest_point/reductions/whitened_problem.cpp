@@ -1,0 +1,60 @@
+#include "convex/nearest_point/reductions/whitened_problem.hpp"
+
+#include <cmath>
+
+namespace convex {
+
+WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
+  const Index n = problem.dimension(), m = problem.rows();
+  Matrix all(n, m);
+  for (Index a = 0; a < m; ++a) problem.U.copy_row(a, all.col(a));
+  problem.A.whiten_in_place(all);
+  const Vector lengths = all.colwise().norm(), w_free = problem.A.whiten(problem.z);
+  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  for (Index a = 0; a < m; ++a)
+    if (lengths[a] > 0) {
+      rows.push_back(a);
+      free.push_back(two_sided[static_cast<std::size_t>(a)]);
+    }
+  const Index k = static_cast<Index>(rows.size());
+  V.resize(n, k);
+  b.resize(k);
+  length.resize(k);
+  for (Index j = 0; j < k; ++j) {
+    const Index a = rows[static_cast<std::size_t>(j)];
+    length[j] = lengths[a];
+    V.col(j) = all.col(a) / lengths[a];
+    b[j] = problem.s[a] / lengths[a] - V.col(j).dot(w_free);
+  }
+  if (k > 0 && b.cwiseAbs().maxCoeff() > 0) unit = b.cwiseAbs().maxCoeff();
+  b /= unit;
+}
+
+std::vector<Index> WhitenedProblem::free_columns() const {
+  std::vector<Index> columns;
+  for (Index a = 0; a < size(); ++a)
+    if (is_free(a)) columns.push_back(a);
+  return columns;
+}
+
+Vector WhitenedProblem::multipliers(const NearestPointProblem& problem, const Vector& y) const {
+  Vector lambda = Vector::Zero(problem.rows());
+  for (Index a = 0; a < size(); ++a) lambda[rows[static_cast<std::size_t>(a)]] = y[a] * unit / length[a];
+  return lambda;
+}
+
+Vector WhitenedProblem::weights(const NearestPointProblem& problem, const Vector& y) const {
+  Vector found = Vector::Zero(problem.rows());
+  for (Index a = 0; a < size(); ++a) found[rows[static_cast<std::size_t>(a)]] = y[a] / length[a];
+  return found;
+}
+
+double WhitenedProblem::defect(const Vector& y, const Vector& slack) const {
+  double worst = 0;
+  for (Index a = 0; a < size(); ++a)
+    worst = std::max(worst, is_free(a) ? std::abs(slack[a]) : std::abs(std::min(y[a], slack[a])));
+  return worst;
+}
+
+}  // namespace convex

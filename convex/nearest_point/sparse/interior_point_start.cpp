@@ -1,0 +1,189 @@
+#include "convex/nearest_point/sparse/interior_point_start.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/solve_watch.hpp"
+
+namespace convex {
+namespace {
+
+/// Added to 1/weight, so that systems stay solvable where slacks vanish (relative to rows of length 1).
+constexpr double regularisation = 1e-9;
+
+/// The weight of the violations in the first system, which takes A as seriously as the rows, as long as
+/// they are not many in series. With stiff rows the multipliers of those that cannot persist would be huge.
+constexpr double first_weight = 100;
+
+/// Slacks begin no smaller than this part of the violations of the free motion (root mean square); nothing
+/// begins below the other, in the scaled units.
+constexpr double part_of_free = 0.1, smallest = 1e-3;
+
+/// The equations are met well enough for a look at the rows when this part of the first residual is left.
+constexpr double part_left = 0.1;
+
+/// Multipliers add up along a pile: a start from the free motion begins no smaller than this for each row
+/// that there is, in the scaled units.
+constexpr double load_of_a_row = 1e-4;
+
+/// A part of the way to the boundary.
+constexpr double short_of_boundary = 0.995;
+
+constexpr Index most_steps = 200;
+/// Steps shorter than this, so many in turn, lead nowhere.
+constexpr double short_step = 1e-3;
+constexpr int patience = 4;
+/// Where multipliers and slacks complement each other as well as this part of the gap asked for, and rows are
+/// not met all the same, they never will be.
+constexpr double hopeless = 1e-6;
+/// Multipliers beyond this belong to rows that contradict each other.
+constexpr double largest_multiplier = 1e10;
+
+double root_mean_square(const Vector& x) {
+  return x.size() > 0 ? x.norm() / std::sqrt(static_cast<double>(x.size())) : 0;
+}
+
+}  // namespace
+
+InteriorPointStart::InteriorPointStart(const BalancedProblem& problem, RowSystem& system, const Vector& free)
+    : problem_(problem),
+      system_(system),
+      weight_(Vector::Ones(problem.s.size())),
+      side_(static_cast<std::size_t>(problem.s.size()), true),
+      usual_slack_(std::max(smallest, part_of_free * root_mean_square(problem.U * free - problem.s))) {
+  for (Index a = 0; a < problem.s.size(); ++a) one_sided_count_ += one_sided(a);
+}
+
+/// Rows as springs: what they push and how far they open tell the sizes of multipliers and slacks, and
+/// nothing starts below its usual size.
+void InteriorPointStart::start() {
+  started_ = true;
+  weight_.setConstant(first_weight);
+  if (!system_.factor(weight_)) return;
+  q_ = system_.solve(problem_.z + problem_.U.transpose() * weight_.cwiseProduct(problem_.s));
+  slack_ = problem_.U * q_ - problem_.s;
+  lambda_ = -first_weight * slack_;
+  const double push = std::max(smallest, root_mean_square(lambda_.cwiseMax(0)));
+  const double open = std::max(usual_slack_, root_mean_square(slack_.cwiseMax(0)));
+  for (Index a = 0; a < slack_.size(); ++a) {
+    if (one_sided(a)) lambda_[a] = std::max(0.0, lambda_[a]) + push;
+    slack_[a] = one_sided(a) ? std::max(0.0, slack_[a]) + open : 0;
+  }
+}
+
+void InteriorPointStart::start_from_free_motion() {
+  started_ = true;
+  weight_.setConstant(regularisation);
+  if (!system_.factor(weight_)) return;
+  q_ = system_.solve(problem_.z);
+  slack_ = problem_.U * q_ - problem_.s;
+  for (Index a = 0; a < slack_.size(); ++a)
+    if (!one_sided(a)) slack_[a] = 0;
+  lambda_ = Vector::Zero(problem_.s.size());
+  make_interior();
+}
+
+/// Mehrotra's shift: far enough inside, and not badly centred.
+void InteriorPointStart::make_interior() {
+  double lowest_slack = 0, lowest_lambda = 0, slack_sum = 0, lambda_sum = 0, product = 0;
+  const double count = static_cast<double>(std::max<Index>(1, one_sided_count_));
+  double slack_size = 0, lambda_size = 0;
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    if (!one_sided(a)) continue;
+    lowest_slack = std::min(lowest_slack, slack_[a]);
+    lowest_lambda = std::min(lowest_lambda, lambda_[a]);
+    slack_size += slack_[a] * slack_[a];
+    lambda_size += lambda_[a] * lambda_[a];
+  }
+  const double slack_shift = std::max(-1.5 * lowest_slack, 0.1 * std::sqrt(slack_size / count) + 1e-3);
+  const double lambda_shift =
+      std::max(-1.5 * lowest_lambda, 0.1 * std::sqrt(lambda_size / count) + 1e-3 + load_of_a_row * count);
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    if (!one_sided(a)) continue;
+    slack_[a] += slack_shift;
+    lambda_[a] += lambda_shift;
+    slack_sum += slack_[a];
+    lambda_sum += lambda_[a];
+    product += slack_[a] * lambda_[a];
+  }
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    if (!one_sided(a)) continue;
+    slack_[a] += 0.5 * product / lambda_sum;
+    lambda_[a] += 0.5 * product / slack_sum;
+  }
+}
+
+/// lambda dslack + slack dlambda = target, U dq - dslack = primal_rest, A dq - Uᵀdlambda = dual_rest.
+void InteriorPointStart::solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target,
+                               Direction& to) const {
+  Vector push(target.size());
+  for (Index a = 0; a < target.size(); ++a)
+    push[a] = weight_[a] * ((one_sided(a) ? target[a] / lambda_[a] : 0) + primal_rest[a]);
+  to.q = system_.solve(dual_rest + problem_.U.transpose() * push);
+  to.lambda = push - weight_.cwiseProduct(problem_.U * to.q);
+  to.slack.resize(target.size());
+  for (Index a = 0; a < target.size(); ++a)
+    to.slack[a] = one_sided(a) ? (target[a] - slack_[a] * to.lambda[a]) / lambda_[a] : 0;
+}
+
+double InteriorPointStart::longest_step(const Direction& to) const {
+  double step = std::numeric_limits<double>::infinity();
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    if (!one_sided(a)) continue;
+    if (to.slack[a] < 0) step = std::min(step, -slack_[a] / to.slack[a]);
+    if (to.lambda[a] < 0) step = std::min(step, -lambda_[a] / to.lambda[a]);
+  }
+  return step;
+}
+
+Index InteriorPointStart::changes_of_sides() {
+  Index changes = 0;
+  for (Index a = 0; a < lambda_.size(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (side_[k] == looks_active(a)) continue;
+    side_[k] = !side_[k];
+    ++changes;
+  }
+  return changes;
+}
+
+InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_steady) {
+  if (!started_) start();
+  const Index m = lambda_.size();
+  const double count = static_cast<double>(std::max<Index>(1, one_sided_count_));
+  int idle = 0;
+  Direction to;
+  Vector target(m);
+  for (Index k = 0; k < most_steps; ++k) {
+    const Vector dual_rest = problem_.z - problem_.A * q_ + problem_.U.transpose() * lambda_;
+    const Vector primal_rest = problem_.s - problem_.U * q_ + slack_;
+    const double mean = slack_.dot(lambda_) / count;
+    const double rest = std::max(primal_rest.cwiseAbs().maxCoeff(), dual_rest.cwiseAbs().maxCoeff());
+    if (mean <= gap && rest <= std::sqrt(gap)) return End::close;
+    if (k == 0) first_rest_ = rest;
+    if (changes_of_sides() == 0 && until_steady && k > 0 && rest <= part_left * first_rest_)
+      return End::steady;
+    if (lambda_.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap) return End::unbounded;
+    for (Index a = 0; a < m; ++a)
+      weight_[a] = 1 / ((one_sided(a) ? slack_[a] / lambda_[a] : 0) + regularisation);
+    if (!system_.factor(weight_)) return End::stalled;
+    target = -slack_.cwiseProduct(lambda_);
+    solve(dual_rest, primal_rest, target, to);
+    const double reach = std::min(1.0, longest_step(to));
+    const double ahead = (slack_ + reach * to.slack).dot(lambda_ + reach * to.lambda) / count;
+    const double centring = mean > 0 ? std::pow(ahead / mean, 3) : 0;
+    for (Index a = 0; a < m; ++a)
+      if (one_sided(a)) target[a] += centring * mean - to.slack[a] * to.lambda[a];
+    solve(dual_rest, primal_rest, target, to);
+    const double step = std::min(1.0, short_of_boundary * longest_step(to));
+    q_ += step * to.q;
+    slack_ += step * to.slack;
+    lambda_ += step * to.lambda;
+    ++steps_;
+    SolveWatch::tell("sparse-active-set", steps_);
+    idle = step < short_step ? idle + 1 : 0;
+    if (idle > patience || !q_.allFinite() || !lambda_.allFinite()) return End::stalled;
+  }
+  return End::stalled;
+}
+
+}  // namespace convex

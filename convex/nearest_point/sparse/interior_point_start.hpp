@@ -1,0 +1,52 @@
+#pragma once
+
+#include "convex/nearest_point/sparse/row_system.hpp"
+
+namespace convex {
+
+/// Mehrotra's predictor-corrector method (1992) on a scaled sparse problem, regularised as in Friedlander and
+/// Orban (2012), to see which rows are active; not to be exact. Two-sided rows are held by a weight
+/// 1/regularisation. Redundant rows and rows without a strictly feasible point only cost some steps.
+class InteriorPointStart {
+ public:
+  /// free: A⁻¹z, scaled; the violations of the rows there tell how large slacks may be.
+  InteriorPointStart(const BalancedProblem&, RowSystem&, const Vector& free);
+
+  enum class End { steady, close, stalled, unbounded };
+  /// Steps until the mean of lambda ∘ slack is at most `gap`. steady, where that is asked for: no row changed
+  /// sides in the last step, and the equations are met ten times better than at the start. unbounded:
+  /// multipliers grow beyond all bounds, as where rows contradict each other.
+  End approach(double gap, bool until_steady = false);
+  /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
+  /// problems in which rows held together are far from the answer.
+  void start_from_free_motion();
+
+  const Vector& q() const { return q_; }
+  const Vector& lambda() const { return lambda_; }
+  /// Whether row a looks active: two-sided, or with a multiplier above its slack.
+  bool looks_active(Index a) const {
+    return problem_.two_sided[static_cast<std::size_t>(a)] || lambda_[a] > slack_[a];
+  }
+  Index steps() const { return steps_; }
+
+ private:
+  struct Direction {
+    Vector q, slack, lambda;
+  };
+  void start();
+  void make_interior();
+  void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target, Direction&) const;
+  double longest_step(const Direction&) const;
+  Index changes_of_sides();
+  bool one_sided(Index a) const { return !problem_.two_sided[static_cast<std::size_t>(a)]; }
+
+  const BalancedProblem& problem_;
+  RowSystem& system_;
+  Vector q_, slack_, lambda_, weight_;
+  std::vector<bool> side_;  ///< of each row, as it looked before the last step
+  double usual_slack_, first_rest_ = 0;
+  Index one_sided_count_ = 0, steps_ = 0;
+  bool started_ = false;
+};
+
+}  // namespace convex

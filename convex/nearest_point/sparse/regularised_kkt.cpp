@@ -1,0 +1,113 @@
+#include "convex/nearest_point/sparse/regularised_kkt.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
+
+namespace convex {
+
+struct RegularisedKkt::Dense {
+  Matrix all;  // F⁻¹u_a of all rows
+  Matrix V;    // of the rows J
+  Vector theta;
+  bool in_space = true;  // the factor is that of I + V Theta⁻¹Vᵀ
+  Eigen::LLT<Matrix> factor;
+};
+
+struct RegularisedKkt::Sparse {
+  SparseMatrix A;
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor;
+};
+
+RegularisedKkt::RegularisedKkt(const NearestPointProblem& problem) : problem_(problem) {
+  if (is_dense_size(problem)) {
+    dense_ = std::make_unique<Dense>();
+    std::vector<Index> rows(static_cast<std::size_t>(problem.rows()));
+    for (std::size_t a = 0; a < rows.size(); ++a) rows[a] = static_cast<Index>(a);
+    dense_->all = whitened_rows(problem, rows);
+    return;
+  }
+  sparse_ = std::make_unique<Sparse>();
+  switch (problem.A.kind()) {
+    case MetricKind::sparse:
+      sparse_->A = problem.A.sparse_gram();
+      break;
+    case MetricKind::dense:
+      sparse_->A = problem.A.dense_gram().sparseView();
+      break;
+    default:
+      sparse_->A = SparseMatrix(problem.A.diagonal().asDiagonal());
+  }
+}
+
+RegularisedKkt::~RegularisedKkt() = default;
+
+bool RegularisedKkt::factor(const std::vector<Index>& rows, const Vector& theta) {
+  const Index n = problem_.dimension(), k = static_cast<Index>(rows.size());
+  if (dense_) {
+    dense_->theta = theta;
+    dense_->V.resize(n, k);
+    for (Index j = 0; j < k; ++j) dense_->V.col(j) = dense_->all.col(rows[static_cast<std::size_t>(j)]);
+    dense_->in_space = n < k;
+    Matrix gram;
+    if (dense_->in_space) {
+      const Matrix scaled = dense_->V * theta.cwiseSqrt().cwiseInverse().asDiagonal();
+      gram.setIdentity(n, n);
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
+    } else {
+      gram = Matrix(theta.asDiagonal());
+      gram.selfadjointView<Eigen::Lower>().rankUpdate(dense_->V.transpose());
+    }
+    dense_->factor.compute(gram);
+    return dense_->factor.info() == Eigen::Success;
+  }
+  // The lower triangle of [A, Uᵀ; U, -Theta] for (dq, -dlambda).
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index j = 0; j < n; ++j)
+    for (SparseMatrix::InnerIterator it(sparse_->A, j); it; ++it)
+      if (it.row() >= j) entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(j), it.value());
+  for (Index i = 0; i < k; ++i) {
+    const Index a = rows[static_cast<std::size_t>(i)];
+    const int at = static_cast<int>(n + i);
+    if (problem_.U.is_sparse()) {
+      for (SparseRows::InnerIterator it(problem_.U.sparse(), a); it; ++it)
+        entries.emplace_back(at, static_cast<int>(it.col()), it.value());
+    } else {
+      for (Index j = 0; j < n; ++j)
+        if (problem_.U.dense()(a, j) != 0)
+          entries.emplace_back(at, static_cast<int>(j), problem_.U.dense()(a, j));
+    }
+    entries.emplace_back(at, at, -theta[i]);
+  }
+  SparseMatrix whole(n + k, n + k);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  sparse_->factor.compute(whole);
+  return sparse_->factor.info() == Eigen::Success;
+}
+
+void RegularisedKkt::solve(const Vector& r1, const Vector& r2, Vector& dq, Vector& dlambda) const {
+  if (dense_) {
+    const Matrix& V = dense_->V;
+    const Vector g = problem_.A.whiten(r1);
+    Vector dw;
+    if (dense_->in_space) {
+      dw = dense_->factor.solve(g + V * r2.cwiseQuotient(dense_->theta));
+      dlambda = (r2 - V.transpose() * dw).cwiseQuotient(dense_->theta);
+    } else {
+      dlambda = dense_->factor.solve(r2 - V.transpose() * g);
+      dw = g + V * dlambda;
+    }
+    dq = problem_.A.unwhiten(dw);
+    return;
+  }
+  const Index n = problem_.dimension(), k = r2.size();
+  Vector r(n + k);
+  r << r1, r2;
+  const Vector x = sparse_->factor.solve(r);
+  dq = x.head(n);
+  dlambda = -x.tail(k);
+}
+
+}  // namespace convex

@@ -1,0 +1,307 @@
+#include "convex/nearest_point/sparse/sparse_active_set.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "convex/nearest_point/isotonic/peeling.hpp"
+#include "convex/nearest_point/optimality/farkas.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/nearest_point/solve_watch.hpp"
+#include "convex/nearest_point/sparse/interior_point_start.hpp"
+#include "convex/nearest_point/sparse/sparse_refinement.hpp"
+
+namespace convex {
+namespace {
+
+constexpr std::string_view method = "sparse-active-set";
+
+/// What the start is asked for, scaled: mean of multiplier times slack. Each time the rows that it shows
+/// prove wrong it is taken closer. The first is a try, made as soon as the rows look steady, which
+/// `few_exchanges` of few rows must bring to its end.
+constexpr std::array gaps{1e-7, 1e-9, 1e-12, 1e-15, 1e-18};
+constexpr int few_exchanges = 3;
+constexpr double few_rows = 0.01;
+
+/// The weight on the multipliers, and how it shrinks where it makes corrections slow.
+constexpr double first_delta = 1e-7, smaller = 1e-2;
+constexpr int most_deltas = 3;
+
+/// Exchanges of rows in a run that did not lower the number of wrong ones.
+constexpr int patience = 2;
+constexpr int most_exchanges = 60;
+/// After these, rows go one at a time, at most so often.
+constexpr int most_single = 20;
+
+/// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
+constexpr double data_roundings = 16;
+
+/// A multiplier or slack computed in twice the precision is 0 below this part of its terms.
+constexpr double silence = 0x1p-90;
+
+class SparseActiveSet {
+ public:
+  SparseActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
+      : problem_(problem), accuracy_(accuracy), scaled_(balanced_problem(problem)), system_(scaled_) {}
+
+  Solution run(const std::vector<Index>& guess) {
+    active_.assign(static_cast<std::size_t>(problem_.rows()), false);
+    const bool all_two_sided = static_cast<Index>(problem_.two_sided.size()) == problem_.rows();
+    if (!guess.empty() || all_two_sided) {
+      for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
+      point_.q = DoubleDoubleVector(problem_.dimension());
+      point_.lambda = DoubleDoubleVector(problem_.rows());
+      if (exchange(most_exchanges, 1)) return answer();
+      if (all_two_sided) return infeasible(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
+    }
+    InteriorPointStart start(scaled_, system_,
+                             problem_.A.solve(problem_.z).cwiseQuotient(scaled_.coordinate));
+    for (std::size_t k = 0; k < gaps.size(); ++k) {
+      const Index before = start.steps();
+      InteriorPointStart::End end = start.approach(gaps[k], k == 0);
+      if (end == InteriorPointStart::End::stalled && k == 0) {
+        start.start_from_free_motion();
+        end = start.approach(gaps[k]);
+      }
+      steps_ += start.steps() - before;
+      if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
+        Solution refused = infeasible(start.lambda());
+        if (refused.status == Status::infeasible) return refused;
+      }
+      if (start.q().size() != problem_.dimension()) break;
+      for (const double part : {0.0, data_roundings * unit_roundoff}) {
+        silence_ = part;
+        take_over(start);
+        central_ = silence_ == 0;
+        if (exchange(k == 0 ? few_exchanges : most_exchanges, k == 0 ? few_rows : 1)) return answer();
+        if (k == 0) break;
+      }
+      silence_ = 0;
+      if (end == InteriorPointStart::End::stalled || end == InteriorPointStart::End::unbounded) break;
+    }
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    solution.farkas = Vector::Zero(problem_.rows());
+    return solution;
+  }
+
+ private:
+  void take_over(const InteriorPointStart& start) {
+    point_.q = DoubleDoubleVector(Vector(start.q().cwiseProduct(scaled_.coordinate)));
+    point_.lambda = DoubleDoubleVector(problem_.rows());
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      const bool active = start.looks_active(a);
+      active_[static_cast<std::size_t>(a)] = active;
+      if (active) point_.lambda.hi[a] = start.lambda()[a] * scaled_.multiplier[a];
+    }
+  }
+
+  bool one_sided(Index a) const { return !scaled_.two_sided[static_cast<std::size_t>(a)]; }
+
+  /// Corrects the point on the active rows, with weights that grow where corrections are slow. False when the
+  /// factorisation breaks down.
+  bool refine() {
+    double delta = first_delta;
+    for (int j = central_ ? -1 : 0; j < most_deltas; ++j) {
+      const Vector weight = j < 0 ? central_weights(scaled_, rows_, delta, point_)
+                                  : even_weights(problem_.rows(), rows_, delta);
+      delta_ = 1 / std::max(1.0, weight.maxCoeff());
+      if (!refine_rows(problem_, scaled_, system_, rows_, weight, silence_, point_)) return false;
+      if (point_.converged || point_.wrong_signs) return true;
+      if (j >= 0) delta *= smaller;
+    }
+    return true;
+  }
+
+  /// Refines on the active rows and exchanges those of the wrong sign until none is left; false when that
+  /// does not lead anywhere, or when more than this part of the rows has the wrong sign.
+  bool exchange(int most, double part) {
+    const auto bearable = static_cast<Index>(part * static_cast<double>(problem_.rows()));
+    Index fewest = problem_.rows() + 1;
+    int idle = 0;
+    for (int k = 0; k < most; ++k) {
+      rows_.clear();
+      for (Index a = 0; a < problem_.rows(); ++a)
+        if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);
+      if (!refine()) return false;
+      const bool refined = point_.converged;
+      const Index wrong = judge();
+      if (wrong == 0) return refined;
+      if (wrong > bearable) return false;
+      // Rows that contradict each other by rounding have no right signs.
+      if (wrong >= fewest && serious_ == 0 && refined) {
+        if (!central_) return true;
+        central_ = false;  // or rows that count little are not held well enough
+        fewest = problem_.rows() + 1;
+        continue;
+      }
+      if (wrong >= fewest && ++idle > patience + most_single) return false;
+      if (idle > patience && wrong > most_single) return false;
+      if (idle > patience) {  // one row at a time, the last, which never returns to a set (Murty 1974)
+        for (std::size_t j = 0; j + 1 < wrong_.size(); ++j)
+          active_[static_cast<std::size_t>(wrong_[j])] = !active_[static_cast<std::size_t>(wrong_[j])];
+      }
+      fewest = std::min(fewest, wrong);
+      ++steps_;
+      SolveWatch::tell(method, steps_);
+    }
+    return false;
+  }
+
+  /// Corrects the active rows by the signs of the refined numbers; how many were wrong, of which `serious_`
+  /// by more than rounding of the data may do; `doubtful_` is by how much the others were, scaled.
+  Index judge() {
+    Index wrong = 0;
+    serious_ = 0;
+    doubtful_ = 0;
+    const Vector terms = point_.q.hi.cwiseAbs();
+    const double push = point_.lambda.hi.cwiseQuotient(scaled_.multiplier).cwiseAbs().maxCoeff();
+    wrong_.clear();
+    const auto count = [&](Index a, double by, double size) {
+      ++wrong;
+      wrong_.push_back(a);
+      doubtful_ = std::max(doubtful_, by);
+      if (by > data_roundings * unit_roundoff * size) ++serious_;
+    };
+    const double left = 4 * point_.remaining();
+    const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
+    slack_ = Vector::Zero(problem_.rows());
+    for (Index a : rows_) {
+      const double lambda = point_.lambda.hi[a] / scaled_.multiplier[a];
+      if (std::abs(lambda) <= 4 * point_.last_lambda[a] + left) point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+      if (one_sided(a) && point_.lambda.hi[a] < 0) {
+        active_[static_cast<std::size_t>(a)] = false;
+        point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+        count(a, -lambda, push);
+      }
+    }
+    std::vector<bool> held(static_cast<std::size_t>(problem_.rows()), false);
+    for (Index a : rows_) held[static_cast<std::size_t>(a)] = true;
+    for (Index a = 0; a < problem_.rows(); ++a) {
+      if (held[static_cast<std::size_t>(a)]) continue;
+      slack_[a] = slack(problem_, a, point_.q).value();
+      const double over = slack_[a] / scaled_.bound[a];
+      if (std::abs(over) <= left + std::max(silence, 2 * silence_) * (size + std::abs(scaled_.s[a])))
+        slack_[a] = 0;
+      if (slack_[a] < 0) {
+        active_[static_cast<std::size_t>(a)] = true;
+        count(a, -over, std::abs(scaled_.s[a]) + problem_.U.absolute_dot(a, terms) / scaled_.bound[a]);
+      }
+    }
+    std::sort(wrong_.begin(), wrong_.end());
+    return wrong;
+  }
+
+  double size_of_q() const { return point_.q.hi.cwiseQuotient(scaled_.coordinate).cwiseAbs().maxCoeff(); }
+
+  Solution answer() {
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    const double unit =
+        scaled_.coordinate.size() > 0 ? scaled_.coordinate[0] * std::sqrt(problem_.A.diagonal()[0]) : 1;
+    for (Index i = 0; i < problem_.dimension(); ++i)
+      if (std::abs(point_.q.hi[i]) <= 2 * point_.remaining() * scaled_.coordinate[i])
+        point_.q.hi[i] = point_.q.lo[i] = 0;
+    solution.q = point_.q.hi;
+    solution.lambda = point_.lambda.hi;
+    solution.slack = slack_;
+    if (rows_left_by_peeling(problem_.U, rows_).empty())
+      solution.basis = rows_;  // else they may depend on each other
+    solution.acceleration_norm = problem_.A.norm(solution.q);
+    solution.force_norm = problem_.A.dual_norm(problem_.z);
+    Vector length = Vector::Zero(problem_.rows());
+    solution.residuals =
+        residuals(problem_, solution.q, solution.lambda,
+                  KnownParts{std::move(length), slack_, {}, solution.acceleration_norm, solution.force_norm});
+    // ||lo||_A² <= (largest row sum of the scaled A) Σ a_ii lo_i².
+    Vector ones = Vector::Ones(problem_.dimension());
+    const double spread = (scaled_.A.cwiseAbs() * ones).maxCoeff();
+    solution.rounding = std::sqrt(spread * problem_.A.diagonal().dot(point_.q.lo.cwiseAbs2()));
+    // What contradictions of rounding leave undecided, as far as the slowest correction tells the least
+    // eigenvalue.
+    const double spread_of_units = scaled_.coordinate.maxCoeff() / scaled_.coordinate.minCoeff();
+    const double inverse_norm = 2 * spread_of_units / std::sqrt(delta_);
+    if (silence_ > 0) doubtful_ = std::max(doubtful_, silence_ * (1 + size_of_q()));
+    solution.error_bound = 2 * unit * point_.remaining() + solution.rounding +
+                           unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
+                               std::sqrt(static_cast<double>(rows_.size() + 1));
+    const bool close =
+        solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
+    solution.status = close ? Status::solved : Status::inaccurate;
+    // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
+    if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
+    solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
+                               static_cast<double>(system_.factorisations()) * system_.flops(),
+                               system_.nonzeros()}};
+    return solution;
+  }
+
+  /// Multipliers that grow without bound point along a witness: its part in the null space of Uᵀ, on the rows
+  /// that grow.
+  Solution infeasible(const Vector& lambda) {
+    constexpr double growing = 1e-4, farthest = 1e3;
+    constexpr int most_projections = 20;
+    Solution solution;
+    solution.method = method;
+    solution.steps = steps_;
+    const double largest = lambda.cwiseAbs().maxCoeff();
+    std::vector<Index> rows;
+    Vector weight = Vector::Zero(problem_.rows()), w = Vector::Zero(problem_.rows());
+    for (Index a = 0; a < problem_.rows(); ++a)
+      if (std::abs(lambda[a]) > growing * largest) {
+        rows.push_back(a);
+        weight[a] = 1e6;  // A is then a small part of A + UᵀDU
+        w[a] = lambda[a] / largest * scaled_.multiplier[a];
+      }
+    if (!system_.factor(weight)) return solution;
+    for (int k = 0; k < most_projections; ++k) {
+      DoubleDoubleVector sum(problem_.dimension());
+      for (Index a : rows) problem_.U.add_multiple(a, {w[a], 0}, sum);
+      const Vector rest = sum.value().cwiseQuotient(scaled_.force);
+      const Vector along = scaled_.U * system_.solve(rest);
+      for (Index a : rows) w[a] -= weight[a] * along[a] * scaled_.multiplier[a];
+    }
+    for (Index a : rows)
+      if (one_sided(a)) w[a] = std::max(0.0, w[a]);
+    const double reach = farthest * problem_.A.dual_norm(problem_.z);
+    if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
+    solution.farkas = w / w.cwiseAbs().maxCoeff();
+    if (!proves_infeasibility(problem_, solution.farkas, reach)) return solution;
+    if (problem_.radii) {
+      solution.status = Status::infeasible;
+    } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem_, solution.farkas)) {
+      solution.farkas = std::move(proof->farkas);
+      solution.status = Status::infeasible;
+    } else {
+      solution.undecided = open_question::contradiction;
+    }
+    return solution;
+  }
+
+  const NearestPointProblem& problem_;
+  const Accuracy& accuracy_;
+  BalancedProblem scaled_;
+  RowSystem system_;
+  SparsePoint point_;
+  std::vector<bool> active_;
+  std::vector<Index> rows_, wrong_;
+  Vector slack_;
+  Index steps_ = 0, serious_ = 0;
+  bool central_ = false;
+  double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
+};
+
+}  // namespace
+
+Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
+                           const std::vector<Index>& guess) {
+  validate(problem);
+  return decided_in_fractions(problem, SparseActiveSet(problem, accuracy).run(guess), accuracy);
+}
+
+}  // namespace convex

@@ -1,0 +1,161 @@
+#include "convex/nearest_point/multipliers/multipliers.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "tests/oracles/planted_problem.hpp"
+
+using convex::Index;
+using convex::Interval;
+using convex::Multipliers;
+using convex::NearestPointProblem;
+using convex::RowMatrix;
+using convex::Vector;
+
+namespace {
+
+constexpr double tolerance = 1e-9;
+
+Multipliers all_multipliers(const NearestPointProblem& problem) {
+  return convex::multipliers(problem, convex::active_set(problem), tolerance, true);
+}
+
+/// A table of weight 40 with legs at the corners of a square, loaded at (p, r) from its centre.
+NearestPointProblem table(double p, double r) {
+  RowMatrix U(4, 3);
+  U << 1, 1, 1, 1, 1, -1, 1, -1, -1, 1, -1, 1;
+  return {convex::Metric::identity(3),
+          Eigen::Vector3d(-40, -40 * p, -40 * r),
+          convex::ConstraintRows(U),
+          Vector::Zero(4),
+          {}};
+}
+
+}  // namespace
+
+TEST_CASE("a centred table on four legs: mg/4 each of least norm, anywhere in [0, mg/2]") {
+  const Multipliers found = all_multipliers(table(0, 0));
+  CHECK_FALSE(found.unique);
+  for (Index leg = 0; leg < 4; ++leg) {
+    CHECK(found.least_norm[leg] == doctest::Approx(10));
+    CHECK((*found.ranges)[static_cast<std::size_t>(leg)].low == doctest::Approx(0));
+    CHECK((*found.ranges)[static_cast<std::size_t>(leg)].high == doctest::Approx(20));
+  }
+}
+
+TEST_CASE("multipliers of dependent rows can be unique: a table that tips stands on two legs") {
+  const Multipliers found = all_multipliers(table(1, 0));
+  CHECK(found.unique);
+  CHECK(found.least_norm[0] == doctest::Approx(20));
+  CHECK(found.least_norm[2] == 0);
+}
+
+TEST_CASE("contacts that squeeze a body have multipliers without bound") {
+  RowMatrix U(2, 1);
+  U << 1, -1;
+  const NearestPointProblem slot{
+      convex::Metric::identity(1), Vector::Constant(1, -5), convex::ConstraintRows(U), Vector::Zero(2), {}};
+  const Multipliers found = all_multipliers(slot);
+  CHECK_FALSE(found.unique);
+  CHECK((*found.ranges)[0].low == doctest::Approx(5));
+  CHECK(std::isinf((*found.ranges)[0].high));
+  CHECK((*found.ranges)[1].low == doctest::Approx(0));
+  CHECK(found.least_norm[0] == doctest::Approx(5));
+}
+
+TEST_CASE("repeated two-sided rows have multipliers without bound on both sides") {
+  RowMatrix U(2, 1);
+  U << 1, 1;
+  const NearestPointProblem twice{convex::Metric::identity(1),
+                                  Vector::Constant(1, -5),
+                                  convex::ConstraintRows(U),
+                                  Vector::Zero(2),
+                                  {0, 1}};
+  const Multipliers found = all_multipliers(twice);
+  CHECK(std::isinf((*found.ranges)[0].low));
+  CHECK(std::isinf((*found.ranges)[1].high));
+  CHECK(found.least_norm[0] == doctest::Approx(2.5));
+}
+
+TEST_CASE("the least-norm multipliers balance the forces, lie in their ranges and no others are shorter") {
+  for (oracles::Difficulty difficulty :
+       {oracles::Difficulty::repeated_rows, oracles::Difficulty::sums_of_rows,
+        oracles::Difficulty::opposite_rows})
+    for (unsigned seed = 0; seed < 60; ++seed) {
+      CAPTURE(seed);
+      const auto [problem, x] =
+          oracles::planted_problem(seed, 3 + static_cast<Index>(seed % 10), 16, difficulty);
+      const convex::Solution solution = convex::active_set(problem);
+      const Multipliers found = convex::multipliers(problem, solution, tolerance, true);
+      const double size = std::max(1.0, solution.lambda.norm());
+      const Vector reaction = problem.A.multiply(x) - problem.z;
+      CHECK((problem.U.transpose_times(found.least_norm) - reaction).norm() <= 1e-11 * size);
+      CHECK(found.least_norm.minCoeff() >= 0);
+      CHECK(found.least_norm.norm() <= solution.lambda.norm() + 1e-12 * size);
+      for (Index a = 0; a < problem.rows(); ++a) {
+        const Interval range = (*found.ranges)[static_cast<std::size_t>(a)];
+        CHECK(range.low <= solution.lambda[a] + 1e-10 * size);
+        CHECK(range.high >= solution.lambda[a] - 1e-10 * size);
+        CHECK(range.low <= found.least_norm[a] + 1e-10 * size);
+        CHECK(range.high >= found.least_norm[a] - 1e-10 * size);
+      }
+      // The shortest point of a convex set makes an acute angle with every other.
+      const double inner = found.least_norm.dot(solution.lambda - found.least_norm);
+      CHECK(inner >= -1e-9 * size * size);
+    }
+}
+
+TEST_CASE("rows on coordinates of their own are ranged by themselves: a hall full of tables") {
+  constexpr Index tables = 40;
+  RowMatrix U = RowMatrix::Zero(4 * tables, 3 * tables);
+  convex::Matrix A = convex::Matrix::Identity(3 * tables, 3 * tables);
+  Vector z(3 * tables);
+  for (Index k = 0; k < tables; ++k) {
+    const NearestPointProblem one = table(0, k % 2 == 0 ? 0.0 : 1.0);
+    U.block(4 * k, 3 * k, 4, 3) = one.U.dense();
+    z.segment(3 * k, 3) = one.z;
+    if (k > 0) A(3 * k, 3 * k - 1) = A(3 * k - 1, 3 * k) = 0.25;  // the floors couple what the legs do not
+  }
+  // At rest whatever the inertia: z is in the cone of the legs.
+  const Multipliers found =
+      all_multipliers({convex::Metric::dense(A), z, convex::ConstraintRows(U), Vector::Zero(4 * tables), {}});
+  CHECK_FALSE(found.unique);
+  REQUIRE(found.null_space);
+  CHECK(found.null_space->size() == tables);
+  for (Index k = 0; k < tables; ++k) {
+    const convex::NullVector& mu = (*found.null_space)[static_cast<std::size_t>(k)];
+    REQUIRE(mu.size() == 4);
+    Vector sum = Vector::Zero(3 * tables);
+    for (const auto& [row, coefficient] : mu) {
+      CHECK(row / 4 == k);
+      sum += coefficient * U.row(row).transpose();
+    }
+    CHECK(sum.norm() <= 1e-15);
+    for (Index leg = 0; leg < 4; ++leg) {
+      const bool is_loaded = k % 2 == 0 || leg == 0 || leg == 3;  // the others tip off
+      CAPTURE(k);
+      CAPTURE(leg);
+      CHECK((*found.ranges)[static_cast<std::size_t>(4 * k + leg)].low == doctest::Approx(k % 2 == 0  ? 0
+                                                                                          : is_loaded ? 20
+                                                                                                      : 0));
+      CHECK((*found.ranges)[static_cast<std::size_t>(4 * k + leg)].high ==
+            doctest::Approx(is_loaded ? 20 : 0));
+    }
+  }
+}
+
+TEST_CASE("rows that depend on nearly parallel ones have multipliers of least norm too") {
+  RowMatrix U(4, 2);
+  U << 1, 0, 1, 0x1p-26, 0, 1, 1, 1;
+  const NearestPointProblem corner{convex::Metric::identity(2),
+                                   Eigen::Vector2d(-2, -1),
+                                   convex::ConstraintRows(U),
+                                   Vector::Zero(4),
+                                   {0, 1}};
+  const Multipliers found = all_multipliers(corner);
+  CHECK_FALSE(found.unique);
+  CHECK((U.transpose() * found.least_norm - Eigen::Vector2d(2, 1)).norm() <= 1e-7);
+  CHECK(found.least_norm.norm() <= std::sqrt(2.0));  // (1, 0, 0, 1) will do
+}

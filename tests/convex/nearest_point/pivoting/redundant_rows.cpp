@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/gallery/gallery.hpp"
+#include "convex/nearest_point/methods.hpp"
+#include "convex/nearest_point/pivoting/gram_method.hpp"
+
+using convex::ConstraintRows;
+using convex::Index;
+using convex::Matrix;
+using convex::Metric;
+using convex::NearestPointProblem;
+using convex::Solution;
+using convex::Status;
+using convex::Vector;
+
+namespace {
+
+constexpr double few_roundings = 4e-15;
+
+double scale(const NearestPointProblem& problem, const Vector& x) {
+  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
+}
+
+Solution exact(const NearestPointProblem& problem) {
+  for (const convex::Method& method : convex::methods())
+    if (method.name == "exact") return method.solve(problem, {});
+  return {};
+}
+
+/// Small integers, the later half of the rows made of the others: multiples, sums, some of them off by
+/// `off` in one entry, some turned round.
+NearestPointProblem degenerate(unsigned seed, double off) {
+  std::mt19937 generator(seed);
+  const auto integer = [&](int low, int high) {
+    return static_cast<double>(std::uniform_int_distribution<int>(low, high)(generator));
+  };
+  const auto below = [&](Index n) { return static_cast<Index>(integer(0, static_cast<int>(n) - 1)); };
+  const Index n = 2 + below(4), some = 1 + below(n + 1), m = some + 1 + below(3 * n);
+  Matrix B(n, n);
+  for (Index i = 0; i < B.size(); ++i) B.data()[i] = integer(-2, 2);
+  const Matrix A = B * B.transpose() + static_cast<double>(n) * Matrix::Identity(n, n);
+  convex::RowMatrix U(m, n);
+  for (Index i = 0; i < U.size(); ++i) U.data()[i] = integer(-2, 2);
+  for (Index a = some; a < m; ++a) {
+    U.row(a) = (integer(1, 2) * U.row(below(some)) + integer(0, 1) * U.row(below(some))).eval();
+    if (integer(0, 1) > 0) U(a, below(n)) += off;
+    if (integer(0, 3) == 0) U.row(a) *= -1;
+  }
+  Vector x(n), lambda = Vector::Zero(m);
+  for (Index i = 0; i < n; ++i) x[i] = integer(-5, 5);
+  Vector s = U * x;
+  for (Index a = 0; a < m; ++a) {
+    const double kind = integer(0, 2);
+    if (kind == 0) lambda[a] = integer(0, 6);
+    if (kind == 1) s[a] -= integer(0, 4);
+  }
+  Vector z = A * x - U.transpose() * lambda;
+  if (seed % 2 == 0)
+    for (Index i = 0; i < n; ++i) z[i] += integer(-3, 3);
+  return {Metric::dense(A), z, ConstraintRows(U), s, {}};
+}
+
+}  // namespace
+
+TEST_CASE("rows that are sums and multiples of others leave the answer as it is in fractions") {
+  for (unsigned seed = 0; seed < 150; ++seed) {
+    CAPTURE(seed);
+    const NearestPointProblem problem = degenerate(seed, 0);
+    const Solution truth = exact(problem), found = convex::active_set(problem);
+    REQUIRE(found.status == truth.status);
+    if (truth.status != Status::solved) continue;
+    CHECK(problem.A.norm(found.q - truth.q) <= few_roundings * scale(problem, truth.q));
+  }
+}
+
+TEST_CASE("rows that are sums of others but for an angle below rounding are judged right or not at all") {
+  for (const double off : {0x1p-30, 0x1p-44, 0x1p-52, 0x1p-54})
+    for (unsigned seed = 0; seed < 150; ++seed) {
+      CAPTURE(seed);
+      CAPTURE(off);
+      const NearestPointProblem problem = degenerate(seed, off);
+      const Solution truth = exact(problem), found = convex::active_set(problem);
+      if (found.status != Status::solved || truth.status != Status::solved) continue;
+      CHECK(problem.A.norm(found.q - truth.q) <= 1e-9 * scale(problem, truth.q));
+    }
+}
+
+TEST_CASE("repeated rows, sums of rows and many rows to a coordinate are settled by the Gram matrix") {
+  struct Kind {
+    const char* family;
+    Index n;
+    double difficulty;
+  };
+  for (const auto& [family, n, difficulty] :
+       {Kind{"repeated", 12, 4}, Kind{"repeated", 40, 4}, Kind{"redundant", 12, 1}, Kind{"redundant", 40, 1},
+        Kind{"tall", 10, 10}, Kind{"tall", 10, 100}, Kind{"tall", 30, 30}, Kind{"well-posed", 40, 0.5}})
+    for (const std::uint32_t seed : {1U, 2U, 3U, 4U, 5U}) {
+      CAPTURE(family);
+      CAPTURE(seed);
+      const convex::GalleryInstance instance =
+          convex::gallery_instance(*convex::find_family(family), n, difficulty, seed);
+      const std::optional<Solution> found = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
+      REQUIRE(found.has_value());
+      const double unit = scale(instance.problem, instance.solution.hi);
+      CHECK(instance.problem.A.norm(found->q - instance.solution.hi) <= few_roundings * unit);
+      CHECK(found->error_bound <= few_roundings * unit);
+      CHECK(found->slack.minCoeff() >= 0);
+      CHECK(found->lambda.minCoeff() >= 0);
+      CHECK(found->residuals.feasibility <= few_roundings);
+    }
+}

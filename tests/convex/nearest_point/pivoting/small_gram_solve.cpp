@@ -1,0 +1,161 @@
+#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <random>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/gallery/gallery.hpp"
+#include "convex/nearest_point/repeated_problem.hpp"
+#include "tests/oracles/planted_problem.hpp"
+
+using convex::Accuracy;
+using convex::Index;
+using convex::NearestPointProblem;
+using convex::SmallGramSolve;
+using convex::SmallKernels;
+using convex::SmallTableau;
+using convex::Solution;
+using convex::Status;
+using convex::Vector;
+using oracles::Difficulty;
+
+namespace {
+
+constexpr double few_roundings = 4e-15;
+
+double scale(const NearestPointProblem& problem, const Vector& x) {
+  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
+}
+
+Vector jolted(const Vector& x, std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  Vector y = x;
+  for (Index i = 0; i < y.size(); ++i) y[i] *= 1 + 0.3 * normal(generator);
+  return y;
+}
+
+/// All that the kernels make of a problem, one after the other.
+std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProblem& problem) {
+  const auto scene = std::make_unique<SmallTableau>();
+  SmallTableau& t = *scene;
+  SmallGramSolve way(problem, t);
+  way.begin({});
+  std::vector<double> all;
+  const auto keep = [&](const double* x, Index count) { all.insert(all.end(), x, x + count); };
+  if (!kernels.begin(t) || !kernels.settle(t)) return all;
+  keep(t.b, t.m);
+  keep(t.q, t.n);
+  kernels.correct(t);
+  keep(t.dq, t.n);
+  keep(t.correction, t.size);
+  kernels.measure(t);
+  keep(t.slack, t.m);
+  keep(&t.stationarity, 1);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the small tableau gives the same bytes for every processor family") {
+  int settled = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const Index n = 1 + static_cast<Index>((5 * seed) % 32), m = 1 + static_cast<Index>((11 * seed) % 32);
+    const auto [problem, truth] = oracles::planted_problem(seed, n, m, Difficulty::none);
+    const std::vector<double> reference = outcome(convex::small_kernels(), problem);
+    settled += !reference.empty();
+    for (const SmallKernels* kernels : convex::all_small_kernels())
+      CHECK(outcome(*kernels, problem) == reference);
+  }
+  CHECK(settled > 30);
+}
+
+TEST_CASE("where the small tableau answers, it is right to rounding, and its bound holds") {
+  int answered = 0;
+  for (Difficulty difficulty :
+       {Difficulty::none, Difficulty::repeated_rows, Difficulty::sums_of_rows, Difficulty::at_rest,
+        Difficulty::two_sided_rows, Difficulty::opposite_rows, Difficulty::sparse_rows})
+    for (unsigned seed = 0; seed < 60; ++seed) {
+      CAPTURE(seed);
+      CAPTURE(static_cast<int>(difficulty));
+      const Index n = 1 + static_cast<Index>((5 * seed) % 32), m = 1 + static_cast<Index>((11 * seed) % 32);
+      const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
+      const auto scene = std::make_unique<SmallTableau>();
+      Solution found;
+      if (!SmallGramSolve(problem, *scene).solve({}, {}, found)) continue;
+      ++answered;
+      CHECK(found.status == Status::solved);
+      const double error = problem.A.norm(found.q - truth), unit = scale(problem, truth);
+      CHECK(error <= few_roundings * unit);
+      CHECK(error <= found.error_bound + few_roundings * unit);
+      CHECK(found.residuals.stationarity <= few_roundings);
+      CHECK(found.residuals.feasibility <= few_roundings);
+      CHECK(found.residuals.complementarity <= few_roundings);
+    }
+  CHECK(answered > 15);
+  const convex::GalleryFamily& family = *convex::find_family("well-posed");
+  for (const Index n : {4, 6, 8, 9, 16, 17, 25, 32}) {
+    const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
+    if (!SmallGramSolve::fits(instance.problem)) continue;
+    const auto scene = std::make_unique<SmallTableau>();
+    Solution found;
+    REQUIRE(SmallGramSolve(instance.problem, *scene).solve({}, {}, found));
+    CHECK(instance.problem.A.norm(found.q - instance.solution.hi) <=
+          few_roundings * scale(instance.problem, instance.solution.hi));
+  }
+}
+
+TEST_CASE("a problem solved again and again, rows coming and going, has the answers of the first solve") {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Index n = 2 + static_cast<Index>((7 * seed) % 45), m = 1 + static_cast<Index>((11 * seed) % 60);
+    CAPTURE(n);
+    CAPTURE(m);
+    auto [problem, truth] = oracles::planted_problem(seed, n, m, Difficulty::none);
+    const Vector z = problem.z, s = problem.s;
+    for (const bool refine : {true, false}) {
+      Accuracy accuracy;
+      accuracy.refine = refine;
+      convex::RepeatedProblem repeated(problem, accuracy);
+      std::mt19937 generator(seed);
+      for (int k = 0; k < 60; ++k) {
+        problem.z = jolted(z, generator);
+        problem.s = jolted(s, generator);
+        const Solution once = convex::active_set(problem);
+        const Solution& again = repeated.solve(problem.z, problem.s);
+        CHECK(again.status == once.status);
+        if (once.status != Status::solved) continue;
+        const double error = problem.A.norm(again.q - once.q), unit = scale(problem, once.q);
+        if (refine) CHECK(error <= few_roundings * unit);
+        CHECK(error <= again.error_bound + few_roundings * unit);
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "an answer left in doubles is within its bound of the one rounded right, and the bound within reach") {
+  Accuracy doubles;
+  doubles.refine = false;
+  for (Difficulty difficulty :
+       {Difficulty::none, Difficulty::repeated_rows, Difficulty::at_rest, Difficulty::two_sided_rows})
+    for (unsigned seed = 0; seed < 40; ++seed) {
+      const Index n = 1 + static_cast<Index>((5 * seed) % 61), m = 1 + static_cast<Index>((11 * seed) % 71);
+      const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
+      const Solution found = convex::active_set(problem, doubles);
+      CHECK(found.status == Status::solved);
+      const double error = problem.A.norm(found.q - truth), unit = scale(problem, truth);
+      CHECK(error <= found.error_bound + few_roundings * unit);
+      CHECK(found.error_bound <= 1e-10 * unit);
+    }
+}
+
+TEST_CASE("a tolerance that doubles cannot meet brings the correction in") {
+  const convex::GalleryFamily& family = *convex::find_family("well-posed");
+  const NearestPointProblem problem = convex::gallery_instance(family, 12, family.usual).problem;
+  Accuracy doubles, sharp;
+  doubles.refine = sharp.refine = false;
+  sharp.tolerance = 1e-15;
+  CHECK(convex::active_set(problem, sharp).error_bound < convex::active_set(problem, doubles).error_bound);
+  CHECK(convex::active_set(problem, sharp).q == convex::active_set(problem).q);
+}

@@ -1,0 +1,109 @@
+#include "convex/nearest_point/proof/exact_multipliers.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
+#include "tests/oracles/planted_problem.hpp"
+#include "tests/oracles/rational_text.hpp"
+
+using convex::ExactMultipliers;
+using convex::ExactProblem;
+using convex::ExactSolution;
+using convex::Index;
+using convex::NearestPointProblem;
+using convex::RowMatrix;
+using convex::Vector;
+using oracles::Difficulty;
+using oracles::Rational;
+using oracles::RationalVector;
+
+namespace {
+
+/// A table on four legs: lambda = mg/4 + t (1, -1, 1, -1), |t| <= mg/4.
+NearestPointProblem four_legs() {
+  return {convex::Metric::diagonal(Vector{{10.0, 4.0, 4.0}}),
+          Vector{{-100.0, 0.0, 0.0}},
+          convex::ConstraintRows(RowMatrix{{1, 1, 1}, {1, 1, -1}, {1, -1, -1}, {1, -1, 1}}),
+          Vector::Zero(4),
+          {}};
+}
+
+std::string shown(const std::optional<convex::Fraction>& end) { return end ? convex::text(*end) : "inf"; }
+
+}  // namespace
+
+TEST_CASE("the load of a table on four legs is shared by a quarter each, or anything up to a half") {
+  const ExactProblem problem = convex::exact_problem(four_legs());
+  const ExactMultipliers all =
+      convex::exact_multipliers(problem, convex::exact_active_set(problem, {}), true);
+  CHECK_FALSE(all.unique);
+  CHECK(all.tight == std::vector<Index>{0, 1, 2, 3});
+  REQUIRE(all.ranges);
+  for (std::size_t a = 0; a < 4; ++a) {
+    CHECK(convex::text(convex::entry(all.least_norm, a)) == "25");
+    CHECK(shown((*all.ranges)[a].low) == "0");
+    CHECK(shown((*all.ranges)[a].high) == "50");
+  }
+}
+
+TEST_CASE("two-sided rows that repeat each other have multipliers of any size") {
+  NearestPointProblem problem = four_legs();
+  problem.two_sided = {0, 1, 2, 3};
+  const ExactProblem exact = convex::exact_problem(problem);
+  const ExactMultipliers all = convex::exact_multipliers(exact, convex::exact_active_set(exact, {}), true);
+  CHECK_FALSE(all.unique);
+  for (const convex::ExactInterval& range : *all.ranges) {
+    CHECK_FALSE(range.low);
+    CHECK_FALSE(range.high);
+  }
+  CHECK(convex::text(convex::entry(all.least_norm, 2)) == "25");
+}
+
+TEST_CASE("least-norm multipliers give the same reaction and lie, with the vertex found, in their ranges") {
+  for (const Difficulty difficulty : {Difficulty::repeated_rows, Difficulty::sums_of_rows,
+                                      Difficulty::two_sided_rows, Difficulty::opposite_rows})
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      CAPTURE(seed);
+      CAPTURE(static_cast<int>(difficulty));
+      const NearestPointProblem problem = oracles::planted_problem(seed, 4, 12, difficulty).problem;
+      const ExactProblem exact = convex::exact_problem(problem);
+      const ExactSolution solution = convex::exact_active_set(exact, {});
+      const ExactMultipliers all = convex::exact_multipliers(exact, solution, true);
+      const RationalVector q = oracles::rationals(solution.q), vertex = oracles::rationals(solution.lambda),
+                           least = oracles::rationals(all.least_norm);
+      CHECK(oracles::is_exact_solution(problem, {q, least}));
+      Rational norm = 0, vertex_norm = 0, product = 0;
+      for (std::size_t a = 0; a < least.size(); ++a) {
+        norm += least[a] * least[a];
+        vertex_norm += vertex[a] * vertex[a];
+        product += least[a] * vertex[a];
+        const convex::ExactInterval& range = (*all.ranges)[a];
+        for (const Rational& value : {least[a], vertex[a]}) {
+          CHECK((!range.low || oracles::rational(*range.low) <= value));
+          CHECK((!range.high || oracles::rational(*range.high) >= value));
+        }
+      }
+      // The nearest point of a convex set to 0: least·(other - least) >= 0.
+      CHECK((product >= norm));
+      CHECK(all.unique == (norm == vertex_norm && all.ranges &&
+                           std::all_of(all.ranges->begin(), all.ranges->end(), [](const auto& range) {
+                             return range.low && range.high && *range.low == *range.high;
+                           })));
+      // The intervals of doubles agree.
+      const auto rounded = convex::multipliers(problem, convex::active_set(problem), 1e-9, true);
+      CHECK(rounded.unique == all.unique);
+      for (std::size_t a = 0; a < least.size(); ++a) {
+        const convex::Interval range = (*rounded.ranges)[a];
+        const auto& exact_range = (*all.ranges)[a];
+        CHECK(std::isinf(range.high) == !exact_range.high);
+        if (exact_range.high)
+          CHECK(range.high == doctest::Approx(convex::nearest_double(*exact_range.high)).epsilon(1e-9));
+        if (exact_range.low)
+          CHECK(range.low == doctest::Approx(convex::nearest_double(*exact_range.low)).epsilon(1e-9));
+      }
+    }
+}
