@@ -43,6 +43,47 @@ void require_finite(double value, Index i, Index j) {
   if (!std::isfinite(value)) throw InvalidInput("A: " + entry(i, j) + " is not finite; give finite numbers");
 }
 
+/// Whether every entry above the diagonal has its like below it, not one bit off, all of them finite: then W
+/// is its own mean with its transpose, which is not made.
+bool is_exactly_symmetric(const SparseMatrix& W) {
+  if (!W.isCompressed()) return false;
+  const Index n = W.rows();
+  const int *const start = W.outerIndexPtr(), *const row = W.innerIndexPtr();
+  const double* const value = W.valuePtr();
+  std::vector<int> next(start, start + n);  // the first entry above the diagonal that has no like yet
+  for (Index j = 0; j < n; ++j) {
+    int at = next[static_cast<std::size_t>(j)];
+    if (at < start[j + 1] && row[at] < j) return false;
+    for (; at < start[j + 1]; ++at) {
+      if (!std::isfinite(value[at])) return false;
+      if (row[at] == j) continue;
+      int& like = next[static_cast<std::size_t>(row[at])];
+      if (like == start[row[at] + 1] || row[like] != j || value[like] != value[at]) return false;
+      ++like;
+    }
+  }
+  return true;
+}
+
+/// ½ (W + Wᵀ), which may differ from W by rounding.
+SparseMatrix mean_with_transpose(const SparseMatrix& W) {
+  const Index n = W.rows();
+  const SparseMatrix transposed = W.transpose();
+  const Vector diagonal = W.diagonal();
+  for (Index j = 0; j < n; ++j) {
+    SparseMatrix::InnerIterator a(W, j), b(transposed, j);
+    for (; a || b; ++a, ++b) {
+      if (!a || !b || a.row() != b.row()) {
+        const Index i = !a ? b.row() : !b ? a.row() : std::min(a.row(), b.row());
+        refuse_asymmetry(i, j);
+      }
+      require_finite(a.value(), a.row(), j);
+      if (differ(a.value(), b.value(), diagonal[a.row()], diagonal[j], n)) refuse_asymmetry(a.row(), j);
+    }
+  }
+  return 0.5 * (W + transposed);
+}
+
 /// Whether W is its own transpose to the last bit, as matrices given usually are, and finite. By tiles, for
 /// the rows of a large matrix are far apart in memory.
 bool is_exactly_symmetric(const Matrix& W) {
@@ -153,24 +194,11 @@ Metric Metric::sparse(const SparseMatrix& W) {
   auto data = std::make_shared<Data>();
   const Index n = W.rows();
   data->kind = MetricKind::sparse;
-  const SparseMatrix transposed = W.transpose();
-  const Vector diagonal_of_W = W.diagonal();
-  bool is_diagonal = true;
-  for (Index j = 0; j < n; ++j) {
-    SparseMatrix::InnerIterator a(W, j), b(transposed, j);
-    for (; a || b; ++a, ++b) {
-      if (!a || !b || a.row() != b.row()) {
-        const Index i = !a ? b.row() : !b ? a.row() : std::min(a.row(), b.row());
-        refuse_asymmetry(i, j);
-      }
-      require_finite(a.value(), a.row(), j);
-      if (differ(a.value(), b.value(), diagonal_of_W[a.row()], diagonal_of_W[j], n))
-        refuse_asymmetry(a.row(), j);
-      is_diagonal = is_diagonal && a.row() == j;
-    }
-  }
-  SparseMatrix mean = 0.5 * (W + transposed);
+  SparseMatrix mean = is_exactly_symmetric(W) ? W : mean_with_transpose(W);
   data->diagonal = mean.diagonal();
+  bool is_diagonal = true;
+  for (Index j = 0; j < n && is_diagonal; ++j)
+    for (SparseMatrix::InnerIterator it(mean, j); it; ++it) is_diagonal = is_diagonal && it.row() == j;
   if (is_diagonal) return diagonal(data->diagonal);
   for (Index i = 0; i < n; ++i)
     if (!(data->diagonal[i] > 0)) refuse_indefinite();
