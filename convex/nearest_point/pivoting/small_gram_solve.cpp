@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/active_set/refinement.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
 #include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
 
@@ -163,6 +164,28 @@ bool SmallGramSolve::is_clear() {
   return close == 0;
 }
 
+/// Whether rows outside are clear of their edge by more than rounding, or the doubles q are, without
+/// rounding, the point of the rows held and keep those that they touch.
+bool SmallGramSolve::keeps_rows_outside() {
+  if (is_clear()) return true;
+  SmallTableau& t = scene_;
+  const double rounding = 2 * static_cast<double>(t.n) * unit_roundoff;
+  const double unsure_point = 16 * (remaining_ + silenced_);
+  std::vector<Index> touched;
+  for (Index a = 0; a < t.m; ++a) {
+    if (t.held[a]) continue;
+    const double unsure =
+        rounding * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) + t.row_scale[a] * unsure_point;
+    if (t.slack[a] > unsure) continue;
+    if (t.slack[a] < -unsure) return false;
+    touched.push_back(a);
+    t.slack[a] = 0;
+  }
+  if (touched.empty()) return true;
+  return !problem_.radii && keeps_exactly(problem_, Eigen::Map<const Vector>(t.q, t.n),
+                                          std::vector<Index>(t.rows, t.rows + t.size), touched);
+}
+
 /// Whether the answer in doubles is within so much, no row close to tipping over.
 bool SmallGramSolve::doubles_do(double close) {
   const SmallTableau& t = scene_;
@@ -191,7 +214,7 @@ bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
   if (accuracy.refine || !doubles_do(close)) {
     if (!correct() || !round()) return false;
     small_kernels().measure(t);
-    if (!is_clear()) return false;
+    if (!keeps_rows_outside()) return false;
   }
   solution.residuals = residuals();
   solution.method = "active-set";

@@ -33,6 +33,7 @@ class SmallGramSolve {
   bool correct();
   bool round();
   bool is_clear();
+  bool keeps_rows_outside();
   bool doubles_do(double close);
   Residuals residuals() const;
 
