@@ -22,6 +22,10 @@ namespace {
 
 /// Whether it shows at a glance that all is one dense island.
 bool plainly_connected(const NearestPointProblem& problem) {
+  if (!problem.U.is_sparse() && problem.dimension() > 2 && problem.rows() > 0) {
+    const RowMatrix& U = problem.U.dense();
+    if ((U.row(0).array() != 0).all() && (U.col(0).array() != 0).all()) return true;
+  }
   if (problem.A.kind() != MetricKind::dense || problem.U.is_sparse()) return false;
   const Matrix& A = problem.A.dense_gram();
   for (Index i = 0; i < A.rows(); ++i)

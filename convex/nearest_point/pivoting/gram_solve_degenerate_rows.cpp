@@ -78,8 +78,11 @@ GramSolve::Slacks GramSolve::look_at_violated(Index count) {
 /// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
 /// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
 GramSolve::Slacks GramSolve::decide_degenerate_rows() {
+  if (keeps_touched_rows_exactly()) {
+    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k] = 0;
+    return Slacks::kept;
+  }
   if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
-  if (keeps_touched_rows_exactly()) return Slacks::kept;
   Index open = 0;  // close_ has so many rows that no exact sum has told of
   for (Index k = 0; k < touched_count_; ++k)
     if (!(slack_[touched_[k]] > 0)) close_[open++] = touched_[k];
@@ -139,11 +142,9 @@ double GramSolve::slack_noise(Index a) const {
 
 /// Whether q is, without rounding, the point of the rows held and keeps those it touches.
 bool GramSolve::keeps_touched_rows_exactly() const {
-  const Vector q = Eigen::Map<const Vector>(q_, n_);
-  std::vector<Index> touched;
-  for (Index k = 0; k < touched_count_; ++k)
-    if (!(slack_[touched_[k]] > 0)) touched.push_back(touched_[k]);
-  return keeps_exactly(problem_, q, std::vector<Index>(rows_, rows_ + set_->size()), touched);
+  return keeps_exactly(problem_, Eigen::Map<const Vector>(q_, n_),
+                       std::vector<Index>(rows_, rows_ + set_->size()),
+                       std::vector<Index>(touched_, touched_ + touched_count_));
 }
 
 /// The sign of the slack of row a where a row held that is parallel to it, not one bit off, holds with
