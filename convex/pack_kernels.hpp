@@ -75,8 +75,43 @@ struct Kernels : TriangleKernels<W, Fused> {
     for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
   }
 
+  /// into_a := Σ_i factor(i, u_ai) u_ai, row by row, for so few entries that a pack would be mostly empty.
+  template <int n, class Factor>
+  MOREAU_INLINE void along_few(Index m, const double* U, Factor factor, double* into) {
+    for (Index a = 0; a < m; ++a, U += n) {
+      double sum = factor(0, U[0]) * U[0];
+#pragma GCC unroll 4
+      for (int i = 1; i < n; ++i) sum += factor(i, U[i]) * U[i];
+      into[a] = sum;
+    }
+  }
+  template <class Factor>
+  MOREAU_INLINE bool along_few(Index m, Index n, const double* U, Factor factor, double* into) {
+    switch (n) {
+      case 1:
+        along_few<1>(m, U, factor, into);
+        return true;
+      case 2:
+        along_few<2>(m, U, factor, into);
+        return true;
+      case 3:
+        along_few<3>(m, U, factor, into);
+        return true;
+      case 4:
+        along_few<4>(m, U, factor, into);
+        return true;
+      default:
+        return false;
+    }
+  }
+
   MOREAU_INLINE void slacks(Index m, Index n, const double* U, const double* x, const double* s,
                             double* into) {
+    if (along_few(
+            m, n, U, [x](int i, double) __attribute__((always_inline)) { return x[i]; }, into)) {
+      for (Index a = 0; a < m; ++a) into[a] -= s[a];
+      return;
+    }
     const double* const end = U + m * n;
     const auto factor = [x](Index i, const Pack&) __attribute__((always_inline)) { return P::load(x + i); };
     Index a = 0;
@@ -86,6 +121,10 @@ struct Kernels : TriangleKernels<W, Fused> {
   }
 
   MOREAU_INLINE void squares(Index m, Index n, const double* U, const double* weight, double* into) {
+    if (along_few(
+            m, n, U, [weight](int i, double u) __attribute__((always_inline)) { return u * weight[i]; },
+            into))
+      return;
     const double* const end = U + m * n;
     const auto factor = [weight](Index i, const Pack& u) __attribute__((always_inline)) {
       return P::times(u, P::load(weight + i));

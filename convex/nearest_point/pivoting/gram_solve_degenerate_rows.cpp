@@ -261,6 +261,7 @@ double GramSolve::violation_of_touched_rows(double known) {
   for (Index k = 0; k < touched_count_; ++k) {
     const Index a = touched_[k];
     const double violation = -touched_slack_[k], s = std::abs(problem_.s[a]);
+    if (!(violation > 0)) continue;
     // ||u||_(A⁻¹) is at least this
     const double shortest = row_scale_[a] / std::sqrt(static_cast<double>(n_));
     if (!(violation > known * (s + shortest * acceleration_norm_))) continue;
