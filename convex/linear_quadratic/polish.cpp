@@ -10,7 +10,7 @@
 namespace convex {
 namespace {
 
-using Set = WorkingSet<Eigen::Dynamic>;
+using Set = WorkingSet;
 
 constexpr int most_corrections = 30;
 
@@ -61,7 +61,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
 
   DoubleDoubleVector xi(start), lambda(held);
   for (Index k = 0; k < held; ++k) lambda.hi[k] = multipliers[set.rows()[static_cast<std::size_t>(k)]];
-  Set::Column dw, dlambda, r2(held);
+  Vector dw, dlambda, r2(held);
   double last = std::numeric_limits<double>::infinity(), last_x = 0, gain = 1;
   Vector dxi, dmultipliers;
   for (int step = 0; step < most_corrections; ++step) {

@@ -49,7 +49,7 @@ class PassiveSet {
  private:
   const Matrix& V_;
   const Vector& b_;
-  OrthogonalFactor<Eigen::Dynamic> factor_;
+  OrthogonalFactor factor_;
   Vector c_;
   std::vector<Index> members_;
 };

@@ -21,6 +21,8 @@ struct RepeatedProblem::State {
 
 RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& accuracy) {
   validate(problem);
+  if (has_gram_matrix(problem) && problem.A.kind() == MetricKind::diagonal)
+    problem = with_dense_metric(std::move(problem));
   state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, false, false, {}});
 }
 

@@ -27,11 +27,9 @@ constexpr double block_dependence = 1e-7;
 /// before it blames doubles.
 constexpr Index most_rounds = 100, patient_rounds = 4;
 
-template <int MaxSize>
 class DualActiveSet {
  public:
-  using Set = WorkingSet<MaxSize>;
-  using Split = typename Set::Split;
+  using Split = WorkingSet::Split;
 
   DualActiveSet(const NearestPointProblem& problem, const Accuracy& accuracy)
       : problem_(problem),
@@ -313,7 +311,7 @@ class DualActiveSet {
 
   const NearestPointProblem& problem_;
   const Accuracy& accuracy_;
-  Set set_;
+  WorkingSet set_;
   Vector row_scale_;  // ||u_a||_(D⁻¹), D the diagonal of A: a length that costs n instead of n²
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
@@ -332,9 +330,7 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
   validate_guess(problem, guess);
   GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
   if (quick.solution) return *std::move(quick.solution);
-  Solution found = problem.dimension() <= 8
-                       ? DualActiveSet<8>(problem, accuracy).run(quick.rows)
-                       : DualActiveSet<Eigen::Dynamic>(problem, accuracy).run(quick.rows);
+  Solution found = DualActiveSet(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
     found.undecided = open_question::conditioning;
   return decided_in_fractions(problem, std::move(found), accuracy);

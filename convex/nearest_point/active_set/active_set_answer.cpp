@@ -25,8 +25,7 @@ double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
 
 }  // namespace
 
-template <int MaxSize>
-Solution judged_answer(const WorkingSet<MaxSize>& set, const RefinedPoint& refined, const Vector& slack,
+Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
                        const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps) {
   const NearestPointProblem& problem = set.problem();
   Solution solution;
@@ -89,10 +88,5 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
   solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
   return solution;
 }
-
-template Solution judged_answer(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&, const Vector&,
-                                const Vector&, double, const Accuracy&, Index);
-template Solution judged_answer(const WorkingSet<8>&, const RefinedPoint&, const Vector&, const Vector&,
-                                double, const Accuracy&, Index);
 
 }  // namespace convex

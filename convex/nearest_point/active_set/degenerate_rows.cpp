@@ -5,9 +5,8 @@
 
 namespace convex {
 
-template <int MaxSize>
-std::string_view decide_degenerate_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q,
-                                        const Vector& row_scale, Vector& slack) {
+std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,
+                                        Vector& slack) {
   const NearestPointProblem& problem = set.problem();
   std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
@@ -16,7 +15,7 @@ std::string_view decide_degenerate_rows(WorkingSet<MaxSize>& set, const DoubleDo
     if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);
   if (problem.radii) return touched.empty() ? std::string_view() : open_question::touched;
   const bool is_exact = keeps_exactly(problem, q.hi, set.rows(), touched);
-  typename WorkingSet<MaxSize>::Split split;
+  WorkingSet::Split split;
   SlackOnEdge edge(problem, row_scale.data());
   for (Index a : touched) {
     if (is_exact) break;
@@ -29,10 +28,5 @@ std::string_view decide_degenerate_rows(WorkingSet<MaxSize>& set, const DoubleDo
   for (Index a : touched) slack[a] = 0;
   return {};
 }
-
-template std::string_view decide_degenerate_rows(WorkingSet<Eigen::Dynamic>&, const DoubleDoubleVector&,
-                                                 const Vector&, Vector&);
-template std::string_view decide_degenerate_rows(WorkingSet<8>&, const DoubleDoubleVector&, const Vector&,
-                                                 Vector&);
 
 }  // namespace convex

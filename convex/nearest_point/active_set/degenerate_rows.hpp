@@ -11,8 +11,7 @@ namespace convex {
 /// keeps them, or each of them is a sum of rows of W and asks for no more than they do. slack: m; where all
 /// are kept, theirs becomes 0 and nothing is returned; else what stays open (`open_question`). Where the data
 /// have radii, every such row stays open.
-template <int MaxSize>
-std::string_view decide_degenerate_rows(WorkingSet<MaxSize>& set, const DoubleDoubleVector& q,
-                                        const Vector& row_scale, Vector& slack);
+std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,
+                                        Vector& slack);
 
 }  // namespace convex

@@ -20,7 +20,7 @@ bool is_small_enough(Index coordinates, std::size_t rows) {
 
 Dependence dependence(const NearestPointProblem& problem, const std::vector<Index>& basis,
                       const std::vector<Index>& tight) {
-  using Set = WorkingSet<Eigen::Dynamic>;
+  using Set = WorkingSet;
   Set set(problem);
   Matrix whitened = whitened_rows(problem, basis);
   set.append_block(basis, whitened, 0);

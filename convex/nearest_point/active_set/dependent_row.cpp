@@ -17,8 +17,7 @@ constexpr double coefficient_noise = 64 * unit_roundoff;
 
 }  // namespace
 
-template <int MaxSize>
-bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet<MaxSize>::Split& split) {
+bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split) {
   return std::abs(split.coefficients[k]) * set.factor().length(k) <= coefficient_noise * split.magnitude;
 }
 
@@ -30,8 +29,7 @@ struct Gap {
   double value = 0, magnitude = 0, explained = 0, silenced = 0;
 };
 
-template <int MaxSize>
-Gap gap_of(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split) {
+Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   const Vector& s = set.problem().s;
   const std::optional<DataRadii>& radii = set.problem().radii;
   DoubleDouble sum{s[p], 0};
@@ -54,16 +52,13 @@ Gap gap_of(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<Ma
 
 }  // namespace
 
-template <int MaxSize>
-double contradiction(const WorkingSet<MaxSize>& set, Index p,
-                     const typename WorkingSet<MaxSize>::Split& split) {
+double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   const Gap gap = gap_of(set, p, split);
   const double threshold = gap.explained + gap.silenced + 2 * split.direction.norm() * set.scale();
   return std::abs(gap.value) > threshold ? gap.value : 0;
 }
 
-template <int MaxSize>
-Index blocking_row(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split) {
+Index blocking_row(const WorkingSet& set, const WorkingSet::Split& split) {
   Index blocking = -1;
   double least = std::numeric_limits<double>::infinity();
   for (Index k = 0; k < set.size(); ++k) {
@@ -77,8 +72,7 @@ Index blocking_row(const WorkingSet<MaxSize>& set, const typename WorkingSet<Max
   return blocking;
 }
 
-template <int MaxSize>
-bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split) {
+bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split) {
   const double nothing = exact_dependence * split.magnitude;
   if (split.rest > nothing) return false;
   for (Index k = 0; k < set.size(); ++k)
@@ -87,8 +81,7 @@ bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename Working
   return true;
 }
 
-template <int MaxSize>
-bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename WorkingSet<MaxSize>::Split& split) {
+bool is_flat_wedge(const WorkingSet& set, Index, const WorkingSet::Split& split) {
   if (is_exact_combination(set, split)) return false;
   bool can_give_way = false;
   for (Index k = 0; k < set.size(); ++k) {
@@ -99,9 +92,7 @@ bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index, const typename Working
   return !can_give_way;
 }
 
-template <int MaxSize>
-Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
-                             const typename WorkingSet<MaxSize>::Split& split, double sign) {
+Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign) {
   Vector weights = Vector::Zero(set.problem().rows());
   weights[p] = sign;
   for (Index k = 0; k < set.size(); ++k)
@@ -109,16 +100,5 @@ Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
       weights[set.rows()[static_cast<std::size_t>(k)]] = -sign * split.coefficients[k];
   return weights;
 }
-
-#define MOREAU_DEPENDENT_ROW(size)                                                                      \
-  template bool is_noise(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);               \
-  template Index blocking_row(const WorkingSet<size>&, const WorkingSet<size>::Split&);                 \
-  template bool is_exact_combination(const WorkingSet<size>&, const WorkingSet<size>::Split&);          \
-  template bool is_flat_wedge(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);          \
-  template double contradiction(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&);        \
-  template Vector contradiction_weights(const WorkingSet<size>&, Index, const WorkingSet<size>::Split&, \
-                                        double);
-MOREAU_DEPENDENT_ROW(Eigen::Dynamic)
-MOREAU_DEPENDENT_ROW(8)
 
 }  // namespace convex

@@ -8,33 +8,25 @@ namespace convex {
 inline constexpr double exact_dependence = 0x1p-90;
 
 /// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
-template <int MaxSize>
-bool is_noise(const WorkingSet<MaxSize>& set, Index k, const typename WorkingSet<MaxSize>::Split& split);
+bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split);
 
 /// The place in W of the one-sided row whose multiplier comes down to 0 first when that of the row split
 /// rises; -1 for none.
-template <int MaxSize>
-Index blocking_row(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split);
+Index blocking_row(const WorkingSet& set, const WorkingSet::Split& split);
 
 /// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
 /// else 0.
-template <int MaxSize>
-double contradiction(const WorkingSet<MaxSize>& set, Index p,
-                     const typename WorkingSet<MaxSize>::Split& split);
+double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split);
 
 /// Whether a row is a combination of W with coefficients that are 0 or beyond rounding, nothing left over.
-template <int MaxSize>
-bool is_exact_combination(const WorkingSet<MaxSize>& set, const typename WorkingSet<MaxSize>::Split& split);
+bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split);
 
 /// Whether a row counts as dependent on W by rounding alone and is opposite to one-sided rows of W, or to
 /// nothing that could give way to it: as the numbers stand they leave a wedge, however flat, and its edge may
 /// be far from where W holds them.
-template <int MaxSize>
-bool is_flat_wedge(const WorkingSet<MaxSize>& set, Index p, const typename WorkingSet<MaxSize>::Split& split);
+bool is_flat_wedge(const WorkingSet& set, Index p, const WorkingSet::Split& split);
 
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
-template <int MaxSize>
-Vector contradiction_weights(const WorkingSet<MaxSize>& set, Index p,
-                             const typename WorkingSet<MaxSize>::Split& split, double sign);
+Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign);
 
 }  // namespace convex

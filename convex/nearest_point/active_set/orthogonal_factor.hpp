@@ -12,14 +12,9 @@ namespace convex {
 /// The factorisation V = QR of the whitened active rows v_1 … v_k (columns of V, n×k), kept up to date as
 /// rows come and go: Q n×k with orthonormal columns, R k×k upper triangular. Gram-Schmidt with
 /// reorthogonalisation and Givens rotations, after Daniel, Gragg, Kaufman and Stewart (1976). Room for
-/// `capacity` rows is taken once. MaxSize is the largest n when it is known to be small (the storage is then
-/// on the stack), else Eigen::Dynamic.
-template <int MaxSize>
+/// `capacity` rows is taken once.
 class OrthogonalFactor {
  public:
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaxSize, MaxSize>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, MaxSize, 1>;
-
   OrthogonalFactor(Index n, Index capacity)
       : Q_(n, capacity), R_(capacity, capacity), scratch_(capacity), lengths_(capacity) {}
 
@@ -30,7 +25,7 @@ class OrthogonalFactor {
   double length(Index j) const { return lengths_[j]; }
 
   /// Splits v = Q c + d with d orthogonal to the columns of Q; on entry d = v. Returns |d|.
-  double split(Eigen::Ref<Column> d, Eigen::Ref<Column> c) {
+  double split(Eigen::Ref<Vector> d, Eigen::Ref<Vector> c) {
     const double before = d.norm();
     c.head(size_).noalias() = Q().transpose() * d;
     d.noalias() -= Q() * c.head(size_);
@@ -109,24 +104,17 @@ class OrthogonalFactor {
   }
 
   /// x := R⁻¹x.
-  void solve_upper(Eigen::Ref<Column> x) const {
-    if constexpr (MaxSize == Eigen::Dynamic) {
-      solve_upper_triangle(R_.topLeftCorner(size_, size_), x);
-    } else if (size_ > 0) {
-      R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().solveInPlace(x);
-    }
-  }
+  void solve_upper(Eigen::Ref<Vector> x) const { solve_upper_triangle(R_.topLeftCorner(size_, size_), x); }
   /// x := R⁻ᵀx.
-  void solve_lower(Eigen::Ref<Column> x) const {
-    if (size_ > 0)
-      R_.topLeftCorner(size_, size_).template triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+  void solve_lower(Eigen::Ref<Vector> x) const {
+    if (size_ > 0) R_.topLeftCorner(size_, size_).triangularView<Eigen::Upper>().transpose().solveInPlace(x);
   }
   /// An estimate of 1 / (smallest singular value of R): one step of inverse iteration each way, from signs
   /// that let the first solution grow (Cline, Moler, Stewart and Wilkinson 1979).
   double inverse_norm() const {
     if (size_ == 0) return 0;
     if (inverse_norm_ > 0) return inverse_norm_;
-    Column x(size_);
+    Vector x(size_);
     double least = std::abs(R_(0, 0));
     for (Index j = 0; j < size_; ++j) {
       const double sum = R_.col(j).head(j).dot(x.head(j));
@@ -142,8 +130,8 @@ class OrthogonalFactor {
   /// When less than this part of a vector is left after projection, the projection is repeated.
   static constexpr double cancellation = 0.5;
 
-  Columns Q_, R_;
-  Column scratch_, lengths_;
+  Matrix Q_, R_;
+  Vector scratch_, lengths_;
   Index size_ = 0;
   mutable double inverse_norm_ = 0;  // once asked for, until the rows change
 };

@@ -12,23 +12,20 @@ namespace {
 constexpr double silence = 0x1p-95;
 
 /// How far the violation of a row that is taken for 0 may leave the point from the edge of that row and W.
-template <int MaxSize>
-double moved_edge(WorkingSet<MaxSize>& set, Index a, double violation,
-                  typename WorkingSet<MaxSize>::Split& split) {
+double moved_edge(WorkingSet& set, Index a, double violation, WorkingSet::Split& split) {
   set.split(a, split);
   return split.rest > exact_dependence * split.magnitude ? violation / split.rest : 0;
 }
 
 }  // namespace
 
-template <int MaxSize>
-Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vector& row_scale) {
+Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_scale) {
   const NearestPointProblem& problem = set.problem();
   const Vector q_size = point.q.hi.cwiseAbs();
   const double plain_rounding = 2 * static_cast<double>(problem.dimension()) * unit_roundoff;
   const double left = point.remaining() + point.silenced;
   Vector rest = problem.U.times(point.q.hi) - problem.s;
-  typename WorkingSet<MaxSize>::Split split;
+  WorkingSet::Split split;
   for (Index a = 0; a < problem.rows(); ++a) {
     const double s = std::abs(problem.s[a]), length = row_scale[a];
     if (set.holds(a)) {
@@ -43,8 +40,5 @@ Vector refined_slacks(WorkingSet<MaxSize>& set, RefinedPoint& point, const Vecto
   }
   return rest;
 }
-
-template Vector refined_slacks(WorkingSet<Eigen::Dynamic>&, RefinedPoint&, const Vector&);
-template Vector refined_slacks(WorkingSet<8>&, RefinedPoint&, const Vector&);
 
 }  // namespace convex

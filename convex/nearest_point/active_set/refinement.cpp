@@ -27,8 +27,7 @@ double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
 }
 
 /// The condition of the whitened rows held.
-template <int MaxSize>
-double row_condition(const WorkingSet<MaxSize>& set) {
+double row_condition(const WorkingSet& set) {
   double longest = 0;
   for (Index k = 0; k < set.size(); ++k) longest = std::max(longest, set.factor().length(k));
   return set.factor().inverse_norm() * longest;
@@ -36,9 +35,7 @@ double row_condition(const WorkingSet<MaxSize>& set) {
 
 }  // namespace
 
-template <int MaxSize>
-RefinedPoint refine(const WorkingSet<MaxSize>& set) {
-  using Column = typename WorkingSet<MaxSize>::Column;
+RefinedPoint refine(const WorkingSet& set) {
   const NearestPointProblem& problem = set.problem();
   RefinedPoint point{DoubleDoubleVector(set.point()),
                      DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
@@ -49,7 +46,7 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   const double expected = expected_contraction(of_A, of_rows * of_rows, false);
   const double usual = std::min(slowest_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
   double previous = scale;  // the first solve is the correction of nothing
-  Column dw, dlambda, r2(set.size());
+  Vector dw, dlambda, r2(set.size());
   Vector dq, step;
   const auto silence_q = [&](auto noise) {
     const double silenced = silence_noise(point.q, noise, [&](Index i) { return problem.A.diagonal()[i]; });
@@ -99,8 +96,7 @@ RefinedPoint refine(const WorkingSet<MaxSize>& set) {
   return point;
 }
 
-template <int MaxSize>
-Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined) {
+Index most_negative(const WorkingSet& set, const RefinedPoint& refined) {
   const double noise = 4 * refined.remaining() * row_condition(set);  // of a multiplier times its length
   Index worst = -1;
   double lowest = 0;
@@ -112,10 +108,5 @@ Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined)
   }
   return worst;
 }
-
-template RefinedPoint refine(const WorkingSet<Eigen::Dynamic>&);
-template RefinedPoint refine(const WorkingSet<8>&);
-template Index most_negative(const WorkingSet<Eigen::Dynamic>&, const RefinedPoint&);
-template Index most_negative(const WorkingSet<8>&, const RefinedPoint&);
 
 }  // namespace convex

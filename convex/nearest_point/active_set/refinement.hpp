@@ -67,12 +67,10 @@ struct RefinedPoint {
 /// Iterative refinement against the original KKT system A q - U_Wᵀ lambda = z, U_W q = s_W with residuals in
 /// twice the working precision (Wilkinson 1963; Björck 1967 for the augmented system); the factor of W is the
 /// preconditioner, so the error shrinks by about (condition of W) u each time.
-template <int MaxSize>
-RefinedPoint refine(const WorkingSet<MaxSize>& set);
+RefinedPoint refine(const WorkingSet& set);
 
 /// The place in W of the one-sided row whose refined multiplier, times its length, is most negative, beyond
 /// what may be missing in it; -1 for none.
-template <int MaxSize>
-Index most_negative(const WorkingSet<MaxSize>& set, const RefinedPoint& refined);
+Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 
 }  // namespace convex

@@ -23,8 +23,7 @@ Matrix whitened_rows(const NearestPointProblem& problem, const std::vector<Index
   return block;
 }
 
-template <int MaxSize>
-WorkingSet<MaxSize>::WorkingSet(const NearestPointProblem& problem)
+WorkingSet::WorkingSet(const NearestPointProblem& problem)
     : problem_(problem),
       factor_(problem.dimension(), std::min(problem.dimension(), problem.rows())),
       position_(static_cast<std::size_t>(problem.rows()), -1),
@@ -34,13 +33,9 @@ WorkingSet<MaxSize>::WorkingSet(const NearestPointProblem& problem)
   rows_.reserve(static_cast<std::size_t>(factor_.capacity()));
 }
 
-template <int MaxSize>
-Vector WorkingSet<MaxSize>::point() const {
-  return problem_.A.unwhiten(w_);
-}
+Vector WorkingSet::point() const { return problem_.A.unwhiten(w_); }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::split(Index p, Split& into) {
+void WorkingSet::split(Index p, Split& into) {
   into.direction.resize(problem_.dimension());
   problem_.U.copy_row(p, into.direction);
   problem_.A.whiten_in_place(Eigen::Map<Matrix>(into.direction.data(), problem_.dimension(), 1));
@@ -54,8 +49,7 @@ void WorkingSet<MaxSize>::split(Index p, Split& into) {
   if (into.rho < doubtful_part * into.length) sharpen(p, into);
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
+void WorkingSet::sharpen(Index p, Split& split) {
   DoubleDoubleVector r(Vector(split.coefficients));
   constexpr int passes =
       3;  // each multiplies the error of r by the condition of W times u; then W is near singular
@@ -64,9 +58,9 @@ void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
     for (Index k = 0; k < size(); ++k)
       problem_.U.add_multiple(rows_[static_cast<std::size_t>(k)], {-r.hi[k], -r.lo[k]}, rest);
     split.direction = problem_.A.whiten(rest.value());
-    Column correction(factor_.capacity());
+    Vector correction(factor_.capacity());
     split.rho = factor_.split(split.direction, correction);
-    Column step = correction.head(size());
+    Vector step = correction.head(size());
     factor_.solve_upper(step);
     r.add(step);
   }
@@ -83,21 +77,18 @@ void WorkingSet<MaxSize>::sharpen(Index p, Split& split) {
   if (split.rho <= unsure) split.rho = 0;
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::take(Index p) {
+void WorkingSet::take(Index p) {
   position_[static_cast<std::size_t>(p)] = static_cast<Index>(rows_.size());
   rows_.push_back(p);
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::append(Index p, const Split& split, double multiplier) {
+void WorkingSet::append(Index p, const Split& split, double multiplier) {
   lambda_[size()] = multiplier;
   factor_.append(split.c, split.direction, split.rho);
   take(p);
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::remove(Index k) {
+void WorkingSet::remove(Index k) {
   factor_.remove(k);
   position_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])] = -1;
   rows_.erase(rows_.begin() + k);
@@ -107,15 +98,12 @@ void WorkingSet<MaxSize>::remove(Index k) {
   }
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened,
-                                       double threshold) {
+void WorkingSet::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix> whitened, double threshold) {
   factor_.append_block(whitened, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::solve() {
-  Column y(size());
+void WorkingSet::solve() {
+  Vector y(size());
   for (Index k = 0; k < size(); ++k) y[k] = problem_.s[rows_[static_cast<std::size_t>(k)]];
   factor_.solve_lower(y);
   y.noalias() -= factor_.Q().transpose() * w_free_;
@@ -125,8 +113,7 @@ void WorkingSet<MaxSize>::solve() {
   lambda_.head(size()) = y;
 }
 
-template <int MaxSize>
-void WorkingSet<MaxSize>::correct(const Column& g, Column r2, Column& dw, Column& dlambda) const {
+void WorkingSet::correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda) const {
   factor_.solve_lower(r2);
   r2.noalias() -= factor_.Q().transpose() * g;
   dw = g;
@@ -134,8 +121,5 @@ void WorkingSet<MaxSize>::correct(const Column& g, Column r2, Column& dw, Column
   factor_.solve_upper(r2);
   dlambda = r2;
 }
-
-template class WorkingSet<Eigen::Dynamic>;
-template class WorkingSet<8>;
 
 }  // namespace convex

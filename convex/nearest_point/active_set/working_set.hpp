@@ -13,12 +13,8 @@ Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows)
 
 /// The rows held with equality, W, and the point that they define, in whitened terms: v_a = F⁻¹u_a, w = Fᵀq,
 /// w_free = F⁻¹z; w = w_free + Σ_W lambda_a v_a with v_a·w = s_a on W. Two-sided rows stand first and stay.
-template <int MaxSize>
 class WorkingSet {
  public:
-  using Factor = OrthogonalFactor<MaxSize>;
-  using Column = typename Factor::Column;
-
   explicit WorkingSet(const NearestPointProblem&);
 
   const NearestPointProblem& problem() const { return problem_; }
@@ -29,12 +25,12 @@ class WorkingSet {
   /// Declares the rows held so far two-sided: they are never dropped.
   void fix() { fixed_ = size(); }
 
-  const Factor& factor() const { return factor_; }
-  const Column& w_free() const { return w_free_; }
-  Column& w() { return w_; }
-  const Column& w() const { return w_; }
-  Column& lambda() { return lambda_; }
-  const Column& lambda() const { return lambda_; }
+  const OrthogonalFactor& factor() const { return factor_; }
+  const Vector& w_free() const { return w_free_; }
+  Vector& w() { return w_; }
+  const Vector& w() const { return w_; }
+  Vector& lambda() { return lambda_; }
+  const Vector& lambda() const { return lambda_; }
   /// q = F⁻ᵀw.
   Vector point() const;
   /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to.
@@ -44,7 +40,7 @@ class WorkingSet {
   /// entries), `c` = Qᵀv. When the row is nearly dependent, found with residuals of the *original* rows in
   /// twice the working precision, so that d keeps its digits whatever the angle.
   struct Split {
-    Column c, coefficients, direction;
+    Vector c, coefficients, direction;
     double length = 0;     ///< |v_p|
     double rho = 0;        ///< |d|; 0 when the row is dependent within the rounding of the data
     double rest = 0;       ///< |d| as twice the working precision has it
@@ -60,18 +56,18 @@ class WorkingSet {
   /// Sets w and lambda to the point where every row of W holds with equality.
   void solve();
   /// Solves A dq - U_Wᵀ dlambda = r1, U_W dq = r2, given g = F⁻¹r1; returns dw = Fᵀdq.
-  void correct(const Column& g, Column r2, Column& dw, Column& dlambda) const;
+  void correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda) const;
 
  private:
   void sharpen(Index p, Split& split);
   void take(Index p);
 
   const NearestPointProblem& problem_;
-  Factor factor_;
+  OrthogonalFactor factor_;
   std::vector<Index> rows_;
   std::vector<Index> position_;  // of row a in rows_, or -1
   Index fixed_ = 0;
-  Column w_free_, w_, lambda_;
+  Vector w_free_, w_, lambda_;
 };
 
 }  // namespace convex

@@ -30,8 +30,8 @@ Index most_changes(Index held) { return std::min<Index>(32, 2 + held / 2); }
 /// Weights of two-sided rows that contradict each other.
 std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& problem) {
   if (problem.two_sided.empty() || !is_dense_size(problem)) return std::nullopt;
-  WorkingSet<Eigen::Dynamic> set(problem);
-  WorkingSet<Eigen::Dynamic>::Split split;
+  WorkingSet set(problem);
+  WorkingSet::Split split;
   for (Index p : problem.two_sided) {
     set.split(p, split);
     if (split.rho > 0 && set.size() < set.factor().capacity())

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Polish {
  public:
-  using Set = WorkingSet<Eigen::Dynamic>;
+  using Set = WorkingSet;
   using Split = Set::Split;
 
   Polish(const NearestPointProblem& problem, const Vector& row_scale)

@@ -20,7 +20,7 @@ struct Held {
 
 /// All the rows given with equality, as far as they are independent.
 Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  WorkingSet<Eigen::Dynamic> set(problem);
+  WorkingSet set(problem);
   Matrix whitened = whitened_rows(problem, rows);
   set.append_block(rows, whitened, dependence);
   set.solve();

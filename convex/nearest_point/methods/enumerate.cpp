@@ -16,7 +16,7 @@ constexpr Index most_judged = 300;
 
 class Enumeration {
  public:
-  using Set = WorkingSet<Eigen::Dynamic>;
+  using Set = WorkingSet;
 
   Enumeration(const NearestPointProblem& problem, const Accuracy& accuracy, Index limit)
       : problem_(problem),

@@ -15,7 +15,7 @@ constexpr double support = 1e-9;
 }  // namespace
 
 std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const Vector& w, double reach) {
-  using Set = WorkingSet<Eigen::Dynamic>;
+  using Set = WorkingSet;
   std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());

@@ -16,14 +16,21 @@ constexpr Index most_kept_lines = Index{1} << 17;  // 8 MB
 
 bool has_gram_matrix(const NearestPointProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
-  return problem.A.kind() == MetricKind::dense && !problem.U.is_sparse() && n > 0 && n <= largest && m > 0 &&
-         m <= 4 * largest;
+  return (problem.A.kind() == MetricKind::dense || problem.A.kind() == MetricKind::diagonal) &&
+         !problem.U.is_sparse() && n > 0 && n <= largest && m > 0 && m <= 4 * largest;
+}
+
+NearestPointProblem with_dense_metric(NearestPointProblem problem) {
+  problem.A = Metric::dense(Matrix(problem.A.diagonal().asDiagonal()));
+  return problem;
 }
 
 GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accuracy& accuracy,
                                  const std::vector<Index>& guess) {
   GramOutcome found{std::nullopt, guess};
   if (!has_gram_matrix(problem) || accuracy.step_limit > 0) return found;
+  if (problem.A.kind() == MetricKind::diagonal)
+    return solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
   Solution solution;
   if (SmallGramSolve::fits(problem)) {
     SmallTableau scene;

@@ -26,4 +26,7 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem&, const Accuracy&,
 /// Whether that way is open to a problem of that size and kind.
 bool has_gram_matrix(const NearestPointProblem&);
 
+/// The same problem with its diagonal metric as a dense one, which the kernels are made for.
+NearestPointProblem with_dense_metric(NearestPointProblem);
+
 }  // namespace convex
