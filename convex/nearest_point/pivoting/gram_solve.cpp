@@ -112,14 +112,23 @@ bool GramSolve::finish(const Accuracy& accuracy, Solution& solution) {
       small = room_for_change * wrong_;
       continue;
     }
+    if (std::all_of(q_, q_ + n_, [](double x) { return x == 0; })) acceleration_norm_ = 0;
+    const double enough_for_all = accuracy.tolerance * std::max(1.0, acceleration_norm_);
+    if (!(bound_ <= enough_for_all) && is_exact_vertex()) bound_ = 0;
     write(solution);
     solution.residuals = residuals_of_active();
     solution.error_bound = bound_ + moved_;
-    const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
-    solution.status = close ? Status::solved : Status::inaccurate;
+    solution.status = solution.error_bound <= enough_for_all ? Status::solved : Status::inaccurate;
     return true;
   }
   return false;
+}
+
+/// Whether as many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
+/// forces are, so far as their signs are told, the point is that one.
+bool GramSolve::is_exact_vertex() const {
+  return set_->size() == n_ && !problem_.radii &&
+         keeps_exactly(problem_, Eigen::Map<const Vector>(q_, n_), std::vector<Index>(rows_, rows_ + n_), {});
 }
 
 /// q and lambda of the rows held, in doubles.
@@ -153,7 +162,8 @@ bool GramSolve::answer_of_doubles(const Accuracy& accuracy, Solution& solution) 
       return false;
   if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
   for (Index a = 0; a < m_; ++a)
-    if (!set_->holds(a) && !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_)))
+    if (!set_->holds(a) &&
+        !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * std::max(magnitude_, scale_))))
       return false;
   double missing = 0;
   for (Index j = 0; j < set_->size(); ++j)

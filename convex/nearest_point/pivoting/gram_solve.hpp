@@ -33,6 +33,7 @@ class GramSolve {
 
   void whiten_force();
   bool finish(const Accuracy& accuracy, Solution& solution);
+  bool is_exact_vertex() const;
   void take_point();
   void list_rows_held();
   bool correct(bool is_first, double small);

@@ -150,8 +150,8 @@ bool SmallGramSolve::round() {
   return true;
 }
 
-/// Whether no row outside is close.
-bool SmallGramSolve::is_clear() {
+/// Whether no row outside is close, of ||q||_A or that size if it is larger.
+bool SmallGramSolve::is_clear(double size) {
   const SmallTableau& t = scene_;
   magnitude_ = 0;
   for (Index i = 0; i < t.n; ++i) magnitude_ += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
@@ -159,15 +159,16 @@ bool SmallGramSolve::is_clear() {
   Index close = 0;
   const double unsure = 16 * (remaining_ + silenced_);
   for (Index a = 0; a < t.m; ++a)
-    close += !t.held[a] && !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) +
-                                              t.row_scale[a] * unsure);
+    close += !t.held[a] &&
+             !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * std::max(size, magnitude_)) +
+                                t.row_scale[a] * unsure);
   return close == 0;
 }
 
 /// Whether rows outside are clear of their edge by more than rounding, or the doubles q are, without
 /// rounding, the point of the rows held and keep those that they touch.
 bool SmallGramSolve::keeps_rows_outside() {
-  if (is_clear()) return true;
+  if (is_clear(0)) return true;
   SmallTableau& t = scene_;
   const double rounding = 2 * static_cast<double>(t.n) * unit_roundoff;
   const double unsure_point = 16 * (remaining_ + silenced_);
@@ -198,7 +199,7 @@ bool SmallGramSolve::doubles_do(double close) {
     weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near * scale_);
     missing += t.slack[a] * t.slack[a];
   }
-  if (weak > 0 || !is_clear()) return false;
+  if (weak > 0 || !is_clear(scale_)) return false;
   rounding_ = 0;
   bound_ = bound_of_doubles(t.n, t.size, t.stationarity, t.inverse_norm * std::sqrt(missing),
                             condition_ * (scale_ + magnitude_));
@@ -210,11 +211,15 @@ bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
   t.factor_condition = problem_.A.factor_condition();
   condition_ = t.factor_condition * (1 + std::sqrt(t.gram_condition));
   scale_ = std::max(t.acceleration_norm, t.force_norm);
-  const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
+  double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
   if (accuracy.refine || !doubles_do(close)) {
     if (!correct() || !round()) return false;
     small_kernels().measure(t);
     if (!keeps_rows_outside()) return false;
+    if (std::all_of(t.q, t.q + t.n, [](double x) { return x == 0; })) {
+      t.acceleration_norm = 0;
+      close = accuracy.tolerance;
+    }
   }
   solution.residuals = residuals();
   solution.method = "active-set";

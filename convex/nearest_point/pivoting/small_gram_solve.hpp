@@ -32,7 +32,7 @@ class SmallGramSolve {
   bool answer(const Accuracy& accuracy, Solution& solution);
   bool correct();
   bool round();
-  bool is_clear();
+  bool is_clear(double size);
   bool keeps_rows_outside();
   bool doubles_do(double close);
   Residuals residuals() const;
