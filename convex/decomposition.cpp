@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/composite/metric_difference.hpp"
+#include "convex/operations/metric_algebra.hpp"
 
 namespace convex {
 namespace {
@@ -77,26 +78,73 @@ struct Candidate {
   }
 };
 
-Candidate candidate(const Function& f, const Function& g, Prox x_part, Prox y_part, const Vector& z,
-                    const Metric& W) {
+/// f, its conjugate g in the metric's product, and the plain one.
+struct Pair {
+  const Function &f, g, plain;
+};
+
+/// Where the right side is taken: at x and y themselves, or at x and the covector v of its prox. No y of
+/// doubles has a g(y) near that of the exact one where Wy cancels, as where |z| is far above |v|; W⁻¹v, of
+/// which y is a rounding, has: g(W⁻¹v) = f*(v). The right side then proves the pair x and W⁻¹v, and the
+/// distance of y from there is added to its bound.
+enum class At { points, covector };
+
+/// a·b in twice the precision.
+double accurate_dot(const Vector& a, const Vector& b) {
+  RunningSum sum;
+  for (Index i = 0; i < a.size(); ++i) sum.add(two_product(a[i], b[i]));
+  return sum.value();
+}
+
+Decomposition split_of(Prox x, Prox y, const Vector& z, const Metric& W) {
+  Decomposition split;
+  split.x = std::move(x);
+  split.y = std::move(y);
+  split.residual = W.norm(z - split.x.x - split.y.x);
+  return split;
+}
+
+Candidate finished(Decomposition split, const Value& f_x, const Value& g_y, double size, double residual,
+                   const Metric& W, const Vector& z) {
   Candidate made;
-  Decomposition& split = made.split;
-  split.x = std::move(x_part);
-  split.y = std::move(y_part);
-  const Vector &x = split.x.x, &y = split.y.x;
-  const Value f_x = f.evaluate(x), g_y = g.evaluate(y);
   split.f_x = f_x.value;
   split.g_y = g_y.value;
-  split.inner = W.inner(x, y);
   split.fenchel_gap = split.f_x + split.g_y - split.inner;
-  split.residual = W.norm(z - x - y);
   split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
-  made.right = split.fenchel_gap + 0.5 * split.residual * split.residual;
+  made.right = split.fenchel_gap + 0.5 * residual * residual;
   made.error = f_x.error + g_y.error;
+  const Vector &x = split.x.x, &y = split.y.x;
   made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
-  made.rounding = roundings_of_a_term * unit_roundoff *
-                  (std::abs(split.f_x) + std::abs(split.g_y) + size_of_inner(W, x, y));
+  made.rounding = roundings_of_a_term * unit_roundoff * (std::abs(split.f_x) + std::abs(split.g_y) + size);
+  made.split = std::move(split);
   return made;
+}
+
+Candidate at_points(const Pair& of, Prox x_part, Prox y_part, const Vector& z, const Metric& W) {
+  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  const Vector &x = split.x.x, &y = split.y.x;
+  split.inner = W.inner(x, y);
+  const double size = size_of_inner(W, x, y), residual = split.residual;
+  return finished(std::move(split), of.f.evaluate(x), of.g.evaluate(y), size, residual, W, z);
+}
+
+/// Where the domain of f or f* is thin, as a plane, x or v of doubles is outside it by rounding, and counts
+/// as inside; x·v is then that of a point beside it. (x|y) is taken at x - W⁻¹r or at v - r, r = W(x - z) +
+/// v, which make up z exactly, when this agrees better with the values.
+Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z, const Metric& W) {
+  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  const Vector &x = split.x.x, &y = split.y.x, &v = split.x.v;
+  split.y.error_bound += W.dual_norm(metric_difference(W, y, Vector::Zero(y.size())) - v);
+  const Vector r = metric_difference(W, x, z) + v;
+  const double size = x.cwiseAbs().dot(v.cwiseAbs()), residual = W.dual_norm(r);
+  const Value f_x = of.f.evaluate(x), g_y = of.plain.evaluate(v);
+  const double product = accurate_dot(x, v);
+  split.inner = product;
+  for (const double moved : {product - accurate_dot(W.solve(r), v), product - accurate_dot(x, r)}) {
+    const double values = f_x.value + g_y.value;
+    if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
+  }
+  return finished(std::move(split), f_x, g_y, size, residual, W, z);
 }
 
 /// The prox of the conjugate from a prox x of f and its covector v: W⁻¹v is that at x + W⁻¹v, and the proxes
@@ -112,20 +160,38 @@ std::optional<Prox> by_moreau(const Prox& of_f, const Vector& z, const Metric& W
   return made;
 }
 
+/// The prox of f from that of f* at Wz in W⁻¹, with that point as its covector: as the conjugate found it,
+/// not as a y of doubles rounds it.
+std::optional<Prox> from_plain_conjugate(const Function& plain, const Vector& z, const Metric& W) {
+  const Prox dual = plain.prox(metric_difference(W, z, Vector::Zero(z.size())), inverse(W));
+  if (dual.x.size() != z.size() || dual.v.size() != z.size() || !dual.v.allFinite()) return std::nullopt;
+  Prox made = dual;
+  made.x = dual.v;
+  made.v = dual.x;
+  made.error_bound = dual.error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
+                     roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(made.x));
+  made.by_conjugate = true;
+  if (!dual.method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual.method;
+  return made;
+}
+
 /// What the two proxes gave, held against the values. Where these do not bear it out, the points moved into
-/// their domains, and one of the two by Moreau's identity from the other, are tried.
-Decomposition guarded(const Function& f, const Function& g, const Vector& z, const Metric& W,
-                      double tolerance) {
-  const Prox x = f.prox(z, W), y = g.prox(z, W);
-  Candidate best = candidate(f, g, x, y, z, W);
+/// their domains, one of the two by Moreau's identity from the other, and the covectors in place of y are
+/// tried.
+Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double tolerance) {
+  const Prox x = of.f.prox(z, W), y = of.g.prox(z, W);
+  Candidate best = at_points(of, x, y, z, W);
   const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
   const auto borne_out = [&](const Candidate& made) {
     return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
   };
-  const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
+  const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y,
+                            At at = At::points) {
     if (borne_out(best) || !of_x || !of_y) return;
     if (!(std::max(of_x->error_bound, of_y->error_bound) <= enough)) return;
-    Candidate other = candidate(f, g, *of_x, *of_y, z, W);
+    if (at == At::covector && (of_x->v.size() != z.size() || !of_x->v.allFinite())) return;
+    Candidate other =
+        at == At::points ? at_points(of, *of_x, *of_y, z, W) : at_covector(of, *of_x, *of_y, z, W);
     if (borne_out(other)) best = std::move(other);
   };
   if (!borne_out(best)) {
@@ -133,20 +199,29 @@ Decomposition guarded(const Function& f, const Function& g, const Vector& z, con
       const bool near = found && found->error_bound <= enough;
       return near ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
     };
-    const auto x_inside = into(f, x), y_inside = into(g, y);
+    const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
-    const auto y_of_x = by_moreau(x, z, W), x_of_y = by_moreau(y, z, W);
+    consider(x, y, At::covector);
+    consider(x_inside, y, At::covector);
+    const auto y_of_x = by_moreau(x, z, W);
     consider(x, y_of_x);
-    consider(x, into(g, y_of_x));
+    consider(x, into(of.g, y_of_x));
+    consider(x, y_of_x, At::covector);
+    consider(x_inside, y_of_x, At::covector);
+    const auto x_of_y = by_moreau(y, z, W);
     consider(x_of_y, y);
-    consider(into(f, x_of_y), y);
+    consider(into(of.f, x_of_y), y);
+    const auto x_of_plain = from_plain_conjugate(of.plain, z, W);
+    consider(x_of_plain, y, At::covector);
+    consider(into(of.f, x_of_plain), y, At::covector);
+    if (x_of_plain) consider(x_of_plain, by_moreau(*x_of_plain, z, W), At::covector);
   }
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
-    best.rounding +=
-        roundings_of_a_term * unit_roundoff * (size_of_slope(f, split.x.x) + size_of_slope(g, split.y.x));
+    best.rounding += roundings_of_a_term * unit_roundoff *
+                     (size_of_slope(of.f, split.x.x) + size_of_slope(of.g, split.y.x));
   split.status = best.excess() <= 0 && best.known(tolerance) ? Status::solved : Status::inaccurate;
   if (best.excess() > 0) {
     const double most = std::abs(best.right) + best.error;
@@ -158,7 +233,7 @@ Decomposition guarded(const Function& f, const Function& g, const Vector& z, con
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
-  Decomposition split = guarded(f, f.conjugate(W), z, W, tolerance);
+  Decomposition split = guarded({f, f.conjugate(W), f.conjugate()}, z, W, tolerance);
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
   const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&
                         split.error_bound <= enough;  // each by itself: a maximum may hide a NaN

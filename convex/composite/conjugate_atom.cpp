@@ -20,6 +20,8 @@ class ConjugateAtom final : public Atom {
   std::optional<Vector> subgradient(const Vector& v) const override {
     return conjugate_.node().subgradient(v);
   }
+  double recession(const Vector& d) const override { return f_->domain_support(d); }
+  double domain_support(const Vector& v) const override { return f_->recession(v); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return z - f_->prox_diagonal(d.cwiseProduct(z), d.cwiseInverse()).cwiseQuotient(d);
   }

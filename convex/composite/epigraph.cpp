@@ -45,6 +45,10 @@ class EpigraphAtom final : public Atom {
     if (value(z) > 0) return std::nullopt;
     return Vector::Zero(n_ + 1);
   }
+  double recession(const Vector& d) const override {
+    const bool inside = f_->recession(d.head(n_)) <= unit_ * side_ * d[n_];
+    return inside ? 0 : std::numeric_limits<double>::infinity();
+  }
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return inside(z) ? z : project(z).point;
   }

@@ -56,6 +56,10 @@ class PerspectiveAtom final : public Atom {
     whole << *v, side_ * (f_->value(x) - v->dot(x));
     return whole;
   }
+  /// The domain is made of the rays through (x, 1), x in the domain of f.
+  double domain_support(const Vector& v) const override {
+    return f_->domain_support(v.head(n_)) + side_ * v[n_] <= 0 ? 0 : infinity;
+  }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     const double mu = root(z, d[0]);
     if (mu <= 0) return Vector::Zero(n_ + 1);

@@ -39,6 +39,7 @@ class SetIndicator : public Atom {
     if (!S_->contains(x)) return std::nullopt;
     return Vector::Zero(x.size());
   }
+  double recession(const Vector& d) const override { return d.isZero(0) || S_->recedes(d) ? 0 : infinity; }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->project(z, d); }
   bool prox_by_conjugate() const override {
     return S_->split_route() == SplitRoute::projection_from_support_prox;
@@ -79,6 +80,10 @@ class SetSupport : public Atom {
   double value(const Vector& x) const override { return S_->support(x); }
   Function conjugate() const override { return indicator_of(S_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return S_->maximiser(x); }
+  /// The domain's closure is the polar of the directions in which S has no end.
+  double domain_support(const Vector& v) const override {
+    return v.isZero(0) || S_->recedes(v) ? 0 : infinity;
+  }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override { return S_->support_prox(z, d); }
   bool prox_by_conjugate() const override {
     return S_->split_route() == SplitRoute::support_prox_from_projection;

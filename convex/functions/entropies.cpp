@@ -43,6 +43,8 @@ Weights one_or_each(const Vector& each) { return {0, each}; }
 struct Entropy : OnHalfLine, AnySize {
   Call call() const { return {"entropy"}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {.low = 0}; }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return x_log_x(x); }
   double slope(double x, Index) const { return x > 0 ? std::log(x) + 1 : -infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_entropy(z, d); }
@@ -52,6 +54,8 @@ struct Entropy : OnHalfLine, AnySize {
 struct EntropyConjugate : OnLine, AnySize {
   Call call() const { return {"translate", {argument(Call{"exponential"}), argument("by", 1.0)}}; }
   Function conjugate() const { return entropy(); }
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return std::exp(x - 1); }
   double slope(double x, Index) const { return std::exp(x - 1); }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_entropy_conjugate(z, d); }
@@ -60,6 +64,8 @@ struct EntropyConjugate : OnLine, AnySize {
 struct Exponential : OnLine, AnySize {
   Call call() const { return {"exponential"}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return std::exp(x); }
   double slope(double x, Index) const { return std::exp(x); }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_exponential(z, d); }
@@ -69,6 +75,8 @@ struct Exponential : OnLine, AnySize {
 struct ExponentialConjugate : OnHalfLine, AnySize {
   Call call() const { return {"tilt", {argument(Call{"entropy"}), argument("c", -1.0)}}; }
   Function conjugate() const { return exponential(); }
+  Ends domain(Index) const { return {.low = 0}; }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return x_log_x(x) - x; }
   double slope(double x, Index) const { return x > 0 ? std::log(x) : -infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const {
@@ -82,6 +90,8 @@ struct KullbackLeibler : OnHalfLine {
   Call call() const { return {"kullback_leibler", {argument("reference", reference.written())}}; }
   Function conjugate() const;
   Ends ends(Index i) const { return {.low = 0, .high = reference[i] > 0 ? infinity : 0}; }
+  Ends domain(Index i) const { return ends(i); }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index i) const {
     const double r = reference[i];
     if (x < 0 || (r == 0 && x > 0)) return infinity;
@@ -115,6 +125,8 @@ struct Expm1 : OnLine {
   Index dimension() const { return weight.each.size(); }
   Call call() const { return {"expm1", {argument("weight", weight.written())}}; }
   Function conjugate() const { return scalar_sum(KullbackLeibler{{}, weight}); }
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index i) const { return {.low = 0, .high = weight[i] > 0 ? infinity : 0}; }
   double value(double x, Index i) const { return weight[i] == 0 ? 0 : weight[i] * std::expm1(x); }
   double slope(double x, Index i) const { return weight[i] == 0 ? 0 : weight[i] * std::exp(x); }
   kernels::ScalarProx prox(double z, double d, Index i) const {

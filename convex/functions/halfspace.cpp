@@ -30,6 +30,10 @@ class Slab : public ConvexSet {
   Facts facts() const override { return {.cone = given_b_ == 0, .piecewise_quadratic = true}; }
   bool bounded() const override { return false; }
   bool takes_any_diagonal() const override { return true; }
+  bool recedes(const Vector& d) const override {
+    const double along = a_.dot(d);
+    return (two_sided_ ? std::abs(along) : along) <= membership_tolerance * d.norm();
+  }
   double scale() const override { return std::abs(b_); }
 
   Vector project(const Vector& z, const Vector& d) const override {

@@ -19,6 +19,8 @@ struct LogBarrier {
   Ends ends(Index) const { return {}; }  // open: no point outside counts as inside
   Call call() const { return {"log_barrier"}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {.low = 0}; }
+  Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x > 0 ? -std::log(x) : infinity; }
   double slope(double x, Index) const { return x > 0 ? -1 / x : -infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_log_barrier(z, d); }
@@ -34,6 +36,8 @@ struct LogBarrierConjugate {
     return {"dilate", {argument(Call{"log_barrier"}), argument("rho", -1 / std::numbers::e)}};
   }
   Function conjugate() const { return log_barrier(); }
+  Ends domain(Index) const { return {.high = 0}; }
+  Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x < 0 ? -1 - std::log(-x) : infinity; }
   double slope(double x, Index) const { return x < 0 ? -1 / x : infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const {
@@ -48,6 +52,8 @@ struct Logistic {
   Ends ends(Index) const { return {}; }
   Call call() const { return {"logistic"}; }
   Function conjugate() const { return binary_entropy(); }
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index) const { return {.low = 0, .high = 1}; }
   double value(double x, Index) const { return std::max(x, 0.0) + std::log1p(std::exp(-std::abs(x))); }
   double slope(double x, Index) const {
     return x > 0 ? 1 / (1 + std::exp(-x)) : std::exp(x) / (1 + std::exp(x));
@@ -62,6 +68,8 @@ struct BinaryEntropy {
   Ends ends(Index) const { return {0, 1}; }
   Call call() const { return {"binary_entropy"}; }
   Function conjugate() const { return logistic(); }
+  Ends domain(Index) const { return {.low = 0, .high = 1}; }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index) const {
     if (x < 0 || x > 1) return infinity;
     if (x == 0 || x == 1) return 0;

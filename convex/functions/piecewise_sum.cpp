@@ -45,6 +45,9 @@ double inside(const Interval& ends, double x, double size) {
   return std::abs(nearest - x) <= membership_tolerance * (size + std::abs(nearest)) ? nearest : x;
 }
 
+/// sup of v t over the t in an interval.
+double support(const Interval& ends, double v) { return v == 0 ? 0 : v * (v > 0 ? ends.high : ends.low); }
+
 class PiecewiseNode : public Atom {
  public:
   explicit PiecewiseNode(PiecewiseSum parts) : parts_(std::move(parts)) {}
@@ -91,6 +94,17 @@ class PiecewiseNode : public Atom {
       v[i] = std::clamp(0.0, slopes->low, slopes->high);
     }
     return v;
+  }
+
+  double recession(const Vector& d) const override {
+    double sum = 0;
+    for (Index i = 0; i < d.size(); ++i) sum += support(slopes(piece(i)), d[i]);
+    return sum;
+  }
+  double domain_support(const Vector& v) const override {
+    double sum = 0;
+    for (Index i = 0; i < v.size(); ++i) sum += support(domain(piece(i)), v[i]);
+    return sum;
   }
 
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {

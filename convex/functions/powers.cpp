@@ -24,6 +24,8 @@ struct Power : AnySize {
   Ends ends(Index) const { return {}; }
   Call call() const { return {"power", {argument("p", p)}}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return std::pow(std::abs(x), p); }
   double slope(double x, Index) const { return std::copysign(p * std::pow(std::abs(x), p - 1), x); }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power(z, d, p); }
@@ -41,6 +43,8 @@ struct PowerConjugate : AnySize {
             {argument(Call{"power", {argument("p", q())}}), argument("alpha", (p - 1) * std::pow(p, -q()))}};
   }
   Function conjugate() const { return power(p); }
+  Ends domain(Index) const { return {}; }
+  Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return (p - 1) * std::pow(std::abs(x) / p, q()); }
   double slope(double x, Index) const { return std::copysign(std::pow(std::abs(x) / p, 1 / (p - 1)), x); }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power_conjugate(z, d, p); }
@@ -53,6 +57,8 @@ struct InversePower : AnySize {
   Ends ends(Index) const { return {}; }  // open: no point outside counts as inside
   Call call() const { return {"inverse_power", {argument("q", q)}}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {.low = 0}; }
+  Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x > 0 ? std::pow(x, -q) : infinity; }
   double slope(double x, Index) const { return x > 0 ? -q * std::pow(x, -q - 1) : -infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_inverse_power(z, d, q); }
@@ -71,6 +77,8 @@ struct InversePowerConjugate : AnySize {
     return {"scale", {argument(mirrored), argument("alpha", (1 + q) * std::pow(q, -r()))}};
   }
   Function conjugate() const { return inverse_power(q); }
+  Ends domain(Index) const { return {.high = 0}; }
+  Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x > 0 ? infinity : -(1 + q) * std::pow(-x / q, r()); }
   double slope(double x, Index) const { return x < 0 ? std::pow(-x / q, -1 / (1 + q)) : infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const {
@@ -88,6 +96,8 @@ struct NegativePower : AnySize {
   Ends ends(Index) const { return {.low = 0}; }
   Call call() const { return {"negative_power", {argument("r", r)}}; }
   Function conjugate() const;
+  Ends domain(Index) const { return {.low = 0}; }
+  Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x < 0 ? infinity : -std::pow(x, r); }
   double slope(double x, Index) const { return x > 0 ? -r * std::pow(x, r - 1) : -infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const {
@@ -110,6 +120,8 @@ struct NegativePowerConjugate : AnySize {
     return {"scale", {argument(mirrored), argument("alpha", factor())}};
   }
   Function conjugate() const { return negative_power(r); }
+  Ends domain(Index) const { return {.high = 0}; }
+  Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x < 0 ? factor() * std::pow(-x, -q()) : infinity; }
   double slope(double x, Index) const { return x < 0 ? factor() * q() * std::pow(-x, -q() - 1) : infinity; }
   kernels::ScalarProx prox(double z, double d, Index) const {

@@ -1,8 +1,12 @@
 #include "convex/functions/program_function.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
+#include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
 
@@ -27,12 +31,21 @@ class ProgramNode : public FunctionNode {
   }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
   std::optional<Vector> subgradient(const Vector& x) const override { return convex::evaluate(form(), x).v; }
+  double recession(const Vector& d) const override { return known_or_infinite(form(), d); }
+  double domain_support(const Vector& v) const override {
+    return known_or_infinite(swapped_ ? parts_->form : parts_->conjugate_form, v);
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(); }
   std::optional<GraphForm> graph(Index) const override {
     return swapped_ ? convex::conjugate(parts_->graph) : parts_->graph;
   }
 
  private:
+  /// A recession function's value.
+  static double known_or_infinite(const LinearQuadratic& f, const Vector& d) {
+    const double found = convex::value(convex::linear_quadratic::recession(f), d);
+    return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+  }
   const LinearQuadratic& form() const { return swapped_ ? parts_->conjugate_form : parts_->form; }
   std::shared_ptr<const ProgramFunction> parts_;
   bool swapped_;

@@ -61,6 +61,12 @@ class Quadratic : public Atom {
   Function conjugate() const override { return dual_quadratic(Q_, c_, constant_); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(Q_, c_, constant_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return Q_ * x + c_; }
+  /// c·d where Qd = 0.
+  double recession(const Vector& d) const override {
+    const double size = Q_.cwiseAbs().maxCoeff() * d.norm();
+    return (Q_ * d).norm() <= membership_tolerance * size ? c_.dot(d)
+                                                          : std::numeric_limits<double>::infinity();
+  }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d)).x;
   }
@@ -121,6 +127,10 @@ class DualQuadratic : public Atom {
   std::optional<Vector> subgradient(const Vector& v) const override {
     if (std::isinf(value(v))) return std::nullopt;
     return solve(v - c_);
+  }
+  /// The recession function of the quadratic.
+  double domain_support(const Vector& d) const override {
+    return Quadratic(Q_, c_, constant_).recession(d);
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d)).x;

@@ -9,13 +9,23 @@
 
 namespace convex {
 
+/// A closed interval.
+struct Ends {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+
+  /// sup of v t over the t between.
+  double support(double v) const { return v == 0 ? 0 : v * (v > 0 ? high : low); }
+};
+
 /// Σ_i f_i(x_i) with smooth f_i given by a law:
 ///   Call call() const; Function conjugate() const; Index dimension() const (0: any);
 ///   bool finite() const;                            f_i is finite everywhere
 ///   double value(double x, Index i) const;          +inf outside the domain
 ///   double slope(double x, Index i) const;          f_i'(x); -inf left of the domain, +inf right of it
 ///   kernels::ScalarProx prox(double z, double d, Index i) const;
-///   Interval-like pair ends(Index i) const: the closure [low, high] of the domain.
+///   Ends ends(Index i) const;                       the points that count as inside up to the tolerance
+///   Ends domain(Index i) const;                     the closure of the domain
+///   Ends slopes(Index i) const;                     the closure of the slopes, the conjugate's domain
 template <class Law>
 class ScalarSum : public Atom {
  public:
@@ -50,6 +60,17 @@ class ScalarSum : public Atom {
     for (Index i = 0; i < x.size(); ++i) v[i] = law_.slope(inside(x[i], allowance, i), i);
     if (!v.allFinite()) return std::nullopt;
     return v;
+  }
+
+  double recession(const Vector& d) const override {
+    double sum = 0;
+    for (Index i = 0; i < d.size(); ++i) sum += law_.slopes(i).support(d[i]);
+    return sum;
+  }
+  double domain_support(const Vector& v) const override {
+    double sum = 0;
+    for (Index i = 0; i < v.size(); ++i) sum += law_.domain(i).support(v[i]);
+    return sum;
   }
 
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
@@ -93,10 +114,5 @@ template <class Law>
 Function scalar_sum(Law law) {
   return Function(std::make_shared<ScalarSum<Law>>(std::move(law)));
 }
-
-/// The closure of a domain.
-struct Ends {
-  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-};
 
 }  // namespace convex

@@ -60,6 +60,10 @@ LinearQuadratic proximal_average(const LinearQuadratic& f, const LinearQuadratic
 /// lambda >= 0 on one-sided rows. It is improper when f is.
 LinearQuadratic conjugate(const LinearQuadratic& f);
 
+/// The recession function f∞(d) = sup over x of f(x + d) - f(x): min over w of c·(d, w) with G (d, w) >= 0
+/// and H (d, w) = 0 (Rockafellar 1970, section 8).
+LinearQuadratic recession(const LinearQuadratic& f);
+
 /// The conjugate in the product of W, g(y) = sup_x (x|y) - f(x) = f*(Wy).
 LinearQuadratic conjugate(const LinearQuadratic& f, const Metric& W);
 

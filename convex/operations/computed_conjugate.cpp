@@ -33,6 +33,8 @@ class ComputedConjugate : public Operation {
     return linear_quadratic::conjugate(*form);
   }
   Value evaluate(const Vector& v) const override { return settled_value(by_program(v), f_, v); }
+  double recession(const Vector& d) const override { return f_.node().domain_support(d); }
+  double domain_support(const Vector& v) const override { return f_.node().recession(v); }
   std::optional<GraphForm> graph(Index n) const override {
     const auto form = f_.node().graph(n);
     if (!form) return std::nullopt;

@@ -32,6 +32,9 @@ class Distance : public Operation {
     const Function terms[] = {set_.indicator.conjugate(), ball()};
     return proper_sum(terms);
   }
+  double recession(const Vector& d) const override {
+    return set_.indicator.node().recession(d) <= 0 ? 0 : weight_ * d.norm();
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     if (!facts().piecewise_quadratic) return std::nullopt;
     return inf_convolution(named("norm1", {argument("weight", weight_)}, n), set_.indicator)

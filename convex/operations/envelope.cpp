@@ -42,6 +42,7 @@ class Envelope : public Operation {
     const Function terms[] = {g, square};
     return proper_sum(terms);
   }
+  double recession(const Vector& d) const override { return f_.node().recession(d); }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -109,6 +109,10 @@ class Epigraph : public Lifted {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(perspective(f_.conjugate()), f_.dimension());
   }
+  double recession(const Vector& d) const override {
+    const Index n = d.size() - 1;
+    return f_.node().recession(d.head(n)) <= d[n] ? 0 : infinity;
+  }
   std::optional<Value> conjugate_value(const Vector& v) const override {
     return perspective(f_.conjugate()).evaluate(last_reversed(v));
   }
@@ -158,6 +162,11 @@ class Perspective : public Lifted {
   Function conjugate() const override {
     if (f_.dimension() == 0) return computed_conjugate(self());
     return with_last_reversed(epigraph(f_.conjugate()), f_.dimension());
+  }
+  /// The domain is made of the rays through (x, 1), x in the domain of f.
+  double domain_support(const Vector& v) const override {
+    const Index n = v.size() - 1;
+    return f_.node().domain_support(v.head(n)) + v[n] <= 0 ? 0 : infinity;
   }
   std::optional<Value> conjugate_value(const Vector& v) const override {
     return epigraph(f_.conjugate()).evaluate(last_reversed(v));

@@ -35,6 +35,10 @@ class InProduct : public Operation {
     return image(*v);
   }
   Function conjugate() const override;
+  double recession(const Vector& d) const override { return h_.node().recession(image(d)); }
+  double domain_support(const Vector& v) const override {
+    return h_.node().domain_support(refined_solve(M_, v));
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = h_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

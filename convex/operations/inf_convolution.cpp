@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,6 +44,13 @@ class InfConvolution : public Operation {
     const Function terms[] = {f_.conjugate(), g_.conjugate()};
     return proper_sum(terms);
   }
+  /// Either function may go all the way.
+  double recession(const Vector& d) const override {
+    return std::min(f_.node().recession(d), g_.node().recession(d));
+  }
+  double domain_support(const Vector& v) const override {
+    return f_.node().domain_support(v) + g_.node().domain_support(v);
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);
     if (!forms) return std::nullopt;
@@ -87,8 +95,7 @@ bool falls_without_end(const Function& f, const Function& g, Index n) {
   const Prox a = f.prox(Vector::Zero(n), plain), b = g.prox(Vector::Zero(n), plain);
   if (a.x.size() != n || b.x.size() != n) return false;
   const Function terms[] = {f, translate(dilate(g, -1), a.x + b.x)};
-  const Value least = supremum(proper_sum(terms), Vector::Zero(n));
-  return least.value == std::numeric_limits<double>::infinity() && least.error == 0;
+  return grows_without_end(proper_sum(terms), Vector::Zero(n));
 }
 
 /// f □ (c·x + d) = c·x + d - f*(c), when g is affine.

@@ -63,6 +63,17 @@ class PointwiseMax : public Operation {
         if (std::optional<Vector> v = f.subgradient(x)) return v;
     return std::nullopt;
   }
+  double recession(const Vector& d) const override {
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const Function& f : parts_) largest = std::max(largest, f.node().recession(d));
+    return largest;
+  }
+  /// Each part's domain holds the maximum's.
+  double domain_support(const Vector& v) const override {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Function& f : parts_) least = std::min(least, f.node().domain_support(v));
+    return least;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     if (!piecewise_) return std::nullopt;
     return program(parts_, n);

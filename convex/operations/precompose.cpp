@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <cmath>
+#include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
@@ -50,6 +51,13 @@ class Precompose : public Operation {
     return A_.transpose() * *v;
   }
   Function conjugate() const override;
+  double recession(const Vector& d) const override { return f_.node().recession(A_ * d); }
+  /// v = Aᵀp is p·(Ax + b) - p·b, with Ax + b in the domain of f.
+  double domain_support(const Vector& v) const override {
+    const Vector p = Eigen::ColPivHouseholderQR<Matrix>(A_.transpose()).solve(v);
+    const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
+    return in_range ? f_.node().domain_support(p) - p.dot(b_) : std::numeric_limits<double>::infinity();
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     const auto form = f_.node().linear_quadratic(A_.rows());
     if (!form) return std::nullopt;

@@ -56,6 +56,13 @@ class ProximalAverage : public Operation {
     if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);
     return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_, inverse(*M_));
   }
+  /// The square keeps p and q together.
+  double recession(const Vector& d) const override {
+    return t_ * f_.node().recession(d) + (1 - t_) * g_.node().recession(d);
+  }
+  double domain_support(const Vector& v) const override {
+    return t_ * f_.node().domain_support(v) + (1 - t_) * g_.node().domain_support(v);
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);
     if (!forms) return std::nullopt;

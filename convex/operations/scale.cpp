@@ -35,6 +35,8 @@ class Scale : public Operation {
   }
   /// (alpha f(·/rho))* = alpha f*(· rho/alpha).
   Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
+  double recession(const Vector& d) const override { return alpha_ * f_.node().recession(d / rho_); }
+  double domain_support(const Vector& v) const override { return f_.node().domain_support(rho_ * v); }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

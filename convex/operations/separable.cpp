@@ -80,6 +80,20 @@ class Separable : public Operation {
     for (const Function& f : parts_) conjugates.push_back(f.conjugate());
     return separable(conjugates, sizes_);
   }
+  double recession(const Vector& d) const override {
+    double total = 0;
+    for_each([&](const Function& f, Index first, Index size) {
+      total += f.node().recession(d.segment(first, size));
+    });
+    return total;
+  }
+  double domain_support(const Vector& v) const override {
+    double total = 0;
+    for_each([&](const Function& f, Index first, Index size) {
+      total += f.node().domain_support(v.segment(first, size));
+    });
+    return total;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     if (!facts().piecewise_quadratic) return std::nullopt;
     std::vector<LinearQuadratic> forms;

@@ -1,6 +1,7 @@
 #include "convex/operations/sum.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <typeinfo>
 
@@ -67,6 +68,18 @@ std::optional<Vector> Sum::subgradient(const Vector& x) const {
     total += *v;
   }
   return total;
+}
+
+double Sum::recession(const Vector& d) const {
+  double total = 0;
+  for (const Function& f : parts_) total += f.node().recession(d);
+  return total;
+}
+
+double Sum::domain_support(const Vector& v) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Function& f : parts_) least = std::min(least, f.node().domain_support(v));
+  return least;
 }
 
 std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {

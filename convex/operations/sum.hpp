@@ -23,6 +23,9 @@ class Sum : public Operation {
   std::optional<Vector> subgradient(const Vector& x) const override;
   /// f* + … by the parts: quadratic terms smooth, linear ones translate, the rest convolves.
   Function conjugate() const override;
+  double recession(const Vector& d) const override;
+  /// Each part's domain holds the sum's.
+  double domain_support(const Vector& v) const override;
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override;
   std::optional<GraphForm> graph(Index n) const override;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/functions/node.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 
 namespace convex {
@@ -25,6 +26,8 @@ constexpr double settled = 1e-12, small = 1e-3;
 /// 1/t grows by `power`; on the way to a maximum far away the increases grow for some steps only.
 constexpr double growing = 1.3;
 constexpr int growth_steps = 8;
+constexpr Index most_axes = 64;  ///< beyond, a look along each costs more than the search
+
 /// So much farther out than it began.
 constexpr double farther = 1e12;
 
@@ -40,10 +43,38 @@ Prox prox_of(const Function& f, const Vector& z, double t) {
   }
 }
 
-}  // namespace
+/// f∞(d) < v·d, beyond rounding: then v·x - f(x) grows without end along d.
+bool recedes(const Function& f, const Vector& v, const Vector& d) {
+  const double slope = f.node().recession(d), along = v.dot(d);
+  return slope < along - membership_tolerance * (v.cwiseAbs().dot(d.cwiseAbs()) + std::abs(slope));
+}
 
-Value supremum(const Function& f, const Vector& v) {
+/// The entries of x that are more than rounding, as a direction.
+Vector direction_of(const Vector& x) {
+  const double length = x.norm();
+  if (!(length > 0) || !std::isfinite(length)) return Vector::Zero(x.size());
+  return (x / length).unaryExpr([](double e) { return std::abs(e) > membership_tolerance ? e : 0.0; });
+}
+
+/// Along v and the axes.
+bool recedes_plainly(const Function& f, const Vector& v) {
   const Index n = v.size();
+  if (v.norm() > 0 && recedes(f, v, direction_of(v))) return true;
+  if (n > most_axes) return false;
+  for (Index i = 0; i < n; ++i)
+    for (const double sign : {1.0, -1.0})
+      if (recedes(f, v, sign * Vector::Unit(n, i))) return true;
+  return false;
+}
+
+struct Search {
+  Value value;
+  bool growing = false;  ///< the lower bounds grow as if without end
+};
+
+Search search(const Function& f, const Vector& v) {
+  const Index n = v.size();
+  if (recedes_plainly(f, v)) return {{infinity, 0}, true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
   double t = first_step, last = -infinity, highest = -infinity, before = 0, first_length = 0;
@@ -67,19 +98,29 @@ Value supremum(const Function& f, const Vector& v) {
     const bool shrinking = std::abs(increase) <= std::max(0.5 * std::abs(before), enough);
     if (free && shrinking && error < best.error) best = {bound, error};
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
-    if (quiet >= 2) return best;
+    if (quiet >= 2) return {best, false};
     grown = increase > growing * before && before > enough ? grown + 1 : 0;
     if (!(first_length > 0)) first_length = at.x.norm();
     const bool far = at.x.norm() >= farther * first_length;
-    if (grown >= growth_steps && far && t * moved >= membership_tolerance * v.norm()) return {infinity, 0};
+    if (grown >= growth_steps && far && t * moved >= membership_tolerance * v.norm()) {
+      const bool proved =
+          recedes(f, v, direction_of(at.x)) || recedes(f, v, direction_of(Vector(at.x - x)));
+      return {proved ? Value{infinity, 0} : Value{highest, infinity}, true};
+    }
     before = std::isfinite(increase) ? increase : 0;
     last = bound;
     x = at.x;
     t = std::max({std::pow(t, power), smallest_part * v.norm() / x.norm(), last_step});
     if (!std::isfinite(t)) t = first_step;
   }
-  return best;
+  return {best, false};
 }
+
+}  // namespace
+
+Value supremum(const Function& f, const Vector& v) { return search(f, v).value; }
+
+bool grows_without_end(const Function& f, const Vector& v) { return search(f, v).growing; }
 
 Value settled_value(const Value& found, const Function& f, const Vector& v) {
   const double size = std::max(std::abs(found.value), small);

@@ -11,11 +11,18 @@ namespace convex {
 /// falls to its power 3/2 at each step, as far as v/t_k does not drown x_k.
 ///
 /// The value is a lower bound; the error is what the last step shows to be left, t_k |x_(k+1) - x_k| |x_k|,
-/// with its increase and the rounding of f(x_k). +inf is returned where the lower bounds grow by more at each
-/// of eight steps in a row, and x_k to 1e12 times its first length. The error is infinite where they neither
-/// settle nor grow so. Questions inside a supremum are answered by programs: a supremum never asks for
-/// another.
+/// with its increase and the rounding of f(x_k).
+///
+/// +inf is returned where it is proved: f∞(d) < v·d for a direction d, the axes, v, or where x_k and its last
+/// step went (Rockafellar 1970, Theorem 8.5). Otherwise the error is infinite where the lower bounds do not
+/// settle, grow as they may: a logarithm grows without end along no such direction.
+///
+/// Questions inside a supremum are answered by programs: a supremum never asks for another.
 Value supremum(const Function& f, const Vector& v);
+
+/// Is f*(v) proved to be +inf, or do the lower bounds grow by more at each of eight steps in a row, and x_k to
+/// 1e12 times its first length? No proof: a reason to refuse a function, not a value.
+bool grows_without_end(const Function& f, const Vector& v);
 
 /// `found`, the value of f* at v by a program, where it is settled; else the better of it and `supremum`.
 Value settled_value(const Value& found, const Function& f, const Vector& v);

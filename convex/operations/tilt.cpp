@@ -35,6 +35,8 @@ class Tilt : public Operation {
     return v;
   }
   Function conjugate() const override { return translate(f_.conjugate(), c_); }
+  double recession(const Vector& d) const override { return f_.node().recession(d) + c_.dot(d); }
+  double domain_support(const Vector& v) const override { return f_.node().domain_support(v); }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -22,6 +22,8 @@ class Translate : public Operation {
   Value evaluate(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
+  double recession(const Vector& d) const override { return f_.node().recession(d); }
+  double domain_support(const Vector& v) const override { return f_.node().domain_support(v) + v.dot(by_); }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -43,6 +43,14 @@ Point point(const Vector& x) { return Point(x.begin(), x.end()); }
 
 double square(const Vector& x, const Metric& W) { return W.inner(x, x); }
 
+/// By how much (u|y) may be off where u and y are rounded: sum over i, j of |u_i W_ij y_j| roundings.
+double rounding_of_inner(const Metric& W, const Vector& u, const Vector& y) {
+  constexpr double roundings = 16 * 0x1p-53;
+  Vector image = Vector::Zero(y.size());
+  for (Index j = 0; j < y.size(); ++j) image += (W.multiply(Vector::Unit(y.size(), j)) * y[j]).cwiseAbs();
+  return roundings * u.cwiseAbs().dot(image);
+}
+
 /// What moving x by a few roundings does to f by definition.
 Real sensitivity(const Call& f, const Vector& x, Real here) {
   Real most = 0;
@@ -91,8 +99,11 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
   const Vector &x = split.x.x, &y = split.y.x;
   const double size =
       std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner), smallest_size});
-  const double gap = split.f_x + split.g_y - subject.W.inner(x, y);
+  const double gap = split.f_x + split.g_y - split.inner;
   if (!(std::abs(gap) <= allowed * size)) return text("gap, and its terms", gap, size);
+  const double inner = subject.W.inner(x, y);
+  if (!(std::abs(inner - split.inner) <= allowed * size + rounding_of_inner(subject.W, x, y)))
+    return text("(x|y), and of the printed points", split.inner, inner);
   if (std::string why = wrong_value(subject, x, split.f_x); !why.empty()) return why;
   const double objective = 0.5 * square(x - subject.z, subject.W) + split.f_x;
   const double scale =
@@ -105,8 +116,9 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
     if (there < objective - slack) return text("objective at a point, and at x", there, objective);
     const double bound = subject.W.inner(u, y) - static_cast<double>(at->value);
     const double large = std::max(u.norm() * subject.W.multiply(y).norm(), static_cast<double>(at->size));
-    if (bound > split.g_y + allowed_descent * std::max({large, std::abs(split.g_y), 1e-3}))
-      return text("(u|y) - f(u) at a point, and g(y)", bound, split.g_y);
+    const double slack_of_y =
+        allowed_descent * std::max({large, std::abs(split.g_y), 1e-3}) + rounding_of_inner(subject.W, u, y);
+    if (bound > split.g_y + slack_of_y) return text("(u|y) - f(u) at a point, and g(y)", bound, split.g_y);
   }
   return "";
 }
