@@ -83,12 +83,6 @@ struct Pair {
   const Function &f, g, plain;
 };
 
-/// Where the right side is taken: at x and y themselves, or at x and the covector v of its prox. No y of
-/// doubles has a g(y) near that of the exact one where Wy cancels, as where |z| is far above |v|; W⁻¹v, of
-/// which y is a rounding, has: g(W⁻¹v) = f*(v). The right side then proves the pair x and W⁻¹v, and the
-/// distance of y from there is added to its bound.
-enum class At { points, covector };
-
 /// a·b in twice the precision.
 double accurate_dot(const Vector& a, const Vector& b) {
   RunningSum sum;
@@ -120,6 +114,7 @@ Candidate finished(Decomposition split, const Value& f_x, const Value& g_y, doub
   return made;
 }
 
+/// The right side at x and y themselves.
 Candidate at_points(const Pair& of, Prox x_part, Prox y_part, const Vector& z, const Metric& W) {
   Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
   const Vector &x = split.x.x, &y = split.y.x;
@@ -128,6 +123,10 @@ Candidate at_points(const Pair& of, Prox x_part, Prox y_part, const Vector& z, c
   return finished(std::move(split), of.f.evaluate(x), of.g.evaluate(y), size, residual, W, z);
 }
 
+/// The right side at x and the covector v of its prox. No y of doubles has a g(y) near that of the exact one
+/// where Wy cancels, as where |z| is far above |v|; W⁻¹v, of which y is a rounding, has: g(W⁻¹v) = f*(v). The
+/// right side then proves the pair x and W⁻¹v, and the distance of y from there is added to its bound.
+///
 /// Where the domain of f or f* is thin, as a plane, x or v of doubles is outside it by rounding, and counts
 /// as inside; x·v is then that of a point beside it. (x|y) is taken at x - W⁻¹r or at v - r, r = W(x - z) +
 /// v, which make up z exactly, when this agrees better with the values.
@@ -147,6 +146,15 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   return finished(std::move(split), f_x, g_y, size, residual, W, z);
 }
 
+/// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
+bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W) {
+  const Vector &x = split.x.x, &y = split.y.x;
+  const double size =
+      std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner), smallest_term});
+  const double rounding = roundings_of_a_term * unit_roundoff * size_of_inner(W, x, y);
+  return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
+}
+
 /// The prox of the conjugate from a prox x of f and its covector v: W⁻¹v is that at x + W⁻¹v, and the proxes
 /// of two points are no farther apart than the points.
 std::optional<Prox> by_moreau(const Prox& of_f, const Vector& z, const Metric& W) {
@@ -162,22 +170,65 @@ std::optional<Prox> by_moreau(const Prox& of_f, const Vector& z, const Metric& W
 
 /// The prox of f from that of f* at Wz in W⁻¹, with that point as its covector: as the conjugate found it,
 /// not as a y of doubles rounds it.
-std::optional<Prox> from_plain_conjugate(const Function& plain, const Vector& z, const Metric& W) {
-  const Prox dual = plain.prox(metric_difference(W, z, Vector::Zero(z.size())), inverse(W));
-  if (dual.x.size() != z.size() || dual.v.size() != z.size() || !dual.v.allFinite()) return std::nullopt;
-  Prox made = dual;
-  made.x = dual.v;
-  made.v = dual.x;
-  made.error_bound = dual.error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
+std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, const Metric& W) {
+  if (!dual || dual->x.size() != z.size() || dual->v.size() != z.size() || !dual->v.allFinite())
+    return std::nullopt;
+  Prox made = *dual;
+  made.x = dual->v;
+  made.v = dual->x;
+  made.error_bound = dual->error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
                      roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(made.x));
   made.by_conjugate = true;
-  if (!dual.method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual.method;
+  if (!dual->method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual->method;
   return made;
 }
 
-/// What the two proxes gave, held against the values. Where these do not bear it out, the points moved into
-/// their domains, one of the two by Moreau's identity from the other, and the covectors in place of y are
-/// tried.
+/// x and v again, each right to roundings of itself and not of z. x = prox_f (x + V⁻¹v) in every metric V; in
+/// V = s W, s = ||v||_(W⁻¹) / ||x||_W, the two are of one size, so that neither drowns the other. The smaller
+/// of the two is kept from pass to pass, the larger follows from z.
+std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                             const Metric& W) {
+  constexpr int passes = 3;
+  constexpr double slow = 0.5;
+  if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
+  const double s = std::exp2(std::round(std::log2(W.dual_norm(near->v) / W.norm(near->x))));
+  if (!(s > 0) || !std::isfinite(s) || !std::isfinite(1 / s)) return std::nullopt;
+  std::optional<Prox> best;
+  Vector x = near->x, v = near->v;
+  for (int pass = 0; pass < passes; ++pass) {
+    if (s >= 1)
+      v = metric_difference(W, z, x);
+    else
+      x = z - refined_solve(W, v);
+    Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
+    if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) break;
+    x = made.x;
+    v = made.v;
+    // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
+    made.error_bound = made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
+                       W.dual_norm(metric_difference(W, x, z) + v) +
+                       roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(x));
+    if (best && !(made.error_bound < slow * best->error_bound)) break;
+    best = std::move(made);
+  }
+  return best;
+}
+
+/// The same point with the covector that the function itself has there, where it has only one.
+std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
+                               const Metric& W) {
+  if (!at || !f.facts().smooth) return std::nullopt;
+  const std::optional<Vector> v = f.subgradient(at->x);
+  if (!v || !v->allFinite()) return std::nullopt;
+  Prox made = *at;
+  made.v = *v;
+  made.error_bound += W.dual_norm(metric_difference(W, at->x, z) + *v);
+  return made;
+}
+
+/// What the two proxes gave, held against the values. Where these do not bear it out, other pairs are tried:
+/// the points moved into their domains, one of the two by Moreau's identity from the other, the covectors in
+/// place of y, and x and v balanced.
 Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double tolerance) {
   const Prox x = of.f.prox(z, W), y = of.g.prox(z, W);
   Candidate best = at_points(of, x, y, z, W);
@@ -185,48 +236,62 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
   const auto borne_out = [&](const Candidate& made) {
     return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
   };
-  const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y,
-                            At at = At::points) {
-    if (borne_out(best) || !of_x || !of_y) return;
-    if (!(std::max(of_x->error_bound, of_y->error_bound) <= enough)) return;
-    if (at == At::covector && (of_x->v.size() != z.size() || !of_x->v.allFinite())) return;
-    Candidate other =
-        at == At::points ? at_points(of, *of_x, *of_y, z, W) : at_covector(of, *of_x, *of_y, z, W);
+  const auto near = [&](const std::optional<Prox>& found) { return found && found->error_bound <= enough; };
+  const auto into = [&](const Function& h, const std::optional<Prox>& found) {
+    return near(found) ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
+  };
+  const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
+    if (borne_out(best) || !near(of_x) || !near(of_y)) return;
+    Candidate other = at_points(of, *of_x, *of_y, z, W);
     if (borne_out(other)) best = std::move(other);
   };
+  // x with its covector, beside y and beside the y that the covector gives.
+  const auto consider_covector = [&](const std::optional<Prox>& of_x) {
+    if (borne_out(best) || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
+    for (const std::optional<Prox>& of_y : {std::optional(y), by_moreau(*of_x, z, W)}) {
+      if (!near(of_y)) continue;
+      Candidate other = at_covector(of, *of_x, *of_y, z, W);
+      if (!borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
+      best = std::move(other);
+      return;
+    }
+  };
+  const auto consider_all = [&](const std::optional<Prox>& of_x) {
+    consider_covector(of_x);
+    if (!borne_out(best)) consider_covector(with_slope(of.f, of_x, z, W));
+    if (!borne_out(best)) consider_covector(into(of.f, of_x));
+  };
   if (!borne_out(best)) {
-    const auto into = [&](const Function& h, const std::optional<Prox>& found) {
-      const bool near = found && found->error_bound <= enough;
-      return near ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
-    };
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
-    consider(x, y, At::covector);
-    consider(x_inside, y, At::covector);
-    const auto y_of_x = by_moreau(x, z, W);
-    consider(x, y_of_x);
-    consider(x, into(of.g, y_of_x));
-    consider(x, y_of_x, At::covector);
-    consider(x_inside, y_of_x, At::covector);
+    consider(x, by_moreau(x, z, W));
+    consider_all(x);
+  }
+  if (!borne_out(best)) consider_all(balanced(of.f, x, z, W));
+  if (!borne_out(best)) {
     const auto x_of_y = by_moreau(y, z, W);
     consider(x_of_y, y);
     consider(into(of.f, x_of_y), y);
-    const auto x_of_plain = from_plain_conjugate(of.plain, z, W);
-    consider(x_of_plain, y, At::covector);
-    consider(into(of.f, x_of_plain), y, At::covector);
-    if (x_of_plain) consider(x_of_plain, by_moreau(*x_of_plain, z, W), At::covector);
+  }
+  if (!borne_out(best)) {
+    const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
+    const Metric V = inverse(W);
+    const Prox dual = of.plain.prox(force, V);
+    consider_all(turned(dual, z, W));
+    if (!borne_out(best)) consider_all(turned(balanced(of.plain, dual, force, V), z, W));
   }
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
     best.rounding += roundings_of_a_term * unit_roundoff *
                      (size_of_slope(of.f, split.x.x) + size_of_slope(of.g, split.y.x));
-  split.status = best.excess() <= 0 && best.known(tolerance) ? Status::solved : Status::inaccurate;
   if (best.excess() > 0) {
-    const double most = std::abs(best.right) + best.error;
+    // A right side below 0 says that a value is too small by as much: it may be as large.
+    const double most = 2 * (std::abs(best.right) + best.error + best.rounding);
     split.error_bound = std::max(split.error_bound, std::isfinite(most) ? std::sqrt(2 * most) : INFINITY);
   }
+  split.status = best.known(tolerance) ? Status::solved : Status::inaccurate;
   return std::move(best.split);
 }
 

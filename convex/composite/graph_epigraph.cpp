@@ -1,3 +1,5 @@
+#include <Eigen/Eigenvalues>
+
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/graph_algebra.hpp"
@@ -34,9 +36,47 @@ Vector appended(const Vector& b, double last) {
   return whole;
 }
 
+/// A quadratic term as ½|Lᵀu|² and what is linear in u, Q = L Lᵀ of full column rank. A singular Q bends only
+/// along Lᵀ; along the rest a prox in a small metric runs away, and its Qu is rounding.
+struct SplitQuadratic {
+  SparseMatrix root;  ///< Lᵀ: rank × rows
+  Vector c;
+  double constant = 0;
+};
+
+std::optional<SplitQuadratic> split_quadratic(const Atom& f, Index rows) {
+  constexpr double rank_tolerance = 8 * unit_roundoff;  // of an eigenvalue, times n and the largest
+  const auto form = f.quadratic_form(rows);
+  if (!form || form->Q.nonZeros() == 0) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen{Matrix(form->Q)};
+  const Vector& values = eigen.eigenvalues();
+  const Index rank =
+      (values.array() > rank_tolerance * static_cast<double>(rows) * values.cwiseAbs().maxCoeff()).count();
+  const Matrix L = eigen.eigenvectors().rightCols(rank) * values.tail(rank).cwiseSqrt().asDiagonal();
+  return SplitQuadratic{L.transpose().sparseView(), form->c, form->constant};
+}
+
+/// The form with each quadratic term as half a square of independent rows, and linear terms.
+GraphForm with_half_squares(const GraphForm& f) {
+  GraphForm made{f.n, f.k, {}, f.constant};
+  for (const GraphTerm& term : f.terms) {
+    const auto parts = split_quadratic(*term.f, term.M.rows());
+    if (!parts) {
+      made.terms.push_back(term);
+      continue;
+    }
+    made.terms.push_back(
+        {half_square_atom(), term.scale, SparseMatrix(parts->root * term.M), Vector(parts->root * term.b)});
+    made.constant += term.scale * parts->constant;
+    if (!parts->c.isZero(0)) made.terms.push_back({linear_atom(parts->c), term.scale, term.M, term.b});
+  }
+  return made;
+}
+
 }  // namespace
 
-GraphForm epigraph(const GraphForm& f, double slope) {
+GraphForm epigraph(const GraphForm& given, double slope) {
+  const GraphForm f = with_half_squares(given);
   std::vector<const GraphTerm*> heights;  // terms with a height of their own
   for (const GraphTerm& term : f.terms)
     if (!linear_form(*term.f, term.M.rows()) && !term.f->facts().indicator) heights.push_back(&term);
@@ -94,7 +134,8 @@ GraphForm pointwise_max(std::span<const GraphForm> f, double slope) {
   return least;
 }
 
-GraphForm perspective(const GraphForm& f) {
+GraphForm perspective(const GraphForm& given) {
+  const GraphForm f = with_half_squares(given);
   const Index n = f.n + 1, columns = n + f.k;
   GraphForm cone{n, f.k, {}, 0};
   const SparseMatrix place = placed(columns, selection(0, f.n, columns), n, f.k);

@@ -18,6 +18,9 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 /// Bounds are widened by so many roundings of their terms when a rounded point of the domain misses them.
 constexpr double widening = 64 * unit_roundoff;
 
+/// The terms of a value, and their gap, are each right to so many roundings.
+constexpr double roundings_of_terms = 4;
+
 /// A value is given when its duality gap is below this part of its terms.
 constexpr double accurate_value = 1e-11;
 
@@ -87,8 +90,11 @@ Section section(const LinearQuadratic& f, const Vector& x, bool wide) {
   return found;
 }
 
-/// The duality gap of a minimum without x, relative to the terms of the value.
-double value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
+/// The duality gap of a minimum without x, and the terms of the value that rounding is relative to.
+struct Gap {
+  double gap = 0, terms = 0;
+};
+Gap value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
   const Vector defect = stationarity_defect(f, Metric::identity(0), Vector(0), point.xi, point.lambda);
   const double gap =
       std::abs(complementarity(f, point.xi, point.lambda)) + defect.cwiseAbs().dot(point.xi.cwiseAbs());
@@ -97,7 +103,7 @@ double value_gap(const LinearQuadratic& f, const ProgramPoint& point) {
   const double largest = (f.c.cwiseAbs().maxCoeff() + bend * size) * size;
   const double terms = largest + defect_terms(f, point.xi, point.lambda).dot(point.xi.cwiseAbs()) +
                        f.h.cwiseAbs().dot(point.lambda.cwiseAbs());
-  return terms > 0 ? gap / terms : 0;
+  return {gap, terms};
 }
 
 /// The value over one section; none when no w fits.
@@ -120,8 +126,10 @@ std::optional<Evaluation> over(const LinearQuadratic& f, const Vector& x, bool w
   found.xi << x, point.xi;
   found.value = objective(f, found.xi);
   const bool free_of_cost = cut.program.polyhedral() && cut.program.c.cwiseAbs().sum() == 0;
-  if (free_of_cost || (point.status == Status::solved && value_gap(cut.program, point) <= accurate_value))
+  const Gap left = free_of_cost ? Gap{} : value_gap(cut.program, point);
+  if (free_of_cost || (point.status == Status::solved && left.gap <= accurate_value * left.terms))
     found.status = Status::solved;
+  found.error = left.gap + roundings_of_terms * unit_roundoff * left.terms;
   Vector lambda = Vector::Zero(f.rows());
   for (std::size_t i = 0; i < cut.kept.size() && !free_of_cost; ++i) {
     const Index a = cut.kept[i];

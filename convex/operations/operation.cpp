@@ -96,9 +96,12 @@ Value Operation::evaluate(const Vector& x) const {
 }
 
 Value Operation::value_by_program(const Vector& x) const {
-  double found = std::numeric_limits<double>::quiet_NaN();
-  if (const auto form = linear_quadratic(x.size())) found = convex::value(*form, x);
-  if (!std::isnan(found)) return {found, std::isfinite(found) ? accuracy_of_a_program * std::abs(found) : 0};
+  if (const auto form = linear_quadratic(x.size())) {
+    const Evaluation found = convex::evaluate(*form, x);
+    if (found.status == Status::solved && std::isinf(found.value)) return {found.value, 0};
+    if (found.status == Status::solved && !std::isnan(found.value))
+      return {found.value, found.error + accuracy_of_a_program * std::abs(found.value)};
+  }
   if (const auto form = graph(x.size())) return value_of(convex::evaluate(*form, x));
   refuse(*this, "value");
 }

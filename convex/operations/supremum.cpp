@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power
+constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power, for |v| <= 1
 constexpr int step_limit = 32;
 constexpr int most_missed = 3;  ///< proxes that do not come out before the end
 
@@ -77,7 +77,8 @@ Search search(const Function& f, const Vector& v) {
   if (recedes_plainly(f, v)) return {{infinity, 0}, true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
-  double t = first_step, last = -infinity, highest = -infinity, before = 0, first_length = 0;
+  const double unit = std::max(1.0, v.norm());
+  double t = first_step * unit, last = -infinity, highest = -infinity, before = 0, first_length = 0;
   int grown = 0, quiet = 0, missed = 0;
   for (int step = 0; step < step_limit; ++step) {
     const Prox at = prox_of(f, x + v / t, t);
@@ -87,7 +88,9 @@ Search search(const Function& f, const Vector& v) {
     const double bound = v.dot(at.x) - value.value;
     if (!std::isfinite(bound)) break;
     const double terms = v.cwiseAbs().dot(at.x.cwiseAbs()) + std::abs(value.value);
-    const double rounding = value.error + roundings * unit_roundoff * terms;
+    // A point outside the domain by less than the tolerance may lift the bound above the supremum.
+    const double outside = v.norm() * at.error_bound / std::sqrt(t);
+    const double rounding = value.error + roundings * unit_roundoff * terms + outside;
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
@@ -103,15 +106,15 @@ Search search(const Function& f, const Vector& v) {
     if (!(first_length > 0)) first_length = at.x.norm();
     const bool far = at.x.norm() >= farther * first_length;
     if (grown >= growth_steps && far && t * moved >= membership_tolerance * v.norm()) {
-      const bool proved =
-          recedes(f, v, direction_of(at.x)) || recedes(f, v, direction_of(Vector(at.x - x)));
+      const bool proved = recedes(f, v, direction_of(at.x)) || recedes(f, v, direction_of(Vector(at.x - x)));
       return {proved ? Value{infinity, 0} : Value{highest, infinity}, true};
     }
     before = std::isfinite(increase) ? increase : 0;
     last = bound;
     x = at.x;
-    t = std::max({std::pow(t, power), smallest_part * v.norm() / x.norm(), last_step});
-    if (!std::isfinite(t)) t = first_step;
+    const double less = std::min(std::pow(t / unit, power), t / unit);
+    t = std::max({unit * less, smallest_part * v.norm() / x.norm(), last_step});
+    if (!std::isfinite(t)) t = first_step * unit;
   }
   return {best, false};
 }
