@@ -70,6 +70,12 @@ struct Candidate {
     const double most = std::max(right - square, -right) - error - rounding;
     return std::isfinite(most) ? most : INFINITY;
   }
+  /// The bound of ||x - x*|| and ||y - y*|| that the right side is; below 0 it says that a value is too small
+  /// by as much, and may be as large.
+  double proved() const {
+    const double most = 2 * std::abs(right) + error + rounding;
+    return std::isfinite(most) ? std::sqrt(2 * most) : INFINITY;
+  }
   /// Are f(x) + g(y) and (x|y) one, and known, to the tolerance?
   bool known(double tolerance) const {
     const double size =
@@ -143,7 +149,13 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
     const double values = f_x.value + g_y.value;
     if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
   }
-  return finished(std::move(split), f_x, g_y, size, residual, W, z);
+  Candidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
+  // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
+  if (std::abs(made.split.fenchel_gap) <= made.rounding) {
+    made.split.inner = f_x.value + g_y.value;
+    made.split.fenchel_gap = 0;
+  }
+  return made;
 }
 
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
@@ -188,15 +200,17 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 /// of the two is kept from pass to pass, the larger follows from z.
 std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
                              const Metric& W) {
-  constexpr int passes = 3;
+  // Nearer to W the passes converge faster, and in V the result is the most accurate.
+  constexpr double towards_W[] = {0x1p-12, 0x1p-6, 1, 1, 1};
   constexpr double slow = 0.5;
   if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
-  const double s = std::exp2(std::round(std::log2(W.dual_norm(near->v) / W.norm(near->x))));
-  if (!(s > 0) || !std::isfinite(s) || !std::isfinite(1 / s)) return std::nullopt;
+  const double ratio = std::exp2(std::round(std::log2(W.dual_norm(near->v) / W.norm(near->x))));
+  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return std::nullopt;
   std::optional<Prox> best;
   Vector x = near->x, v = near->v;
-  for (int pass = 0; pass < passes; ++pass) {
-    if (s >= 1)
+  for (const double part : towards_W) {
+    const double s = ratio >= 1 ? std::max(1.0, part * ratio) : std::min(1.0, ratio / part);
+    if (ratio >= 1)
       v = metric_difference(W, z, x);
     else
       x = z - refined_solve(W, v);
@@ -208,8 +222,10 @@ std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near,
     made.error_bound = made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
                        W.dual_norm(metric_difference(W, x, z) + v) +
                        roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(x));
-    if (best && !(made.error_bound < slow * best->error_bound)) break;
-    best = std::move(made);
+    const bool better = !best || made.error_bound < best->error_bound;
+    const bool done = best && part == 1 && !(made.error_bound < slow * best->error_bound);
+    if (better) best = std::move(made);
+    if (done) break;
   }
   return best;
 }
@@ -286,10 +302,13 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
   if (best.excess() > 0 && std::isfinite(best.excess()))
     best.rounding += roundings_of_a_term * unit_roundoff *
                      (size_of_slope(of.f, split.x.x) + size_of_slope(of.g, split.y.x));
-  if (best.excess() > 0) {
-    // A right side below 0 says that a value is too small by as much: it may be as large.
-    const double most = 2 * (std::abs(best.right) + best.error + best.rounding);
-    split.error_bound = std::max(split.error_bound, std::isfinite(most) ? std::sqrt(2 * most) : INFINITY);
+  if (best.excess() > 0) split.error_bound = std::max(split.error_bound, best.proved());
+  // The values alone may prove more than the proxes know of themselves.
+  const double proved = best.proved();
+  if (proved < split.error_bound) {
+    split.x.error_bound = std::min(split.x.error_bound, proved);
+    split.y.error_bound = std::min(split.y.error_bound, proved + split.residual);
+    split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
   }
   split.status = best.known(tolerance) ? Status::solved : Status::inaccurate;
   return std::move(best.split);
