@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/composite/metric_difference.hpp"
+#include "convex/composite/work_limit.hpp"
 #include "convex/operations/metric_algebra.hpp"
 
 namespace convex {
@@ -116,6 +117,9 @@ Candidate finished(Decomposition split, const Value& f_x, const Value& g_y, doub
   const Vector &x = split.x.x, &y = split.y.x;
   made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
   made.rounding = roundings_of_a_term * unit_roundoff * (std::abs(split.f_x) + std::abs(split.g_y) + size);
+  // f and g are those at points that the bounds leave open, to first order, where these are rounding.
+  const double X = W.norm(x), Y = W.norm(y), least = accuracy_of_prox * (W.norm(z) + X);
+  made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;
   made.split = std::move(split);
   return made;
 }
@@ -151,7 +155,7 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   }
   Candidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
   // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
-  if (std::abs(made.split.fenchel_gap) <= made.rounding) {
+  if (std::abs(made.split.fenchel_gap) <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
     made.split.fenchel_gap = 0;
   }
@@ -249,35 +253,36 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
   const Prox x = of.f.prox(z, W), y = of.g.prox(z, W);
   Candidate best = at_points(of, x, y, z, W);
   const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
-  const auto borne_out = [&](const Candidate& made) {
+  const auto is_borne_out = [&](const Candidate& made) {
     return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
   };
+  const auto ended = [&] { return is_borne_out(best) || WorkLimit::passed(); };
   const auto near = [&](const std::optional<Prox>& found) { return found && found->error_bound <= enough; };
   const auto into = [&](const Function& h, const std::optional<Prox>& found) {
     return near(found) ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
   };
   const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
-    if (borne_out(best) || !near(of_x) || !near(of_y)) return;
+    if (ended() || !near(of_x) || !near(of_y)) return;
     Candidate other = at_points(of, *of_x, *of_y, z, W);
-    if (borne_out(other)) best = std::move(other);
+    if (is_borne_out(other)) best = std::move(other);
   };
   // x with its covector, beside y and beside the y that the covector gives.
   const auto consider_covector = [&](const std::optional<Prox>& of_x) {
-    if (borne_out(best) || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
+    if (ended() || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
     for (const std::optional<Prox>& of_y : {std::optional(y), by_moreau(*of_x, z, W)}) {
       if (!near(of_y)) continue;
       Candidate other = at_covector(of, *of_x, *of_y, z, W);
-      if (!borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
+      if (!is_borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
       best = std::move(other);
       return;
     }
   };
   const auto consider_all = [&](const std::optional<Prox>& of_x) {
     consider_covector(of_x);
-    if (!borne_out(best)) consider_covector(with_slope(of.f, of_x, z, W));
-    if (!borne_out(best)) consider_covector(into(of.f, of_x));
+    if (!ended()) consider_covector(with_slope(of.f, of_x, z, W));
+    if (!ended()) consider_covector(into(of.f, of_x));
   };
-  if (!borne_out(best)) {
+  if (!ended()) {
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
     consider(x_inside, y);
@@ -285,18 +290,18 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
     consider(x, by_moreau(x, z, W));
     consider_all(x);
   }
-  if (!borne_out(best)) consider_all(balanced(of.f, x, z, W));
-  if (!borne_out(best)) {
+  if (!ended()) consider_all(balanced(of.f, x, z, W));
+  if (!ended()) {
     const auto x_of_y = by_moreau(y, z, W);
     consider(x_of_y, y);
     consider(into(of.f, x_of_y), y);
   }
-  if (!borne_out(best)) {
+  if (!ended()) {
     const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
     const Metric V = inverse(W);
     const Prox dual = of.plain.prox(force, V);
     consider_all(turned(dual, z, W));
-    if (!borne_out(best)) consider_all(turned(balanced(of.plain, dual, force, V), z, W));
+    if (!ended()) consider_all(turned(balanced(of.plain, dual, force, V), z, W));
   }
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
@@ -317,6 +322,7 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+  const WorkLimit question;
   Decomposition split = guarded({f, f.conjugate(W), f.conjugate()}, z, W, tolerance);
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
   const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&

@@ -5,6 +5,7 @@
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/perspective.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -93,6 +94,7 @@ class EpigraphAtom final : public Atom {
     const Vector x = z.head(n_);
     const double t = side_ * z[n_], above = f_->value(x) / unit_ - t;
     const auto excess = [&](double mu) -> ValueAndSlope {
+      WorkLimit::count();
       const Vector inverse = Vector::Constant(n_, unit_ / mu);
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Matrix J = f_->prox_jacobian(x, inverse);

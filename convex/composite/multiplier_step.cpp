@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/composite/newton_system.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -59,7 +60,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
   MultiplierStep result;
   Inner at = inner_at(problem, centre, D, ridge, centre.xi);
   const Vector no_r = Vector::Zero(problem.m);
-  for (; result.newton_steps < newton_limit; ++result.newton_steps) {
+  for (; result.newton_steps < newton_limit && !WorkLimit::passed(); ++result.newton_steps) {
     const NewtonSystem system(problem, at.t, D, 1, ridge);
     if (!system.usable()) break;
     const Vector direction = system.step(at.gradient, no_r).dxi;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "convex/composite/newton_system.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -19,7 +20,7 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
   point = saddle_point(problem, from.xi, from.u + from.y.cwiseQuotient(problem.D), problem.D);
   const Vector ridge = polish_ridge * problem.R;
   double least = polish_theta;
-  for (int count = 0; count < step_limit && point.residual > 0;) {
+  for (int count = 0; count < step_limit && point.residual > 0 && !WorkLimit::passed();) {
     const double theta = std::clamp(near * point.residual / solution_size(problem, point), least, far_theta);
     const NewtonSystem system(problem, point.t, problem.D, theta, ridge);
     if (!system.usable()) break;

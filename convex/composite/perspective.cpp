@@ -5,6 +5,7 @@
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/monotone_root.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -102,6 +103,7 @@ class PerspectiveAtom final : public Atom {
     const double square = side_ * side_;
     if (square * f_->conjugate().node().value(q) <= -s) return 0;
     const auto excess = [&](double mu) -> ValueAndSlope {
+      WorkLimit::count();
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Matrix J = f_->prox_jacobian(q / mu, step);
       // Far out on a flat part the difference q - mu p is all rounding, where a formula is not.

@@ -7,6 +7,7 @@
 #include "convex/composite/multiplier_step.hpp"
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/saddle_error.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -77,7 +78,8 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
   SaddlePoint centre = best;
   double factor = 1, ridge = first_ridge, last_gap = 0;
   Index idle = 0, apart = 0;
-  for (Index outer = 0; outer < outer_limit && idle < patience && solution.evaluations < evaluation_limit;
+  for (Index outer = 0; outer < outer_limit && idle < patience && solution.evaluations < evaluation_limit &&
+                        !WorkLimit::passed();
        ++outer) {
     const double before = best.residual;
     if (before <= rounding_level * target_size(problem, best)) break;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/composite/work_limit.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/operations/operations.hpp"
 
@@ -48,11 +49,13 @@ Call Function::call() const { return node_->call(); }
 
 double Function::operator()(const Vector& x) const {
   check(*this, x, "x");
+  const WorkLimit question;
   return node_->value(x);
 }
 
 Value Function::evaluate(const Vector& x) const {
   check(*this, x, "x");
+  const WorkLimit question;
   return node_->evaluate(x);
 }
 
@@ -61,6 +64,7 @@ Prox Function::prox(const Vector& z, const Metric& W) const {
   if (W.dimension() != z.size())
     throw InvalidInput(call().name + ": z has " + std::to_string(z.size()) + " entries, the metric " +
                        std::to_string(W.dimension()) + " rows; give one of the other's size");
+  const WorkLimit question;
   Prox found = node_->prox(z, W);
   settle_at_zero(*node_, z, W, found);
   return found;

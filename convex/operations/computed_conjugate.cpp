@@ -32,7 +32,10 @@ class ComputedConjugate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::conjugate(*form);
   }
-  Value evaluate(const Vector& v) const override { return settled_value(by_program(v), f_, v); }
+  Value evaluate(const Vector& v) const override {
+    const ByProgram found = in_slopes(v);
+    return settled_value(found.value, found.slope, f_, v);
+  }
   double recession(const Vector& d) const override { return f_.node().domain_support(d); }
   double domain_support(const Vector& v) const override { return f_.node().recession(v); }
   std::optional<GraphForm> graph(Index n) const override {
@@ -49,14 +52,17 @@ class ComputedConjugate : public Operation {
   }
 
  private:
-  Value by_program(const Vector& v) const {
+  ByProgram in_slopes(const Vector& v) const {
     const auto* parts = dynamic_cast<const Operation*>(&f_.node());
     if (parts)
-      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value)) return *found;
-    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return Operation::evaluate(v);
+      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
+        return {*found, {}};
+    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return by_program(v);
     const double slope = parts->slope_of(v);
     const auto form = parts->graph_at_slope(v.size(), slope);
-    return form ? value_of(convex::evaluate(convex::conjugate(*form), v)) : Operation::evaluate(v);
+    if (!form) return by_program(v);
+    const GraphValue found = convex::evaluate(convex::conjugate(*form), v);
+    return {value_of(found), found.v};
   }
 
   Function f_;

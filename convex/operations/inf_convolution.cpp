@@ -34,7 +34,8 @@ class InfConvolution : public Operation {
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
   Value evaluate(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
-    return settled_value(Operation::evaluate(x), conjugate(), x);
+    const ByProgram found = by_program(x);
+    return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).v;

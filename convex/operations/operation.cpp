@@ -87,22 +87,26 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
   return best;
 }
 
-Value Operation::evaluate(const Vector& x) const {
-  const double length = x.norm();
-  if (!facts().support || !(length > 0)) return value_by_program(x);
-  // Positively homogeneous: the solvers see the point at the size of 1.
-  const double size = std::exp2(std::floor(std::log2(length)));
-  return multiple_of(size, value_by_program(x / size));
-}
+Value Operation::evaluate(const Vector& x) const { return by_program(x).value; }
 
-Value Operation::value_by_program(const Vector& x) const {
+Operation::ByProgram Operation::by_program(const Vector& x) const {
+  const double length = x.norm();
+  // Positively homogeneous: the solvers see the point at the size of 1, and the slopes are the same there.
+  const bool homogeneous = facts().support && length > 0;
+  const double size = homogeneous ? std::exp2(std::floor(std::log2(length))) : 1;
+  const Vector at = x / size;
   if (const auto form = linear_quadratic(x.size())) {
-    const Evaluation found = convex::evaluate(*form, x);
-    if (found.status == Status::solved && std::isinf(found.value)) return {found.value, 0};
-    if (found.status == Status::solved && !std::isnan(found.value))
-      return {found.value, found.error + accuracy_of_a_program * std::abs(found.value)};
+    const Evaluation found = convex::evaluate(*form, at);
+    if (found.status == Status::solved && std::isinf(found.value)) return {{found.value, 0}, {}};
+    if (found.status == Status::solved && !std::isnan(found.value)) {
+      const double rounding = accuracy_of_a_program * std::abs(found.value);
+      return {multiple_of(size, {found.value, found.error + rounding}), found.v};
+    }
   }
-  if (const auto form = graph(x.size())) return value_of(convex::evaluate(*form, x));
+  if (const auto form = graph(x.size())) {
+    const GraphValue found = convex::evaluate(*form, at);
+    return {multiple_of(size, value_of(found)), found.v};
+  }
   refuse(*this, "value");
 }
 

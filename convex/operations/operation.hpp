@@ -30,7 +30,12 @@ class Operation : public FunctionNode {
  protected:
   /// The prox by formula from those of the parts; none when there is no formula in this metric.
   virtual std::optional<Prox> reduced_prox(const Vector&, const Metric&) const { return std::nullopt; }
-  Value value_by_program(const Vector& x) const;
+  /// A value with a subgradient there, which attains the supremum over the conjugate.
+  struct ByProgram {
+    Value value;
+    std::optional<Vector> slope;
+  };
+  ByProgram by_program(const Vector& x) const;
   /// The prox by formula or program, without the conjugate's help.
   std::optional<Prox> own_prox(const Vector& z, const Metric& W) const;
   /// This function as one to be handed on.

@@ -50,7 +50,8 @@ class ProximalAverage : public Operation {
     return {"precompose", {argument(average), argument("A", Matrix(F.transpose()))}};
   }
   Value evaluate(const Vector& x) const override {
-    return settled_value(Operation::evaluate(x), conjugate(), x);
+    const ByProgram found = by_program(x);
+    return settled_value(found.value, found.slope, conjugate(), x);
   }
   Function conjugate() const override {
     if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);

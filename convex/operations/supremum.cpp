@@ -125,7 +125,27 @@ Value supremum(const Function& f, const Vector& v) { return search(f, v).value; 
 
 bool grows_without_end(const Function& f, const Vector& v) { return search(f, v).growing; }
 
-Value settled_value(const Value& found, const Function& f, const Vector& v) {
+namespace {
+
+/// `found` with what v·x - f(x) at the program's own maximiser x leaves open.
+Value between_bounds(const Value& found, const std::optional<Vector>& x, const Function& f, const Vector& v) {
+  if (!std::isfinite(found.value)) return found;
+  const OneAtATime question(OneAtATime::Kind::lower_bound);
+  if (!question.first() || !x || x->size() != v.size() || !x->allFinite()) return found;
+  const Value at = f.evaluate(*x);
+  if (!std::isfinite(at.value)) return found;
+  const double below = v.dot(*x) - at.value;
+  const double rounding =
+      at.error + roundings * unit_roundoff * (v.cwiseAbs().dot(x->cwiseAbs()) + std::abs(at.value));
+  const double apart = std::abs(found.value - below);
+  return {found.value, apart <= rounding ? found.error : std::max(found.error, apart)};
+}
+
+}  // namespace
+
+Value settled_value(const Value& by_program, const std::optional<Vector>& x, const Function& f,
+                    const Vector& v) {
+  const Value found = between_bounds(by_program, x, f, v);
   const double size = std::max(std::abs(found.value), small);
   const bool exact = f.facts().piecewise_quadratic && found.error < infinity;
   const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);

@@ -20,11 +20,13 @@ namespace convex {
 /// Questions inside a supremum are answered by programs: a supremum never asks for another.
 Value supremum(const Function& f, const Vector& v);
 
-/// Is f*(v) proved to be +inf, or do the lower bounds grow by more at each of eight steps in a row, and x_k to
-/// 1e12 times its first length? No proof: a reason to refuse a function, not a value.
+/// Is f*(v) proved to be +inf, or do the lower bounds grow by more at each of eight steps in a row, and x_k
+/// to 1e12 times its first length? No proof: a reason to refuse a function, not a value.
 bool grows_without_end(const Function& f, const Vector& v);
 
-/// `found`, the value of f* at v by a program, where it is settled; else the better of it and `supremum`.
-Value settled_value(const Value& found, const Function& f, const Vector& v);
+/// `found`, the value of f* at v by a program, where it is settled; else the better of it and `supremum`. The
+/// program minimises, so that its value is no less than f*(v); v·x - f(x) at its own maximiser x, where it
+/// has one, is no more: what lies between is part of the error.
+Value settled_value(const Value& found, const std::optional<Vector>& x, const Function& f, const Vector& v);
 
 }  // namespace convex

@@ -71,8 +71,13 @@ std::string wrong_value(const Subject& subject, const Vector& x, double value) {
   const Real slack =
       allowed * std::max({std::abs(truth->value), truth->size, static_cast<Real>(smallest_size)}) +
       sensitivity(subject.call, x, truth->value);
+  // Where a slope is infinite, the slack that lets a rounded point in is worth more than the value's
+  // rounding.
+  const auto inside = call_value(subject.call, point(x), strict);
+  const Real most =
+      inside && std::isfinite(inside->value) ? std::max(truth->value, inside->value) : truth->value;
   const Real off = static_cast<Real>(value) - truth->value;
-  if (off > slack || (truth->exact && off < -slack))
+  if (static_cast<Real>(value) - most > slack || (truth->exact && off < -slack))
     return text("f(x), and by definition", value, static_cast<double>(truth->value));
   return "";
 }
@@ -150,6 +155,7 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
     bool exact = true;
     // A slope that is nothing beside the function's data counts as 0.
     const bool tiny = v != 0 && std::abs(v) < 1e-9;
+    const double nearer = searched_supremum(subject.call, v, tiny ? 1 : 1e4, exact);
     const double near = searched_supremum(subject.call, v, tiny ? 1e3 : 1e8, exact);
     const double far = searched_supremum(subject.call, v, 1e16, exact);
     if (!(far > -INFINITY)) continue;
@@ -160,7 +166,9 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
       continue;
     }
     if (std::isinf(value) && value > 0) {
-      if (exact && !tiny && !(far > growing * std::max(1.0, std::abs(near))) && !(far > near + 10))
+      // As a logarithm does, by as much at each scale.
+      const bool keeps_growing = far > near && far - near > 0.5 * (near - nearer);
+      if (exact && !tiny && !(far > growing * std::max(1.0, std::abs(near))) && !keeps_growing)
         return text("conjugate +inf, supremum searched", v, far);
       continue;
     }

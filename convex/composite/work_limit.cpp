@@ -1,0 +1,31 @@
+#include "convex/composite/work_limit.hpp"
+
+namespace convex {
+namespace {
+
+/// A second or two; a question with one root in another takes some ten thousand.
+constexpr long most_evaluations = 500'000;
+
+struct Work {
+  long evaluations = 0;
+  int standing = 0;
+};
+
+Work& work() {
+  thread_local Work done;
+  return done;
+}
+
+}  // namespace
+
+WorkLimit::WorkLimit() {
+  if (work().standing++ == 0) work().evaluations = 0;
+}
+
+WorkLimit::~WorkLimit() { --work().standing; }
+
+void WorkLimit::count() { ++work().evaluations; }
+
+bool WorkLimit::passed() { return work().evaluations > most_evaluations; }
+
+}  // namespace convex
