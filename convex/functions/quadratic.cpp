@@ -57,10 +57,23 @@ class Quadratic : public Atom {
     if (constant_ != 0) call.arguments.push_back(argument("constant", constant_));
     return call;
   }
-  double value(const Vector& x) const override { return x.dot(0.5 * (Q_ * x) + c_) + constant_; }
+  double value(const Vector& x) const override { return evaluate(x).value; }
+  /// Summed in twice the precision: where Q is singular x may be large along its null space.
+  Value evaluate(const Vector& x) const override {
+    RunningSum sum;
+    DoubleDoubleVector image(c_);
+    for (Index j = 0; j < x.size(); ++j)
+      add_multiple(x.size(), Q_.col(j).data(), {0.5 * x[j], 0}, image.hi.data(), image.lo.data());
+    for (Index i = 0; i < x.size(); ++i) {
+      sum.add(two_product(image.hi[i], x[i]));
+      sum.add(image.lo[i] * x[i]);
+    }
+    sum.add(constant_);
+    return {sum.value(), 4 * unit_roundoff * std::abs(sum.value())};
+  }
   Function conjugate() const override { return dual_quadratic(Q_, c_, constant_); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(Q_, c_, constant_); }
-  std::optional<Vector> subgradient(const Vector& x) const override { return Q_ * x + c_; }
+  std::optional<Vector> subgradient(const Vector& x) const override { return slope(x); }
   /// c·d where Qd = 0.
   double recession(const Vector& d) const override {
     const double size = Q_.cwiseAbs().maxCoeff() * d.norm();
@@ -81,11 +94,18 @@ class Quadratic : public Atom {
   Prox prox(const Vector& z, const Metric& W) const override {
     const Eigen::LLT<Matrix> sum(gram(W) + Q_);
     Vector x = sum.solve(W.multiply(z) - c_);
-    x -= sum.solve(stationarity(z, W, x, Q_ * x + c_));
-    return closed_form(z, W, x, Q_ * x + c_);
+    for (int pass = 0; pass < 2; ++pass) x -= sum.solve(stationarity(z, W, x, slope(x)));
+    return closed_form(z, W, x, slope(x));
   }
 
  private:
+  /// Qx + c, rounded once.
+  Vector slope(const Vector& x) const {
+    DoubleDoubleVector sum(c_);
+    for (Index j = 0; j < x.size(); ++j)
+      add_multiple(x.size(), Q_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
+    return sum.value();
+  }
   Matrix Q_;
   Vector c_;
   double constant_;
@@ -129,9 +149,7 @@ class DualQuadratic : public Atom {
     return solve(v - c_);
   }
   /// The recession function of the quadratic.
-  double domain_support(const Vector& d) const override {
-    return Quadratic(Q_, c_, constant_).recession(d);
-  }
+  double domain_support(const Vector& d) const override { return Quadratic(Q_, c_, constant_).recession(d); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d)).x;
   }

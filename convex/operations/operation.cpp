@@ -33,18 +33,17 @@ constexpr double nearest_point_weight = 1e12;
       "`moreau functions`");
 }
 
-/// Nothing is left to try: the bound is within the accuracy that is asked for, or there is no solution.
-bool is_settled(const Prox& found, const Vector& z, const Metric& W) {
-  if (found.status == Status::infeasible || found.x.size() == 0) return true;
-  return found.status == Status::solved &&
-         found.error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found.x));
-}
-
 void take_better(std::optional<Prox>& best, Prox found) {
   if (!best || (found.x.size() > 0 && found.error_bound < best->error_bound)) best = std::move(found);
 }
 
 }  // namespace
+
+bool is_settled(const Prox& found, const Vector& z, const Metric& W) {
+  if (found.status == Status::infeasible || found.x.size() == 0) return true;
+  return found.status == Status::solved &&
+         found.error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found.x));
+}
 
 std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metric& W) {
   const Metric V = inverse(W);

@@ -49,6 +49,9 @@ class Operation : public FunctionNode {
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W);
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V);
 
+/// Nothing is left to try: the bound is within the accuracy that is asked for, or there is no solution.
+bool is_settled(const Prox& found, const Vector& z, const Metric& W);
+
 /// The power of 2 below a slope; 1 when it is not positive and finite.
 double unit_of_slope(double slope);
 

@@ -5,8 +5,10 @@
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -90,7 +92,15 @@ class PointwiseMax : public Operation {
   /// above would hide a miss in the height.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (piecewise_) return std::nullopt;
-    return prox_in_slopes(*this, first_slope(z, W), z, W);
+    std::optional<Prox> best = prox_in_slopes(*this, first_slope(z, W), z, W);
+    if (parts_.size() != 2 || (best && is_settled(*best, z, W))) return best;
+    const OneAtATime question(OneAtATime::Kind::maximum);
+    if (!question.first()) return best;
+    auto other = prox_of_two_function_max(parts_[0], parts_[1], z, W);
+    if (!other || (best && !(other->error_bound < best->error_bound))) return best;
+    if (!(other->error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(other->x))))
+      other->status = Status::inaccurate;
+    return other;
   }
 
  private:

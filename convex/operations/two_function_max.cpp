@@ -1,0 +1,81 @@
+#include "convex/operations/two_function_max.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/composite/work_limit.hpp"
+#include "convex/operations/operation.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+constexpr double least_weight = 1e-30;
+constexpr int step_limit = 80;
+/// Brackets shorter than this part of t, or of 1 - t, have ended.
+constexpr double shortest = 2 * unit_roundoff;
+
+/// The prox at a weight, and g - f there.
+struct At {
+  double t = 0;
+  Prox prox;
+  double difference = 0;
+};
+
+std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W) {
+  const double of_f = f.facts().finite ? 1 - t : std::max(1 - t, least_weight);
+  const double of_g = g.facts().finite ? t : std::max(t, least_weight);
+  std::vector<Function> terms;
+  if (of_f > 0) terms.push_back(of_f == 1 ? f : scale(f, of_f));
+  if (of_g > 0) terms.push_back(of_g == 1 ? g : scale(g, of_g));
+  At found{t, proper_sum(terms).prox(z, W), 0};
+  if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
+  found.difference = g.evaluate(found.prox.x).value - f.evaluate(found.prox.x).value;
+  if (std::isnan(found.difference)) return std::nullopt;
+  return found;
+}
+
+}  // namespace
+
+std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
+                                             const Metric& W) {
+  std::optional<At> low = at(f, g, 0, z, W), high = at(f, g, 1, z, W);
+  if (!low || !high) return std::nullopt;
+  const auto named = [](Prox made) {
+    made.method = "dual of a maximum, " + made.method;
+    return made;
+  };
+  if (low->difference <= 0) return named(low->prox);  // f alone is above g at its prox
+  if (high->difference >= 0) return named(high->prox);
+  double low_value = low->difference, high_value = high->difference;
+  for (int step = 0; step < step_limit && !WorkLimit::passed(); ++step) {
+    const double width = high->t - low->t;
+    if (!(width > shortest * std::min(high->t, 1 - low->t))) break;
+    // The Illinois method; every third step halves, in the exponent where the ends are far apart.
+    double t = low->t + width * (low_value / (low_value - high_value));
+    if (step % 3 == 2 || !(t > low->t && t < high->t)) {
+      t = low->t + width / 2;
+      if (low->t < high->t / 16) t = std::max(std::sqrt(low->t) * std::sqrt(high->t), high->t * 1e-3);
+      const double from_one = 1 - high->t;
+      if (from_one < (1 - low->t) / 16)
+        t = 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low->t), (1 - low->t) * 1e-3);
+    }
+    if (!(t > low->t && t < high->t)) break;
+    auto middle = at(f, g, t, z, W);
+    if (!middle) return std::nullopt;
+    const double value = middle->difference;
+    if (value == 0) return named(middle->prox);
+    const bool below = value > 0;
+    (below ? high_value : low_value) *= 0.5;
+    (below ? low_value : high_value) = value;
+    (below ? low : high) = std::move(middle);
+  }
+  // Both agree but for the distance between them; the nearer one to equality is taken.
+  const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
+  Prox made = named(take_low ? low->prox : high->prox);
+  made.error_bound =
+      std::max(low->prox.error_bound, high->prox.error_bound) + 2 * W.norm(low->prox.x - high->prox.x);
+  return made;
+}
+
+}  // namespace convex

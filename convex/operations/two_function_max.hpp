@@ -1,0 +1,20 @@
+#pragma once
+
+#include "convex/functions/function.hpp"
+
+namespace convex {
+
+/// prox of max(f, g) by its dual in one number: the maximum over 0 <= t <= 1 of min over u of
+/// ½||u - z||_W² + (1 - t) f(u) + t g(u) (Rockafellar 1970, Theorem 36.3), u(t) the prox of the weighted sum.
+/// g - f falls along u(t), and is 0 at the solution, or t is at an end: a root in t by bisection and secants.
+/// It needs values and proxes of sums alone, no heights, and so serves where f and g are much larger than
+/// their arguments.
+///
+/// A function that is not finite everywhere keeps a weight of 1e-30 at the least, and with it its domain.
+///
+/// The error bound is that of the sums' proxes and twice the distance between the proxes at the ends of the
+/// last bracket, between which the solution is: an estimate, as the sign of g - f is rounded.
+std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
+                                             const Metric& W);
+
+}  // namespace convex
