@@ -155,8 +155,15 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   }
   Candidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
   // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
-  if (std::abs(made.split.fenchel_gap) <= roundings_of_a_term * unit_roundoff * size) {
+  const double gap = std::abs(made.split.fenchel_gap);
+  if (gap <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
+    made.split.fenchel_gap = 0;
+  } else if (gap <= made.error) {  // and where a program leaves a value open, the others say it
+    if (f_x.error > g_y.error)
+      made.split.f_x = made.split.inner - g_y.value;
+    else
+      made.split.g_y = made.split.inner - f_x.value;
     made.split.fenchel_gap = 0;
   }
   return made;

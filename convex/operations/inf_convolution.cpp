@@ -99,6 +99,19 @@ bool falls_without_end(const Function& f, const Function& g, Index n) {
   return grows_without_end(proper_sum(terms), Vector::Zero(n));
 }
 
+/// Have two conjugates of one entry no slope in common? Closures that meet in one point decide by the values
+/// there, as those of -sqrt(x) and e^x do at 0.
+bool slopes_miss(const Function& f, const Function& g) {
+  const auto a = domain_of_one(f), b = domain_of_one(g);
+  if (!a || !b) return false;
+  const double low = std::max(a->low, b->low), high = std::min(a->high, b->high);
+  if (low != high) return low > high;
+  const Vector common = Vector::Constant(1, low);
+  const Value of_f = f.evaluate(common), of_g = g.evaluate(common);
+  const auto proved = [](const Value& value) { return std::isinf(value.value) && value.error == 0; };
+  return proved(of_f) || proved(of_g);
+}
+
 /// f □ (c·x + d) = c·x + d - f*(c), when g is affine.
 std::optional<Function> with_affine(const Function& f, const Function& g, Index n) {
   const auto q = quadratic_term(g, n);
@@ -122,6 +135,7 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     if (auto affine = with_affine(f, g, n)) return *affine;
     if (auto affine = with_affine(g, f, n)) return *affine;
     const Function conjugates[] = {f.conjugate(), g.conjugate()};
+    if (n == 1 && slopes_miss(conjugates[0], conjugates[1])) refuse_improper();
     if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
         require_proper(proper_sum(conjugates), n, "inf_convolution");
       } catch (const InvalidInput&) {

@@ -199,12 +199,24 @@ void require_positive(double number, const char* where, const char* name) {
                        "): not positive and finite; give a finite number above 0");
 }
 
+std::optional<Interval> domain_of_one(const Function& f) {
+  const Vector right = Vector::Ones(1);
+  const double high = f.node().domain_support(right), low = -f.node().domain_support(-right);
+  if (std::isnan(high) || std::isnan(low)) return std::nullopt;
+  return Interval{low, high};
+}
+
 void require_proper(const Function& f, Index n, const char* where) {
   const auto refuse_empty = [&] {
     throw InvalidInput(std::string(where) +
                        ": no point has all its functions finite; give functions whose domains meet");
   };
   if (f.facts().finite) return;
+  if (const auto domain = n == 1 ? domain_of_one(f) : std::nullopt) {
+    const bool empty = domain->low > domain->high ||
+                       (domain->low == domain->high && std::isinf(f(Vector::Constant(1, domain->low))));
+    if (empty) refuse_empty();
+  }
   if (const auto form = f.node().linear_quadratic(n)) {
     if (properness(*form) == Defect::empty_domain) refuse_empty();
   } else if (auto graph = f.node().graph(n)) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "convex/functions/node.hpp"
+#include "convex/interval.hpp"
 #include "convex/operations/parts.hpp"
 
 namespace convex {
@@ -81,6 +82,10 @@ void require_positive(double number, const char* where, const char* name);
 /// The sum and the inf-convolution where the result is known to be proper: conjugates of proper functions.
 Function proper_sum(std::span<const Function> terms);
 Function proper_inf_convolution(const Function& f, const Function& g);
+
+/// For a function of one entry, an interval that holds its domain: the closure of it, where its supports are
+/// known.
+std::optional<Interval> domain_of_one(const Function& f);
 
 /// f when h is `computed_conjugate(f)`.
 std::optional<Function> primal_of(const Function& h);

@@ -166,6 +166,8 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
     return precompose(inner->part(), inner->A() * A, inner->A() * b + inner->b());
   const Index n = A.cols();
   if (A.rows() == n && A.isIdentity(0) && f.dimension() != 0) return b.isZero(0) ? f : translate(f, -b);
+  if (A.isZero(0) && std::isinf(f(b)))
+    refuse(": no point has it finite, A is 0 and f(b) is infinite; give a b in the domain");
   const Function made(std::make_shared<Precompose>(f, A, b));
   if (!f.facts().finite && !image_metric(Metric::identity(n), A)) require_proper(made, n, "precompose");
   return made;
