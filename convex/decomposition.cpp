@@ -215,7 +215,10 @@ std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near,
   constexpr double towards_W[] = {0x1p-12, 0x1p-6, 1, 1, 1};
   constexpr double slow = 0.5;
   if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
-  const double ratio = std::exp2(std::round(std::log2(W.dual_norm(near->v) / W.norm(near->x))));
+  // What is 0 may be anything within the bound.
+  const double X = std::max(W.norm(near->x), near->error_bound),
+               V = std::max(W.dual_norm(near->v), near->error_bound);
+  const double ratio = std::exp2(std::round(std::log2(V / X)));
   if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return std::nullopt;
   std::optional<Prox> best;
   Vector x = near->x, v = near->v;

@@ -3,8 +3,8 @@
 namespace convex {
 namespace {
 
-/// A second or two; a question with one root in another takes some ten thousand.
-constexpr long most_evaluations = 500'000;
+/// Some seconds; a question with one root in another takes some ten thousand.
+constexpr long most_evaluations = 3'000'000;
 
 struct Work {
   long evaluations = 0;

@@ -135,7 +135,8 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     if (auto affine = with_affine(f, g, n)) return *affine;
     if (auto affine = with_affine(g, f, n)) return *affine;
     const Function conjugates[] = {f.conjugate(), g.conjugate()};
-    if (n == 1 && slopes_miss(conjugates[0], conjugates[1])) refuse_improper();
+    const bool by_entry = n == 1 || (all_of(parts, &Facts::separable) && common_dimension(parts, "") == 0);
+    if (by_entry && slopes_miss(conjugates[0], conjugates[1])) refuse_improper();
     if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
         require_proper(proper_sum(conjugates), n, "inf_convolution");
       } catch (const InvalidInput&) {

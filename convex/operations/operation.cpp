@@ -212,7 +212,8 @@ void require_proper(const Function& f, Index n, const char* where) {
                        ": no point has all its functions finite; give functions whose domains meet");
   };
   if (f.facts().finite) return;
-  if (const auto domain = n == 1 ? domain_of_one(f) : std::nullopt) {
+  const bool by_entry = n == 1 || (f.dimension() == 0 && f.facts().separable);
+  if (const auto domain = by_entry ? domain_of_one(f) : std::nullopt) {
     const bool empty = domain->low > domain->high ||
                        (domain->low == domain->high && std::isinf(f(Vector::Constant(1, domain->low))));
     if (empty) refuse_empty();
