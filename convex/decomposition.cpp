@@ -6,6 +6,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/other_pairs.hpp"
 
 namespace convex {
 namespace {
@@ -15,25 +16,6 @@ constexpr double roundings_of_a_term = 16;
 
 /// Values smaller than this count as this where the tolerance is relative to them.
 constexpr double smallest_term = 1e-3;
-
-/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
-/// domain.
-constexpr double nearest_point_weight = 1e12;
-
-/// Where rounding left the point outside the domain, or on the far side of the membership tolerance, the
-/// nearest point of the domain; the move is part of the bound.
-std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W) {
-  const double weight = f.facts().indicator ? 1 : nearest_point_weight / (scale * scale);
-  if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
-  const Prox nearest = f.prox(found.x, W.scaled(weight));
-  if (nearest.x.size() != found.x.size()) return std::nullopt;
-  const double move = W.norm(nearest.x - found.x);
-  if (!(move <= membership_tolerance * scale)) return std::nullopt;
-  Prox moved = found;
-  moved.x = nearest.x;
-  moved.error_bound += move;
-  return moved;
-}
 
 /// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
 double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
@@ -178,84 +160,6 @@ bool is_inner_of_points(const Decomposition& split, double tolerance, const Metr
   return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
 }
 
-/// The prox of the conjugate from a prox x of f and its covector v: W⁻¹v is that at x + W⁻¹v, and the proxes
-/// of two points are no farther apart than the points.
-std::optional<Prox> by_moreau(const Prox& of_f, const Vector& z, const Metric& W) {
-  if (of_f.v.size() != z.size() || !of_f.v.allFinite()) return std::nullopt;
-  Prox made = of_f;
-  made.x = refined_solve(W, of_f.v);
-  made.v = W.multiply(of_f.x);
-  made.error_bound = of_f.error_bound + W.dual_norm(metric_difference(W, of_f.x, z) + of_f.v) +
-                     roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(of_f.x));
-  if (!of_f.method.starts_with("Moreau")) made.method = "Moreau's identity, " + of_f.method;
-  return made;
-}
-
-/// The prox of f from that of f* at Wz in W⁻¹, with that point as its covector: as the conjugate found it,
-/// not as a y of doubles rounds it.
-std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, const Metric& W) {
-  if (!dual || dual->x.size() != z.size() || dual->v.size() != z.size() || !dual->v.allFinite())
-    return std::nullopt;
-  Prox made = *dual;
-  made.x = dual->v;
-  made.v = dual->x;
-  made.error_bound = dual->error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
-                     roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(made.x));
-  made.by_conjugate = true;
-  if (!dual->method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual->method;
-  return made;
-}
-
-/// x and v again, each right to roundings of itself and not of z. x = prox_f (x + V⁻¹v) in every metric V; in
-/// V = s W, s = ||v||_(W⁻¹) / ||x||_W, the two are of one size, so that neither drowns the other. The smaller
-/// of the two is kept from pass to pass, the larger follows from z.
-std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                             const Metric& W) {
-  // Nearer to W the passes converge faster, and in V the result is the most accurate.
-  constexpr double towards_W[] = {0x1p-12, 0x1p-6, 1, 1, 1};
-  constexpr double slow = 0.5;
-  if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
-  // What is 0 may be anything within the bound.
-  const double X = std::max(W.norm(near->x), near->error_bound),
-               V = std::max(W.dual_norm(near->v), near->error_bound);
-  const double ratio = std::exp2(std::round(std::log2(V / X)));
-  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return std::nullopt;
-  std::optional<Prox> best;
-  Vector x = near->x, v = near->v;
-  for (const double part : towards_W) {
-    const double s = ratio >= 1 ? std::max(1.0, part * ratio) : std::min(1.0, ratio / part);
-    if (ratio >= 1)
-      v = metric_difference(W, z, x);
-    else
-      x = z - refined_solve(W, v);
-    Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
-    if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) break;
-    x = made.x;
-    v = made.v;
-    // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
-    made.error_bound = made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
-                       W.dual_norm(metric_difference(W, x, z) + v) +
-                       roundings_of_a_term * unit_roundoff * (W.norm(z) + W.norm(x));
-    const bool better = !best || made.error_bound < best->error_bound;
-    const bool done = best && part == 1 && !(made.error_bound < slow * best->error_bound);
-    if (better) best = std::move(made);
-    if (done) break;
-  }
-  return best;
-}
-
-/// The same point with the covector that the function itself has there, where it has only one.
-std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
-                               const Metric& W) {
-  if (!at || !f.facts().smooth) return std::nullopt;
-  const std::optional<Vector> v = f.subgradient(at->x);
-  if (!v || !v->allFinite()) return std::nullopt;
-  Prox made = *at;
-  made.v = *v;
-  made.error_bound += W.dual_norm(metric_difference(W, at->x, z) + *v);
-  return made;
-}
-
 /// What the two proxes gave, held against the values. Where these do not bear it out, other pairs are tried:
 /// the points moved into their domains, one of the two by Moreau's identity from the other, the covectors in
 /// place of y, and x and v balanced.
@@ -279,7 +183,7 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
   // x with its covector, beside y and beside the y that the covector gives.
   const auto consider_covector = [&](const std::optional<Prox>& of_x) {
     if (ended() || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
-    for (const std::optional<Prox>& of_y : {std::optional(y), by_moreau(*of_x, z, W)}) {
+    for (const std::optional<Prox>& of_y : {std::optional(y), moreau_partner(*of_x, z, W)}) {
       if (!near(of_y)) continue;
       Candidate other = at_covector(of, *of_x, *of_y, z, W);
       if (!is_borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
@@ -297,12 +201,12 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
-    consider(x, by_moreau(x, z, W));
+    consider(x, moreau_partner(x, z, W));
     consider_all(x);
   }
   if (!ended()) consider_all(balanced(of.f, x, z, W));
   if (!ended()) {
-    const auto x_of_y = by_moreau(y, z, W);
+    const auto x_of_y = moreau_partner(y, z, W);
     consider(x_of_y, y);
     consider(into(of.f, x_of_y), y);
   }

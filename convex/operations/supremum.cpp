@@ -6,6 +6,7 @@
 
 #include "convex/functions/node.hpp"
 #include "convex/operations/one_at_a_time.hpp"
+#include "convex/operations/sum.hpp"
 
 namespace convex {
 namespace {
@@ -67,6 +68,24 @@ bool recedes_plainly(const Function& f, const Vector& v) {
   return false;
 }
 
+/// For a sum of one entry and v at an end of its slopes, v = f∞(d) d: v x - f(x) is a sum of f_i∞(d) x -
+/// f_i(x), d = 1, each of which increases to f_i*(f_i∞(d) d) along d. It grows without end where one of them
+/// does, as the logarithm does.
+bool a_part_grows(const Function& f, const Vector& v) {
+  const auto* sum = dynamic_cast<const Sum*>(&f.node());
+  if (!sum || v.size() != 1) return false;
+  for (const double d : {1.0, -1.0}) {
+    const Vector direction = Vector::Constant(1, d);
+    if (f.node().recession(direction) != v.dot(direction)) continue;
+    for (const Function& part : sum->parts()) {
+      const double slope = part.node().recession(direction);
+      const Value end = part.conjugate().evaluate(slope * direction);
+      if (end.value == infinity && end.error == 0) return true;
+    }
+  }
+  return false;
+}
+
 struct Search {
   Value value;
   bool growing = false;  ///< the lower bounds grow as if without end
@@ -74,7 +93,7 @@ struct Search {
 
 Search search(const Function& f, const Vector& v) {
   const Index n = v.size();
-  if (recedes_plainly(f, v)) return {{infinity, 0}, true};
+  if (recedes_plainly(f, v) || a_part_grows(f, v)) return {{infinity, 0}, true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
   const double unit = std::max(1.0, v.norm());

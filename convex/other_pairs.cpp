@@ -1,0 +1,103 @@
+#include "convex/other_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/composite/metric_difference.hpp"
+
+namespace convex {
+namespace {
+
+/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
+/// domain.
+constexpr double nearest_point_weight = 1e12;
+
+/// Moving x and v from one representation to another costs so many roundings of their sizes.
+constexpr double roundings_of_a_move = 16;
+
+}  // namespace
+
+std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W) {
+  const double weight = f.facts().indicator ? 1 : nearest_point_weight / (scale * scale);
+  if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
+  const Prox nearest = f.prox(found.x, W.scaled(weight));
+  if (nearest.x.size() != found.x.size()) return std::nullopt;
+  const double move = W.norm(nearest.x - found.x);
+  if (!(move <= membership_tolerance * scale)) return std::nullopt;
+  Prox moved = found;
+  moved.x = nearest.x;
+  moved.error_bound += move;
+  return moved;
+}
+
+std::optional<Prox> moreau_partner(const Prox& of_f, const Vector& z, const Metric& W) {
+  if (of_f.v.size() != z.size() || !of_f.v.allFinite()) return std::nullopt;
+  Prox made = of_f;
+  made.x = refined_solve(W, of_f.v);
+  made.v = W.multiply(of_f.x);
+  made.error_bound = of_f.error_bound + W.dual_norm(metric_difference(W, of_f.x, z) + of_f.v) +
+                     roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(of_f.x));
+  if (!of_f.method.starts_with("Moreau")) made.method = "Moreau's identity, " + of_f.method;
+  return made;
+}
+
+std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, const Metric& W) {
+  if (!dual || dual->x.size() != z.size() || dual->v.size() != z.size() || !dual->v.allFinite())
+    return std::nullopt;
+  Prox made = *dual;
+  made.x = dual->v;
+  made.v = dual->x;
+  made.error_bound = dual->error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
+                     roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(made.x));
+  made.by_conjugate = true;
+  if (!dual->method.starts_with("Moreau")) made.method = "Moreau's identity, " + dual->method;
+  return made;
+}
+
+std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                             const Metric& W) {
+  // Nearer to W the passes converge faster, and in V the result is the most accurate.
+  constexpr double towards_W[] = {0x1p-12, 0x1p-6, 1, 1, 1};
+  constexpr double slow = 0.5;
+  if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
+  // What is 0 may be anything within the bound.
+  const double X = std::max(W.norm(near->x), near->error_bound),
+               V = std::max(W.dual_norm(near->v), near->error_bound);
+  const double ratio = std::exp2(std::round(std::log2(V / X)));
+  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return std::nullopt;
+  std::optional<Prox> best;
+  Vector x = near->x, v = near->v;
+  for (const double part : towards_W) {
+    const double s = ratio >= 1 ? std::max(1.0, part * ratio) : std::min(1.0, ratio / part);
+    if (ratio >= 1)
+      v = metric_difference(W, z, x);
+    else
+      x = z - refined_solve(W, v);
+    Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
+    if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) break;
+    x = made.x;
+    v = made.v;
+    // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
+    made.error_bound = 2 * made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
+                       W.dual_norm(metric_difference(W, x, z) + v) +
+                       roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
+    const bool better = !best || made.error_bound < best->error_bound;
+    const bool done = best && part == 1 && !(made.error_bound < slow * best->error_bound);
+    if (better) best = std::move(made);
+    if (done) break;
+  }
+  return best;
+}
+
+std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
+                               const Metric& W) {
+  if (!at || !f.facts().smooth) return std::nullopt;
+  const std::optional<Vector> v = f.subgradient(at->x);
+  if (!v || !v->allFinite()) return std::nullopt;
+  Prox made = *at;
+  made.v = *v;
+  made.error_bound += W.dual_norm(metric_difference(W, at->x, z) + *v);
+  return made;
+}
+
+}  // namespace convex

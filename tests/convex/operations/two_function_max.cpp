@@ -1,0 +1,55 @@
+#include "convex/operations/two_function_max.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/convex/operations/samples.hpp"
+
+using convex::Function;
+using convex::Metric;
+using convex::Prox;
+using convex::Vector;
+
+TEST_CASE("the dual of a maximum in one number finds the prox that epigraphs find") {
+  for (const auto& [first, second] : {std::pair{"power(2)", "exponential()"},
+                                      {"squared_norm2(3)", "norm1(2)"},
+                                      {"entropy()", "squared_distance(ball2(1), 2)"},
+                                      {"log_barrier()", "hinge()"},
+                                      {"indicator(box(-1, 2))", "power(3)"}}) {
+    CAPTURE(first);
+    CAPTURE(second);
+    const Function f = samples::function(first, 3), g = samples::function(second, 3);
+    const Function both = samples::function(std::string("pointwise_max(") + first + ", " + second + ")", 3);
+    for (const Metric& W : samples::metrics(3))
+      for (const Vector& z : samples::points(3)) {
+        CAPTURE(z.transpose());
+        const auto found = convex::prox_of_two_function_max(f, g, z, W);
+        const Prox expected = both.prox(z, W);
+        if (!found || found->error_bound > 1e-9 || expected.error_bound > 1e-9) continue;
+        CHECK(W.norm(found->x - expected.x) <= 2 * (found->error_bound + expected.error_bound));
+      }
+  }
+}
+
+TEST_CASE("where one function is above the other at its prox, its prox is that of the maximum") {
+  const Function f = samples::function("squared_norm2(1)", 2), g = samples::function("norm2(1)", 2);
+  const Vector near = Eigen::Vector2d(0.3, 0.4), far = Eigen::Vector2d(30, 40);
+  const auto of_norm = convex::prox_of_two_function_max(f, g, near, Metric::identity(2));
+  const auto of_square = convex::prox_of_two_function_max(f, g, far, Metric::identity(2));
+  REQUIRE(of_norm);
+  REQUIRE(of_square);
+  CHECK(of_norm->x == Vector(Vector::Zero(2)));
+  CHECK((of_square->x - far / 2).norm() <= 1e-14 * far.norm());
+}
+
+TEST_CASE("between the two it is where they are equal") {
+  // Points of length 3 to 4 have their prox at length 2, where r²/2 = r.
+  const Function f = samples::function("squared_norm2(1)", 2), g = samples::function("norm2(1)", 2);
+  for (const double length : {3.001, 3.5, 3.999}) {
+    CAPTURE(length);
+    const Vector z = length * Eigen::Vector2d(0.6, 0.8);
+    const auto found = convex::prox_of_two_function_max(f, g, z, Metric::identity(2));
+    REQUIRE(found);
+    CHECK((found->x - Eigen::Vector2d(1.2, 1.6)).norm() <= found->error_bound + 1e-15);
+    CHECK(found->error_bound <= 1e-12);
+  }
+}
