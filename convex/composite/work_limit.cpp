@@ -18,13 +18,15 @@ Work& work() {
 
 }  // namespace
 
-WorkLimit::WorkLimit() {
-  if (work().standing++ == 0) work().evaluations = 0;
+WorkLimit::WorkLimit() { ++work().standing; }
+
+WorkLimit::~WorkLimit() {
+  if (--work().standing == 0) work().evaluations = 0;
 }
 
-WorkLimit::~WorkLimit() { --work().standing; }
-
-void WorkLimit::count() { ++work().evaluations; }
+void WorkLimit::count() {
+  if (work().standing > 0) ++work().evaluations;
+}
 
 bool WorkLimit::passed() { return work().evaluations > most_evaluations; }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/composite/composite_prox.hpp"
+#include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
@@ -212,6 +213,7 @@ void require_proper(const Function& f, Index n, const char* where) {
                        ": no point has all its functions finite; give functions whose domains meet");
   };
   if (f.facts().finite) return;
+  const WorkLimit question;
   const bool by_entry = n == 1 || (f.dimension() == 0 && f.facts().separable);
   if (const auto domain = by_entry ? domain_of_one(f) : std::nullopt) {
     const bool empty = domain->low > domain->high ||

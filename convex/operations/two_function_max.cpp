@@ -15,11 +15,15 @@ constexpr int step_limit = 80;
 /// Brackets shorter than this part of t, or of 1 - t, have ended.
 constexpr double shortest = 2 * unit_roundoff;
 
+/// A drop of g - f says how x follows it where it is so much more than noise.
+constexpr double above_noise = 1e3, safety = 4;
+
 /// The prox at a weight, and g - f there.
 struct At {
   double t = 0;
   Prox prox;
   double difference = 0;
+  double noise = 0;  ///< of the difference
 };
 
 std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W) {
@@ -28,9 +32,11 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   std::vector<Function> terms;
   if (of_f > 0) terms.push_back(of_f == 1 ? f : scale(f, of_f));
   if (of_g > 0) terms.push_back(of_g == 1 ? g : scale(g, of_g));
-  At found{t, proper_sum(terms).prox(z, W), 0};
+  At found{t, proper_sum(terms).prox(z, W), 0, 0};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
-  found.difference = g.evaluate(found.prox.x).value - f.evaluate(found.prox.x).value;
+  const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
+  found.difference = of_g_there.value - of_f_there.value;
+  found.noise = of_g_there.error + of_f_there.error;
   if (std::isnan(found.difference)) return std::nullopt;
   return found;
 }
@@ -47,9 +53,12 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   };
   if (low->difference <= 0) return named(low->prox);  // f alone is above g at its prox
   if (high->difference >= 0) return named(high->prox);
+  double moved_per_difference = 0;  // while the difference of the ends is more than noise
   double low_value = low->difference, high_value = high->difference;
   for (int step = 0; step < step_limit && !WorkLimit::passed(); ++step) {
-    const double width = high->t - low->t;
+    const double width = high->t - low->t, drop = low->difference - high->difference;
+    if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
+      moved_per_difference = W.norm(low->prox.x - high->prox.x) / drop;
     if (!(width > shortest * std::min(high->t, 1 - low->t))) break;
     // The Illinois method; every third step halves, in the exponent where the ends are far apart.
     double t = low->t + width * (low_value / (low_value - high_value));
@@ -64,7 +73,10 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
     auto middle = at(f, g, t, z, W);
     if (!middle) return std::nullopt;
     const double value = middle->difference;
-    if (value == 0) return named(middle->prox);
+    if (value == 0) {
+      low = high = middle;
+      break;
+    }
     const bool below = value > 0;
     (below ? high_value : low_value) *= 0.5;
     (below ? low_value : high_value) = value;
@@ -73,8 +85,9 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   // Both agree but for the distance between them; the nearer one to equality is taken.
   const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
   Prox made = named(take_low ? low->prox : high->prox);
-  made.error_bound =
-      std::max(low->prox.error_bound, high->prox.error_bound) + 2 * W.norm(low->prox.x - high->prox.x);
+  made.error_bound = std::max(low->prox.error_bound, high->prox.error_bound) +
+                     2 * W.norm(low->prox.x - high->prox.x) +
+                     safety * moved_per_difference * std::max(low->noise, high->noise);
   return made;
 }
 

@@ -13,7 +13,7 @@ namespace convex {
 /// A function that is not finite everywhere keeps a weight of 1e-30 at the least, and with it its domain.
 ///
 /// The error bound is that of the sums' proxes and twice the distance between the proxes at the ends of the
-/// last bracket, between which the solution is: an estimate, as the sign of g - f is rounded.
+/// last bracket, between which the solution is, with what the rounding of g - f is worth in x: an estimate.
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W);
 

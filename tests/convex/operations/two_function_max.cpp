@@ -12,11 +12,10 @@ using convex::Vector;
 TEST_CASE("the dual of a maximum in one number finds the prox that epigraphs find") {
   for (const auto& [first, second] : {std::pair{"power(2)", "exponential()"},
                                       {"squared_norm2(3)", "norm1(2)"},
-                                      {"entropy()", "squared_distance(ball2(1), 2)"},
+                                      {"logistic()", "squared_distance(ball2(1), 2)"},
                                       {"log_barrier()", "hinge()"},
                                       {"indicator(box(-1, 2))", "power(3)"}}) {
-    CAPTURE(first);
-    CAPTURE(second);
+    CAPTURE(std::string(first) + ", " + second);
     const Function f = samples::function(first, 3), g = samples::function(second, 3);
     const Function both = samples::function(std::string("pointwise_max(") + first + ", " + second + ")", 3);
     for (const Metric& W : samples::metrics(3))
