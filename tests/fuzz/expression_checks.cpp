@@ -155,28 +155,27 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
     bool exact = true;
     // A slope that is nothing beside the function's data counts as 0.
     const bool tiny = v != 0 && std::abs(v) < 1e-9;
-    const double nearer = searched_supremum(subject.call, v, tiny ? 1 : 1e4, exact);
-    const double near = searched_supremum(subject.call, v, tiny ? 1e3 : 1e8, exact);
-    const double far = searched_supremum(subject.call, v, 1e16, exact);
-    if (!(far > -INFINITY)) continue;
+    const auto within = [&](double reach) { return searched_supremum(subject.call, v, reach, exact); };
     const convex::Value known = g.evaluate(Vector::Constant(1, v));
     const double value = known.value;
     if (!(known.error <= allowed * (std::isfinite(value) ? std::max(1.0, std::abs(value)) : 1))) {
       open = true;  // and says so
       continue;
     }
-    if (std::isinf(value) && value > 0) {
-      // As a logarithm does, by as much at each scale.
-      const bool keeps_growing = far > near && far - near > 0.5 * (near - nearer);
-      if (exact && !tiny && !(far > growing * std::max(1.0, std::abs(near))) && !keeps_growing)
-        return text("conjugate +inf, supremum searched", v, far);
-      continue;
-    }
+    const double near = within(tiny ? 1e3 : 1e8);
     const double slack = 1e-7 * std::max({1.0, std::abs(value), std::abs(v)});
     if (!(value >= near - slack)) return text("conjugate, and a searched lower bound", value, near);
     // The search ends where the function does not; what is missing there is no error of the value.
-    if (exact && !tiny && value > far + 100 * slack && far < growing * std::max(1.0, std::abs(near)))
+    if (tiny || !(value > near + 100 * slack)) continue;
+    const double far = within(1e16);
+    if (!(far > -INFINITY) || !exact || far >= growing * std::max(1.0, std::abs(near))) continue;
+    if (std::isinf(value)) {
+      // As a logarithm does, by as much at each scale.
+      if (!(far > near && far - near > 0.5 * (near - within(1e4))))
+        return text("conjugate +inf, supremum searched", v, far);
+    } else if (value > far + 100 * slack) {
       return text("conjugate, and the supremum searched", value, far);
+    }
   }
   return "";
 }
