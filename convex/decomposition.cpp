@@ -138,6 +138,9 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   Candidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
   // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
   const double gap = std::abs(made.split.fenchel_gap);
+  // Programs minimise: their values are no less than f(x) and f*(v), and these no less together than x·v.
+  if (made.split.fenchel_gap >= -made.rounding && std::isfinite(gap))
+    made.error = std::min(made.error, gap + made.rounding);
   if (gap <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
     made.split.fenchel_gap = 0;

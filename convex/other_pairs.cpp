@@ -82,7 +82,7 @@ std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near,
                        W.dual_norm(metric_difference(W, x, z) + v) +
                        roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
     const bool better = !best || made.error_bound < best->error_bound;
-    const bool done = best && part == 1 && !(made.error_bound < slow * best->error_bound);
+    const bool done = ratio == 1 || (best && part == 1 && !(made.error_bound < slow * best->error_bound));
     if (better) best = std::move(made);
     if (done) break;
   }

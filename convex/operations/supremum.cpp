@@ -107,9 +107,7 @@ Search search(const Function& f, const Vector& v) {
     const double bound = v.dot(at.x) - value.value;
     if (!std::isfinite(bound)) break;
     const double terms = v.cwiseAbs().dot(at.x.cwiseAbs()) + std::abs(value.value);
-    // A point outside the domain by less than the tolerance may lift the bound above the supremum.
-    const double outside = v.norm() * at.error_bound / std::sqrt(t);
-    const double rounding = value.error + roundings * unit_roundoff * terms + outside;
+    const double rounding = value.error + roundings * unit_roundoff * terms;
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
