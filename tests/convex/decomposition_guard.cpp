@@ -14,9 +14,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// How a pair of conjugates is spoiled.
 struct Slip {
-  double in_x = 0;      ///< the prox of f is off by this
-  double in_value = 0;  ///< f's value is too large by this
-  double outside = 0;   ///< the prox of g is outside the ball by this part
+  double in_x = 0;       ///< the prox of f is off by this
+  double in_value = 0;   ///< f's value is too large by this
+  double outside = 0;    ///< the prox of g is outside the ball by this part
+  double elsewhere = 0;  ///< the prox of f is that of another point, so far away in its first entry
 };
 
 /// f = |x| and g = the indicator of [-1, 1], entry by entry, both with errors in them; g strictly +inf
@@ -43,10 +44,12 @@ class Side final : public FunctionNode {
     } else {
       found.x = (z.array().sign() * (z.array().abs() - reach.array()).max(0.0)).matrix();
       found.x.array() += slip_.in_x;
+      found.x[0] += slip_.elsewhere;
     }
     found.v = W.multiply(z - found.x);
     // Each side's covector repeats the other's slip, so that Moreau's identity does not mend it.
     found.v.array() += ball_ ? slip_.in_x : 0;
+    found.v[0] += ball_ ? 0 : slip_.elsewhere;
     if (!ball_ && slip_.outside > 1e-6) found.v *= 1 + slip_.outside;
     found.error_bound = 1e-15 * W.norm(z);
     return found;
@@ -110,4 +113,14 @@ TEST_CASE("a point outside the domain by more than rounding stays there and is n
   const Decomposition found = split({.outside = 1e-3}, z);
   CHECK(found.status == Status::inaccurate);
   CHECK(found.error_bound >= (found.y.x - y).norm());
+}
+
+TEST_CASE(
+    "a point and a covector that belong together, but to another point than z, are not taken for its split") {
+  for (const double elsewhere : {1e-3, 1e-6, 0.25}) {
+    CAPTURE(elsewhere);
+    const Decomposition found = split({.elsewhere = elsewhere}, z);
+    CHECK((found.x.x - x).norm() <= found.error_bound);
+    CHECK((found.y.x - y).norm() <= found.error_bound);
+  }
 }
