@@ -54,7 +54,7 @@ Answer check_scene(Scene scene, const Options& options) {
   mechanics::GaussSolution solution;
   std::vector<mechanics::Warning> warnings =
       resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
-        return solution = solve_plainly(attempt);
+        return solution = solve_plainly(attempt, attempt.solve);
       });
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);

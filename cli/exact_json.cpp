@@ -107,6 +107,12 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
     json.key(scene.constraints[a]).value(name(proof.contacts[a]));
   json.end_object();
   json.key("contacts_hold").value(proof.contacts_hold);
+  if (!proof.dependent.empty()) {
+    json.key("dependent").begin_array();
+    for (const convex::Index a : proof.dependent)
+      json.value(scene.constraints[static_cast<std::size_t>(a)]);
+    json.end_array();
+  }
   json.key("error_bound");
   if (proof.error_bound)
     json.value(*proof.error_bound);

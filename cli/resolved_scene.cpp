@@ -37,29 +37,49 @@ std::string_view why_not_in_doubles(const Scene& scene) {
 
 }  // namespace
 
-mechanics::GaussSolution solve_plainly(const Scene& scene) {
-  const bool is_default = scene.solve.method == &convex::methods().front() && scene.solve.accuracy.limit > 0;
+mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::GaussOptions& options) {
+  const bool is_default = options.method == &convex::methods().front() && options.accuracy.limit > 0;
   if (const std::string_view why = why_not_in_doubles(scene); is_default && !why.empty()) {
     mechanics::GaussSolution exact;
     try {
-      if (mechanics::solve_on_exact_data(exact, scene.exact.make(), scene.problem, scene.solve, why))
+      if (mechanics::solve_on_exact_data(exact, scene.exact.make(), scene.problem, options, why))
         return exact;
     } catch (const convex::InvalidInput&) {
       // What is said beside the answer, in doubles, has no place for such numbers.
       if (!scene.exact.are_doubles) throw;
     }
   }
-  mechanics::GaussSolution found = mechanics::solve(scene.problem, scene.solve);
+  mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
   const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
   if (!scene.problem.radii || !as_written) return found;  // else rows were added that the text does not have
   mechanics::decide_on_exact_data(
-      found, scene.problem, scene.solve, [&]() -> std::optional<convex::ExactProblem> {
+      found, scene.problem, options, [&]() -> std::optional<convex::ExactProblem> {
         if (!scene.written) return scene.exact.make();
         std::optional<mechanics::TextProblem> text =
             mechanics::problem_from_text(*scene.written->system, scene.written->text, scene.contacts);
         if (!text || !text->is_exact) return std::nullopt;
         return std::move(text->problem.middle);
       });
+  return found;
+}
+
+mechanics::CertifiedSolution solve_by_fractions(const Scene& scene) {
+  mechanics::CertifiedSolution found =
+      mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
+  if (!scene.written || !scene.problem.radii) return found;
+  mechanics::GaussOptions options = scene.solve;
+  options.method = &convex::methods().front();
+  mechanics::GaussSolution within = solve_plainly(scene, options);
+  const convex::Solution &as_evaluated = found.solution.primal, &rounded = within.primal;
+  const bool both_infeasible = as_evaluated.status == convex::Status::infeasible &&
+                               rounded.status == convex::Status::infeasible;
+  const bool agree = both_infeasible ||
+                     (as_evaluated.q.size() == rounded.q.size() && rounded.q.size() > 0 &&
+                      scene.problem.A.norm(as_evaluated.q - rounded.q) <=
+                          options.accuracy.tolerance * std::max(1.0, rounded.acceleration_norm));
+  if (agree) return found;
+  found = {};
+  found.solution = std::move(within);
   return found;
 }
 

@@ -7,7 +7,12 @@ namespace cli {
 
 /// Solves the problem of the scene by its method. What the doubles of rounded numbers leave open within their
 /// rounding is decided on the numbers as they were written, where these are fractions.
-mechanics::GaussSolution solve_plainly(const Scene&);
+mechanics::GaussSolution solve_plainly(const Scene&, const mechanics::GaussOptions&);
+
+/// The exact solution of the scene's numbers, as the method "exact" gives it. Those of a mechanism are rounded:
+/// where another answer than that of the default method, which counts their radii, is due to rounding alone,
+/// the latter is given, without fractions.
+mechanics::CertifiedSolution solve_by_fractions(const Scene&);
 
 /// Solves the scene by `solve`; where the state of a mechanism is singular, again with the equations that
 /// higher derivatives add, which then are rows of the scene's problem. The answer that stands is that of the

@@ -31,7 +31,7 @@ mechanics::GaussOptions solve_options(const Options& options, const SolveSetting
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
   std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
-  mechanics::State state = system->state(text.state);
+  mechanics::WrittenMechanism written = mechanics::written_mechanism(system, text.state);
   std::vector<std::string> constraints;
   std::vector<bool> two_sided;
   for (const mechanics::Constraint& constraint : system->constraints()) {
@@ -40,9 +40,9 @@ Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
   }
   try {
     Vector tolerance = contact_tolerances(settings, constraints);
-    mechanics::GaussProblem gauss = mechanics::gauss_problem(*system, state, tolerance);
+    mechanics::GaussProblem gauss = mechanics::gauss_problem(written, tolerance);
     std::vector<std::string> coordinates = system->coordinates();
-    mechanics::WrittenMechanism written{system, text.state, state};
+    mechanics::State state = written.state;
     return {"",
             "",
             "system",

@@ -16,11 +16,12 @@ namespace cli {
 namespace {
 
 mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
-  if (scene.solve.method->name == "exact")
-    return mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
-  if (options.certify) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
+  if (scene.solve.method->name == "exact") return solve_by_fractions(scene);
+  // A mechanism is proved from its text, once the answer stands: its numbers as evaluated prove nothing of it.
+  if (options.certify && !scene.written)
+    return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
   mechanics::CertifiedSolution found;
-  found.solution = solve_plainly(scene);
+  found.solution = solve_plainly(scene, scene.solve);
   return found;
 }
 
@@ -36,7 +37,7 @@ Answer solve_scene(Scene scene, const Options& options) {
       });
   // An added row is known in doubles only: nothing that rests on it is proved of the mechanism.
   if (!scene.added.empty()) found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
-  if (options.certify && scene.written && scene.added.empty())
+  if (proved && scene.written && scene.added.empty())
     mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
   // What is proved of rows that were settled is proved of the mechanism by its text alone.
   if (scene.is_settled && !(found.text && found.text->error_bound))
@@ -44,7 +45,10 @@ Answer solve_scene(Scene scene, const Options& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Part of reading the mechanism, like the evaluation whose rounding it is about.
   std::optional<double> as_evaluated;
-  if (!proved) as_evaluated = count_evaluation_error(scene, found.solution);
+  if (scene.written && found.certificate.level == convex::ProofLevel::none) {
+    as_evaluated = count_evaluation_error(scene, found.solution);
+    found.certificate.error_bound = found.solution.primal.error_bound;
+  }
   progress.reset();
   SolvedScene solved =
       solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);

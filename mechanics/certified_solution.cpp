@@ -26,16 +26,15 @@ bool is_quick(const convex::NearestPointProblem& problem) {
   return problem.dimension() * (problem.dimension() + problem.rows()) <= quick_entries;
 }
 
-/// Whether the caller left the method to the program.
-bool is_default(const GaussOptions& options) {
-  return options.method == &convex::methods().front() || options.method->name == "exact";
-}
-
 bool has_answer(const GaussSolution& solution) {
   return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
 }
 
 }  // namespace
+
+bool is_default(const GaussOptions& options) {
+  return options.method == &convex::methods().front() || options.method->name == "exact";
+}
 
 void judge_by_certificate(CertifiedSolution& found, const GaussOptions& options) {
   convex::Solution& primal = found.solution.primal;

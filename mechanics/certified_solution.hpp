@@ -34,6 +34,10 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem&, const Exac
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem&, const ExactData&,
                                      const GaussOptions&);
 
+/// Whether the caller left the method to the program, or asked for fractions: then the answer may be replaced
+/// by the exact one, rounded.
+bool is_default(const GaussOptions&);
+
 /// The status that the certificate's bound gives.
 void judge_by_certificate(CertifiedSolution&, const GaussOptions&);
 

@@ -147,6 +147,15 @@ convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state
   return found;
 }
 
+convex::DataRadii row_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                            const std::vector<Index>& contacts, const Vector& diagonal) {
+  convex::EntryRadii found;
+  if (contacts.empty()) return {Vector(0), Vector(0)};
+  add_contacts(system.model(), rounded_state(state, radii), rounded_nodes(system.model().tape), contacts,
+               found);
+  return found.by_rows(diagonal);
+}
+
 RateRadii rate_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii) {
   const Program& program = system.model().contacts;
   const RoundedState rounded = rounded_state(state, radii);

@@ -22,6 +22,11 @@ StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);
 convex::EntryRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
                              const std::vector<Index>& contacts);
 
+/// Those of U and s alone, by rows (`convex::EntryRadii::by_rows`) with the diagonal of A: what decisions about
+/// rows need, at about the price of their evaluation.
+convex::DataRadii row_radii(const LagrangianSystem&, const State&, const StateRadii&,
+                            const std::vector<Index>& contacts, const Vector& diagonal);
+
 /// How far f_a and df_a/dt, as `constraint_rates` evaluates them, may be from those as written.
 struct RateRadii {
   Vector f, df;

@@ -25,9 +25,8 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
 double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
                         const convex::NearestPointProblem& problem, const convex::Solution& solution,
                         const convex::Accuracy& accuracy) {
-  const StateRadii radii = state_radii(*written.system, written.text, written.state);
   const EquationRadii equations =
-      equation_radii(*written.system, written.state, radii, contacts, solution.q, solution.lambda);
+      equation_radii(*written.system, written.state, written.radii, contacts, solution.q, solution.lambda);
   const std::vector<Index> held = rows_held(problem, solution);
   Vector rows(static_cast<Index>(held.size()));
   for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];

@@ -1,6 +1,9 @@
 #include "mechanics/gauss_problem.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "mechanics/written_mechanism.hpp"
 
 namespace mechanics {
 namespace {
@@ -9,7 +12,8 @@ namespace {
 constexpr Index small_system = 64;
 constexpr double sparse_part = 0.25;
 
-/// Values and derivatives of expressions are rounded about so many times.
+/// Values and derivatives of expressions are rounded about so many times: a guess, for rows of which nothing
+/// else is known.
 constexpr double roundings_of_data = 16;
 
 /// The first coordinate whose velocity adds no kinetic energy to the ones before it.
@@ -46,7 +50,10 @@ convex::Metric kinetic_metric(const convex::SparseMatrix& A, const std::vector<s
   }
 }
 
-GaussProblem gauss_problem(const System& system, const State& state, const Vector& contact_tolerance) {
+namespace {
+
+/// With the doubles as the numbers that are meant.
+GaussProblem as_evaluated(const System& system, const State& state, const Vector& contact_tolerance) {
   Inertia inertia = system.inertia(state);
   convex::Metric A = kinetic_metric(inertia.A, system.coordinates());
   Contacts present = contacts(system, state, contact_tolerance);
@@ -60,10 +67,32 @@ GaussProblem gauss_problem(const System& system, const State& state, const Vecto
   const bool dense = rows.U.cols() <= small_system || entries > sparse_part * all;
   convex::ConstraintRows U =
       dense ? convex::ConstraintRows(convex::RowMatrix(rows.U)) : convex::ConstraintRows(std::move(rows.U));
-  GaussProblem found{
-      {std::move(A), std::move(inertia.z), std::move(U), std::move(rows.s), std::move(two_sided)},
-      std::move(present)};
+  return {{std::move(A), std::move(inertia.z), std::move(U), std::move(rows.s), std::move(two_sided)},
+          std::move(present)};
+}
+
+}  // namespace
+
+GaussProblem gauss_problem(const System& system, const State& state, const Vector& contact_tolerance) {
+  GaussProblem found = as_evaluated(system, state, contact_tolerance);
   found.problem.radii = convex::rounding_radii(found.problem, roundings_of_data);
+  return found;
+}
+
+GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contact_tolerance) {
+  GaussProblem found = as_evaluated(*written.system, written.state, contact_tolerance);
+  convex::NearestPointProblem& problem = found.problem;
+  convex::DataRadii radii = row_radii(*written.system, written.state, written.radii, found.contacts.present,
+                                      problem.A.diagonal());
+  if (radii.is_zero()) return found;
+  if (!radii.row.allFinite() || !radii.s.allFinite()) {
+    const convex::DataRadii guess = convex::rounding_radii(problem, roundings_of_data);
+    for (Index a = 0; a < problem.rows(); ++a) {
+      if (!std::isfinite(radii.row[a])) radii.row[a] = guess.row[a];
+      if (!std::isfinite(radii.s[a])) radii.s[a] = guess.s[a];
+    }
+  }
+  problem.radii = std::move(radii);
   return found;
 }
 

@@ -13,7 +13,13 @@ struct GaussProblem {
 };
 
 /// Throws InvalidInput as `contacts` does, and when T is not positive definite in q' (naming a coordinate).
+/// What evaluation rounded of the rows is not known of a system in general: a guess stands for it.
 GaussProblem gauss_problem(const System&, const State&, const Vector& contact_tolerance);
+
+struct WrittenMechanism;
+/// The same at the state as it is written. The radii of the rows are those of their evaluation and of the
+/// state's numbers (`row_radii`); rows that are exact have none.
+GaussProblem gauss_problem(const WrittenMechanism&, const Vector& contact_tolerance);
 
 /// The metric of a sparse matrix A of inertia, stored in the way that suits it. Names the coordinate at
 /// fault.

@@ -7,7 +7,9 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/data_radii.hpp"
+#include "mechanics/singular/row_space.hpp"
 
 namespace mechanics {
 namespace {
@@ -42,7 +44,13 @@ class Proving {
   void prove() {
     TextProof& proof = found_.text.emplace();
     decide_contacts(proof);
-    found_.certificate = {ProofLevel::none, infinity};
+    found_.certificate = {ProofLevel::none, found_.solution.primal.error_bound};
+    prove_every_K(proof);
+    if (found_.certificate.level == ProofLevel::none) proof.dependent = rows_within_radii();
+  }
+
+ private:
+  void prove_every_K(TextProof& proof) {
     if (!proof.violated.empty() || proof.open.size() > most_open_contacts) return;
     const std::size_t sets = std::size_t{1} << proof.open.size();
     ProofLevel level = ProofLevel::exact;
@@ -69,15 +77,13 @@ class Proving {
     judge_by_certificate(found_, options_);
   }
 
- private:
   const std::vector<Constraint>& constraints() const { return written_.system->constraints(); }
   bool is_two_sided(Index a) const { return constraints()[static_cast<std::size_t>(a)].two_sided; }
 
   /// Constraints whose f is not near 0, for all that its rounding tells, need no closer look.
   std::vector<Index> near_contact() {
-    radii_ = state_radii(*written_.system, written_.text, written_.state);
     const ConstraintRates rates = written_.system->constraint_rates(written_.state);
-    const RateRadii radii = rate_radii(*written_.system, written_.state, radii_);
+    const RateRadii radii = rate_radii(*written_.system, written_.state, written_.radii);
     std::vector<Index> near;
     for (Index a = 0; a < rates.f.size(); ++a)
       if (is_two_sided(a) || !(rates.f[a] > radii.f[a])) near.push_back(a);
@@ -138,16 +144,19 @@ class Proving {
     if (!exact && !enclosed) return std::nullopt;
     OneProof one{exact ? ProofLevel::exact : ProofLevel::enclosure,
                  exact ? has_answer(exact->rounded) : enclosed->status != Status::infeasible, 0};
-    if (only && K == contacts_ && one.feasible != has_answer(found_.solution)) {
-      found_.solution = exact ? exact->rounded : solve_exactly(middle, near, options_).rounded;
-      found_.exact.reset();
-    }
-    if (one.feasible && !has_answer(found_.solution)) return std::nullopt;
-    if (one.feasible) {
+    const auto find_distance = [&] {
+      if (!one.feasible || !has_answer(found_.solution)) return;
       const Vector& q = found_.solution.primal.q;
       one.distance = exact ? convex::distance_above(middle, q, exact->primal.q)
                            : convex::distance_above(text.problem, *enclosed, q);
+    };
+    find_distance();
+    if (only && K == contacts_ && (one.feasible != has_answer(found_.solution) || is_off(one))) {
+      found_.solution = exact ? exact->rounded : solve_exactly(middle, near, options_).rounded;
+      found_.exact.reset();
+      find_distance();
     }
+    if (one.feasible && !has_answer(found_.solution)) return std::nullopt;
     if (!only && K != contacts_) return one;
     if (enclosed && one.feasible) {
       constexpr int digits = 30;
@@ -159,6 +168,17 @@ class Proving {
     return one;
   }
 
+  /// Whether the answer is to be that of the text: the method was left to the program, and doubles were off by
+  /// more than fractions, rounded, would be, or than was asked for where there are balls only.
+  bool is_off(const OneProof& one) const {
+    if (!one.feasible || !is_default(options_)) return false;
+    const double norm = found_.solution.primal.acceleration_norm;
+    constexpr double few_ulps = 4 * 0x1p-52;
+    return !(one.distance <= (one.level == ProofLevel::exact
+                                  ? few_ulps * norm
+                                  : options_.accuracy.tolerance * std::max(1.0, norm)));
+  }
+
   std::vector<Index> likely_rows(const NearestPointProblem& near, const std::vector<Index>& K) const {
     return K == contacts_ && has_answer(found_.solution) && !found_.solution.primal.basis.empty()
                ? found_.solution.primal.basis
@@ -167,14 +187,14 @@ class Proving {
 
   /// In doubles, for every A, z, U, s within the radii of their evaluation.
   std::optional<OneProof> proved_in_doubles(const std::vector<Index>& K) {
-    if (!has_answer(found_.solution)) return std::nullopt;
     const LagrangianSystem& system = *written_.system;
-    const convex::EntryRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : radii_, K);
+    const convex::EntryRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : written_.radii, K);
     // From the constraints themselves: rows of the problem may have been settled within their rounding.
     const ContactRows rows = system.contact_rows(written_.state, K);
     NearestPointProblem over{problem_.A, problem_.z, convex::ConstraintRows(rows.U), rows.s, {}};
     for (std::size_t k = 0; k < K.size(); ++k)
       if (is_two_sided(K[k])) over.two_sided.push_back(static_cast<Index>(k));
+    if (!has_answer(found_.solution)) return contradiction_in_doubles(over, radii, K);
     if (K == contacts_) {
       const auto bound = convex::enclosed_error(over, radii, found_.solution.primal);
       return bound ? std::optional(OneProof{ProofLevel::enclosure, true, *bound}) : std::nullopt;
@@ -188,6 +208,40 @@ class Proving {
     constexpr double other_metrics = 2;
     return OneProof{ProofLevel::enclosure, true,
                     *bound + other_metrics * problem_.A.norm(solution.q - found_.solution.primal.q)};
+  }
+
+  /// Rows that are the doubles exactly contradict each other as written when they do as evaluated.
+  std::optional<OneProof> contradiction_in_doubles(const NearestPointProblem& over,
+                                                   const convex::EntryRadii& radii,
+                                                   const std::vector<Index>& K) {
+    if (K != contacts_ || found_.solution.primal.status != Status::infeasible ||
+        !radii.by_rows(over.A.diagonal()).is_zero())
+      return std::nullopt;
+    auto proof = convex::infeasibility_proof(over, found_.solution.primal.farkas);
+    if (!proof) return std::nullopt;
+    found_.solution.primal.farkas = std::move(proof->farkas);
+    found_.farkas = std::move(proof->weights);
+    return OneProof{proof->level, false, 0};
+  }
+
+  /// Two-sided rows that some numbers within the radii of the rows make combinations of others.
+  std::vector<Index> rows_within_radii() const {
+    constexpr std::size_t most_rows = 400;
+    const std::vector<Index>& rows = problem_.two_sided;
+    if (!problem_.radii || rows.size() < 2 || rows.size() > most_rows) return {};
+    const Vector unit = problem_.A.diagonal().cwiseSqrt().cwiseInverse();
+    RowSpace space(problem_.dimension());
+    std::vector<Index> found;
+    for (const Index row : rows) {
+      const Vector u = problem_.U.row(row).cwiseProduct(unit);
+      const double radius = problem_.radii->row[row];
+      const RowSpace::Expansion of_row = space.expansion(u, radius);
+      if (of_row.is_independent())
+        space.keep(u, radius, of_row);
+      else if (static_cast<std::size_t>(row) < contacts_.size())
+        found.push_back(contacts_[static_cast<std::size_t>(row)]);
+    }
+    return found;
   }
 
   /// The radii of the state, and twice the way to the nearest state at which the two-sided constraints hold.
@@ -211,7 +265,7 @@ class Proving {
       }
       return convex::automatic(step).q;
     };
-    StateRadii radii = radii_;
+    StateRadii radii = written_.radii;
     constexpr double ways = 2;
     const auto widen = [&](Vector& numbers, Vector& about, const Vector& step) {
       if (step.size() != numbers.size()) {
@@ -232,7 +286,6 @@ class Proving {
   const WrittenMechanism& written_;
   const std::vector<Index>& contacts_;
   const GaussOptions& options_;
-  StateRadii radii_;
   std::vector<Index> declared_;  // two-sided, or proved to touch
   bool moved_ = false;           // a two-sided constraint does not hold at the state as written
 };

@@ -14,6 +14,9 @@ struct TextProof {
   std::vector<Index> refuted;  ///< one-sided constraints that the tolerance took into K, or left out, wrongly
   std::vector<Index> violated;  ///< one-sided constraints that do not hold as written
   std::vector<Index> open;      ///< one-sided constraints of which the text decides nothing
+  /// Where nothing is proved: two-sided constraints whose gradients are combinations of others within what
+  /// rounding leaves of them. The text does not tell whether they are; they count as that, and as consistent.
+  std::vector<Index> dependent;
   std::vector<Index> K;         ///< the rows of the solution below: the one K, or that of the tolerance
   std::optional<ExactGaussSolution> exact;           ///< the solution for K, where it is rational
   std::optional<convex::EnclosedSolution> enclosed;  ///< or in balls

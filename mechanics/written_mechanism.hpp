@@ -2,15 +2,19 @@
 
 #include <memory>
 
-#include "mechanics/lagrangian_system.hpp"
+#include "mechanics/data_radii.hpp"
 
 namespace mechanics {
 
-/// A mechanism and its state as they were written, and the state in doubles.
+/// A mechanism and its state as they were written, and the state in doubles with what reading it rounded.
 struct WrittenMechanism {
   std::shared_ptr<const LagrangianSystem> system;
   StateText text;
   State state;
+  StateRadii radii;
 };
+
+/// Reads the state. Throws InvalidInput as `LagrangianSystem::state` does.
+WrittenMechanism written_mechanism(std::shared_ptr<const LagrangianSystem>, StateText);
 
 }  // namespace mechanics

@@ -13,6 +13,7 @@ namespace convex {
 /// consistent, count as that. Both: m.
 struct DataRadii {
   Vector row, s;
+  bool is_zero() const { return row.isZero(0) && s.isZero(0); }
 };
 
 /// The radii of the rows chosen, in that order; none where there are none.
