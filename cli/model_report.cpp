@@ -153,9 +153,14 @@ std::string model_text(const SolvedScene& solved) {
       text +=
           fmt::format("Doubles left open {}: decided in fractions ({}).\n", island.in_fractions,
                       plural(island.coordinates, "coordinate") + ", " + plural(island.contacts, "contact"));
-  if (!solved.solution.primal.undecided.empty() && solved.solution.primal.status != convex::Status::solved)
-    text += fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n",
-                        solved.solution.primal.undecided);
+  const std::string_view open = solved.solution.primal.undecided;
+  if (!open.empty() && solved.scene.written)
+    text += fmt::format(
+        "The rounding of A, z, U, s leaves open {}, and the text does not decide it in fractions; rows that "
+        "depend on each other within their rounding count as dependent and consistent.\n",
+        open);
+  else if (!open.empty() && solved.solution.primal.status != convex::Status::solved)
+    text += fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n", open);
   if (solved.solution.reduced) {
     const convex::Model& reduced = solved.solution.reduced->model;
     text += fmt::format(

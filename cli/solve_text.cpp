@@ -169,6 +169,8 @@ std::string accuracy_text(const SolvedScene& solved) {
   if (solved.as_evaluated)
     accuracy += fmt::format(" for the mechanism as written, {:.1e} for A, z, U, s as evaluated",
                             scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
+  else if (solved.solution.as_written && solved.scene.written)
+    accuracy += " for the mechanism as written";
   else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
     accuracy += ", for A, z, U, s as evaluated";
   text +=

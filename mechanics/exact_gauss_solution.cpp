@@ -52,6 +52,21 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   return found;
 }
 
+namespace {
+
+/// Whether rows count as dependent on each other that may be independent within their radii.
+bool depends_within_radii(const convex::NearestPointProblem& problem, const convex::Multipliers& found) {
+  if (!problem.radii || found.least_norm.size() != problem.rows() || found.unique) return false;
+  const auto is_rounded = [&](Index row) { return problem.radii->row[row] > 0 || problem.radii->s[row] > 0; };
+  if (!found.null_space) return true;
+  for (const convex::NullVector& weights : *found.null_space)
+    for (const auto& [row, weight] : weights)
+      if (is_rounded(row)) return true;
+  return false;
+}
+
+}  // namespace
+
 bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
@@ -65,6 +80,7 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
   answer.model.islands = {{answer.method, n, problem.rows(), 0, decided.primal.word_operations,
                            static_cast<double>(n * n) / 2, open}};
   found = std::move(decided.rounded);
+  found.as_written = true;
   return true;
 }
 
@@ -74,11 +90,15 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   const convex::Solution& primal = found.primal;
   const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
   const bool is_default = options.method == &convex::methods().front();
-  if ((ended && primal.undecided.empty()) || !is_default || !(options.accuracy.limit > 0)) return;
-  const std::string_view open =
-      primal.undecided.empty() ? convex::open_question::conditioning : primal.undecided;
+  const bool is_dependent = depends_within_radii(problem, found.multipliers);
+  if ((ended && primal.undecided.empty() && !is_dependent) || !is_default || !(options.accuracy.limit > 0))
+    return;
+  const std::string_view open = !primal.undecided.empty() ? primal.undecided
+                                : is_dependent            ? convex::open_question::dependence
+                                                          : convex::open_question::conditioning;
   if (const std::optional<convex::ExactProblem> exact = data())
     solve_on_exact_data(found, *exact, problem, options, open);
+  if (!found.as_written) found.primal.undecided = open;
 }
 
 }  // namespace mechanics

@@ -35,6 +35,8 @@ struct GaussSolution {
   Hypothesis hypothesis;
   std::optional<ReactionFromDual> from_dual;
   std::optional<Reduced> reduced;  ///< when accuracy.reduce is off
+  /// The answer is that of the numbers as they were written, in fractions; their doubles did not decide it.
+  bool as_written = false;
 };
 
 /// The ranges of multipliers that are not unique cost two linear programs each; beyond so many contacts they

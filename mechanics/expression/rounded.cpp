@@ -112,6 +112,8 @@ Rounded hypot(Rounded a, Rounded b) {
 
 /// |a^b| = exp(b log|a|), whose exponent moves by |b| δ + |log|a|| r + δ r with δ the move of log|a|.
 Rounded pow(Rounded a, Rounded b) {
+  if (is_exactly(b, 0)) return 1;
+  if (is_exactly(b, 1)) return a;
   const double f = std::pow(a.value, b.value);
   const double least = std::abs(a.value) - a.radius;
   if (a.is_exact() && b.is_exact()) {

@@ -11,6 +11,7 @@ Resolution resolve(const LagrangianSystem& system, const State& state, const Gau
   for (;;) {
     const GaussSolution& answer = solve(found.problem);
     infeasible = answer.primal.status == convex::Status::infeasible;
+    if (infeasible && answer.as_written) break;  // no rounding contradicts itself
     if (infeasible || answer.primal.status == convex::Status::gave_up) {
       auto fewer = singular.without_repeated(found.problem);
       if (!fewer) break;
