@@ -160,7 +160,8 @@ std::string model_text(const SolvedScene& solved) {
         "depend on each other within their rounding count as dependent and consistent.\n",
         open);
   else if (!open.empty() && solved.solution.primal.status != convex::Status::solved)
-    text += fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n", open);
+    text +=
+        fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n", open);
   if (solved.solution.reduced) {
     const convex::Model& reduced = solved.solution.reduced->model;
     text += fmt::format(

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/invalid_input.hpp"
+#include "mechanics/proof_as_written.hpp"
 #include "mechanics/singular/resolution.hpp"
 
 namespace cli {
@@ -55,29 +56,36 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
   mechanics::decide_on_exact_data(
       found, scene.problem, options, [&]() -> std::optional<convex::ExactProblem> {
         if (!scene.written) return scene.exact.make();
-        std::optional<mechanics::TextProblem> text =
-            mechanics::problem_from_text(*scene.written->system, scene.written->text, scene.contacts);
-        if (!text || !text->is_exact) return std::nullopt;
-        return std::move(text->problem.middle);
+        return mechanics::fractions_from_text(*scene.written->system, scene.written->text, scene.contacts);
       });
   return found;
 }
 
+namespace {
+
+/// The dimension of the multipliers.
+std::size_t freedom(const convex::Multipliers& multipliers) {
+  return multipliers.null_space ? multipliers.null_space->size() : multipliers.unique ? 0 : 1;
+}
+
+/// Whether two answers say the same: that there is none, or one acceleration and rows that depend alike.
+bool agree(const Scene& scene, const mechanics::GaussSolution& one, const mechanics::GaussSolution& other) {
+  if (one.primal.q.size() != other.primal.q.size()) return false;
+  if (one.primal.q.size() == 0) return one.primal.status == other.primal.status;
+  const double most = scene.solve.accuracy.tolerance * std::max(1.0, other.primal.acceleration_norm);
+  return scene.problem.A.norm(one.primal.q - other.primal.q) <= most &&
+         freedom(one.multipliers) == freedom(other.multipliers);
+}
+
+}  // namespace
+
 mechanics::CertifiedSolution solve_by_fractions(const Scene& scene) {
-  mechanics::CertifiedSolution found =
-      mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
+  mechanics::CertifiedSolution found = mechanics::solve_by_fractions(scene.problem, scene.exact, scene.solve);
   if (!scene.written || !scene.problem.radii) return found;
   mechanics::GaussOptions options = scene.solve;
   options.method = &convex::methods().front();
   mechanics::GaussSolution within = solve_plainly(scene, options);
-  const convex::Solution &as_evaluated = found.solution.primal, &rounded = within.primal;
-  const bool both_infeasible = as_evaluated.status == convex::Status::infeasible &&
-                               rounded.status == convex::Status::infeasible;
-  const bool agree = both_infeasible ||
-                     (as_evaluated.q.size() == rounded.q.size() && rounded.q.size() > 0 &&
-                      scene.problem.A.norm(as_evaluated.q - rounded.q) <=
-                          options.accuracy.tolerance * std::max(1.0, rounded.acceleration_norm));
-  if (agree) return found;
+  if (agree(scene, found.solution, within)) return found;
   found = {};
   found.solution = std::move(within);
   return found;
@@ -100,6 +108,38 @@ std::vector<mechanics::Warning> resolve_scene(
   scene.added = std::move(found.added);
   scene.is_settled = found.is_settled;
   return std::move(found.warnings);
+}
+
+namespace {
+
+mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {
+  if (scene.solve.method->name == "exact") return solve_by_fractions(scene);
+  // The numbers of a mechanism as evaluated prove nothing of it.
+  if (certify && !scene.written) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
+  mechanics::CertifiedSolution found;
+  found.solution = solve_plainly(scene, scene.solve);
+  return found;
+}
+
+}  // namespace
+
+ProvedScene resolve_and_prove(Scene& scene, bool certify) {
+  ProvedScene resolved;
+  mechanics::CertifiedSolution& found = resolved.found;
+  resolved.warnings = resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
+    found = solve_once(attempt, certify);
+    return found.solution;
+  });
+  const auto nothing = [&] {
+    found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
+  };
+  // An added row is known in doubles only: nothing that rests on it is proved of the mechanism.
+  if (!scene.added.empty()) nothing();
+  if ((certify || scene.solve.method->name == "exact") && scene.written && scene.added.empty())
+    mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
+  // What is proved of rows that were settled is proved of the mechanism by its text alone.
+  if (scene.is_settled && !(found.text && found.text->error_bound)) nothing();
+  return resolved;
 }
 
 }  // namespace cli

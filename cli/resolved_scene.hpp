@@ -9,9 +9,9 @@ namespace cli {
 /// rounding is decided on the numbers as they were written, where these are fractions.
 mechanics::GaussSolution solve_plainly(const Scene&, const mechanics::GaussOptions&);
 
-/// The exact solution of the scene's numbers, as the method "exact" gives it. Those of a mechanism are rounded:
-/// where another answer than that of the default method, which counts their radii, is due to rounding alone,
-/// the latter is given, without fractions.
+/// The exact solution of the scene's numbers, as the method "exact" gives it. Those of a mechanism are
+/// rounded: where another answer than that of the default method, which counts their radii, is due to
+/// rounding alone, the latter is given, without fractions.
 mechanics::CertifiedSolution solve_by_fractions(const Scene&);
 
 /// Solves the scene by `solve`; where the state of a mechanism is singular, again with the equations that
@@ -19,5 +19,16 @@ mechanics::CertifiedSolution solve_by_fractions(const Scene&);
 /// last call. Returns what is to be said of it.
 std::vector<mechanics::Warning> resolve_scene(
     Scene& scene, const std::function<const mechanics::GaussSolution&(const Scene&)>& solve);
+
+/// A scene with its answer, and what is proved of that.
+struct ProvedScene {
+  mechanics::CertifiedSolution found;
+  std::vector<mechanics::Warning> warnings;
+};
+
+/// Solves the scene by its method, resolves it, and proves the answer where that is asked for, or where the
+/// method is "exact": a mechanism's from its text, once the answer stands. Where nothing is proved of a
+/// mechanism, the answer is the plain one.
+ProvedScene resolve_and_prove(Scene&, bool certify);
 
 }  // namespace cli

@@ -10,38 +10,16 @@
 #include "cli/resolved_scene.hpp"
 #include "cli/singular_report.hpp"
 #include "cli/solve_progress.hpp"
-#include "mechanics/proof_as_written.hpp"
 
 namespace cli {
 namespace {
 
-mechanics::CertifiedSolution solve_once(const Scene& scene, const Options& options) {
-  if (scene.solve.method->name == "exact") return solve_by_fractions(scene);
-  // A mechanism is proved from its text, once the answer stands: its numbers as evaluated prove nothing of it.
-  if (options.certify && !scene.written)
-    return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
-  mechanics::CertifiedSolution found;
-  found.solution = solve_plainly(scene, scene.solve);
-  return found;
-}
-
 Answer solve_scene(Scene scene, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   const bool proved = scene.solve.method->name == "exact" || options.certify;
-  mechanics::CertifiedSolution found;
   std::optional<SolveProgress> progress(std::in_place);
-  std::vector<mechanics::Warning> warnings =
-      resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
-        found = solve_once(attempt, options);
-        return found.solution;
-      });
-  // An added row is known in doubles only: nothing that rests on it is proved of the mechanism.
-  if (!scene.added.empty()) found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
-  if (proved && scene.written && scene.added.empty())
-    mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
-  // What is proved of rows that were settled is proved of the mechanism by its text alone.
-  if (scene.is_settled && !(found.text && found.text->error_bound))
-    found.certificate = {convex::ProofLevel::none, found.solution.primal.error_bound};
+  ProvedScene resolved = resolve_and_prove(scene, options.certify);
+  mechanics::CertifiedSolution& found = resolved.found;
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   // Part of reading the mechanism, like the evaluation whose rounding it is about.
   std::optional<double> as_evaluated;
@@ -59,7 +37,7 @@ Answer solve_scene(Scene scene, const Options& options) {
   if (found.exact) solved.exact = &*found.exact;
   solved.farkas = found.farkas;
   if (found.text) solved.text = &*found.text;
-  solved.warnings = std::move(warnings);
+  solved.warnings = std::move(resolved.warnings);
   for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
   if (options.plot) draw(*options.plot, decomposition_drawing(solved));
   Exit exit = exit_code(found.solution.primal.status);

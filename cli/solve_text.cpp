@@ -131,7 +131,8 @@ std::string from_text_text(const SolvedScene& solved) {
                                 : ". Nothing is proved of the mechanism as written";
   if (!proof.dependent.empty())
     text += fmt::format(
-        ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does not "
+        ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does "
+        "not "
         "tell: {} counted as dependent and consistent",
         constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
         proof.dependent.size() == 1 ? "it is" : "they are");

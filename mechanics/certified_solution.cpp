@@ -71,8 +71,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
   const double norm = found.solution.primal.acceleration_norm;
   const double wanted =
       is_quick(problem) ? few_ulps * norm : options.accuracy.tolerance * std::max(1.0, norm);
-  if (bound && *bound <= wanted)
-    return enclosed();
+  if (bound && *bound <= wanted) return enclosed();
   if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
     if (auto proof = convex::infeasibility_proof(problem, found.solution.primal.farkas)) {
       found.certificate = {proof->level, 0};

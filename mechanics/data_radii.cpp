@@ -137,7 +137,7 @@ StateRadii state_radii(const LagrangianSystem& system, const StateText& text, co
 }
 
 convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
-                             const std::vector<Index>& contacts) {
+                              const std::vector<Index>& contacts) {
   const LagrangianModel& model = system.model();
   const RoundedState rounded = rounded_state(state, radii);
   const std::vector<Rounded> constants = rounded_nodes(model.tape);

@@ -20,10 +20,10 @@ StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);
 /// rounded. A bound, by the same sweeps over numbers with radii (`expression::Rounded`): what is exact has
 /// radius 0. `contacts`: the constraints of K, the rows in their order. Costs several times the evaluation.
 convex::EntryRadii data_radii(const LagrangianSystem&, const State&, const StateRadii&,
-                             const std::vector<Index>& contacts);
+                              const std::vector<Index>& contacts);
 
-/// Those of U and s alone, by rows (`convex::EntryRadii::by_rows`) with the diagonal of A: what decisions about
-/// rows need, at about the price of their evaluation.
+/// Those of U and s alone, by rows (`convex::EntryRadii::by_rows`) with the diagonal of A: what decisions
+/// about rows need, at about the price of their evaluation.
 convex::DataRadii row_radii(const LagrangianSystem&, const State&, const StateRadii&,
                             const std::vector<Index>& contacts, const Vector& diagonal);
 

@@ -198,6 +198,14 @@ std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem& system, con
   return found;
 }
 
+std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem& system, const StateText& text,
+                                                        const std::vector<Index>& contacts) {
+  if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;
+  std::optional<TextProblem> found = attempt(system, text, contacts, 0);
+  if (!found) return std::nullopt;
+  return std::move(found->problem.middle);
+}
+
 std::optional<TextProblem> problem_from_text(const LagrangianSystem& system, const StateText& text,
                                              const std::vector<Index>& contacts) {
   if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;

@@ -34,6 +34,10 @@ std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem&, const Stat
 std::optional<TextProblem> problem_from_text(const LagrangianSystem&, const StateText&,
                                              const std::vector<Index>& contacts);
 
+/// The same where all numbers are fractions; none otherwise.
+std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&, const StateText&,
+                                                        const std::vector<Index>& contacts);
+
 inline constexpr std::size_t most_exact_coordinates = 40;
 inline constexpr long first_precision = 192, last_precision = 768;
 

@@ -82,8 +82,8 @@ GaussProblem gauss_problem(const System& system, const State& state, const Vecto
 GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contact_tolerance) {
   GaussProblem found = as_evaluated(*written.system, written.state, contact_tolerance);
   convex::NearestPointProblem& problem = found.problem;
-  convex::DataRadii radii = row_radii(*written.system, written.state, written.radii, found.contacts.present,
-                                      problem.A.diagonal());
+  convex::DataRadii radii =
+      row_radii(*written.system, written.state, written.radii, found.contacts.present, problem.A.diagonal());
   if (radii.is_zero()) return found;
   if (!radii.row.allFinite() || !radii.s.allFinite()) {
     const convex::DataRadii guess = convex::rounding_radii(problem, roundings_of_data);

@@ -151,9 +151,11 @@ class Proving {
                            : convex::distance_above(text.problem, *enclosed, q);
     };
     find_distance();
-    if (only && K == contacts_ && (one.feasible != has_answer(found_.solution) || is_off(one))) {
+    const bool wanted = exact && in_fractions() && !found_.exact;
+    if (only && K == contacts_ && (wanted || one.feasible != has_answer(found_.solution) || is_off(one))) {
       found_.solution = exact ? exact->rounded : solve_exactly(middle, near, options_).rounded;
       found_.exact.reset();
+      if (exact && in_fractions()) found_.exact = exact;
       find_distance();
     }
     if (one.feasible && !has_answer(found_.solution)) return std::nullopt;
@@ -168,13 +170,16 @@ class Proving {
     return one;
   }
 
-  /// Whether the answer is to be that of the text: the method was left to the program, and doubles were off by
-  /// more than fractions, rounded, would be, or than was asked for where there are balls only.
+  /// Whether fractions were asked for: those of the numbers as evaluated stay, where they are close enough.
+  bool in_fractions() const { return options_.method->name == "exact"; }
+
+  /// Whether the answer is to be that of the text: the method was left to the program, and doubles were off
+  /// by more than fractions, rounded, would be, or than was asked for where there are balls only.
   bool is_off(const OneProof& one) const {
     if (!one.feasible || !is_default(options_)) return false;
     const double norm = found_.solution.primal.acceleration_norm;
     constexpr double few_ulps = 4 * 0x1p-52;
-    return !(one.distance <= (one.level == ProofLevel::exact
+    return !(one.distance <= (one.level == ProofLevel::exact && !in_fractions()
                                   ? few_ulps * norm
                                   : options_.accuracy.tolerance * std::max(1.0, norm)));
   }
@@ -188,7 +193,8 @@ class Proving {
   /// In doubles, for every A, z, U, s within the radii of their evaluation.
   std::optional<OneProof> proved_in_doubles(const std::vector<Index>& K) {
     const LagrangianSystem& system = *written_.system;
-    const convex::EntryRadii radii = data_radii(system, written_.state, moved_ ? moved_radii() : written_.radii, K);
+    const convex::EntryRadii radii =
+        data_radii(system, written_.state, moved_ ? moved_radii() : written_.radii, K);
     // From the constraints themselves: rows of the problem may have been settled within their rounding.
     const ContactRows rows = system.contact_rows(written_.state, K);
     NearestPointProblem over{problem_.A, problem_.z, convex::ConstraintRows(rows.U), rows.s, {}};
