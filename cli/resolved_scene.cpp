@@ -23,10 +23,9 @@ bool some_extreme(const Numbers& numbers) {
   return std::any_of(numbers.data(), numbers.data() + numbers.size(), is_extreme);
 }
 
-/// Why the numbers of a [projection] as they are read are not for doubles to solve with; empty when they are.
+/// Why the numbers are not for doubles to solve with; empty when they are.
 std::string_view why_not_in_doubles(const Scene& scene) {
-  if (scene.written) return {};
-  if (!scene.exact.are_doubles) return "what the rounding of fractions does";
+  if (!scene.written && !scene.exact.are_doubles) return "what the rounding of fractions does";
   const convex::NearestPointProblem& problem = scene.problem;
   if (problem.A.kind() == convex::MetricKind::sparse || problem.U.is_sparse()) return {};
   const bool dense = problem.A.kind() == convex::MetricKind::dense;
@@ -36,28 +35,32 @@ std::string_view why_not_in_doubles(const Scene& scene) {
   return extreme ? "numbers whose squares are beyond them" : std::string_view();
 }
 
+/// A, z, U and s without rounding; none where the text of a mechanism is not rational.
+std::optional<convex::ExactProblem> numbers_as_written(const Scene& scene) {
+  if (!scene.written) return scene.exact.make();
+  return mechanics::fractions_from_text(*scene.written->system, scene.written->text, scene.contacts);
+}
+
 }  // namespace
 
 mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::GaussOptions& options) {
   const bool is_default = options.method == &convex::methods().front() && options.accuracy.limit > 0;
+  const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
+  // Rows that were added are not in the text.
+  if (!as_written) return mechanics::solve(scene.problem, options);
   if (const std::string_view why = why_not_in_doubles(scene); is_default && !why.empty()) {
     mechanics::GaussSolution exact;
     try {
-      if (mechanics::solve_on_exact_data(exact, scene.exact.make(), scene.problem, options, why))
-        return exact;
+      if (const auto data = numbers_as_written(scene))
+        if (mechanics::solve_on_exact_data(exact, *data, scene.problem, options, why)) return exact;
     } catch (const convex::InvalidInput&) {
       // What is said beside the answer, in doubles, has no place for such numbers.
-      if (!scene.exact.are_doubles) throw;
+      if (!scene.written && !scene.exact.are_doubles) throw;
     }
   }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
-  const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
-  if (!scene.problem.radii || !as_written) return found;  // else rows were added that the text does not have
-  mechanics::decide_on_exact_data(
-      found, scene.problem, options, [&]() -> std::optional<convex::ExactProblem> {
-        if (!scene.written) return scene.exact.make();
-        return mechanics::fractions_from_text(*scene.written->system, scene.written->text, scene.contacts);
-      });
+  if (scene.problem.radii)
+    mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
   return found;
 }
 

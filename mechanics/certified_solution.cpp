@@ -1,6 +1,7 @@
 #include "mechanics/certified_solution.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
@@ -41,7 +42,7 @@ void judge_by_certificate(CertifiedSolution& found, const GaussOptions& options)
   primal.error_bound = found.certificate.error_bound;
   const bool close =
       primal.error_bound <= options.accuracy.tolerance * std::max(1.0, primal.acceleration_norm);
-  primal.status = close ? Status::solved : Status::inaccurate;
+  primal.status = close && std::isfinite(primal.error_bound) ? Status::solved : Status::inaccurate;
 }
 
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem, const ExactData& data,

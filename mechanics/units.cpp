@@ -1,5 +1,6 @@
 #include "mechanics/units.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,11 +14,13 @@ constexpr double largest_ordinary = 0x1p80;
 
 bool is_ordinary(double x) { return !(x > 0) || (x <= largest_ordinary && x >= 1 / largest_ordinary); }
 
-/// A power of four near x, so that its root is exact as well; 1 when x is 0.
+/// A power of four near x, so that its root is exact as well, and its inverse is finite; 1 when x is 0.
 double power_near(double x) {
-  if (!(x > 0) || !std::isfinite(x)) return 1;
-  int exponent = 0;
-  std::frexp(x, &exponent);
+  if (!(x > 0)) return 1;
+  constexpr int most = 1000;
+  int exponent = most;
+  if (std::isfinite(x)) std::frexp(x, &exponent);
+  exponent = std::clamp(exponent, -most, most);
   return std::ldexp(1, exponent - (exponent & 1));
 }
 
@@ -49,9 +52,9 @@ Units fit_units(const convex::NearestPointProblem& problem) {
 
 convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem, const Units& units) {
   convex::NearestPointProblem scaled{problem.A.scaled(1 / units.mass),
-                                     problem.z / units.mass / units.acceleration,
+                                     problem.z / units.acceleration / units.mass,
                                      divided(problem.U, units.gradient),
-                                     problem.s / units.gradient / units.acceleration,
+                                     problem.s / units.acceleration / units.gradient,
                                      problem.two_sided,
                                      problem.radii};
   if (scaled.radii) {
