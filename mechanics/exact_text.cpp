@@ -1,5 +1,7 @@
 #include "mechanics/exact_text.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "mechanics/expression/assignment.hpp"
@@ -180,21 +182,41 @@ std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateTe
 
 }  // namespace
 
+namespace {
+
+/// The verdicts that are still open, at a precision; and the least one that would tell of those that are open
+/// and algebraic, 0 when there are none.
+long decide_contacts(const LagrangianModel& model, const StateText& text, const std::vector<Index>& wanted,
+                     long precision, std::vector<ContactVerdict>& found) {
+  const auto state = read_state_exactly(model, text, precision);
+  if (!state) return 0;
+  ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
+  double telling = 0;
+  for (const Index a : wanted) {
+    const auto k = static_cast<std::size_t>(a);
+    if (found[k] != ContactVerdict::undecided) continue;
+    const auto& f = evaluate(model.f[k]);
+    if (!f) continue;
+    found[k] = verdict(*f, model.constraints[k].two_sided);
+    if (found[k] != ContactVerdict::undecided) continue;
+    for (const Number* x : {&f->value, &f->along})
+      if (const auto needed = x->telling_precision(); needed && *needed <= most_telling_precision)
+        telling = std::max(telling, *needed);
+  }
+  return static_cast<long>(std::ceil(telling));
+}
+
+}  // namespace
+
 std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem& system, const StateText& text,
                                              const std::vector<Index>& wanted) {
   const LagrangianModel& model = system.model();
   std::vector<ContactVerdict> found(model.f.size(), ContactVerdict::undecided);
-  for (const long precision : {0L, first_precision, last_precision}) {
-    if (precision > 0 && !Ball::why_none().empty()) break;
-    const auto state = read_state_exactly(model, text, precision);
-    if (!state) continue;
-    ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
-    for (const Index a : wanted) {
-      const auto k = static_cast<std::size_t>(a);
-      if (found[k] != ContactVerdict::undecided) continue;
-      if (const auto& f = evaluate(model.f[k])) found[k] = verdict(*f, model.constraints[k].two_sided);
-    }
-  }
+  long telling = 0;
+  for (const long precision : {0L, first_precision, last_precision})
+    if (precision == 0 || Ball::why_none().empty())
+      telling = decide_contacts(model, text, wanted, precision, found);
+  if (telling > last_precision) decide_contacts(model, text, wanted, telling, found);
   return found;
 }
 

@@ -21,8 +21,9 @@ struct TextProblem {
 };
 
 /// The verdicts alone, for a system of any size: in fractions where a constraint and the state have them,
-/// else in balls, of more precision while nothing is decided. `wanted`: the constraints that are asked for;
-/// the others are `undecided`.
+/// else in balls, of more precision while nothing is decided: at last of as much as tells whether an
+/// algebraic number is 0, up to `most_telling_precision`. `wanted`: the constraints that are asked for; the
+/// others are `undecided`.
 std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem&, const StateText&,
                                              const std::vector<Index>& wanted);
 
@@ -40,5 +41,6 @@ std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&,
 
 inline constexpr std::size_t most_exact_coordinates = 40;
 inline constexpr long first_precision = 192, last_precision = 768;
+inline constexpr double most_telling_precision = 200000;
 
 }  // namespace mechanics

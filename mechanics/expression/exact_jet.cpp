@@ -100,7 +100,7 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
     case Operation::pi: {
       if (precision_ == 0) return std::nullopt;
       ExactJet jet;
-      jet.value = Number(Ball::pi(precision_), atom("pi", {1, 1}));
+      jet.value = Number(Ball::pi(precision_), atom("pi", {1, 1}), algebraic_pi());
       return jet;
     }
     case Operation::coordinate:

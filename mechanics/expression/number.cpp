@@ -67,7 +67,8 @@ std::optional<Number> enclosed(Operation operation, const Number& a, const Numbe
   } else if (a.name()) {
     form = function_form(name, *a.form());
   }
-  return Number(Ball::apply(*function, a.ball(precision), b.ball(precision)), form);
+  return Number(Ball::apply(*function, a.ball(precision), b.ball(precision)), form,
+                algebraic_function(name, a.algebraic(), b.algebraic(), a.name().value_or("")));
 }
 
 std::optional<Number> root(const Number& a, long precision) {
@@ -253,15 +254,21 @@ std::optional<SymbolicForm> combined(const Number& a, const Number& b, Rule rule
   return rule(*left, *right);
 }
 
+const Fraction* known_fraction(const Number& x) { return x.is_exact() ? &x.fraction() : nullptr; }
+
 SymbolicForm difference(const SymbolicForm& a, const SymbolicForm& b) { return sum(a, scaled(b, {-1, 1})); }
 
 }  // namespace
 
-Number::Number(Ball ball, const std::optional<SymbolicForm>& form) : ball_(std::move(ball)) {
-  if (!form || !ball_->is_finite()) return;
+Number::Number(Ball ball, const std::optional<SymbolicForm>& form, KnownAlgebraic algebraic)
+    : ball_(std::move(ball)) {
+  if (!ball_->is_finite()) return;
+  algebraic_ = std::move(algebraic);
+  if (!form) return;
   if (form->atoms.empty()) {
     fraction_ = convex::lowest_terms(form->constant);
     ball_.reset();
+    algebraic_.reset();
   } else if (const auto name = written(*form)) {
     form_ = std::make_shared<const SymbolicForm>(*form);
   }
@@ -280,40 +287,63 @@ std::optional<std::string> Number::name() const {
 Number Number::unnamed() const {
   Number number = *this;
   number.form_.reset();
+  number.algebraic_.reset();
   return number;
+}
+
+KnownAlgebraic Number::algebraic() const { return is_exact() ? algebraic_fraction(fraction_) : algebraic_; }
+
+std::optional<double> Number::telling_precision() const {
+  if (is_exact() || !algebraic_ || !algebraic_->number) return std::nullopt;
+  // What is left of the digits after sums that cancel is told by the ball itself.
+  constexpr double spare = 256;
+  return algebraic_->number->separation() + algebraic_->number->u + spare;
 }
 
 std::optional<int> Number::sign() const {
   if (is_exact()) return convex::sign(fraction_);
   const int known = ball_->sign();
-  return known == 0 ? std::nullopt : std::optional<int>(known);
+  if (known != 0) return known;
+  const auto telling = telling_precision();
+  if (!telling || !(*telling <= static_cast<double>(ball_->precision()))) return std::nullopt;
+  const auto bits = static_cast<unsigned long>(std::ceil(algebraic_->number->separation())) + 1;
+  const Ball least = Ball::of({1, convex::Integer::shifted(1, bits)}, ball_->precision());
+  const bool below = Ball::apply(BallFunction::subtract, *ball_, least).sign() < 0;
+  const bool above = Ball::apply(BallFunction::add, *ball_, least).sign() > 0;
+  return below && above ? std::optional<int>(0) : std::nullopt;
 }
 
 Number operator-(const Number& a) {
   if (a.is_exact()) return -a.fraction_;
-  return Number(Ball::apply(BallFunction::negate, *a.ball_), combined(Number(), a, difference));
+  return Number(Ball::apply(BallFunction::negate, *a.ball_), combined(Number(), a, difference),
+                algebraic_negative(a.algebraic_));
 }
 Number operator+(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ + b.fraction_;
   if (a.is_zero()) return b;
   if (b.is_zero()) return a;
-  return Number(ruled(BallFunction::add, a, b), combined(a, b, sum));
+  return Number(ruled(BallFunction::add, a, b), combined(a, b, sum),
+                algebraic_sum(a.algebraic(), b.algebraic()));
 }
 Number operator-(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ - b.fraction_;
   if (b.is_zero()) return a;
-  return Number(ruled(BallFunction::subtract, a, b), combined(a, b, difference));
+  return Number(ruled(BallFunction::subtract, a, b), combined(a, b, difference),
+                algebraic_sum(a.algebraic(), algebraic_negative(b.algebraic())));
 }
 Number operator*(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ * b.fraction_;
   if (a.is_zero() || b.is_zero()) return zero;
-  return Number(ruled(BallFunction::multiply, a, b), combined(a, b, product));
+  return Number(ruled(BallFunction::multiply, a, b), combined(a, b, product),
+                algebraic_product(a.algebraic(), b.algebraic(), known_fraction(a), known_fraction(b)));
 }
 Number operator/(const Number& a, const Number& b) {
   if (a.is_exact() && b.is_exact()) return a.fraction_ / b.fraction_;
-  if (a.is_zero() && b.sign()) return zero;
-  if (!b.sign()) return Number(ruled(BallFunction::divide, a, b), std::nullopt);
-  return Number(ruled(BallFunction::divide, a, b), combined(a, b, quotient));
+  const bool is_divisor = b.sign().value_or(0) != 0;
+  if (a.is_zero() && is_divisor) return zero;
+  if (!is_divisor) return Number(ruled(BallFunction::divide, a, b), std::nullopt, nullptr);
+  return Number(ruled(BallFunction::divide, a, b), combined(a, b, quotient),
+                algebraic_quotient(a.algebraic(), b.algebraic(), known_fraction(b)));
 }
 
 bool NumberPartials::is_finite() const {

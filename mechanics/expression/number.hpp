@@ -8,6 +8,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/expression/operation.hpp"
 #include "mechanics/expression/symbolic_form.hpp"
+#include "mechanics/expression/zero_bound.hpp"
 
 namespace mechanics::expression {
 
@@ -22,21 +23,26 @@ class Number {
   Number(Fraction value) : fraction_(std::move(value)) {}  // NOLINT: a fraction is one
   Number(std::int64_t value) : fraction_{value, 1} {}      // NOLINT
   /// The number of this ball, which `form` names where it is known: a fraction when the form is one.
-  Number(Ball ball, const std::optional<SymbolicForm>& form);
+  /// `algebraic`: what is known of it as an algebraic number, or null.
+  Number(Ball ball, const std::optional<SymbolicForm>& form, KnownAlgebraic algebraic);
 
   bool is_exact() const { return !ball_; }
   /// Known to be 0; a ball about 0 is not.
   bool is_zero() const { return is_exact() && convex::sign(fraction_) == 0; }
   bool is_finite() const { return is_exact() || ball_->is_finite(); }
-  /// The sign where it is known, else none.
+  /// The sign where it is known, else none. An algebraic number is 0 when its ball is nearer to 0 than any
+  /// other such number can be.
   std::optional<int> sign() const;
+  /// Balls of so many bits tell the sign, where the number is algebraic.
+  std::optional<double> telling_precision() const;
 
   /// The fraction itself, or the midpoint of the ball.
   Fraction middle() const { return is_exact() ? fraction_ : ball_->midpoint(); }
   /// What the number is, where that is known and short.
   std::optional<SymbolicForm> form() const;
   std::optional<std::string> name() const;
-  /// The same number without its form, whose arithmetic is quicker.
+  KnownAlgebraic algebraic() const;
+  /// The same number without its form and what is algebraic of it, whose arithmetic is quicker.
   Number unnamed() const;
 
   /// At least the distance of the number from its middle.
@@ -57,6 +63,7 @@ class Number {
   Fraction fraction_;
   std::optional<Ball> ball_;
   std::shared_ptr<const SymbolicForm> form_;  ///< of a ball, or null
+  KnownAlgebraic algebraic_;                  ///< of a ball, or null
 };
 
 /// A function at (a, b) with its partial derivatives.

@@ -97,7 +97,7 @@ TEST_CASE("every mechanism of the library is solved exactly from its text, or en
     }
   }
   MESSAGE("exact " << exact << ", enclosed " << enclosed << ", contacts not decided in " << open);
-  CHECK(open <= 6);
+  CHECK(open == 0);
   CHECK(exact >= 14);
   CHECK(enclosed >= 10);
 }
@@ -159,13 +159,14 @@ TEST_CASE("a contact is proved where the text makes f the same number twice, and
         "sin(a)^2 + cos(a)^2 - 1", "sin(-a) + sin(a)", "cos(-a) - cos(a)", "a*sqrt(2)*sqrt(2) - 2*a",
         "exp(a)*sin(b) - sin(b)*exp(a)", "3*exp(a)/exp(a) - 3", "sin(a + b) - sin(b + a)",
         "sum(i in 1..4, cos(a)*b) - 4*b*cos(a)", "a*cos(7*pi/2)", "cos(acos(0.3)) - 3/10 + 0*a",
-        "atan2(a, b) - atan2(a, b)", "a^b - a^b", "a*sin(-13*pi/6) + a/2"}) {
+        "atan2(a, b) - atan2(a, b)", "a^b - a^b", "sqrt(2)*sqrt(3) - sqrt(6) + 0*a",
+        "a*sin(-13*pi/6) + a/2"}) {
     CAPTURE(std::string(zero));
     CHECK(verdict(zero) == ContactVerdict::touches);
   }
   // Equal, but by no rule that is known here; or different by less than doubles tell.
-  for (const char* unknown : {"sin(2*a) - 2*sin(a)*cos(a)", "sqrt(2)*sqrt(3) - sqrt(6) + 0*a",
-                              "exp(a)*exp(a) - exp(2*a)", "sin(a/2)^2 - (1 - cos(a))/2"}) {
+  for (const char* unknown :
+       {"sin(2*a) - 2*sin(a)*cos(a)", "exp(a)*exp(a) - exp(2*a)", "sin(a/2)^2 - (1 - cos(a))/2"}) {
     CAPTURE(std::string(unknown));
     CHECK(verdict(unknown) == ContactVerdict::undecided);
   }
