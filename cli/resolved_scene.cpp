@@ -102,7 +102,7 @@ std::vector<mechanics::Warning> resolve_scene(
   }
   const mechanics::GaussProblem gauss{scene.problem, {scene.contacts, *scene.rates}};
   mechanics::Resolution found =
-      mechanics::resolve(*scene.system, scene.state, gauss,
+      mechanics::resolve(*scene.system, scene.state, scene.written->radii, gauss,
                          [&](const convex::NearestPointProblem& problem) -> const mechanics::GaussSolution& {
                            scene.problem = problem;
                            scene.exact.make = [problem] { return convex::exact_problem(problem); };

@@ -136,6 +136,11 @@ StateRadii state_radii(const LagrangianSystem& system, const StateText& text, co
   return radii;
 }
 
+StateRadii guessed_radii(const State& state) {
+  constexpr double operations = 4 * 0x1p-53;
+  return {operations * std::abs(state.t), operations * state.q.cwiseAbs(), operations * state.v.cwiseAbs()};
+}
+
 convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
                               const std::vector<Index>& contacts) {
   const LagrangianModel& model = system.model();

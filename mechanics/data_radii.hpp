@@ -15,6 +15,9 @@ struct StateRadii {
 /// Of a state that was read from text, whose decimals, fractions, roots … are rounded.
 StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);
 
+/// Of a state whose text is not known: its numbers are a few operations of one.
+StateRadii guessed_radii(const State&);
+
 /// How far A, z, U and s, as `inertia` and `contact_rows` evaluate them, may be from those of the mechanism
 /// as written, at a state within the radii: decimals, pi and every operation of values and derivatives were
 /// rounded. A bound, by the same sweeps over numbers with radii (`expression::Rounded`): what is exact has

@@ -23,6 +23,7 @@ struct LagrangianModel {
   NodeId kinetic = no_node, potential = no_node;  ///< no_node: there is no potential
   std::vector<NodeId> forces;                     ///< by coordinate; no_node where there is none
   std::vector<NodeId> f;                          ///< by constraint
+  std::vector<Index> bases;  ///< two-sided constraints whose f stands for the power of it that was written
 
   /// Group 0: T and, if there is one, V; group 1: the forces that there are.
   Program motion;

@@ -4,6 +4,7 @@
 
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/expression/zero_set.hpp"
 
 namespace mechanics::expression {
 namespace {
@@ -140,7 +141,9 @@ class Reading {
             {member_name(group.name, tuple), two_sided[e], entries[e].key.source->text.begin});
         const NodeId f = expansion_.node(entries[e].value, tuple);
         refuse_velocities(f, entries[e].value, "constraint " + model_.constraints.back().name);
-        model_.f.push_back(f);
+        const NodeId base = two_sided[e] ? base_of_power(model_.tape, f) : f;
+        if (base != f) model_.bases.push_back(static_cast<Index>(model_.f.size()));
+        model_.f.push_back(base);
       }
     }
   }

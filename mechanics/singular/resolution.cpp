@@ -2,10 +2,11 @@
 
 namespace mechanics {
 
-Resolution resolve(const LagrangianSystem& system, const State& state, const GaussProblem& gauss,
+Resolution resolve(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                   const GaussProblem& gauss,
                    const std::function<const GaussSolution&(const convex::NearestPointProblem&)>& solve) {
   Resolution found{gauss.problem, {}, false, {}};
-  SingularState singular(system, state, gauss);
+  SingularState singular(system, state, radii, gauss);
   found.is_settled = singular.settle(found.problem);
   bool infeasible = false;
   for (;;) {

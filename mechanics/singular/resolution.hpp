@@ -20,7 +20,8 @@ struct Resolution {
 /// Solves until higher derivatives agree with the answer (docs/theory.md, B.8). `solve` is called once and
 /// then after every addition; the answer that stands is the last one. Throws InvalidInput where higher
 /// derivatives refuse the state.
-Resolution resolve(const LagrangianSystem&, const State&, const GaussProblem&,
+/// radii: of the state's numbers.
+Resolution resolve(const LagrangianSystem&, const State&, const StateRadii& radii, const GaussProblem&,
                    const std::function<const GaussSolution&(const convex::NearestPointProblem&)>& solve);
 
 }  // namespace mechanics

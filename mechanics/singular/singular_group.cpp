@@ -12,11 +12,6 @@ using expression::TimeSeries;
 
 namespace {
 
-/// What reading a state may have rounded: a few operations of its text.
-constexpr double rounding_of_state = 4 * 0x1p-53;
-
-Rounded as_read(double x, double missed = 0) { return {x, rounding_of_state * std::abs(x) + missed}; }
-
 /// Gradients closer to a dependence than this part of themselves do not tell how far away a state with f = 0
 /// is.
 constexpr double telling = 1e-6;
@@ -29,10 +24,11 @@ Vector chosen(const Vector& x, const std::vector<Index>& columns) {
 
 }  // namespace
 
-SingularGroup::SingularGroup(const LagrangianSystem& system, const State& state, const Vector& unit,
-                             std::vector<Index> constraints)
+SingularGroup::SingularGroup(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                             const Vector& unit, std::vector<Index> constraints)
     : system_(system),
       state_(state),
+      radii_(radii),
       constraints_(std::move(constraints)),
       series_(system.model(), constraints_),
       columns_(series_.coordinates()),
@@ -42,11 +38,13 @@ SingularGroup::SingularGroup(const LagrangianSystem& system, const State& state,
 }
 
 Rounded SingularGroup::place(Index column) const {
-  return as_read(state_.q[columns_[static_cast<std::size_t>(column)]], missed_place_ * unit_[column]);
+  const Index i = columns_[static_cast<std::size_t>(column)];
+  return {state_.q[i], radii_.q[i] + missed_place_ * unit_[column]};
 }
 
 Rounded SingularGroup::velocity(Index column) const {
-  return as_read(state_.v[columns_[static_cast<std::size_t>(column)]], missed_velocity_ * unit_[column]);
+  const Index i = columns_[static_cast<std::size_t>(column)];
+  return {state_.v[i], radii_.v[i] + missed_velocity_ * unit_[column]};
 }
 
 std::vector<TimeSeries> SingularGroup::along(const std::vector<Rounded>& q2, int order) const {
@@ -57,7 +55,7 @@ std::vector<TimeSeries> SingularGroup::along(const std::vector<Rounded>& q2, int
     coordinate.c[1] = velocity(static_cast<Index>(k));
     if (!q2.empty()) coordinate.c[2] = q2[k] / 2.0;
   }
-  TimeSeries t(as_read(state_.t));
+  TimeSeries t(Rounded(state_.t, radii_.t));
   t.c[1] = 1;
   return series_.along(q, t, order);
 }
@@ -73,7 +71,7 @@ std::vector<TimeSeries> SingularGroup::along_column(std::size_t column, int orde
   for (std::size_t k = 0; k < columns_.size(); ++k)
     q[static_cast<std::size_t>(columns_[k])].c[0] = place(static_cast<Index>(k));
   q[static_cast<std::size_t>(columns_[column])].c[1] = 1;
-  return series_.along(q, TimeSeries(as_read(state_.t)), order);
+  return series_.along(q, TimeSeries(Rounded(state_.t, radii_.t)), order);
 }
 
 void SingularGroup::find_dependences() {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "mechanics/data_radii.hpp"
 #include "mechanics/expression/constraint_series.hpp"
-#include "mechanics/lagrangian_system.hpp"
 #include "mechanics/singular/row_space.hpp"
 
 namespace mechanics {
@@ -23,8 +23,10 @@ class SingularGroup {
   using Rounded = expression::Rounded;
   using TimeSeries = expression::TimeSeries;
 
-  /// unit: n, the length that makes a coordinate comparable with the others, 1/sqrt(a_ii).
-  SingularGroup(const LagrangianSystem&, const State&, const Vector& unit, std::vector<Index> constraints);
+  /// unit: n, the length that makes a coordinate comparable with the others, 1/sqrt(a_ii). radii: of all
+  /// numbers of the state.
+  SingularGroup(const LagrangianSystem&, const State&, const StateRadii& radii, const Vector& unit,
+                std::vector<Index> constraints);
 
   /// Whether there is a dependence at all.
   bool is_singular() const { return !dependences_.empty(); }
@@ -88,6 +90,7 @@ class SingularGroup {
 
   const LagrangianSystem& system_;
   State state_;
+  StateRadii radii_;
   std::vector<Index> constraints_;
   expression::ConstraintSeries series_;
   std::vector<Index> columns_;

@@ -83,9 +83,11 @@ std::string listed(const LagrangianSystem& system, const std::vector<Index>& con
 
 }  // namespace
 
-SingularState::SingularState(const LagrangianSystem& system, const State& state, const GaussProblem& gauss)
+SingularState::SingularState(const LagrangianSystem& system, const State& state, const StateRadii& radii,
+                             const GaussProblem& gauss)
     : system_(system),
       state_(state),
+      radii_(radii),
       unit_(gauss.problem.A.diagonal().cwiseSqrt().cwiseInverse()),
       row_of_(system.constraints().size(), -1) {
   if (gauss.problem.two_sided.empty()) return;
@@ -120,7 +122,7 @@ void SingularState::look_at(const std::vector<Index>& suspects) {
       }
       constraints = std::move(some);
     }
-    SingularGroup group(system_, state_, unit_, std::move(constraints));
+    SingularGroup group(system_, state_, radii_, unit_, std::move(constraints));
     if (group.is_singular() || group.is_undecided()) groups_.push_back(std::move(group));
   }
 }
@@ -204,9 +206,14 @@ std::vector<AddedRow> SingularState::missing(const convex::NearestPointProblem& 
 
 std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added, bool infeasible) const {
   std::vector<Warning> found;
+  const expression::LagrangianModel& model = system_.model();
   const auto say = [&](const std::vector<Index>& constraints, const std::string& what) {
     found.push_back({Warning::Kind::singular, constraints, listed(system_, constraints) + ": " + what});
   };
+  for (const Index a : model.bases)
+    say({a}, "its gradient vanishes wherever it holds; it is read as " +
+                 written(model.tape, model.f[static_cast<std::size_t>(a)], model.coordinates) +
+                 " = 0, of which f, df/dt, d²f/dt² and the multiplier are given");
   for (const AddedRow& row : added) {
     std::vector<Index> constraints;
     for (const auto& [constraint, weight] : row.weights) constraints.push_back(constraint);

@@ -15,7 +15,7 @@ class SingularState {
  public:
   /// Looks at the two-sided rows of Gauss' problem at this state. Costs little where they are clearly
   /// independent.
-  SingularState(const LagrangianSystem&, const State&, const GaussProblem&);
+  SingularState(const LagrangianSystem&, const State&, const StateRadii&, const GaussProblem&);
 
   /// Rows of gradients that count as 0, or as a combination of others for the digits of the state, are made
   /// so; so are their bounds, unless these contradict.
@@ -47,6 +47,7 @@ class SingularState {
 
   const LagrangianSystem& system_;
   State state_;
+  StateRadii radii_;
   Vector unit_;
   std::vector<Index> two_sided_;  ///< constraints
   std::vector<Index> row_of_;     ///< by constraint: its row of the problem, -1 without
