@@ -68,3 +68,67 @@ TEST_CASE(
     CHECK(number(q.at("q[1]")) == doctest::Approx(one.q[1]).epsilon(1e-15));
   }
 }
+
+namespace {
+
+const std::vector<std::vector<std::string>> ways_to_solve{{}, {"--certify"}, {"--method", "exact"}};
+
+Outcome solved_by(const std::vector<std::string>& way, const std::string& problem) {
+  const Folder folder;
+  std::vector<std::string> arguments{"solve", "--json", folder.write("problem.toml", problem)};
+  arguments.insert(arguments.end(), way.begin(), way.end());
+  return run(arguments);
+}
+
+}  // namespace
+
+TEST_CASE("an acceleration beyond doubles is never called solved, by no way of solving") {
+  // x'' = -1/m or z/m, larger than 1.8e308.
+  for (const char* problem :
+       {"[projection]\nA = [[5e-324]]\nz = [1]\nU = [[1]]\ns = [0]\n",
+        "[projection]\nA = [[1e-320]]\nz = [1e300]\nU = [[1]]\ns = [0]\n",
+        "[projection]\nA = [[1e-300, 0], [0, 1]]\nz = [1e300, 1]\nU = [[1, 1]]\ns = [-1]\n",
+        "[system]\ncoordinates = [\"x\"]\nkinetic = \"1e-320/2*x'^2\"\npotential = \"x\"\n[state]\nposition "
+        "= "
+        "{ x = 0 }\n",
+        "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"1e-300/2*x'^2 + y'^2/2\"\npotential = "
+        "\"1e300*x\"\n[system.constraints]\nfloor = \"y >= 0\"\n[state]\nposition = { x = 0, y = 0 }\n"})
+    for (const auto& way : ways_to_solve) {
+      CAPTURE(problem);
+      CAPTURE(way.size());
+      const Outcome outcome = solved_by(way, problem);
+      CHECK(outcome.code == 3);
+      CHECK(Json::parse(outcome.out).at("status") == "inaccurate");
+    }
+}
+
+TEST_CASE("a contradiction of the least double there is, is one") {
+  for (const char* problem :
+       {"[projection]\nA = [[1]]\nz = [0]\nU = [[1], [1]]\ns = [0, 5e-324]\ntwo_sided = [0, 1]\n",
+        "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\n[system.constraints]\nslot = \"y = 0\"\nlate "
+        "= "
+        "\"y = 5e-324*t^2\"\n[state]\nposition = { y = 0 }\n"})
+    for (const auto& way : ways_to_solve) {
+      CAPTURE(problem);
+      CAPTURE(way.size());
+      CHECK(solved_by(way, problem).code == 1);
+    }
+}
+
+TEST_CASE("a mechanism of very heavy bodies is solved as it is written") {
+  // At rest in a corner, x'' = y'' = 0 with both contacts pressing.
+  const char* corner =
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"1e307/2*(x'^2 + y'^2) + 1e306*x'*y'\"\npotential "
+      "= "
+      "\"9.81*1e307*y\"\n[system.constraints]\nleft = \"y >= x\"\nright = \"y >= -x\"\n[state]\nposition = { "
+      "x = "
+      "0, y = 0 }\n";
+  for (const auto& way : ways_to_solve) {
+    CAPTURE(way.size());
+    const Outcome outcome = solved_by(way, corner);
+    REQUIRE(outcome.code == 0);
+    const Json q = Json::parse(outcome.out).at("acceleration");
+    CHECK(q.at("x") == 0);
+    CHECK(q.at("y") == 0);
+  }
+}

@@ -193,3 +193,79 @@ TEST_CASE("systems too large for fractions are certified in doubles, with K prov
   CHECK(lifted.certificate.level == ProofLevel::none);
   CHECK(lifted.text->refuted.size() == 1);
 }
+
+namespace {
+
+/// A rod written twice, in two ways, at the angle a.
+Asked doubled_rod(const std::string& angle, const std::string& second = "sqrt(x^2 + y^2) = 1") {
+  return asked({{"x", "y"},
+                "(x'^2 + y'^2)/2",
+                "9.81*y",
+                {{"a", angle}},
+                {},
+                {},
+                {{"rod", "x^2 + y^2 = 1"}, {"again", second}}},
+               tests::state_text({{"x", "sin(a)"}, {"y", "-cos(a)"}}));
+}
+
+/// -g sin(a) along the circle.
+Vector of_a_pendulum(double a) { return -9.81 * std::sin(a) * Vector{{std::cos(a), std::sin(a)}}; }
+
+}  // namespace
+
+TEST_CASE("a rod written twice stays redundant, and a proof that is not found changes nothing") {
+  for (const double angle : {0.7, 1.1, 0.123, 2.4}) {
+    CAPTURE(angle);
+    const Asked question = doubled_rod(std::to_string(angle));
+    const mechanics::GaussSolution plain = mechanics::solve(question.gauss.problem, {});
+    const CertifiedSolution found = certified(question);
+    CHECK(found.certificate.level == ProofLevel::none);
+    CHECK(found.text->dependent.size() == 1);
+    CHECK(found.solution.primal.status == plain.primal.status);
+    CHECK(found.solution.primal.q == plain.primal.q);
+    CHECK_FALSE(found.solution.multipliers.unique);
+    CHECK((plain.primal.q - of_a_pendulum(angle)).norm() <= 1e-14);
+  }
+}
+
+TEST_CASE("a rod written twice at a rational angle is proved in fractions") {
+  for (const char* angle : {"asin(3/5)", "asin(5/13)", "asin(-7/25)"}) {
+    CAPTURE(std::string(angle));
+    const CertifiedSolution found = certified(doubled_rod(angle));
+    CHECK(found.certificate.level == ProofLevel::exact);
+    CHECK(found.certificate.error_bound <= 1e-14);
+    CHECK(found.solution.primal.status == convex::Status::solved);
+    CHECK_FALSE(found.solution.multipliers.unique);
+    const double sine = std::string(angle) == "asin(3/5)"    ? 0.6
+                        : std::string(angle) == "asin(5/13)" ? 5 / 13.0
+                                                             : -0.28;
+    CHECK((found.solution.primal.q - of_a_pendulum(std::asin(sine))).norm() <= 1e-14);
+  }
+}
+
+TEST_CASE("a rod written twice with two lengths in time contradicts itself as written") {
+  for (const char* rate : {"t^2", "1e-9*t^2", "1e-30*t^2"}) {
+    CAPTURE(std::string(rate));
+    const CertifiedSolution found =
+        certified(doubled_rod("asin(3/5)", std::string("sqrt(x^2 + y^2) = 1 + ") + rate));
+    CHECK(found.solution.primal.status == convex::Status::infeasible);
+    CHECK(found.certificate.level == ProofLevel::exact);
+  }
+}
+
+TEST_CASE("rows carry the radii of their evaluation, and none where they are exact") {
+  const auto radii = [](const std::string& floor, const std::string& x) {
+    return asked({{"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {}, {{"floor", floor}}},
+                 tests::state_text({{"x", x}, {"y", "0"}}))
+        .gauss.problem.radii;
+  };
+  CHECK_FALSE(radii("y >= x", "0"));
+  CHECK_FALSE(radii("y >= 0.5*x", "0"));
+  CHECK_FALSE(radii("y >= x*(x - 0.25)", "0.25"));
+  const auto rounded = radii("y >= 0.1*x", "0");
+  REQUIRE(rounded);
+  // 0.1 is off by 5.551115123125783e-18.
+  CHECK(rounded->row[0] >= 5.551115123125783e-18);
+  CHECK(rounded->row[0] <= 1e-16);
+  CHECK(rounded->s[0] == 0);
+}
