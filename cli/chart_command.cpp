@@ -32,7 +32,7 @@ constexpr std::array ladder{1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
 /// With --quick only each third step.
 constexpr std::size_t quick_step = 3;
 
-TrialLimits limits_of(const Options& options) {
+TrialLimits chart_limits(const Options& options) {
   return options.quick ? TrialLimits{0.005, 0.5} : TrialLimits{};
 }
 
@@ -82,7 +82,7 @@ std::vector<Trial> charted(const std::vector<ChartedProblem>& problems, const Op
     keep_asked(contests, only);
     for (const Contest& contest : contests) {
       progress.now(problem.name + ": " + contest.method);
-      chart_one(contest, limits_of(options), options.quick ? quick_step : 1, trials);
+      chart_one(contest, chart_limits(options), options.quick ? quick_step : 1, trials);
       if (Progress::interrupted()) return trials;
     }
     progress.step();
@@ -146,7 +146,7 @@ std::string correlation_text(const std::vector<Trial>& trials) {
 void write_chart(const Options& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
   if (options.data) {
     write_file(*options.data, chart_csv(trials));
-    write_file(about_file(*options.data), measurement_json(trials, limits_of(options)));
+    write_file(about_file(*options.data), measurement_json(trials, chart_limits(options)));
   }
   if (!options.output) return;
   draw(*options.output, options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn));

@@ -19,9 +19,6 @@ using convex::Index;
 using convex::IntegerRows;
 using convex::PolyhedralCone;
 
-/// Longer tables are cut on the screen; --json has everything.
-constexpr Index most_rows = 40;
-
 void write_rows(JsonWriter& json, const char* key, const IntegerRows& rows, Index n) {
   constexpr double largest_integer = 0x1p53;
   const convex::RowMatrix M = convex::nearest_directions(rows, n);

@@ -39,9 +39,6 @@ std::string how(const convex::Prox& prox) {
   return (prox.method.starts_with(route) ? prox.method : route + ": " + prox.method) + identity;
 }
 
-/// Longer tables are cut on the screen; --json has everything.
-constexpr Index most_rows = 40;
-
 }  // namespace
 
 void require_applicable(const SolveSettings& settings, const Options& options) {

@@ -11,7 +11,7 @@ using convex::Index;
 using convex::Vector;
 
 /// Derivatives by single forces and bounds are many numbers; beyond so many they are left out.
-constexpr Index most_directions = 200;
+constexpr Index most_listed = 200;
 
 void write_derivative(JsonWriter& json, const SolvedScene& solved, const Vector& dz, const Vector& ds) {
   const auto derivative = convex::directional_derivative(solved.scene.problem, solved.solution.primal,
@@ -46,7 +46,7 @@ void write_sensitivity(JsonWriter& json, const SolvedScene& solved) {
   const Scene& scene = solved.scene;
   const Index n = scene.problem.dimension(), m = scene.problem.rows();
   json.key("sensitivity").begin_object().key("by_force");
-  if (n + m > most_directions) {
+  if (n + m > most_listed) {
     json.null().key("by_bound").null();
   } else {
     json.begin_object();

@@ -13,12 +13,11 @@ namespace {
 
 using convex::Index;
 
-/// Longer tables are cut on the screen; --json has everything.
-constexpr std::size_t most_rows = 40;
+constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
 
 std::string cut(std::size_t total, const char* what) {
-  return total > most_rows ? fmt::format("  … and {} more {}; --json gives all\n", total - most_rows, what)
-                           : "";
+  return total > shown_rows ? fmt::format("  … and {} more {}; --json gives all\n", total - shown_rows, what)
+                            : "";
 }
 
 std::string constraint_table(const SolvedScene& solved) {
@@ -28,7 +27,7 @@ std::string constraint_table(const SolvedScene& solved) {
   TextTable table(is_system
                       ? std::vector<std::string>{"constraint", "state", "f", "df/dt", "d²f/dt²", "lambda"}
                       : std::vector<std::string>{"constraint", "state", "u·q''- s", "lambda"});
-  for (std::size_t a = 0; a < std::min(solved.states.size(), most_rows); ++a) {
+  for (std::size_t a = 0; a < std::min(solved.states.size(), shown_rows); ++a) {
     const Index i = static_cast<Index>(a);
     std::vector<std::string> row{solved.scene.constraints[a] + (solved.scene.two_sided[a] ? " (=)" : ""),
                                  name(solved.states[a])};
@@ -46,7 +45,7 @@ std::string constraint_table(const SolvedScene& solved) {
 std::string coordinate_table(const SolvedScene& solved) {
   TextTable table({"coordinate", "acceleration", "reaction"});
   const std::size_t n = solved.scene.coordinates.size();
-  for (std::size_t i = 0; i < std::min(n, most_rows); ++i)
+  for (std::size_t i = 0; i < std::min(n, shown_rows); ++i)
     table.add({solved.scene.coordinates[i], number_text(solved.solution.primal.q[static_cast<Index>(i)]),
                number_text(solved.solution.reaction[static_cast<Index>(i)])});
   return table.text() + cut(n, "coordinates") + "\n";

@@ -21,7 +21,7 @@ namespace {
 using convex::InvalidInput;
 
 /// One call is enough to see whether a method fails.
-TrialLimits limits_of(const Options& options) { return {1e-6, options.quick ? 0.5 : 3}; }
+TrialLimits stress_limits(const Options& options) { return {1e-6, options.quick ? 0.5 : 3}; }
 
 /// With --quick a ladder has so many settings, its ends among them.
 constexpr std::size_t quick_settings = 3;
@@ -75,7 +75,7 @@ std::vector<StressTrial> stressed(const Options& options) {
       for (const Contest& contest : family.at(setting)) {
         if (options.method && contest.method != *options.method) continue;
         progress.now(fmt::format("{} {:g}: {}", family.name, setting, contest.method));
-        Trial next = trial(contest, asked_accuracy(options), limits_of(options));
+        Trial next = trial(contest, asked_accuracy(options), stress_limits(options));
         if (Progress::interrupted()) return trials;
         trials.push_back({family.name, family.knob, setting, std::move(next)});
       }
@@ -156,7 +156,7 @@ void write_stress(const Options& options, const std::vector<StressTrial>& trials
     write_file(*options.data, stress_csv(trials));
     std::vector<Trial> plain;
     for (const StressTrial& t : trials) plain.push_back(t.trial);
-    write_file(about_file(*options.data), measurement_json(plain, limits_of(options)));
+    write_file(about_file(*options.data), measurement_json(plain, stress_limits(options)));
   }
   if (!options.output) return;
   const Drawing drawing = failure_map_drawing(trials);

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace cli {
+
+/// Longer tables are cut on the screen; --json has everything.
+inline constexpr std::ptrdiff_t most_rows = 40;
 
 /// A number as a person reads it: six significant digits.
 std::string number_text(double x);

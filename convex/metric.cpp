@@ -1,6 +1,5 @@
 #include "convex/metric.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <optional>
 #include <string>

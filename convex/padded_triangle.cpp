@@ -1,9 +1,10 @@
 #include "convex/padded_triangle.hpp"
 
-#include <Eigen/Cholesky>
 #include <cstdint>
 #include <new>
 #include <utility>
+
+#include "convex/linear_algebra/cholesky.hpp"
 
 namespace convex {
 namespace {
@@ -55,8 +56,7 @@ PaddedTriangle::PaddedTriangle(const Matrix& W)
     return;
   }
   Eigen::Map<Matrix, 0, Eigen::OuterStride<>> L(T_, n_, n_, {ld_});
-  Eigen::Ref<Matrix> whole(L);
-  if (Eigen::LLT<Eigen::Ref<Matrix>>(whole).info() != Eigen::Success) L(0, 0) = 0;
+  if (!linear_algebra::factor_in_place(L)) L(0, 0) = 0;
   for (Index j = 0; j < n_; ++j)
     for (Index i = 0; i < j; ++i) L(i, j) = L(j, i);
   dense_kernels().invert_blocks(n_, ld_, T_, T_ + ld_ * ld_);

@@ -56,21 +56,18 @@ SparseGram::SparseGram(SparseMatrix W, double least_pivot)
 
 const SparseGram::Factor& SparseGram::factor() const {
   std::call_once(made_, [this] {
-    auto made = std::make_unique<Factor>();
-    made->LLT.compute(W_);
-    if (made->LLT.info() != Eigen::Success) refuse_indefinite();
-    const SparseMatrix L = made->LLT.matrixL();
-    const Vector permuted = made->LLT.permutationP() * Vector(W_.diagonal());
-    const double smallest = (L.diagonal().array().square() / permuted.array()).minCoeff();
+    linear_algebra::SparseCholesky LLT(W_);
+    if (!LLT.is_definite()) refuse_indefinite();
+    const Vector permuted = LLT.permuted(W_.diagonal());
+    const double smallest = (LLT.diagonal().array().square() / permuted.array()).minCoeff();
     if (!(smallest > least_pivot_)) refuse_indefinite();
-    made->condition = 1 / std::sqrt(smallest);
-    factor_ = std::move(made);
+    factor_ = std::make_unique<const Factor>(Factor{std::move(LLT), 1 / std::sqrt(smallest)});
   });
   return *factor_;
 }
 
 double SparseGram::norm(const Vector& x) const {
-  if (excess_.size() == 0) return (factor().LLT.matrixU() * (factor().LLT.permutationP() * x).eval()).norm();
+  if (excess_.size() == 0) return factor().LLT.times_upper(factor().LLT.permuted(x)).norm();
   // Σ excess_i x_i² + Σ |w_ij| (x_i ± x_j)²: no term is negative, so none cancels.
   double energy = 0;
   for (Index j = 0; j < W_.cols(); ++j) {
@@ -85,15 +82,15 @@ double SparseGram::norm(const Vector& x) const {
 }
 
 void SparseGram::whiten_in_place(Eigen::Ref<Matrix> C) const {
-  Matrix permuted = factor().LLT.permutationP() * C;
-  factor().LLT.matrixL().solveInPlace(permuted);
+  Matrix permuted = factor().LLT.permuted_columns(C);
+  factor().LLT.solve_lower_in_place(permuted);
   C = permuted;
 }
 
 void SparseGram::unwhiten_in_place(Eigen::Ref<Vector> w) const {
   Vector permuted = w;
-  factor().LLT.matrixU().solveInPlace(permuted);
-  w = factor().LLT.permutationPinv() * permuted;
+  factor().LLT.solve_upper_in_place(permuted);
+  w = factor().LLT.permuted_back(permuted);
 }
 
 double SparseGram::factor_condition() const { return factor().condition; }

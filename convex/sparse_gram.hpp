@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <memory>
 #include <mutex>
 
+#include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {
@@ -26,8 +26,8 @@ class SparseGram {
 
  private:
   struct Factor {
-    Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> LLT;
-    double condition = 1;
+    linear_algebra::SparseCholesky LLT;
+    double condition;
   };
   const Factor& factor() const;
 

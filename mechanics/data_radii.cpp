@@ -1,5 +1,6 @@
 #include "mechanics/data_radii.hpp"
 
+#include "convex/infinity.hpp"
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
@@ -7,11 +8,11 @@
 
 namespace mechanics {
 
+using convex::infinity;
+
 using namespace expression;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A radius that is no number says nothing.
 double known(double radius) { return radius >= 0 ? radius : infinity; }

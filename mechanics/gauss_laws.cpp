@@ -1,11 +1,11 @@
 #include "mechanics/gauss_laws.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "convex/laws/worst_check.hpp"
+#include "convex/linear_algebra/singular_values.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/units.hpp"
@@ -70,7 +70,7 @@ double condition_of_basis(const Judged& j) {
   for (std::size_t k = 0; k < basis.size(); ++k) j.problem.U.copy_row(basis[k], V.col(static_cast<Index>(k)));
   j.problem.A.whiten_in_place(V);
   V.colwise().normalize();
-  const double smallest = Eigen::BDCSVD<Matrix>(V).singularValues().minCoeff();
+  const double smallest = convex::linear_algebra::singular_values(V).minCoeff();
   return 1 / std::max(smallest, unit_roundoff);
 }
 

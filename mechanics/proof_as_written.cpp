@@ -1,8 +1,8 @@
 #include "mechanics/proof_as_written.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
@@ -14,11 +14,11 @@
 namespace mechanics {
 namespace {
 
+using convex::infinity;
+
 using convex::NearestPointProblem;
 using convex::ProofLevel;
 using convex::Status;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool has_answer(const GaussSolution& solution) {
   return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 #include <vector>
 
 #include "convex/invalid_input.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 
 namespace cli {
 namespace {
@@ -82,12 +82,14 @@ class Page {
 /// {p : (p - centre)·A(p - centre) = radius²}.
 Polygon ellipse(const Eigen::Matrix2d& A, const Point& centre, double radius) {
   constexpr int corners = 180;
-  const Eigen::LLT<Eigen::Matrix2d> factor(A);
-  Polygon points;
+  convex::Matrix circle(2, corners + 1);
   for (int k = 0; k <= corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
-    points.push_back(centre + radius * factor.matrixU().solve(Point(std::cos(angle), std::sin(angle))));
+    circle.col(k) = Point(std::cos(angle), std::sin(angle));
   }
+  convex::linear_algebra::Cholesky(A).solve_upper_in_place(circle);
+  Polygon points;
+  for (int k = 0; k <= corners; ++k) points.push_back(centre + radius * circle.col(k));
   return points;
 }
 
@@ -172,7 +174,8 @@ Drawing decomposition_drawing(const SolvedScene& solved) {
   const bool different = has_classical && (classical - x).norm() > 1e-9 * window.size();
   if (different) page.add({classical}, "with points pt 6 ps 1 lc rgb \"#cc79a7\" lw 1.5 notitle");
   if (generators.size() > 1 || moved)
-    page.label(x + 1.15 * (free - x), "A⁻¹N, N the normal cone at x", "center offset 0,-1.2 tc rgb \"#b04a00\"");
+    page.label(x + 1.15 * (free - x), "A⁻¹N, N the normal cone at x",
+               "center offset 0,-1.2 tc rgb \"#b04a00\"");
   page.label(free, "A⁻¹z, free", "right offset -0.7,-0.4");
   page.label(x, "q'' = A⁻¹x, x = proj_C z", "left offset 0.8,0.5");
   if (moved) page.label((free + x) / 2, "A⁻¹R, R the reaction", "left offset 0.6,0 tc rgb \"#b04a00\"");

@@ -13,7 +13,7 @@
 namespace cli {
 namespace {
 
-constexpr int columns = 3, row_height = 12, panel_frame = 82, title_height = 22, legend_height = 46;
+constexpr int columns = 3, row_height = 12, panel_frame = 82, map_title_height = 22, legend_height = 46;
 
 /// Digits of accuracy on a scale whose lightness alone orders it (after viridis: van der Walt and Smith
 /// 2015).
@@ -177,8 +177,8 @@ Drawing failure_map_drawing(const std::vector<StressTrial>& trials) {
                      "bmargin at screen "
                      "{}\n",
                      left + column * width, left + (column + 1) * width - 0.02,
-                     1 - static_cast<double>(from + title_height) / height,
-                     1 - static_cast<double>(from + block.panel() - panel_frame + title_height) / height);
+                     1 - static_cast<double>(from + map_title_height) / height,
+                     1 - static_cast<double>(from + block.panel() - panel_frame + map_title_height) / height);
       add_panel(drawing.script, trials, block.families[k], index, block.methods, k % columns == 0);
       if (index > 0) continue;
       for (std::size_t label = 1; label <= marks.size() + 3; ++label)

@@ -16,7 +16,7 @@ namespace {
 
 using convex::InvalidInput;
 
-constexpr int width = 700;
+constexpr int picture_width = 700;
 
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -86,7 +86,7 @@ std::string terminal_text(const std::string& file, int wide, int height) {
 }
 
 void draw(const std::string& file, const Drawing& drawing) {
-  const std::string text = terminal_text(file, width, drawing.height) + drawing.script;
+  const std::string text = terminal_text(file, picture_width, drawing.height) + drawing.script;
   if (!has_gnuplot()) {
     std::ofstream(file + ".gnuplot") << text;
     std::fprintf(stderr, "moreau: gnuplot is not there, so %s.gnuplot holds the picture's script; %s\n",

@@ -7,6 +7,9 @@
 
 namespace cli {
 
+/// An error up to here is a right answer to an engineer; the quickest such method is named above a diagram.
+inline constexpr double good_error = 1e-9;
+
 /// How a method is drawn, the same on every picture. Iterations have a colour each, which the colour-blind
 /// can tell apart (Okabe and Ito 2008; two of Tol's, 2021), and a dash pattern; direct methods, a marker
 /// each, are dark and differ by its shape; the default stands out.

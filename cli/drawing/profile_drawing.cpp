@@ -6,24 +6,25 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/drawing/label_column.hpp"
 #include "cli/drawing/method_style.hpp"
+#include "convex/infinity.hpp"
 
 namespace cli {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity(), good_error = 1e-9;
+using convex::infinity;
 
 /// Across, in decades of the ratio: the curves, then their names. Up: parts of all problems.
 constexpr double curves_end = 3, sample_at = 3.2, names_at = 3.4, x_end = 4.9, y_end = 1.03,
                  name_height = 0.042;
 
 /// Curves cross, so here each method has a colour and dashes that no other has.
-constexpr std::array colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#222222"};
+constexpr std::array curve_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00",
+                                   "#56b4e9", "#882255", "#222222"};
 
 struct Curve {
   std::string method, steps;
@@ -74,7 +75,7 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const Curve& c = curves[k];
     const bool is_default = c.method == "auto";
-    const std::string colour = is_default ? "#d55e00" : colours[k % colours.size()];
+    const std::string colour = is_default ? "#d55e00" : curve_colours[k % curve_colours.size()];
     fmt::format_to(out,
                    "$m{} << EOD\n{}EOD\n$l{} << EOD\n{} {}\n{} {}\nEOD\n$s{} << EOD\n{} {}\n{} {}\nEOD\n$t{} "
                    "<< EOD\n{} {} {}\nEOD\n",
@@ -86,7 +87,7 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
         "  $l{1} using 1:2 with lines lc rgb \"{2}\" lw 0.4 notitle, \\\n"
         "  $s{1} using 1:2 with lines lc rgb \"{2}\" lw {3} dt {4} notitle, \\\n"
         "  $t{1} using 1:2:3 with labels left offset 0.4,0 font \"{5},9\" tc rgb \"#222222\" notitle",
-        k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / colours.size(),
+        k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / curve_colours.size(),
         is_default ? "Helvetica:Bold" : "");
   }
   fmt::format_to(

@@ -15,9 +15,6 @@
 namespace cli {
 namespace {
 
-/// An error up to here is a right answer to an engineer; the quickest such method is named above a diagram.
-constexpr double good_error = 1e-9;
-
 /// Pixels. A diagram's box lies between `left` and the width less `right`.
 constexpr double width = 700, left = 62, right = 8, heading = 62, box_height = 212, title_height = 26,
                  foot = 40, label_height = 11.5;

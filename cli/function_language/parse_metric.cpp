@@ -7,7 +7,7 @@
 namespace cli {
 namespace {
 
-constexpr const char* form = "a matrix, [[2, 1], [1, 2]], or a diagonal, \"diagonal [1, 2]\"";
+constexpr const char* metric_form = "a matrix, [[2, 1], [1, 2]], or a diagonal, \"diagonal [1, 2]\"";
 
 }  // namespace
 
@@ -19,9 +19,9 @@ convex::Metric parse_metric(std::string_view text) {
   const std::string_view word = cursor.take_name();
   cursor.skip_spaces();
   if ((!word.empty() && word != "diagonal") || cursor.peek() != '[')
-    cursor.fail(std::string("neither a matrix nor a diagonal; write ") + form, place);
+    cursor.fail(std::string("neither a matrix nor a diagonal; write ") + metric_form, place);
   const convex::Argument list = take_list(cursor);
-  if (!cursor.at_end()) cursor.fail(cursor.shown_next() + " behind the end; write " + form);
+  if (!cursor.at_end()) cursor.fail(cursor.shown_next() + " behind the end; write " + metric_form);
   try {
     const auto* diagonal = std::get_if<convex::Vector>(&list);
     if (word.empty() && diagonal == nullptr) return convex::Metric::dense(std::get<convex::Matrix>(list));
@@ -29,8 +29,9 @@ convex::Metric parse_metric(std::string_view text) {
   } catch (const convex::InvalidInput& error) {
     throw convex::InvalidInput(metric_message(error.what(), what), place);
   }
-  cursor.fail(std::string(word.empty() ? "a vector" : "a matrix behind \"diagonal\"") + "; write " + form,
-              place);
+  cursor.fail(
+      std::string(word.empty() ? "a vector" : "a matrix behind \"diagonal\"") + "; write " + metric_form,
+      place);
 }
 
 }  // namespace cli

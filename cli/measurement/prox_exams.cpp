@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <bit>
 #include <cmath>
 #include <memory>
@@ -16,6 +15,7 @@
 #include "convex/functions/norms.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
 namespace cli {
@@ -45,8 +45,7 @@ FoundVector found(const Prox& prox) {
 /// shows.
 FoundVector proximal_gradient(const ProxExam& exam, const Metric& W, double tolerance) {
   constexpr int most_steps = 200000;
-  const Matrix gram = W.dense_gram();
-  const Vector spectrum = gram.selfadjointView<Eigen::Lower>().eigenvalues();
+  const Vector spectrum = convex::linear_algebra::eigenvalues(W.dense_gram());
   const double L = spectrum.maxCoeff(), root = std::sqrt(spectrum.minCoeff() / L),
                momentum = (1 - root) / (1 + root);
   const Metric step = Metric::identity(exam.z.size()).scaled(L);
@@ -91,13 +90,14 @@ std::vector<Contest> every_way(ProxExam given) {
   return contests(std::move(vector), std::move(ways));
 }
 
-constexpr Index n = 16;
+/// Of the coordinates of the exams with a Hadamard matrix.
+constexpr Index order = 16;
 
 /// Hadamard's matrix of 16 rows.
 Matrix hadamard() {
-  Matrix H(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) H(i, j) = std::popcount(static_cast<unsigned>(i & j)) % 2 == 0 ? 1 : -1;
+  Matrix H(order, order);
+  for (Index i = 0; i < order; ++i)
+    for (Index j = 0; j < order; ++j) H(i, j) = std::popcount(static_cast<unsigned>(i & j)) % 2 == 0 ? 1 : -1;
   return H;
 }
 
@@ -106,12 +106,13 @@ double part_of(double condition) { return std::exp2(-std::round(std::log2(condit
 
 ProxExam planted(const std::string& name, Function f, const Vector& x, const Vector& v, double condition) {
   const double range = std::round(std::log2(condition));
-  Vector D(n);
-  for (Index k = 0; k < n; ++k) D[k] = std::exp2(-std::round(range * static_cast<double>(k) / (n - 1)));
+  Vector D(order);
+  for (Index k = 0; k < order; ++k)
+    D[k] = std::exp2(-std::round(range * static_cast<double>(k) / (order - 1)));
   const Matrix H = hadamard();
-  const Vector step = H * (H * v).cwiseQuotient(D) / static_cast<double>(n);
+  const Vector step = H * (H * v).cwiseQuotient(D) / static_cast<double>(order);
   return {fmt::format("{}, cond(W) {:g}", name, condition), std::move(f),
-          Metric::dense(H * D.asDiagonal() * H / static_cast<double>(n)), x + step, x};
+          Metric::dense(H * D.asDiagonal() * H / static_cast<double>(order)), x + step, x};
 }
 
 /// A dyadic number near x.
@@ -123,14 +124,14 @@ std::vector<Contest> prox_contests(Charted f, double condition) {
   // Nine entries ±1 and four ±2 make up a length of 5.
   const double part = part_of(condition);
   const Vector five{{1, -1, 0, 1, 2, -1, 0, 1, -2, 1, -1, 2, 0, 1, -2, 1}};
-  Vector v(n), x = five;
+  Vector v(order), x = five;
   switch (f) {
     case Charted::norm1:
-      for (Index i = 0; i < n; ++i) v[i] = x[i] > 0 ? 4 : x[i] < 0 ? -4 : static_cast<double>(i % 7) - 3;
+      for (Index i = 0; i < order; ++i) v[i] = x[i] > 0 ? 4 : x[i] < 0 ? -4 : static_cast<double>(i % 7) - 3;
       return every_way(planted("norm1", convex::norm1(4 * part), x, part * v, condition));
     case Charted::simplex:
       x = five.cwiseMax(0);
-      for (Index i = 0; i < n; ++i) v[i] = x[i] > 0 ? 3 : 2 - static_cast<double>(i % 5);
+      for (Index i = 0; i < order; ++i) v[i] = x[i] > 0 ? 3 : 2 - static_cast<double>(i % 5);
       return every_way(planted("simplex", convex::simplex(x.sum()).indicator, x, part * v, condition));
     case Charted::ball2:
       v = 2 * x;
@@ -138,11 +139,11 @@ std::vector<Contest> prox_contests(Charted f, double condition) {
     case Charted::second_order_cone:
       break;
   }
-  x[n - 1] = 0;  // |x| without it: root of 24
+  x[order - 1] = 0;  // |x| without it: root of 24
   x[2] = 1;
-  x[n - 1] = 5;
+  x[order - 1] = 5;
   v = x;
-  v[n - 1] = -5;
+  v[order - 1] = -5;
   return every_way(
       planted("second-order cone", convex::second_order_cone().indicator, x, part * v, condition));
 }

@@ -1,14 +1,11 @@
 #include "convex/composite/affine_atoms.hpp"
 
-#include <Eigen/Cholesky>
-#include <limits>
-
 #include "convex/functions/quadratic.hpp"
+#include "convex/infinity.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Call call_of(const char* name) { return {name, {}, std::nullopt}; }
 
@@ -58,16 +55,16 @@ class FormAtom final : public Atom {
     return sum(d).solve(d.cwiseProduct(z) - form_.c);
   }
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
-    return sum(d).solve(Matrix(d.asDiagonal()));
+    return sum(d).solve_columns(d.asDiagonal());
   }
   std::optional<QuadraticForm> quadratic_form(Index) const override { return form_; }
 
  private:
   Function dense() const { return quadratic(Matrix(form_.Q), form_.c, form_.constant); }
-  Eigen::LLT<Matrix> sum(const Vector& d) const {
+  linear_algebra::Cholesky sum(const Vector& d) const {
     Matrix Q(form_.Q);
     Q.diagonal() += d;
-    return Eigen::LLT<Matrix>(Q);
+    return linear_algebra::Cholesky(Q);
   }
   QuadraticForm form_;
 };

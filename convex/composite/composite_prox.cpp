@@ -1,15 +1,13 @@
 #include "convex/composite/composite_prox.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check_sizes(const GraphForm& f, Index n) {
   if (f.n != n)

@@ -1,17 +1,16 @@
 #include <cmath>
-#include <limits>
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-12;  ///< of a value, relative to the sizes of what it is a sum of
 /// An error below this part of the squares of the sizes is nothing, even where the value is 0.
-constexpr double vanishing = 1e-20;
+constexpr double vanishing_energy = 1e-20;
 /// A value of this part of them is what residuals at the end of twice the precision leave of 0.
 constexpr double rounding_of_rounding = 0x1p-92;
 
@@ -149,7 +148,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   const bool known = std::isfinite(found.error_bound);
   if (known && std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy))
     found.value = 0;
-  if (found.error_bound <= std::max(tolerance * size, vanishing * energy)) return found;
+  if (found.error_bound <= std::max(tolerance * size, vanishing_energy * energy)) return found;
   found.status = Status::inaccurate;
   if (falls_without_end(f, x, point.xi, point.rho)) {
     found.value = -infinity;

@@ -18,22 +18,21 @@ TermCurvature curvature_of(const SaddleTerm& term, const Vector& t, const Vector
     return curvature;
   }
   // D is a multiple of the identity here, so J is symmetric but for rounding.
-  const Index rows = J.rows();
   const Matrix symmetric = 0.5 * (J + J.transpose());
   Matrix B = (1 - theta) * symmetric;
   B.diagonal().array() += theta;
-  Eigen::LLT<Matrix> factor(B);
-  if (factor.info() != Eigen::Success) {
+  linear_algebra::Cholesky factor(B);
+  if (!factor.is_definite()) {
     // A Jacobian that is indefinite by rounding, more than theta covers.
     constexpr double widening = 1e-8;
     B.diagonal().array() += widening;
-    factor.compute(B);
-    usable = usable && factor.info() == Eigen::Success;
+    factor = linear_algebra::Cholesky(B);
+    usable = usable && factor.is_definite();
   }
-  curvature.B_inverse = factor.solve(Matrix::Identity(rows, rows));
+  curvature.B_inverse = factor.inverse();
   Matrix complement = -symmetric;
   complement.diagonal().array() += 1;
-  const Matrix H = factor.solve(complement);
+  const Matrix H = factor.solve_columns(complement);
   curvature.H = 0.5 * D[0] * (H + H.transpose());
   return curvature;
 }
@@ -58,14 +57,14 @@ NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const 
       system += transposed * product;
     }
   }
-  factor_.compute(system);
+  factor_ = linear_algebra::Cholesky(system);
   // The rounding of stiff terms can outweigh the ridge in a direction that nothing else holds.
-  for (double part = unit_roundoff; factor_.info() != Eigen::Success && part < largest_lift; part *= 16) {
+  for (double part = unit_roundoff; !factor_.is_definite() && part < largest_lift; part *= 16) {
     Matrix lifted = system;
     lifted.diagonal() *= 1 + part;
-    factor_.compute(lifted);
+    factor_ = linear_algebra::Cholesky(lifted);
   }
-  usable_ = usable_ && factor_.info() == Eigen::Success;
+  usable_ = usable_ && factor_.is_definite();
 }
 
 NewtonStep NewtonSystem::step(const Vector& rho, const Vector& r) const {

@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "convex/composite/saddle_problem.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 
 namespace convex {
 
@@ -37,7 +36,7 @@ class NewtonSystem {
  private:
   const SaddleProblem* problem_;
   std::vector<TermCurvature> curvature_;
-  Eigen::LLT<Matrix> factor_;
+  linear_algebra::Cholesky factor_;
   bool usable_ = true;
 };
 

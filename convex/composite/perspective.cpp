@@ -6,14 +6,14 @@
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double vanishing = 1e-24;  ///< a root of this part of the point's size is 0
-/// Difference quotients at these parts of |x| that agree to `settled` have come to their limit.
-constexpr double coarse = 1e-9, fine = 1e-12, settled = 1e-6;
+constexpr double vanishing_root = 1e-24;  ///< a root of this part of the point's size is 0
+/// Difference quotients at these parts of |x| that agree to `agreeing` have come to their limit.
+constexpr double coarse = 1e-9, fine = 1e-12, agreeing = 1e-6;
 
 class PerspectiveAtom final : public Atom {
  public:
@@ -42,7 +42,7 @@ class PerspectiveAtom final : public Atom {
     if (length <= 0) return 0;
     const auto quotient = [&](double part) { return part * length * f_->value(x / (part * length)); };
     const double limit = quotient(fine), before = quotient(coarse);
-    return std::abs(limit - before) <= settled * (std::abs(limit) + length * settled) ? limit : infinity;
+    return std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing) ? limit : infinity;
   }
   Function conjugate() const override {
     return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -1 / side_));
@@ -93,7 +93,7 @@ class PerspectiveAtom final : public Atom {
   Vector at(const Vector& q, double mu) const { return f_->prox_diagonal(q / mu, Vector::Constant(n_, mu)); }
 
   static double smallest(double size) {
-    return std::max(vanishing * size, std::numeric_limits<double>::min());
+    return std::max(vanishing_root * size, std::numeric_limits<double>::min());
   }
 
   /// The root mu; 0 where the prox is 0.

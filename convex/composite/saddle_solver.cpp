@@ -1,6 +1,5 @@
 #include "convex/composite/saddle_solver.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +7,7 @@
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex {
 namespace {
@@ -39,7 +39,7 @@ bool separates(const SaddleProblem& problem, const MultiplierStep& step, const V
   Vector normal = D.cwiseProduct(step.gap).normalized();
   // Where the domains are round, the steps come to the normal slowly; what they miss of Mᵀq = 0 is taken off.
   const Matrix M = problem.M;
-  normal -= M * Eigen::ColPivHouseholderQR<Matrix>(M).solve(normal);
+  normal -= M * linear_algebra::least_squares(M, normal);
   if (!(normal.norm() > nearly_whole)) return false;
   normal.normalize();
   const SparseMatrix magnitude = problem.M.cwiseAbs();

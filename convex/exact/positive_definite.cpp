@@ -2,10 +2,10 @@
 
 #include <gmp.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "convex/exact/elimination.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {
@@ -110,10 +110,10 @@ bool is_positive_definite(const IntegerRows& A) {
   Matrix S;
   Vector root;
   if (scaled(A, S, root)) {
-    const Eigen::LLT<Matrix> factor(S);
-    if (factor.info() == Eigen::Success) {
+    const linear_algebra::Cholesky factor(S);
+    if (factor.is_definite()) {
       Matrix X = Matrix::Identity(S.rows(), S.rows());
-      factor.matrixL().solveInPlace(X);
+      factor.solve_lower_in_place(X);
       if (X.allFinite() && dominant_diagonal(A, rounded_rows(X, root))) return true;
     }
   }

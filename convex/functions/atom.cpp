@@ -33,9 +33,6 @@ Vector diagonal_of(const Metric& W) {
   return {};
 }
 
-/// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_D.
-constexpr double roundings_of_a_formula = 4;
-
 /// What a gap g = sigma(u) - u·s between a set's point s and a normal u says of their distance: s is g/||u||
 /// short of the supporting plane, and no farther off than 2||u||, since with u = 0 in its place s would be
 /// right. Two formulas that share a wrong level agree with each other, but not with the values: the gap shows

@@ -1,10 +1,10 @@
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/piecewise_sum.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/infinity.hpp"
 #include "convex/kernels/separable.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/sets.hpp"
@@ -13,17 +13,12 @@
 namespace convex {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 void check(double lower, double upper, const std::string& entry) {
   if (std::isnan(lower) || std::isnan(upper))
     throw InvalidInput("box: a bound is not a number; give numbers");
   if (lower > upper || lower == infinity || upper == -infinity)
     throw InvalidInput("box: lower > upper" + entry + ", so the set is empty; give lower <= upper");
 }
-
-Call indicator_call(const Call& set) { return {"indicator", {argument(set)}}; }
-Call support_call(const Call& set) { return {"support", {argument(set)}}; }
 
 /// {lower <= x_i <= upper} for every entry.
 Set equal_bounds(Call set, Call support, double lower, double upper) {

@@ -76,4 +76,8 @@ NamedArgument argument(Call call) { return {"", std::make_shared<const Call>(std
 
 NamedArgument argument(std::string key, Argument value) { return {std::move(key), std::move(value), {}}; }
 
+Call indicator_call(Call set) { return {"indicator", {argument(std::move(set))}}; }
+
+Call support_call(Call set) { return {"support", {argument(std::move(set))}}; }
+
 }  // namespace convex

@@ -35,6 +35,9 @@ struct Call {
 /// An argument by position that is a call itself, and one by name: Call{"ball2", {argument("radius", 2.0)}}.
 NamedArgument argument(Call call);
 NamedArgument argument(std::string key, Argument value);
+/// indicator(set) and support(set).
+Call indicator_call(Call set);
+Call support_call(Call set);
 
 /// The call as text that reads back to the same call: numbers with the shortest digits that read back.
 std::string to_text(const Call& call);

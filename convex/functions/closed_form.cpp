@@ -5,9 +5,6 @@
 namespace convex {
 namespace {
 
-/// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_W.
-constexpr double roundings_of_a_formula = 4;
-
 /// What refinement in twice the working precision leaves of ||z||_W where 0 is meant.
 constexpr double rounding_of_rounding = 0x1p-96;
 

@@ -15,8 +15,6 @@
 namespace convex {
 namespace {
 
-Call indicator_call(const Call& set) { return {"indicator", {argument(set)}}; }
-Call support_call(const Call& set) { return {"support", {argument(set)}}; }
 /// The indicator of -K.
 Call mirrored(const Call& K) { return {"dilate", {argument(indicator_call(K)), argument("rho", -1.0)}}; }
 

@@ -1,13 +1,10 @@
 #include "convex/functions/convex_set.hpp"
 
-#include <limits>
-
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What s in S and u, normal there, miss of that, in the metric d of u. From s', u' that miss nothing the
 /// bound of a pair is ||D(z - u') - s'||; the way there and back is 2 (||s - s'|| + ||u - u'||).

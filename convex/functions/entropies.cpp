@@ -1,15 +1,13 @@
 #include <cmath>
-#include <limits>
 
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/infinity.hpp"
 #include "convex/kernels/relative_entropy.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double x_log_x(double x) { return x > 0 ? x * std::log(x) : x < 0 ? infinity : 0; }
 

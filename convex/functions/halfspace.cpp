@@ -1,17 +1,15 @@
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// {x : a·x <= b}, or {x : a·x = b} when two-sided: the projection is one multiplier in any metric. a, b are
 /// kept divided by |a|; a = 0 stands for the whole space.

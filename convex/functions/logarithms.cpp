@@ -1,16 +1,14 @@
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/infinity.hpp"
 #include "convex/kernels/log_barrier.hpp"
 #include "convex/kernels/logistic.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct LogBarrier {
   Index dimension() const { return 0; }

@@ -14,8 +14,6 @@ namespace {
 
 using linear_quadratic::ball_inf;
 
-Call indicator_call(Call set) { return {"indicator", {argument(std::move(set))}}; }
-
 Call at_zero() { return indicator_call({"point", {argument("p", 0.0)}}); }
 
 /// With a conjugate that has no other name than the plq of its pieces.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convex/functions/node.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/piecewise/algebra.hpp"
@@ -13,8 +13,6 @@
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_indicator(const PiecewiseQuadratic& f) {
   return std::all_of(f.segments().begin(), f.segments().end(), [](const Segment& line) {

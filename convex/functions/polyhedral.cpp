@@ -17,9 +17,6 @@ constexpr Facts set_facts{.indicator = true};
 constexpr Facts cone_facts{.indicator = true, .cone = true, .support = true};
 constexpr Facts support_facts{.support = true};
 
-Call indicator_call(const Call& set) { return {"indicator", {argument(set)}}; }
-Call support_call(const Call& set) { return {"support", {argument(set)}}; }
-
 void require_rows(const char* maker, const Matrix& A, const Vector& b) {
   require_finite(maker, "A", A);
   if (A.rows() == 0 || A.cols() == 0)

@@ -1,16 +1,14 @@
 #include <cmath>
-#include <limits>
 
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/infinity.hpp"
 #include "convex/kernels/power.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct AnySize {
   Index dimension() const { return 0; }

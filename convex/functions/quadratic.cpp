@@ -1,7 +1,5 @@
 #include "convex/functions/quadratic.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,6 +8,8 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/node.hpp"
 #include "convex/functions/parameter.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
@@ -28,15 +28,15 @@ struct Spectrum {
 constexpr double rank_tolerance = 8 * unit_roundoff;
 
 Spectrum spectrum(const Matrix& Q) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(Q);
-  const Vector& values = eigen.eigenvalues();
+  const linear_algebra::SymmetricEigen eigen(Q);
+  const Vector& values = eigen.values;
   const Index n = Q.rows();
   const double negligible = rank_tolerance * static_cast<double>(n) * values.cwiseAbs().maxCoeff();
   if (values.minCoeff() < -negligible)
     throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " +
                        std::to_string(values.minCoeff()) + "; the function would not be convex");
   const Index rank = (values.array() > negligible).count();
-  return {eigen.eigenvectors().rightCols(rank), eigen.eigenvectors().leftCols(n - rank), values.tail(rank)};
+  return {eigen.vectors.rightCols(rank), eigen.vectors.leftCols(n - rank), values.tail(rank)};
 }
 
 LinearQuadratic form(const Matrix& Q, const Vector& c, double constant) {
@@ -85,14 +85,14 @@ class Quadratic : public Atom {
   }
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
     const Matrix D = d.asDiagonal();
-    return (Q_ + D).llt().solve(D);
+    return linear_algebra::Cholesky(Q_ + D).solve_columns(D);
   }
   std::optional<QuadraticForm> quadratic_form(Index) const override {
     return QuadraticForm{Q_.sparseView(), c_, constant_};
   }
   /// 0 = W(x - z) + Qx + c, refined once.
   Prox prox(const Vector& z, const Metric& W) const override {
-    const Eigen::LLT<Matrix> sum(gram(W) + Q_);
+    const linear_algebra::Cholesky sum(gram(W) + Q_);
     Vector x = sum.solve(W.multiply(z) - c_);
     for (int pass = 0; pass < 2; ++pass) x -= sum.solve(stationarity(z, W, x, slope(x)));
     return closed_form(z, W, x, slope(x));
@@ -156,13 +156,13 @@ class DualQuadratic : public Atom {
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
     const Index r = L_.cols();
     const Matrix weighted = L_.transpose() * d.asDiagonal();
-    return L_ * (weighted * L_ + Matrix::Identity(r, r)).llt().solve(weighted);
+    return L_ * linear_algebra::Cholesky(weighted * L_ + Matrix::Identity(r, r)).solve_columns(weighted);
   }
   /// (LᵀWL + I) t = LᵀW(z - c); x = c + Lt, refined once.
   Prox prox(const Vector& z, const Metric& W) const override {
     const Index r = L_.cols();
     const Matrix W_L = gram(W) * L_;
-    const Eigen::LLT<Matrix> sum(L_.transpose() * W_L + Matrix::Identity(r, r));
+    const linear_algebra::Cholesky sum(L_.transpose() * W_L + Matrix::Identity(r, r));
     Vector t = sum.solve(W_L.transpose() * (z - c_));
     t -= sum.solve(L_.transpose() * metric_difference(W, c_ + L_ * t, z) + t);
     const Vector x = c_ + L_ * t;

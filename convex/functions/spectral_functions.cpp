@@ -1,20 +1,18 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/infinity.hpp"
 #include "convex/kernels/nuclear_norm.hpp"
 #include "convex/kernels/spectral.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Matrix unstacked(const Vector& x, Index rows) { return x.reshaped(rows, x.size() / rows); }
 Vector stacked(const Matrix& X) { return X.reshaped(); }
@@ -84,19 +82,19 @@ Parts parts_of(const Vector& x) {
 
 /// log det of a positive definite matrix; none of another.
 std::optional<double> log_det(const Matrix& S) {
-  const Eigen::LLT<Matrix> factor(S);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  return 2 * factor.matrixLLT().diagonal().array().log().sum();
+  const linear_algebra::Cholesky factor(S);
+  if (!factor.is_definite()) return std::nullopt;
+  return 2 * factor.diagonal().array().log().sum();
 }
 
 /// What X and its multiplier V leave of V = -sign X⁻¹, X the symmetric part of sign x positive definite, as
 /// an error of X in the metric d: moved by E, X changes d X + X⁻¹ by d E + X⁻¹ E X⁻¹, entry by entry (d +
 /// 1/(lambda_i lambda_j)) E_ij in the basis of its eigenvectors.
 double inverse_miss(const Matrix& X, const Matrix& V, double d) {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(X);
-  const Vector& lambda = eigen.eigenvalues();
+  const linear_algebra::SymmetricEigen eigen(X);
+  const Vector& lambda = eigen.values;
   if (!(lambda.minCoeff() > 0)) return infinity;
-  Matrix rest = eigen.eigenvectors().transpose() * V * eigen.eigenvectors();
+  Matrix rest = eigen.vectors.transpose() * V * eigen.vectors;
   rest.diagonal() += lambda.cwiseInverse();
   double squares = 0;
   for (Index j = 0; j < rest.cols(); ++j)
@@ -119,7 +117,7 @@ class NegLogDet : public LogDeterminant {
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (std::isinf(value(x))) return std::nullopt;
     const Matrix S = parts_of(x).symmetric;
-    return stacked(-S.llt().solve(Matrix::Identity(S.rows(), S.rows())));
+    return stacked(-linear_algebra::Cholesky(S).inverse());
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return kernels::prox_log_det(z, 1 / d[0]);
@@ -146,7 +144,7 @@ class NegLogDetConjugate : public LogDeterminant {
   std::optional<Vector> subgradient(const Vector& v) const override {
     if (std::isinf(value(v))) return std::nullopt;
     const Matrix S = parts_of(v).symmetric;
-    return stacked((-S).llt().solve(Matrix::Identity(S.rows(), S.rows())));
+    return stacked(linear_algebra::Cholesky(-S).inverse());
   }
   /// Eigenvalues ½(lambda - sqrt(lambda² + 4/d)), by the mirror image of the prox of -log det; the skew part
   /// is free.

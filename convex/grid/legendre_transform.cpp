@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convex/double_double.hpp"
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 DoubleDouble product(DoubleDouble a, DoubleDouble b) {
   DoubleDouble p = two_product(a.hi, b.hi);

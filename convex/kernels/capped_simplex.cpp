@@ -3,14 +3,13 @@
 #include <cmath>
 #include <string>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/kernels/water_level.hpp"
 
 namespace convex::kernels {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void require_metric(const Vector& z, const Vector& d) {
   if (d.size() != z.size())

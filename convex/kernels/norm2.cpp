@@ -9,7 +9,7 @@ namespace convex::kernels {
 
 namespace {
 
-void require(double size, const char* name) {
+void require_not_negative(double size, const char* name) {
   if (!(size >= 0))
     throw InvalidInput(std::string(name) + " is " + std::to_string(size) +
                        "; give a number that is not negative");
@@ -58,14 +58,14 @@ Vector rescaled(const Eigen::Ref<const Vector>& z, double norm, double wanted) {
 }
 
 Vector proj_ball2(const Vector& z, double radius) {
-  require(radius, "ball2: the radius");
+  require_not_negative(radius, "ball2: the radius");
   const double norm = length(z);
   if (norm <= radius) return z;
   return rescaled(z, norm, radius);
 }
 
 Vector proj_ball2(const Vector& z, double radius, const Vector& center) {
-  require(radius, "ball2: the radius");
+  require_not_negative(radius, "ball2: the radius");
   if (center.size() != z.size())
     throw InvalidInput("ball2: the center has " + std::to_string(center.size()) + " entries, the point " +
                        std::to_string(z.size()) + "; give them one size");
@@ -86,7 +86,7 @@ Matrix proj_ball2_jacobian(const Vector& z, double radius, const Vector& center)
 }
 
 Vector prox_norm2(const Vector& z, double weight) {
-  require(weight, "norm2: the weight");
+  require_not_negative(weight, "norm2: the weight");
   const double norm = length(z);
   if (norm <= weight) return Vector::Zero(z.size());
   return rescaled(z, norm, norm - weight);

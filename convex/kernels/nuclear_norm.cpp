@@ -1,34 +1,17 @@
 #include "convex/kernels/nuclear_norm.hpp"
 
-#include <Eigen/SVD>
 #include <string>
 
 #include "convex/invalid_input.hpp"
+#include "convex/linear_algebra/singular_values.hpp"
 
 namespace convex::kernels {
 
 namespace {
 
-/// From this size on divide and conquer is faster than rotations by more than it costs in digits.
-constexpr Index large_matrix = 48;
+using linear_algebra::SingularValues;
 
-struct SingularValues {
-  Matrix U, V;
-  Vector sigma;
-};
-
-SingularValues decomposed(const Matrix& Z) {
-  constexpr int thin = Eigen::ComputeThinU | Eigen::ComputeThinV;
-  if (Z.size() == 0) return {Matrix(Z.rows(), 0), Matrix(Z.cols(), 0), Vector(0)};
-  if (std::min(Z.rows(), Z.cols()) < large_matrix) {
-    const Eigen::JacobiSVD<Matrix> svd(Z, thin);
-    return {svd.matrixU(), svd.matrixV(), svd.singularValues()};
-  }
-  const Eigen::BDCSVD<Matrix> svd(Z, thin);
-  return {svd.matrixU(), svd.matrixV(), svd.singularValues()};
-}
-
-void require(double size, const char* name) {
+void require_weight(double size, const char* name) {
   if (!(size >= 0))
     throw InvalidInput(std::string(name) + " is " + std::to_string(size) +
                        "; give a number that is not negative");
@@ -77,15 +60,15 @@ Matrix NuclearNormProx::jacobian() const {
 }
 
 NuclearNormProx nuclear_norm_prox(const Matrix& Z, double weight) {
-  require(weight, "nuclear_norm: the weight");
-  const SingularValues s = decomposed(Z);
+  require_weight(weight, "nuclear_norm: the weight");
+  const SingularValues s(Z);
   const Vector phi = (s.sigma.array() - weight).max(0.0);
   return {weight > 0 ? composed(s, phi) : Z, s.U, s.V, s.sigma, weight};
 }
 
 Matrix proj_spectral_ball(const Matrix& Z, double radius) {
-  require(radius, "spectral ball: the radius");
-  const SingularValues s = decomposed(Z);
+  require_weight(radius, "spectral ball: the radius");
+  const SingularValues s(Z);
   if (s.sigma.size() == 0 || s.sigma[0] <= radius) return Z;
   return composed(s, s.sigma.cwiseMin(radius));
 }

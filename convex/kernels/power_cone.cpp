@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// An entry so small beside the others is zero to any rounding.
-constexpr double negligible = 0x1p-960;
+constexpr double negligible_entry = 0x1p-960;
 
 enum class Region { cone, polar, flat, boundary };
 
@@ -102,7 +102,7 @@ ScaledSplit scaled_split(const Vector3d& z, double alpha) {
   const int k = largest > 0 ? std::ilogb(largest) : 0;
   const Vector3d w = z.unaryExpr([k](double v) {
     const double scaled = std::ldexp(v, -k);
-    return std::abs(scaled) < negligible ? 0 : scaled;
+    return std::abs(scaled) < negligible_entry ? 0 : scaled;
   });
   return {k, split(w, alpha)};
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/kernels/separable.hpp"
 #include "convex/kernels/top_level.hpp"
@@ -12,9 +13,7 @@ namespace convex::kernels {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void require(double total, const char* name) {
+void require_total(double total, const char* name) {
   if (!(total >= 0 && total < infinity))
     throw InvalidInput(std::string(name) + " is " + std::to_string(total) +
                        "; give a finite number that is not negative");
@@ -66,14 +65,14 @@ Vector signed_as(const Vector& x, const Vector& z) {
 }  // namespace
 
 Vector proj_simplex(const Vector& z, double total) {
-  require(total, "simplex: the total");
+  require_total(total, "simplex: the total");
   require_points(z, total);
   if (!(total > 0)) return Vector::Zero(z.size());
   return above_level(z, top_level(z, total, Values::signed_ones), Values::signed_ones);
 }
 
 Vector proj_simplex(const Vector& z, double total, const Vector& d) {
-  require(total, "simplex: the total");
+  require_total(total, "simplex: the total");
   require_points(z, total);
   const Vector metric = balanced_metric(z, d);
   if (!(total > 0)) return Vector::Zero(z.size());
@@ -81,14 +80,14 @@ Vector proj_simplex(const Vector& z, double total, const Vector& d) {
 }
 
 Vector proj_ball1(const Vector& z, double radius) {
-  require(radius, "ball1: the radius");
+  require_total(radius, "ball1: the radius");
   if (sum_of_absolutes(z) <= radius) return z;
   if (!(radius > 0)) return Vector::Zero(z.size());
   return above_level(z, top_level(z, radius, Values::absolute_ones), Values::absolute_ones);
 }
 
 Vector proj_ball1(const Vector& z, double radius, const Vector& d) {
-  require(radius, "ball1: the radius");
+  require_total(radius, "ball1: the radius");
   const Vector metric = balanced_metric(z, d);
   if (sum_of_absolutes(z) <= radius) return z;
   if (!(radius > 0)) return Vector::Zero(z.size());
@@ -96,13 +95,13 @@ Vector proj_ball1(const Vector& z, double radius, const Vector& d) {
 }
 
 Vector prox_max(const Vector& z, double weight) {
-  require(weight, "max: the weight");
+  require_total(weight, "max: the weight");
   if (z.size() == 0 || !(weight > 0)) return z;
   return proj_box(z, -infinity, top_level(z, weight, Values::signed_ones).value());
 }
 
 Vector prox_max(const Vector& z, double weight, const Vector& d) {
-  require(weight, "max: the weight");
+  require_total(weight, "max: the weight");
   const Vector metric = balanced_metric(z, d);
   if (z.size() == 0 || !(weight > 0)) return z;
   const double scaled = std::ldexp(weight, -std::ilogb(d.maxCoeff()));
@@ -110,7 +109,7 @@ Vector prox_max(const Vector& z, double weight, const Vector& d) {
 }
 
 Vector prox_norm_inf(const Vector& z, double weight) {
-  require(weight, "norm_inf: the weight");
+  require_total(weight, "norm_inf: the weight");
   if (!(weight > 0)) return z;
   if (sum_of_absolutes(z) <= weight) return Vector::Zero(z.size());
   const double level = std::max(0.0, top_level(z, weight, Values::absolute_ones).value());
@@ -118,7 +117,7 @@ Vector prox_norm_inf(const Vector& z, double weight) {
 }
 
 Vector prox_norm_inf(const Vector& z, double weight, const Vector& d) {
-  require(weight, "norm_inf: the weight");
+  require_total(weight, "norm_inf: the weight");
   const Vector metric = balanced_metric(z, d);
   const double scaled = z.size() > 0 ? std::ldexp(weight, -std::ilogb(d.maxCoeff())) : 0;
   if (!(weight > 0)) return z;

@@ -1,11 +1,11 @@
 #include "convex/kernels/spectral.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex::kernels {
 
@@ -18,9 +18,9 @@ Matrix symmetric_part(const Matrix& Z) {
   return 0.5 * Z + 0.5 * Z.transpose();
 }
 
-Eigen::SelfAdjointEigenSolver<Matrix> decomposed(const Matrix& S) {
-  Eigen::SelfAdjointEigenSolver<Matrix> eigen(S);
-  invariant(eigen.info() == Eigen::Success, "the eigenvalues of a finite symmetric matrix are found");
+linear_algebra::SymmetricEigen decomposed(const Matrix& S) {
+  linear_algebra::SymmetricEigen eigen(S);
+  invariant(eigen.found, "the eigenvalues of a finite symmetric matrix are found");
   return eigen;
 }
 
@@ -76,8 +76,8 @@ SpectralProx psd_projection(const Matrix& Z) {
   const Index n = S.rows();
   if (n == 0) return {S, S, Vector(0), S};
   const auto eigen = decomposed(S);
-  const Vector& lambda = eigen.eigenvalues();
-  SpectralProx prox{S, eigen.eigenvectors(), lambda, Matrix(n, n)};
+  const Vector& lambda = eigen.values;
+  SpectralProx prox{S, eigen.vectors, lambda, Matrix(n, n)};
   if (lambda[0] < 0) prox.X = composed(prox.V, lambda, 1);
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) {
@@ -94,8 +94,8 @@ SpectralProx log_det_prox(const Matrix& Z, double weight) {
   const Index n = S.rows();
   if (n == 0) return {S, S, Vector(0), S};
   const auto eigen = decomposed(S);
-  const Vector& lambda = eigen.eigenvalues();
-  SpectralProx prox{Matrix(), eigen.eigenvectors(), lambda, Matrix(n, n)};
+  const Vector& lambda = eigen.values;
+  SpectralProx prox{Matrix(), eigen.vectors, lambda, Matrix(n, n)};
   const double h = 2 * std::sqrt(weight);
   const Vector root = lambda.unaryExpr([h](double v) { return std::hypot(v, h); });
   Vector phi(n);
@@ -116,8 +116,8 @@ Vector proj_psd_polar(const Vector& z) {
   const Matrix Z = unstacked(z), S = symmetric_part(Z), skew = 0.5 * Z - 0.5 * Z.transpose();
   if (S.size() == 0) return z;
   const auto eigen = decomposed(S);
-  if (eigen.eigenvalues().maxCoeff() <= 0) return z;
-  return stacked(skew + composed(eigen.eigenvectors(), eigen.eigenvalues(), -1));
+  if (eigen.values.maxCoeff() <= 0) return z;
+  return stacked(skew + composed(eigen.vectors, eigen.values, -1));
 }
 
 }  // namespace convex::kernels

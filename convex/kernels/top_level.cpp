@@ -15,7 +15,7 @@ namespace convex::kernels {
 namespace {
 
 /// Values filtered with one bound before it is raised: enough to hide the division, few enough to stay near.
-constexpr Index block = 256;
+constexpr Index stretch = 256;
 
 template <bool absolute>
 [[gnu::always_inline]] inline double value_of(double z) {
@@ -142,9 +142,9 @@ Level level_of(const Vector& z, double total) {
   const std::unique_ptr<double[]> kept(new double[static_cast<std::size_t>(n + lanes)]);
   Kept all;
   double bound = -total;  // S = {the largest}
-  for (Index first = 0; first < n; first += block) {
+  for (Index first = 0; first < n; first += stretch) {
     const Kept added =
-        filtered<absolute>(std::min(block, n - first), z.data() + first, top, bound, kept.get() + all.count);
+        filtered<absolute>(std::min(stretch, n - first), z.data() + first, top, bound, kept.get() + all.count);
     if (added.count == 0) continue;
     all = {all.count + added.count, all.sum + added.sum};
     bound = std::max(bound, (all.sum - total) / static_cast<double>(all.count));

@@ -12,9 +12,6 @@
 namespace convex {
 namespace {
 
-/// Roundings of a value of f or g, relative to the terms it is compared with.
-constexpr double value_roundings = 64 * unit_roundoff;
-
 /// y = prox_g z beside x = prox_f z, with what an error in them does to the values.
 struct Decomposed {
   Split x, y;

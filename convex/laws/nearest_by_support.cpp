@@ -11,7 +11,7 @@ namespace convex {
 namespace {
 
 /// Roundings of a product (z - x|s - x), relative to the lengths in it.
-constexpr double roundings = 64 * unit_roundoff;
+constexpr double support_roundings = 64 * unit_roundoff;
 
 /// A polytope takes about as many support points as it has dimensions; a ball in as many gains about two
 /// digits with each.
@@ -50,7 +50,7 @@ std::optional<Prox> nearest_by_support(const SupportPoint& support_point, const 
     const std::optional<Vector> found = support_point(c);
     if (!found) return std::nullopt;
     const Vector& s = *found;
-    const double gap = W.inner(c, s - x), noise = roundings * W.norm(c) * (W.norm(s) + W.norm(x));
+    const double gap = W.inner(c, s - x), noise = support_roundings * W.norm(c) * (W.norm(s) + W.norm(x));
     const double bound = std::sqrt(std::max(0.0, gap) + noise);
     if (bound < best.error_bound) {
       best.x = x;

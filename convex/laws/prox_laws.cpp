@@ -1,23 +1,16 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "convex/laws/subject.hpp"
 #include "convex/laws/worst_check.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex {
 namespace {
 
-/// Roundings of a value of f, relative to the terms it is compared with.
-constexpr double value_roundings = 64 * unit_roundoff;
-
 /// The largest ||x||_V / ||x||_W.
 double largest_ratio(const Metric& V, const Metric& W) {
-  const Matrix A = gram_matrix(V), B = gram_matrix(W);
-  return std::sqrt(Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(A, B, Eigen::EigenvaluesOnly)
-                       .eigenvalues()
-                       .maxCoeff());
+  return std::sqrt(linear_algebra::generalized_eigenvalues(gram_matrix(V), gram_matrix(W)).maxCoeff());
 }
 
 Check subgradient_law(const Subject& f, const Split& at, const Metric& W, const std::vector<Vector>& points) {

@@ -9,6 +9,9 @@
 
 namespace convex {
 
+/// Roundings of a value of f, relative to the terms it is compared with.
+inline constexpr double value_roundings = 64 * unit_roundoff;
+
 /// A function on trial: its two verbs, whoever wrote it.
 struct Subject {
   std::function<double(const Vector&)> value;

@@ -1,9 +1,10 @@
 #include "convex/laws/trial.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
+
+#include "convex/linear_algebra/householder.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex {
 namespace {
@@ -21,7 +22,7 @@ Matrix matrix_of_condition(Index n, double condition) {
   std::mt19937 generator(1966);
   Matrix B(n, n);
   for (Index j = 0; j < n; ++j) B.col(j) = normal_vector(generator, n);
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(B).householderQ();
+  const Matrix Q = linear_algebra::Householder(B).Q(n);
   Vector d(n);
   for (Index i = 0; i < n; ++i)
     d[i] = n > 1 ? std::pow(condition, static_cast<double>(i) / static_cast<double>(n - 1) - 0.5) : 2;
@@ -62,8 +63,7 @@ Matrix gram_matrix(const Metric& W) {
 }
 
 Spectrum spectrum(const Metric& W) {
-  const Vector values =
-      Eigen::SelfAdjointEigenSolver<Matrix>(gram_matrix(W), Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector values = linear_algebra::eigenvalues(gram_matrix(W));
   return {values.minCoeff(), values.maxCoeff()};
 }
 

@@ -1,13 +1,12 @@
 #include "convex/linear_quadratic/definite_part.hpp"
 
-#include <Eigen/Cholesky>
 #include <cmath>
-#include <limits>
+
+#include "convex/infinity.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// H on the auxiliary variables counts as definite when its factor, scaled to a unit diagonal, has no pivot
 /// below this; more than that is left to the proximal-point method.
@@ -36,9 +35,8 @@ bool is_definite(const LinearQuadratic& f, const Vector& diagonal) {
     for (std::size_t j = 0; j < block.size(); ++j)
       M(static_cast<Index>(i), static_cast<Index>(j)) =
           dense(block[i] - f.n, block[j] - f.n) / std::sqrt(diagonal[block[i]] * diagonal[block[j]]);
-  const Eigen::LLT<Matrix> factor(M);
-  return factor.info() == Eigen::Success &&
-         factor.matrixL().toDenseMatrix().diagonal().minCoeff() >= definite_pivot;
+  const linear_algebra::Cholesky factor(M);
+  return factor.is_definite() && factor.diagonal().minCoeff() >= definite_pivot;
 }
 
 /// sqrt(Σ u_i² / curvature_i) over the definite variables of each row, the metric's part by its own factor.

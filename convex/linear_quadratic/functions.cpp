@@ -1,8 +1,8 @@
 #include "convex/linear_quadratic/functions.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/placement.hpp"
 #include "convex/linear_quadratic/properness.hpp"
@@ -44,8 +44,7 @@ LinearQuadratic quadratic(const Matrix& Q, const Vector& c) {
           "quadratic", "Q is not symmetric; give its symmetric part");
   const Matrix symmetric = 0.5 * (Q + Q.transpose());
   if (n > 0 && largest > 0) {
-    const Vector eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Matrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vector eigenvalues = linear_algebra::eigenvalues(symmetric);
     require(eigenvalues.minCoeff() >= -eigenvalue_roundings * static_cast<double>(n) * unit_roundoff *
                                           eigenvalues.cwiseAbs().maxCoeff(),
             "quadratic", "Q has a negative eigenvalue, so that the function is not convex; give Q >= 0");

@@ -1,9 +1,9 @@
 #include "convex/linear_quadratic/minimise.hpp"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/definite_part.hpp"
 #include "convex/linear_quadratic/polish.hpp"
@@ -12,8 +12,6 @@
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The part of the natural curvature that holds soft variables in the first round: each round then leaves
 /// about this part of the error.

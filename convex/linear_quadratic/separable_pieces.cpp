@@ -1,13 +1,11 @@
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/placement.hpp"
 
 namespace convex::linear_quadratic {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Values and slopes of neighbouring pieces may differ at a break by this part of their terms: coefficients
 /// are written with rounding.

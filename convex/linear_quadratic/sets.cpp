@@ -1,15 +1,13 @@
 #include "convex/linear_quadratic/sets.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/placement.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 
 namespace convex::linear_quadratic {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void fill(LinearQuadraticBuilder& form, const Vector& row, double sign) {
   for (Index j = 0; j < row.size(); ++j)

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/functions/facts.hpp"
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/minimise.hpp"
 #include "convex/linear_quadratic/prox.hpp"
@@ -12,7 +13,6 @@
 namespace convex {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// Bounds are widened by so many roundings of their terms when a rounded point of the domain misses them.

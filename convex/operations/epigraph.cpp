@@ -1,8 +1,8 @@
 #include <cmath>
-#include <limits>
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -10,8 +10,6 @@
 /// The epigraph of a function and its perspective: each other's conjugates, through f* and a change of sign.
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// (v, r) -> h(v, -r) on n + 1 entries.
 Function with_last_reversed(const Function& h, Index n) {

@@ -8,10 +8,6 @@
 namespace convex {
 namespace {
 
-bool is_diagonal_kind(const Metric& W) {
-  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
-}
-
 /// x -> h(Mx), M definite: one to one, and metrics stay what they are.
 class InProduct : public Operation {
  public:

@@ -1,12 +1,12 @@
 #include "convex/operations/metric_algebra.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/householder.hpp"
+#include "convex/linear_algebra/singular_values.hpp"
 
 namespace convex {
 namespace {
@@ -17,13 +17,6 @@ constexpr double equality_roundings = 8;
 /// Rows whose smallest singular value is so small a part of the largest are dependent: the Gram matrix of the
 /// image, which has the square of it, keeps no digit below.
 constexpr double smallest_independent = 1e-7;
-
-/// A sum with more than one entry in so many is stored in full.
-constexpr Index dense_above = 4;
-
-bool is_diagonal_kind(const Metric& W) {
-  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
-}
 
 bool is_diagonal(const SparseMatrix& Q) {
   for (Index j = 0; j < Q.outerSize(); ++j)
@@ -43,12 +36,13 @@ SparseMatrix stored(const Metric& W) {
 
 Matrix symmetric(const Matrix& M) { return 0.5 * (M + M.transpose()); }
 
-Matrix inverse_gram(const Matrix& W) {
-  const Eigen::LLT<Matrix> factor(W);
-  return symmetric(factor.solve(Matrix::Identity(W.rows(), W.cols())));
-}
+Matrix inverse_gram(const Matrix& W) { return symmetric(linear_algebra::Cholesky(W).inverse()); }
 
 }  // namespace
+
+bool is_diagonal_kind(const Metric& W) {
+  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
+}
 
 Metric times(double factor, const Metric& W) {
   if (!(factor > 0) || !std::isfinite(factor))
@@ -104,7 +98,8 @@ Metric parallel_sum(const Metric& W, const Metric& V) {
   }
   // V - V (W + V)⁻¹ V = W (W + V)⁻¹ V; the product has no cancellation.
   const Matrix dense_W = gram(W), dense_V = gram(V);
-  return Metric::dense(symmetric(dense_W * Eigen::LLT<Matrix>(dense_W + dense_V).solve(dense_V)));
+  return Metric::dense(
+      symmetric(dense_W * linear_algebra::Cholesky(dense_W + dense_V).solve_columns(dense_V)));
 }
 
 Metric congruence(const Metric& M, const Metric& W) {
@@ -177,14 +172,11 @@ std::optional<ImageMetric> image_metric(const Metric& W, const Matrix& A) {
   }
 
   // Rows of any length may be independent: the singular values are those of unit rows.
-  const Eigen::JacobiSVD<Matrix> svd(unit);
-  const Vector sigma = svd.singularValues();
+  const Vector sigma = linear_algebra::singular_values_by_rotations(unit);
   const double condition = sigma[0] / sigma[m - 1];
   if (!(sigma[m - 1] > smallest_independent * sigma[0])) return std::nullopt;
-  const Eigen::HouseholderQR<Matrix> qr(V);
   Matrix R_inverse = Matrix::Identity(m, m);
-  const Matrix R = qr.matrixQR().topRows(m);
-  R.triangularView<Eigen::Upper>().solveInPlace(R_inverse);  // (VᵀV)⁻¹ = R⁻¹R⁻ᵀ
+  linear_algebra::Householder(V).solve_R_in_place(R_inverse);  // (VᵀV)⁻¹ = R⁻¹R⁻ᵀ
   return ImageMetric{Metric::dense(symmetric(R_inverse * R_inverse.transpose())), std::move(lift), condition};
 }
 

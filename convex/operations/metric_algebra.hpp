@@ -11,6 +11,12 @@
 /// roundings times the condition number of its operands, as every metric does that is rounded to doubles.
 namespace convex {
 
+/// A sum with more than one entry in so many is stored in full.
+inline constexpr Index dense_above = 4;
+
+/// Whether W is the identity or diagonal.
+bool is_diagonal_kind(const Metric& W);
+
 /// factor W; W itself when the factor is 1. Throws InvalidInput unless factor > 0 and finite.
 Metric times(double factor, const Metric& W);
 

@@ -1,9 +1,9 @@
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_algebra/householder.hpp"
+#include "convex/linear_algebra/inverse.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
@@ -13,10 +13,6 @@
 
 namespace convex {
 namespace {
-
-bool is_diagonal_kind(const Metric& W) {
-  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
-}
 
 /// x -> f(Ax + b).
 class Precompose : public Operation {
@@ -129,19 +125,18 @@ Function Precompose::conjugate() const {
   if (!b_.isZero(0)) g = tilt(g, -b_);
   Matrix back(m, n);
   if (m == n) {
-    back = Eigen::PartialPivLU<Matrix>(A_.transpose()).inverse();
+    back = linear_algebra::inverse(A_.transpose());
     const Function made = precompose(g, back, Vector::Zero(m));
     const auto* map = dynamic_cast<const Precompose*>(&made.node());
     if (!map || is_diagonal_kind(image->metric)) return made;
     return Function(std::make_shared<ConjugateMap>(*map, self()));
   }
+  const linear_algebra::Householder factor(A_.transpose());
   if (is_diagonal_kind(image->metric))
     back = image->metric.diagonal().asDiagonal() * A_;
   else
-    back = Eigen::HouseholderQR<Matrix>(A_.transpose()).solve(Matrix::Identity(n, n));
-  const Matrix orthogonal =
-      Eigen::HouseholderQR<Matrix>(A_.transpose()).householderQ() * Matrix::Identity(n, n);
-  const Matrix outside = orthogonal.rightCols(n - m).transpose();
+    back = factor.least_squares(Matrix::Identity(n, n));
+  const Matrix outside = factor.Q(n).rightCols(n - m).transpose();
   const Function in_range =
       named("affine", {argument("A", outside), argument("b", Vector::Zero(n - m).eval())}, n);
   std::vector<Function> terms{precompose(g, back, Vector::Zero(m)), in_range};

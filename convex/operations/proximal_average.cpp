@@ -1,9 +1,9 @@
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -39,15 +39,16 @@ class ProximalAverage : public Operation {
     if (!M_)
       return {"proximal_average",
               {argument(f_.call()), argument(g_.call()), argument("weight", t_), argument("gamma", gamma_)}};
-    const Matrix F = gram(*M_).llt().matrixL();
-    const Matrix back = F.transpose().triangularView<Eigen::Upper>().solve(Matrix::Identity(n_, n_));
+    const linear_algebra::Cholesky factor(gram(*M_));
+    Matrix back = Matrix::Identity(n_, n_);
+    factor.solve_upper_in_place(back);
     const auto inside = [&](const Function& f) {
       return Call{"precompose", {argument(f.call()), argument("A", back)}};
     };
     const Call average{
         "proximal_average",
         {argument(inside(f_)), argument(inside(g_)), argument("weight", t_), argument("gamma", gamma_)}};
-    return {"precompose", {argument(average), argument("A", Matrix(F.transpose()))}};
+    return {"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
   }
   Value evaluate(const Vector& x) const override {
     const ByProgram found = by_program(x);

@@ -9,13 +9,6 @@
 #include "convex/operations/reduction.hpp"
 
 namespace convex {
-namespace {
-
-/// A matrix with more than one entry in so many is stored in full.
-constexpr Index dense_above = 4;
-
-}  // namespace
-
 std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n) {
   const Facts facts = f.facts();
   if (!facts.smooth || !facts.finite || !facts.piecewise_quadratic) return std::nullopt;

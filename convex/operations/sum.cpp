@@ -12,13 +12,7 @@
 #include "convex/operations/reduction.hpp"
 
 namespace convex {
-namespace {
-
-bool is_diagonal_kind(const Metric& W) {
-  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SplitSum split(std::span<const Function> parts, Index n) {
   SplitSum sorted;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convex/functions/node.hpp"
+#include "convex/infinity.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/sum.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power, for |v| <= 1
 constexpr int step_limit = 32;

@@ -1,16 +1,13 @@
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 
 namespace convex {
 namespace {
-
-bool is_diagonal_kind(const Metric& W) {
-  return W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
-}
 
 class Tilt : public Operation {
  public:

@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/curve_builder.hpp"
 
 namespace convex::piecewise {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void require(bool holds, const char* message) {
   if (!holds) throw InvalidInput(message);

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
 namespace convex {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 PieceCursor::PieceCursor(const PiecewiseQuadratic& f) : f_(&f) {
   if (piece().run == 0) next();

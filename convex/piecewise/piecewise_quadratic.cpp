@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <sstream>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/piecewise/algebra.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The first corner with corner.x >= x; segment k then holds x, and its slope at x is f'_-(x).
 std::size_t first_corner_from(const PiecewiseQuadratic& f, double x) {

@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/curve_builder.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A point of the graph with the value of the function there.
 struct GraphPoint {

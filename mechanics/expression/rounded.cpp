@@ -1,9 +1,11 @@
 #include "mechanics/expression/rounded.hpp"
 
+#include "convex/infinity.hpp"
+
 namespace mechanics::expression {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using convex::infinity;
 
 /// f(a) with what the operand's radius moves it by, and what the function may be off.
 Rounded moved(double f, double by) {

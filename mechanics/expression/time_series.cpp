@@ -6,7 +6,7 @@ namespace mechanics::expression {
 namespace {
 
 /// A function without value or derivatives.
-TimeSeries undefined() {
+TimeSeries undefined_series() {
   TimeSeries f;
   f.c.fill(std::numeric_limits<double>::quiet_NaN());
   return f;
@@ -219,13 +219,13 @@ TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b
     case Operation::sqrt:
       return by.root(a);
     case Operation::abs:
-      return a.c[0].value > 0 ? a : a.c[0].value < 0 ? by.negative(a) : undefined();
+      return a.c[0].value > 0 ? a : a.c[0].value < 0 ? by.negative(a) : undefined_series();
     case Operation::sign:
       return a.c[0].value > 0   ? TimeSeries(Rounded(1))
              : a.c[0].value < 0 ? TimeSeries(Rounded(-1))
-                                : undefined();
+                                : undefined_series();
     default:
-      return undefined();
+      return undefined_series();
   }
 }
 

@@ -1,7 +1,9 @@
 #include "mechanics/singular/redundancy.hpp"
 
-#include <Eigen/QR>
 #include <random>
+
+#include "convex/linear_algebra/complete_orthogonal.hpp"
+#include "mechanics/singular/rounded_rows.hpp"
 
 namespace mechanics {
 namespace {
@@ -16,8 +18,6 @@ struct Point {
   std::vector<TimeSeries> q;
   TimeSeries t;
 };
-
-bool is_finite(Rounded x) { return std::isfinite(x.value) && std::isfinite(x.radius); }
 
 /// f of chosen constraints at a point, with their gradients when wanted; false where they are not finite.
 bool evaluate(const ConstraintSeries& series, Point& at, const std::vector<Index>& columns,
@@ -47,7 +47,7 @@ bool move_onto(const ConstraintSeries& series, Point& at, const std::vector<Inde
     Vector f;
     Matrix U;
     if (!evaluate(series, at, columns, others, f, U)) return false;
-    const Vector change = U.completeOrthogonalDecomposition().solve(-f);
+    const Vector change = convex::linear_algebra::CompleteOrthogonal(U).solve(-f);
     moved += change.norm();
     if (!(moved <= reach)) return false;
     for (std::size_t i = 0; i < columns.size(); ++i)

@@ -1,8 +1,8 @@
 #include "mechanics/singular/singular_group.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 
+#include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "mechanics/singular/rounded_rows.hpp"
 
 namespace mechanics {
@@ -130,9 +130,7 @@ void SingularGroup::find_what_state_misses(const RowMatrix& gradients) {
     velocity[a] = beyond_rounding(f[static_cast<std::size_t>(a)].c[1]) / length;
   }
   if (place.isZero(0) && velocity.isZero(0)) return;
-  Eigen::CompleteOrthogonalDecomposition<Matrix> factor;
-  factor.setThreshold(telling);
-  factor.compute(rows);
+  const convex::linear_algebra::CompleteOrthogonal factor(rows, telling);
   missed_place_ = factor.solve(place).norm();
   missed_velocity_ = factor.solve(velocity).norm();
 }

@@ -1,10 +1,11 @@
 #include "mechanics/singular/suspect_rows.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+
+#include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace mechanics {
 namespace {
@@ -83,8 +84,7 @@ SuspectRows suspect_rows(const GaussProblem& gauss, const Vector& unit) {
       for (const Entry& entry : rows[members[static_cast<std::size_t>(k)]])
         V(column_of[entry.column], k) = entry.value * unit[entry.column];
     V.colwise().normalize();
-    const Eigen::ColPivHouseholderQR<Matrix> factor(V);
-    const bool dependent = m > n || !(std::abs(factor.matrixQR()(m - 1, m - 1)) > close);
+    const bool dependent = m > n || !(convex::linear_algebra::PivotedQr(V).pivots[m - 1] > close);
     if (dependent)
       for (const std::size_t k : members) found.rows.push_back(two_sided[k]);
   }

@@ -7,7 +7,7 @@ namespace {
 
 /// Where s has no radii, the way goes on as if a gap of so many roundings were none; the end decides it
 /// without rounding.
-constexpr double gap_roundings = 16;
+constexpr double row_gap_roundings = 16;
 
 /// The coefficients are rounded.
 constexpr double rounding_of_sum = 2;
@@ -45,7 +45,7 @@ Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
     if (radii)
       gap.explained += std::abs(split.coefficients[k]) * radii->s[set.rows()[static_cast<std::size_t>(k)]];
   }
-  gap.explained += (radii ? rounding_of_sum : gap_roundings) * unit_roundoff * gap.magnitude;
+  gap.explained += (radii ? rounding_of_sum : row_gap_roundings) * unit_roundoff * gap.magnitude;
   gap.value = sum.value();
   return gap;
 }

@@ -1,7 +1,6 @@
 #include "convex/nearest_point/methods/block_pivoting.hpp"
 
-#include <Eigen/Cholesky>
-
+#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/optimality/complementarity.hpp"
 
@@ -59,7 +58,7 @@ class Pivoting {
     w_ = -c;
     if (rows.empty()) return;
     const Matrix columns = M_(Eigen::all, rows), block = columns(rows, Eigen::all);
-    const Eigen::LLT<Matrix> factor(block);
+    const linear_algebra::Cholesky factor(block);
     const Vector right = c(rows);
     Vector part = factor.solve(right);
     part += factor.solve(right - block * part);

@@ -1,8 +1,8 @@
 #include "convex/nearest_point/methods/crossover.hpp"
 
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
@@ -14,8 +14,6 @@
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// As in the active-set method: weights must exclude motions of up to so many times the scale of the problem.
 constexpr double farthest = 1e3;

@@ -1,7 +1,6 @@
 #include "convex/nearest_point/methods/nnls.hpp"
 
-#include <Eigen/QR>
-
+#include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
@@ -19,7 +18,7 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
   if (const auto found = without_a_method(problem, "nnls", accuracy)) return *found;
   const WhitenedProblem white(problem);
   const Index n = problem.dimension(), k = white.size();
-  const Vector vertex = white.V.transpose().completeOrthogonalDecomposition().solve(white.b);
+  const Vector vertex = linear_algebra::CompleteOrthogonal(white.V.transpose()).solve(white.b);
   Candidate candidate{.method = "nnls", .q = {}, .lambda = {}, .farkas = {}};
   candidate.finished = false;
   if ((white.V.transpose() * vertex - white.b).norm() <= consistent) {

@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Rows that depend on others are held as softly as this part of their length squared: errors along them that
 /// no motion can follow do not count.

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/invariant.hpp"
 
 namespace convex {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Entries of the tableau below this part of the largest are rounding about zero.
 constexpr double entry_noise = 1e-11;

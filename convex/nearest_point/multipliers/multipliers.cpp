@@ -1,11 +1,11 @@
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numeric>
 
+#include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
@@ -32,7 +32,7 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   N.bottomRows(d).setIdentity();
   // The condition of N is at most about the size of T. Beyond, an orthonormal basis of its columns serves.
   constexpr double steep = 1e5;
-  if (rows.T.norm() > steep) N = Eigen::HouseholderQR<Matrix>(N).householderQ() * Matrix::Identity(k + d, d);
+  if (rows.T.norm() > steep) N = linear_algebra::Householder(N).Q(d);
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
   std::vector<Index> signed_rows;

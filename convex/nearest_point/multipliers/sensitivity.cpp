@@ -1,10 +1,10 @@
 #include "convex/nearest_point/multipliers/sensitivity.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "convex/infinity.hpp"
+#include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
@@ -12,7 +12,7 @@
 namespace convex {
 namespace {
 
-std::vector<bool> marked(Index size, const std::vector<Index>& rows) {
+std::vector<bool> marks_of(Index size, const std::vector<Index>& rows) {
   std::vector<bool> mark(static_cast<std::size_t>(size), false);
   for (Index a : rows) mark[static_cast<std::size_t>(a)] = true;
   return mark;
@@ -23,7 +23,7 @@ constexpr double weak = 1e-12;
 
 /// By row: two-sided, or with a multiplier that is not 0.
 std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipliers& multipliers) {
-  std::vector<bool> loaded = marked(problem.rows(), problem.two_sided);
+  std::vector<bool> loaded = marks_of(problem.rows(), problem.two_sided);
   const Vector push =
       multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
   const double largest = push.size() > 0 ? push.maxCoeff() : 0;
@@ -38,7 +38,7 @@ std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipli
 /// large enough. Whether t is: R is then a sum of pushes of the rows that d touches. None when no t will do.
 std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& face, const Vector& R) {
   const double push = face.A.dual_norm(R);
-  const std::vector<bool> two_sided = marked(face.rows(), face.two_sided);
+  const std::vector<bool> two_sided = marks_of(face.rows(), face.two_sided);
   if (!(push > 0)) return face.two_sided;
   NearestPointProblem pulled = face;
   constexpr int most_trials = 8;
@@ -77,7 +77,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds) {
   const std::vector<Index>& tight = multipliers.tight;
-  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
+  const std::vector<bool> two_sided = marks_of(problem.rows(), problem.two_sided),
                           loaded = loaded_rows(problem, multipliers);
   const bool choose = !multipliers.unique && (ds.array() != 0).any();
   const std::vector<bool>& held = choose ? two_sided : loaded;
@@ -106,20 +106,19 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
 std::optional<Vector> margins(const NearestPointProblem& problem, const Solution& solution,
                               const Multipliers& multipliers) {
   if (!multipliers.unique) return std::nullopt;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Index m = problem.rows();
   const std::vector<bool> loaded = loaded_rows(problem, multipliers),
-                          two_sided = marked(m, problem.two_sided);
+                          two_sided = marks_of(m, problem.two_sided);
   std::vector<Index> held;
   for (Index a : solution.basis)
     if (loaded[static_cast<std::size_t>(a)]) held.push_back(a);
   const auto k = static_cast<Index>(held.size());
   Matrix Q(problem.dimension(), 0), R_inverse(0, 0);
   if (k > 0) {
-    const Eigen::HouseholderQR<Matrix> factor(whitened_rows(problem, held));
-    Q = factor.householderQ() * Matrix::Identity(problem.dimension(), k);
+    const linear_algebra::Householder factor(whitened_rows(problem, held));
+    Q = factor.Q(k);
     R_inverse = Matrix::Identity(k, k);
-    factor.matrixQR().topRows(k).triangularView<Eigen::Upper>().solveInPlace(R_inverse);
+    factor.solve_R_in_place(R_inverse);
   }
   Vector found = Vector::Constant(m, infinity);
   for (Index r = 0; r < k; ++r) {
@@ -128,7 +127,7 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
     if (!two_sided[static_cast<std::size_t>(a)])
       found[a] = std::max(0.0, multipliers.least_norm[a]) / R_inverse.row(r).norm();
   }
-  const std::vector<bool> is_tight = marked(m, multipliers.tight), is_held = marked(m, held);
+  const std::vector<bool> is_tight = marks_of(m, multipliers.tight), is_held = marks_of(m, held);
   std::vector<Index> others;
   for (Index a = 0; a < m; ++a)
     if (!is_held[static_cast<std::size_t>(a)] && !two_sided[static_cast<std::size_t>(a)]) others.push_back(a);

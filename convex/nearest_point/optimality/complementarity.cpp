@@ -1,6 +1,6 @@
 #include "convex/nearest_point/optimality/complementarity.hpp"
 
-#include <Eigen/QR>
+#include "convex/linear_algebra/complete_orthogonal.hpp"
 
 namespace convex {
 
@@ -12,10 +12,10 @@ Complementarity::Complementarity(const WhitenedProblem& white) {
   b = white.b(columns);
   if (!free.empty()) {
     const Matrix fixed = white.V(Eigen::all, free);
-    const auto factor = fixed.transpose().completeOrthogonalDecomposition();
-    const Vector shift = factor.solve(Vector(white.b(free)));
+    const linear_algebra::CompleteOrthogonal factor(fixed.transpose());
+    const Vector shift = factor.solve(white.b(free));
     b -= V.transpose() * shift;
-    for (int pass = 0; pass < 2; ++pass) V -= factor.solve((fixed.transpose() * V).eval());
+    for (int pass = 0; pass < 2; ++pass) V -= factor.solve_columns(fixed.transpose() * V);
   }
   M = V.transpose() * V;
 }
@@ -27,10 +27,8 @@ Vector Complementarity::with_free(const WhitenedProblem& white, const Vector& y)
   if (free.empty()) return all;
   const Matrix fixed = white.V(Eigen::all, free);
   // V_free y_free = shift - P V y: the least-norm solution, where columns depend on each other.
-  const Vector wanted = fixed.transpose().completeOrthogonalDecomposition().solve(
-      Vector(Vector(white.b(free)) - fixed.transpose() * (white.V * all)));
-  const Vector part = fixed.completeOrthogonalDecomposition().solve(wanted);
-  all(free) = part;
+  const linear_algebra::CompleteOrthogonal equations(fixed.transpose()), map(fixed);
+  all(free) = map.solve(equations.solve(Vector(white.b(free)) - fixed.transpose() * (white.V * all)));
   return all;
 }
 

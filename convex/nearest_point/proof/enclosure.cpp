@@ -1,10 +1,10 @@
 #include "convex/nearest_point/proof/enclosure.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/held_point.hpp"
@@ -166,9 +166,9 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
   };
   std::vector<Index> rows;
   if (!problem.two_sided.empty()) {
-    const Eigen::ColPivHouseholderQR<Matrix> factor(whitened(problem.two_sided));
-    for (Index r = 0; r < factor.rank(); ++r)
-      rows.push_back(problem.two_sided[static_cast<std::size_t>(factor.colsPermutation().indices()[r])]);
+    const linear_algebra::PivotedQr factor(whitened(problem.two_sided));
+    for (Index r = 0; r < factor.rank; ++r)
+      rows.push_back(problem.two_sided[static_cast<std::size_t>(factor.order[static_cast<std::size_t>(r)])]);
   }
   const std::size_t two_sided = rows.size();
   std::vector<Index> free(two_sided);

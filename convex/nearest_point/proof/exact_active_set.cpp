@@ -11,8 +11,6 @@
 namespace convex {
 namespace {
 
-std::size_t at(Index a) { return static_cast<std::size_t>(a); }
-
 /// The problem with rows W held: its KKT system, and its point, q before the multipliers of W, all over one
 /// denominator.
 class HeldRows {

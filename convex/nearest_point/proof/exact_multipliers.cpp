@@ -11,8 +11,6 @@
 namespace convex {
 namespace {
 
-std::size_t at(Index a) { return static_cast<std::size_t>(a); }
-
 /// The row of N in lambda = start + N mu that belongs to a multiplier: -T_k· for a basic one, a unit for
 /// another.
 ExactVector null_row(const std::vector<ExactVector>& T, std::size_t basics, std::size_t name) {

@@ -1,8 +1,9 @@
 #include "convex/nearest_point/proof/held_point.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <cmath>
+
+#include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/householder.hpp"
 
 namespace convex {
 
@@ -85,16 +86,14 @@ bool find_orthogonalizer(const Matrix& V, Matrix& T) {
   constexpr double well_conditioned = 1e-4;  // of the diagonal of R: VᵀV then keeps half of the digits
   const Vector length = V.colwise().norm();
   if (!(length.minCoeff() > 0)) return false;
-  const Eigen::LLT<Matrix> normal(gram(V));
-  if (normal.info() == Eigen::Success &&
-      (normal.matrixLLT().diagonal().array() > well_conditioned * length.array()).all()) {
-    normal.matrixU().solveInPlace(T);
+  const linear_algebra::Cholesky normal(gram(V));
+  if (normal.is_definite() && (normal.diagonal().array() > well_conditioned * length.array()).all()) {
+    normal.solve_upper_in_place(T);
     return true;
   }
-  const Eigen::HouseholderQR<Matrix> factor(V);
-  const Matrix R = factor.matrixQR().topRows(V.cols());
-  if (!(R.diagonal().cwiseAbs().minCoeff() > 0)) return false;
-  R.triangularView<Eigen::Upper>().solveInPlace(T);
+  const linear_algebra::Householder factor(V);
+  if (!(factor.R().diagonal().cwiseAbs().minCoeff() > 0)) return false;
+  factor.solve_R_in_place(T);
   return true;
 }
 

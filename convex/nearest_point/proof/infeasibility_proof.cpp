@@ -1,12 +1,12 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/exact/grid_sum.hpp"
+#include "convex/linear_algebra/inverse.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
@@ -113,8 +113,7 @@ std::optional<InfeasibilityProof> by_enclosure(const Support& rows, Index m) {
   if (rows.U.rows() != r + 1 || !(rows.w[0] > 0) || !is_ordinary(rows.U) || !is_ordinary(rows.s))
     return std::nullopt;
   const Matrix B = rows.U.bottomRows(r).transpose();
-  const Eigen::PartialPivLU<Matrix> factor(B);
-  Matrix X = factor.inverse();
+  Matrix X = linear_algebra::inverse(B);
   Vector c = rows.w.tail(r) / rows.w[0];
   if (!X.allFinite() || !c.allFinite()) return std::nullopt;
   keep_ordinary(X);

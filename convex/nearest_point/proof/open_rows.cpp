@@ -7,11 +7,11 @@
 namespace convex {
 namespace {
 
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
 
 std::vector<bool> marked(Index size, const std::vector<Index>& chosen) {
-  std::vector<bool> marks(at(size), false);
-  for (Index a : chosen) marks[at(a)] = true;
+  std::vector<bool> marks(place_of(size), false);
+  for (Index a : chosen) marks[place_of(a)] = true;
   return marks;
 }
 
@@ -24,7 +24,7 @@ std::optional<Vector> opening(const NearestPointProblem& problem, const std::vec
                            Vector::Zero(static_cast<Index>(rows.size())),
                            {}};
   for (std::size_t k = 0; k < rows.size(); ++k)
-    if (two_sided[at(rows[k])])
+    if (two_sided[place_of(rows[k])])
       open.two_sided.push_back(static_cast<Index>(k));
     else
       open.s[static_cast<Index>(k)] = length[rows[k]];
@@ -88,9 +88,9 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   Vector row(n);
   Vector missed = Vector::Zero(k);
   for (Index r = 0; r < k; ++r) {
-    if (!two_sided[at(held[at(r)])]) continue;
+    if (!two_sided[place_of(held[place_of(r)])]) continue;
     row = active.U.row(r);
-    const Range range = along(row, radii, held[at(r)], *d, 0);
+    const Range range = along(row, radii, held[place_of(r)], *d, 0);
     missed[r] = std::max(std::abs(range.low), std::abs(range.high));
   }
   const double weak = above(std::sqrt((1 + P.delta) / below(1 - active.delta)));
@@ -100,9 +100,9 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   // How far every row opens, and what that costs: λ_W·U_W d.
   double cost = 0, steepest = 0;
   for (Index r = 0; r < k; ++r) {
-    if (two_sided[at(held[at(r)])]) continue;
+    if (two_sided[place_of(held[place_of(r)])]) continue;
     row = active.U.row(r);
-    const Range range = along(row, radii, held[at(r)], *d, 0);
+    const Range range = along(row, radii, held[place_of(r)], *d, 0);
     const double lambda = point.lambda[r] + point.dlambda[r], radius = point.multiplier_radius[r];
     const double least = below(lambda) - above(radius);
     if (!(range.low >= 0) || !(least > 0)) return std::nullopt;

@@ -1,14 +1,12 @@
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
 
+#include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 namespace convex {
 namespace {
-
-using Factor = Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower>;
 
 SparseMatrix shifted(const SparseMatrix& M, double shift) {
   SparseMatrix result = M;
@@ -17,8 +15,8 @@ SparseMatrix shifted(const SparseMatrix& M, double shift) {
 }
 
 /// The largest row sum of gamma |L||L|ᵀ, and of what the shift rounded.
-double factor_error(const Factor& factor, const SparseMatrix& M) {
-  const SparseMatrix L = factor.matrixL();
+double factor_error(const linear_algebra::SparseCholesky& factor, const SparseMatrix& M) {
+  const SparseMatrix L = factor.L();
   Eigen::VectorXi in_row = Eigen::VectorXi::Zero(L.rows());
   Vector down = Vector::Zero(L.rows()), across = Vector::Zero(L.rows());
   for (Index j = 0; j < L.outerSize(); ++j)
@@ -33,7 +31,7 @@ double factor_error(const Factor& factor, const SparseMatrix& M) {
 }
 
 /// A guess of the least eigenvalue by inverse iteration.
-double guessed_least_eigenvalue(const Factor& factor, Index n) {
+double guessed_least_eigenvalue(const linear_algebra::SparseCholesky& factor, Index n) {
   constexpr int iterations = 12;
   Vector x(n);
   for (Index i = 0; i < n; ++i) {  // fixed numbers without a pattern
@@ -43,7 +41,7 @@ double guessed_least_eigenvalue(const Factor& factor, Index n) {
   double growth = 1;
   for (int k = 0; k < iterations; ++k) {
     x.normalize();
-    x = factor.solve(x).eval();
+    x = factor.solve(x);
     growth = x.norm();
   }
   return 1 / growth;
@@ -188,14 +186,14 @@ bool slacks_are_positive(const NearestPointProblem& problem, const RadiiOf& radi
 }  // namespace
 
 std::optional<double> least_eigenvalue_below(const SparseMatrix& M, double uncertainty) {
-  const Factor first(M);
-  if (first.info() != Eigen::Success) return std::nullopt;
+  const linear_algebra::SparseCholesky first(M);
+  if (!first.is_definite()) return std::nullopt;
   double shift = 0.5 * guessed_least_eigenvalue(first, M.rows());
   constexpr int tries = 4;
   for (int k = 0; k < tries; ++k, shift /= 8) {
     if (!(shift > 0) || !std::isfinite(shift)) return std::nullopt;
-    const Factor factor(shifted(M, shift));
-    if (factor.info() != Eigen::Success) continue;
+    const linear_algebra::SparseCholesky factor(shifted(M, shift));
+    if (!factor.is_definite()) continue;
     const double found = below(shift) - above(factor_error(factor, M) + uncertainty);
     if (found > 0) return below(found);
     return std::nullopt;

@@ -1,19 +1,17 @@
 #include "convex/nearest_point/proof/uncertain_problem.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "convex/exact/positive_definite.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/linear_algebra/complete_orthogonal.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 namespace convex {
 namespace {
-
-std::size_t at(Index a) { return static_cast<std::size_t>(a); }
 
 /// The nearest doubles of the middle, with what their rounding adds.
 Vector size_above(const Vector& x) { return above(1) * x.cwiseAbs(); }
@@ -45,7 +43,7 @@ std::optional<MetricBounds> metric_bounds(const UncertainProblem& problem, const
   found.D = A.diagonal();
   const Vector scale = found.D.cwiseSqrt().cwiseInverse();
   const Matrix unit = scale.asDiagonal() * A * scale.asDiagonal();
-  const double least = Eigen::SelfAdjointEigenSolver<Matrix>(unit, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = linear_algebra::eigenvalues(unit)[0];
   constexpr int most = 120, stride = 30;
   int shift = least > 0x1p-40 ? 1 - std::ilogb(least) : most / 2;
   for (; shift <= most && !exceeds_its_diagonal(problem.middle, shift);) shift += stride;
@@ -72,7 +70,7 @@ std::optional<Vector> reach_of_two_sided(const UncertainProblem& problem, const 
     E.row(r) = near.U.row(rows[at(r)]).transpose();
     radius.row(r) = problem.U.row(rows[at(r)]);
   }
-  const Matrix Y = E.completeOrthogonalDecomposition().pseudoInverse();
+  const Matrix Y = linear_algebra::CompleteOrthogonal(E).pseudo_inverse();
   if (!Y.allFinite()) return std::nullopt;
   const Matrix miss =
       (E * Y - Matrix::Identity(k, k)).cwiseAbs() +

@@ -1,8 +1,7 @@
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
-
+#include "convex/linear_algebra/cholesky.hpp"
+#include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 
@@ -13,12 +12,12 @@ struct RegularisedKkt::Dense {
   Matrix V;    // of the rows J
   Vector theta;
   bool in_space = true;  // the factor is that of I + V Theta⁻¹Vᵀ
-  Eigen::LLT<Matrix> factor;
+  linear_algebra::Cholesky factor;
 };
 
 struct RegularisedKkt::Sparse {
   SparseMatrix A;
-  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor;
+  linear_algebra::SparseLdlt factor;
 };
 
 RegularisedKkt::RegularisedKkt(const NearestPointProblem& problem) : problem_(problem) {
@@ -60,8 +59,8 @@ bool RegularisedKkt::factor(const std::vector<Index>& rows, const Vector& theta)
       gram = Matrix(theta.asDiagonal());
       gram.selfadjointView<Eigen::Lower>().rankUpdate(dense_->V.transpose());
     }
-    dense_->factor.compute(gram);
-    return dense_->factor.info() == Eigen::Success;
+    dense_->factor = linear_algebra::Cholesky(gram);
+    return dense_->factor.is_definite();
   }
   // The lower triangle of [A, Uᵀ; U, -Theta] for (dq, -dlambda).
   std::vector<Eigen::Triplet<double>> entries;
@@ -83,8 +82,7 @@ bool RegularisedKkt::factor(const std::vector<Index>& rows, const Vector& theta)
   }
   SparseMatrix whole(n + k, n + k);
   whole.setFromTriplets(entries.begin(), entries.end());
-  sparse_->factor.compute(whole);
-  return sparse_->factor.info() == Eigen::Success;
+  return sparse_->factor.factor(whole);
 }
 
 void RegularisedKkt::solve(const Vector& r1, const Vector& r2, Vector& dq, Vector& dlambda) const {
