@@ -158,8 +158,7 @@ Exit chart_command(const Options& options) {
   const Source source{options.files.empty() ? "chart" : options.files.front(), ""};
   return answered(options, source, [&] {
     const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or("")};
-    if (options.output)
-      terminal_text(*options.output, 1, 1);  // a wrong name is told before the work, not after
+    if (options.output) require_drawable(*options.output);
     const std::vector<ChartedProblem> problems = asked_problems(options);
     const std::vector<std::string> known = contestant_names();
     require_method(options.method.value_or(""), known, "--method");

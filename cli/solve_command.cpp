@@ -47,7 +47,7 @@ Answer solve_scene(Scene scene, const Options& options) {
 }
 
 Answer solve_file(const std::string& file, const Options& options) {
-  if (options.plot) terminal_text(*options.plot, 1, 1);
+  if (options.plot) require_drawable(*options.plot);
   Problem problem = read_problem_file(file);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options);

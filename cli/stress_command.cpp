@@ -168,8 +168,7 @@ void write_stress(const Options& options, const std::vector<StressTrial>& trials
 Exit stress_command(const Options& options) {
   const Source source{options.families.empty() ? "stress" : options.families.front(), ""};
   return answered(options, source, [&] {
-    if (options.output)
-      terminal_text(*options.output, 1, 1);  // a wrong name is told before the work, not after
+    if (options.output) require_drawable(*options.output);
     const std::vector<StressTrial> trials = stressed(options);
     write_stress(options, trials);
     if (options.quiet) return Exit::solved;

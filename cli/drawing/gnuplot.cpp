@@ -18,6 +18,10 @@ using convex::InvalidInput;
 
 constexpr int picture_width = 700;
 
+/// What to do where gnuplot is not there.
+constexpr const char* gnuplot_advice =
+    "install it (Debian, Ubuntu: apt-get install gnuplot-nox) and run this again";
+
 bool ends_with(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
@@ -43,6 +47,27 @@ class ScriptFile {
   std::string path_ = (std::filesystem::temp_directory_path() / "moreau-plot-XXXXXX").string();
 };
 
+/// `set terminal` and `set output` for a picture of that size. Throws InvalidInput for a name that is neither
+/// .svg nor .png.
+std::string terminal_text(const std::string& file, int wide, int height) {
+  std::string size = std::to_string(wide) + "," + std::to_string(height);
+  std::string plain = "\"";
+  for (const char c : file) {
+    if (c == '"' || c == '\\') plain += '\\';
+    plain += c;
+  }
+  plain += '"';
+  if (ends_with(file, ".svg"))
+    return "set terminal svg enhanced size " + size +
+           " dynamic background \"#ffffff\" font \"Helvetica,11\"\nset output " + plain + "\n";
+  if (ends_with(file, ".png"))
+    return "set terminal pngcairo enhanced size " + std::to_string(2 * wide) + "," +
+           std::to_string(2 * height) +
+           " background \"#ffffff\" font \"Helvetica,11\" fontscale 2 linewidth 2 pointscale 2\nset output " +
+           plain + "\n";
+  throw InvalidInput("--output " + file + ": a picture is named .svg or .png; give such a name");
+}
+
 }  // namespace
 
 bool has_gnuplot() {
@@ -66,34 +91,14 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
-std::string terminal_text(const std::string& file, int wide, int height) {
-  std::string size = std::to_string(wide) + "," + std::to_string(height);
-  std::string plain = "\"";
-  for (const char c : file) {
-    if (c == '"' || c == '\\') plain += '\\';
-    plain += c;
-  }
-  plain += '"';
-  if (ends_with(file, ".svg"))
-    return "set terminal svg enhanced size " + size +
-           " dynamic background \"#ffffff\" font \"Helvetica,11\"\nset output " + plain + "\n";
-  if (ends_with(file, ".png"))
-    return "set terminal pngcairo enhanced size " + std::to_string(2 * wide) + "," +
-           std::to_string(2 * height) +
-           " background \"#ffffff\" font \"Helvetica,11\" fontscale 2 linewidth 2 pointscale 2\nset output " +
-           plain + "\n";
-  throw InvalidInput("--output " + file + ": a picture is named .svg or .png; give such a name");
+void require_drawable(const std::string& file) {
+  terminal_text(file, picture_width, picture_width);
+  if (!has_gnuplot())
+    throw InvalidInput(file + ": pictures are drawn by gnuplot, which is not in PATH; " + gnuplot_advice);
 }
 
 void draw(const std::string& file, const Drawing& drawing) {
-  const std::string text = terminal_text(file, picture_width, drawing.height) + drawing.script;
-  if (!has_gnuplot()) {
-    std::ofstream(file + ".gnuplot") << text;
-    std::fprintf(stderr, "moreau: gnuplot is not there, so %s.gnuplot holds the picture's script; %s\n",
-                 file.c_str(), gnuplot_advice);
-    return;
-  }
-  const ScriptFile script(text);
+  const ScriptFile script(terminal_text(file, picture_width, drawing.height) + drawing.script);
   FILE* program = popen(("gnuplot " + script.path() + " 2>&1").c_str(), "r");
   if (program == nullptr) throw InvalidInput(std::string("gnuplot does not start; ") + gnuplot_advice);
   std::string said;

@@ -143,8 +143,8 @@ Level level_of(const Vector& z, double total) {
   Kept all;
   double bound = -total;  // S = {the largest}
   for (Index first = 0; first < n; first += stretch) {
-    const Kept added =
-        filtered<absolute>(std::min(stretch, n - first), z.data() + first, top, bound, kept.get() + all.count);
+    const Kept added = filtered<absolute>(std::min(stretch, n - first), z.data() + first, top, bound,
+                                          kept.get() + all.count);
     if (added.count == 0) continue;
     all = {all.count + added.count, all.sum + added.sum};
     bound = std::max(bound, (all.sum - total) / static_cast<double>(all.count));

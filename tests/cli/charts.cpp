@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -37,6 +38,18 @@ std::vector<std::vector<std::string>> table_of(const std::string& csv) {
   }
   return rows;
 }
+
+/// PATH with one folder, and as it was afterwards.
+class Path {
+ public:
+  explicit Path(const std::string& folder) { setenv("PATH", folder.c_str(), 1); }
+  ~Path() { setenv("PATH", before_.c_str(), 1); }
+  Path(const Path&) = delete;
+  Path& operator=(const Path&) = delete;
+
+ private:
+  std::string before_ = std::getenv("PATH");
+};
 
 const char* const slope = R"([projection]
 A = [[2, 1], [1, 3]]
@@ -182,7 +195,7 @@ TEST_CASE("the solvers of other packages are judged like ours, or it is told how
   for (const std::string& method : wrong) CHECK(method.rfind("siconos-", 0) == 0);
 }
 
-TEST_CASE("pictures are drawn by gnuplot where it is, and its script is kept where it is not") {
+TEST_CASE("pictures are drawn by gnuplot, and without it they are refused before any work") {
   const Folder folder;
   const std::string file = folder.write("slope.toml", slope);
   for (const std::vector<std::string>& command :
@@ -193,11 +206,18 @@ TEST_CASE("pictures are drawn by gnuplot where it is, and its script is kept whe
     std::vector<std::string> arguments = command;
     arguments.push_back(picture);
     arguments.push_back(file);
+    {
+      const Path nowhere(folder.path("nothing"));
+      const Outcome refused = run(arguments);
+      CHECK(refused.code == 2);
+      CHECK_MESSAGE(refused.err.find("apt-get install gnuplot-nox") != std::string::npos, refused.err);
+      CHECK_FALSE(std::filesystem::exists(picture));
+    }
+    if (!cli::has_gnuplot()) continue;
     const Outcome outcome = run(arguments);
     CHECK(outcome.code == 0);
-    CHECK_MESSAGE(outcome.err.empty() == cli::has_gnuplot(), outcome.err);
-    const std::string drawn = bytes_of(cli::has_gnuplot() ? picture : picture + ".gnuplot");
-    CHECK(drawn.find(cli::has_gnuplot() ? "</svg>" : "plot ") != std::string::npos);
+    CHECK_MESSAGE(outcome.err.empty(), outcome.err);
+    CHECK(bytes_of(picture).find("</svg>") != std::string::npos);
   }
 }
 

@@ -63,6 +63,22 @@ TEST_CASE("heavy libraries stay behind the firewall: in no header of a room but 
   }
 }
 
+TEST_CASE("a decomposition of Eigen's is compiled in the room of linear algebra alone") {
+  const std::vector<std::string> slow{"Eigen/Cholesky", "Eigen/Dense",       "Eigen/Eigen",
+                                      "Eigen/LU",       "Eigen/Eigenvalues", "Eigen/Householder",
+                                      "Eigen/QR",       "Eigen/SVD",         "Eigen/Sparse"};
+  for (const SourceFile& file : tests::source_files()) {
+    const bool is_home = file.path.rfind("convex/linear_algebra/", 0) == 0 && !file.is_header();
+    if (file.room == "tests" || is_home) continue;
+    for (const std::string& line : file.lines) {
+      const std::string header = included(line);
+      CAPTURE(file.path);
+      CAPTURE(line);
+      CHECK((header == "Eigen/SparseCore" || !begins_with_any(header, slow)));
+    }
+  }
+}
+
 TEST_CASE("nothing but tests includes the header for ceres::Jet") {
   for (const SourceFile& file : tests::source_files())
     for (const std::string& line : file.lines)
