@@ -16,6 +16,9 @@ Exit check_catalogue(const Options&);
 /// `moreau derive FILE…`: A, z, U, s of a system at its state.
 Exit derive_command(const Options&);
 
+/// `moreau simulate FILE…`: the motion, with its events.
+Exit simulate_command(const Options&);
+
 /// `moreau methods`: the methods of solution that a file can name.
 Exit methods_command(const Options&);
 

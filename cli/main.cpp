@@ -18,9 +18,6 @@ using cli::Options;
 
 constexpr const char* version = "moreau " MOREAU_VERSION;
 
-/// Commands of the contract that a later version brings.
-constexpr std::array planned{"simulate"};
-
 int wrong(const std::string& message) {
   std::fprintf(stderr, "moreau: %s\n", message.c_str());
   return static_cast<int>(Exit::wrong_input);
@@ -113,6 +110,23 @@ void add_stress(CLI::App& app, Options& options, std::function<Exit(const Option
   stress->callback([&] { chosen = cli::stress_command; });
 }
 
+void add_simulate(CLI::App& app, Options& options, std::function<Exit(const Options&)>& chosen) {
+  CLI::App* simulate = app.add_subcommand("simulate", "the motion: smooth arcs, impacts, rest on contacts");
+  add_files(*simulate, options);
+  simulate->add_option("--until", options.until, "the time at which the motion ends")->type_name("T");
+  simulate->add_option("--tolerance", options.tolerance, "error of a step; default 1e-10")
+      ->type_name("X")
+      ->check(positive_number);
+  simulate->add_option("--method", options.method, "event-driven, the default")->type_name("NAME");
+  simulate->add_option("--output", options.output, "the trajectory as a table: t, q, q', q'', lambda, energy")
+      ->type_name("F.csv");
+  simulate->add_option("--events", options.events, "a line of JSON for each event")->type_name("F.jsonl");
+  simulate->add_option("--limit", options.step_limit, "steps after which the motion is stopped; default 1e7")
+      ->type_name("N");
+  add_common(*simulate, options);
+  simulate->callback([&] { chosen = cli::simulate_command; });
+}
+
 /// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
 /// option.
 std::string unknown_command(const CLI::App& app, const std::string& first) {
@@ -176,6 +190,8 @@ int main(int argc, char** argv) {
   add_common(*derive, options);
   derive->callback([&] { chosen = cli::derive_command; });
 
+  add_simulate(app, options, chosen);
+
   CLI::App* prox = app.add_subcommand(
       "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f");
   add_function(*prox, options, true);
@@ -221,14 +237,6 @@ int main(int argc, char** argv) {
 
   add_chart(app, options, chosen);
   add_stress(app, options, chosen);
-
-  for (const char* name : planned) {
-    CLI::App* later = app.add_subcommand(name, "not available yet")->group("")->allow_extras();
-    later->callback([name] {
-      throw CLI::ValidationError(std::string("`moreau ") + name +
-                                 "` is not available yet; see `moreau --help` for what is");
-    });
-  }
 
   if (argc > 1)
     if (const std::string unknown = unknown_command(app, argv[1]); !unknown.empty()) return wrong(unknown);

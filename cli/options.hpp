@@ -34,6 +34,9 @@ struct Options {
   std::optional<std::string> output;       ///< a file to write
   bool markdown = false;                   ///< of functions: docs/functions.md
   std::optional<std::string> plot;         ///< of solve: a picture to write
+  std::optional<double> until;             ///< of simulate
+  std::optional<std::string> events;       ///< of simulate: a file to write
+  std::optional<long> step_limit;          ///< of simulate
   std::optional<std::string> data;         ///< of chart and stress: a table file to write
   std::optional<std::string> relative_to;  ///< of chart: the method whose times are the unit
   std::string error = "acceleration";      ///< of chart: what the error is of

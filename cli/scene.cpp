@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "cli/contact_tolerances.hpp"
+#include "cli/numbers_by_constraint.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -97,6 +97,12 @@ std::string directory_of(const std::string& file) {
 }
 
 }  // namespace
+
+Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::string>& constraints) {
+  return numbers_by_constraint("solve.contact_tolerance",
+                               settings.contact_tolerance.value_or(mechanics::default_contact_tolerance),
+                               settings.contact_tolerances, constraints);
+}
 
 std::string Scene::contact_name(Index row) const {
   const auto k = static_cast<std::size_t>(row);

@@ -45,6 +45,9 @@ struct Scene {
   convex::Vector over_constraints(const convex::Vector& over_contacts) const;
 };
 
+/// The tolerance of each constraint by `[solve] contact_tolerance`.
+convex::Vector contact_tolerances(const SolveSettings&, const std::vector<std::string>& constraints);
+
 /// Reads a problem file; its matrix files are looked for beside it.
 Problem read_problem_file(const std::string& file);
 

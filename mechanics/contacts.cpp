@@ -13,7 +13,7 @@ namespace {
 
 }  // namespace
 
-Contacts contacts(const System& system, const State& state, const Vector& tolerance) {
+Contacts contacts(const System& system, const State& state, const Vector& tolerance, Impending impending) {
   Contacts found;
   found.rates = system.constraint_rates(state);
   const auto& constraints = system.constraints();
@@ -37,10 +37,13 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
       refuse(constraint, "penetrated, f = " + number_text(f) +
                              " < 0; move the position so that f >= 0, or raise contact_tolerance");
     if (f > f_zero) continue;
-    if (df < -df_zero)
+    if (df < -df_zero && impending == Impending::allowed)
+      found.closing.push_back(a);
+    else if (df < -df_zero)
       refuse(constraint, "an impact is due, f = 0 and df/dt = " + number_text(df) +
                              " < 0; give the velocity after the impact, or let `moreau simulate` handle it");
-    if (df <= df_zero) found.present.push_back(a);
+    else if (df <= df_zero)
+      found.present.push_back(a);
   }
   return found;
 }

@@ -45,8 +45,8 @@ struct ConeProblem {
   convex::ExactMetric W;
 };
 
-/// `contact_tolerance` by constraint.
-struct NamedTolerance {
+/// A number that a file gives for a constraint, or for a family of them.
+struct NamedNumber {
   std::string constraint;
   convex::Place place;
   double value = 0;
@@ -59,7 +59,21 @@ struct SolveSettings {
   std::optional<double> tolerance;
   std::optional<double> contact_tolerance;
   convex::Place contact_tolerance_place;
-  std::vector<NamedTolerance> contact_tolerances;
+  std::vector<NamedNumber> contact_tolerances;
+};
+
+/// `[simulate]`: the motion of a system.
+struct SimulateSettings {
+  std::optional<double> until;
+  std::optional<std::string> method;
+  convex::Place method_place;
+  std::optional<double> tolerance;
+  std::optional<double> step;
+  double restitution = 0;
+  std::vector<NamedNumber> restitutions;
+  std::optional<long> samples;
+  std::optional<std::string> impact_law;
+  convex::Place impact_law_place;
 };
 
 /// A problem file as plain data.
@@ -67,6 +81,7 @@ struct Problem {
   std::string title;
   std::variant<SystemProblem, ProjectionProblem, DecompositionProblem, ConeProblem> content;
   SolveSettings solve;
+  SimulateSettings simulate;
 };
 
 /// Reads the text of a problem file; `directory` is where its matrix files are looked for. Throws

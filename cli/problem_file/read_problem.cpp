@@ -43,8 +43,7 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
   if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
   if (const TomlValue* simulate = document.find("simulate"))
-    require_known_keys(require_table(*simulate, "simulate"), "simulate",
-                       {"until", "method", "tolerance", "step", "restitution", "samples"});
+    problem.simulate = read_simulate_settings(*simulate);
   const TomlEntry& content = content_table(document);
   require_table(content.value, content.key);
   const TomlValue* state = document.find("state");

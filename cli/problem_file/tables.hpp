@@ -20,4 +20,7 @@ ConeProblem read_cone(const TomlValue& table, const std::string& directory);
 /// `[solve]`.
 SolveSettings read_solve_settings(const TomlValue& table);
 
+/// `[simulate]`.
+SimulateSettings read_simulate_settings(const TomlValue& table);
+
 }  // namespace cli

@@ -39,6 +39,7 @@ class Program {
   Slot time() const { return static_cast<Slot>(2 * n_); }
   std::size_t coordinates() const { return n_; }
   std::size_t size() const { return node_.size(); }
+  std::size_t groups() const { return ends_.size(); }
   /// The first slot of an operation, and the one after the last operation of a group.
   Slot begin() const { return first_; }
   Slot end(std::size_t group) const { return ends_[group]; }

@@ -1,4 +1,4 @@
-#include "cli/contact_tolerances.hpp"
+#include "cli/numbers_by_constraint.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,6 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
-#include "mechanics/contacts.hpp"
 
 namespace cli {
 namespace {
@@ -44,27 +43,27 @@ struct FamilyName {
   std::vector<IndexRange> indices;
 };
 
-IndexRange index_range(std::string_view text, const NamedTolerance& source) {
+IndexRange index_range(std::string_view text, const std::string& where, const NamedNumber& source) {
   if (const auto one = integer(text)) return {*one, *one};
   const std::size_t in = text.find(" in "), dots = text.find("..");
   if (in == std::string_view::npos) return {};
   const auto low = integer(text.substr(in + 4, dots - in - 4));
   const auto high = dots == std::string_view::npos ? std::nullopt : integer(text.substr(dots + 2));
   if (!low || !high)
-    throw InvalidInput("solve.contact_tolerance: \"" + source.constraint +
+    throw InvalidInput(where + ": \"" + source.constraint +
                            "\": the ends of its range are not integers; give numbers such as 2..5",
                        source.place);
   return {*low, *high};
 }
 
-FamilyName parts(const std::string& name, const NamedTolerance& source) {
+FamilyName parts(const std::string& name, const std::string& where, const NamedNumber& source) {
   const std::size_t open = name.find('[');
   FamilyName found{std::string(trimmed(name.substr(0, open))), {}};
   if (open == std::string::npos || name.back() != ']') return found;
   std::string_view rest = std::string_view(name).substr(open + 1, name.size() - open - 2);
   while (true) {
     const std::size_t comma = rest.find(',');
-    found.indices.push_back(index_range(trimmed(rest.substr(0, comma)), source));
+    found.indices.push_back(index_range(trimmed(rest.substr(0, comma)), where, source));
     if (comma == std::string_view::npos) return found;
     rest.remove_prefix(comma + 1);
   }
@@ -89,29 +88,27 @@ int speciality(const FamilyName& key, const FamilyName& constraint) {
 
 }  // namespace
 
-convex::Vector contact_tolerances(const SolveSettings& settings,
-                                  const std::vector<std::string>& constraints) {
-  convex::Vector tolerance =
-      convex::Vector::Constant(static_cast<Index>(constraints.size()),
-                               settings.contact_tolerance.value_or(mechanics::default_contact_tolerance));
+convex::Vector numbers_by_constraint(const std::string& where, double otherwise,
+                                     const std::vector<NamedNumber>& entries,
+                                     const std::vector<std::string>& constraints) {
+  convex::Vector numbers = convex::Vector::Constant(static_cast<Index>(constraints.size()), otherwise);
   std::vector<int> so_far(constraints.size(), 0);
-  for (const NamedTolerance& named : settings.contact_tolerances) {
-    const FamilyName key = parts(named.constraint, named);
+  for (const NamedNumber& named : entries) {
+    const FamilyName key = parts(named.constraint, where, named);
     bool found = false;
     for (std::size_t a = 0; a < constraints.size(); ++a) {
-      const int special = speciality(key, parts(constraints[a], named));
+      const int special = speciality(key, parts(constraints[a], where, named));
       found = found || special > 0;
       if (special == 0 || special < so_far[a]) continue;
       so_far[a] = special;
-      tolerance[static_cast<Index>(a)] = named.value;
+      numbers[static_cast<Index>(a)] = named.value;
     }
     if (!found)
-      throw InvalidInput("solve.contact_tolerance: no constraint \"" + named.constraint +
-                             "\"; did you mean \"" + convex::nearest_name(named.constraint, constraints) +
-                             "\"?",
+      throw InvalidInput(where + ": no constraint \"" + named.constraint + "\"; did you mean \"" +
+                             convex::nearest_name(named.constraint, constraints) + "\"?",
                          named.place);
   }
-  return tolerance;
+  return numbers;
 }
 
 }  // namespace cli

@@ -1,0 +1,110 @@
+#include "cli/motion_files.hpp"
+
+#include <array>
+#include <charconv>
+
+#include "cli/json_writer.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::InvalidInput;
+
+std::ofstream opened(const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw InvalidInput("cannot write " + path + "; check the folder and its permissions");
+  return file;
+}
+
+void require_written(std::ofstream& file, const std::string& path) {
+  file.close();
+  if (!file) throw InvalidInput("cannot write " + path + "; check that the disk has room");
+}
+
+/// A heading of a CSV column: in quotation marks where it has a comma.
+std::string heading(const std::string& name) {
+  return name.find(',') == std::string::npos ? name : "\"" + name + "\"";
+}
+
+void append(std::string& line, double x) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), x + 0.0).ptr;
+  line.append(digits.data(), end);
+}
+
+}  // namespace
+
+std::vector<std::string> constraint_names(const mechanics::System& system) {
+  std::vector<std::string> names;
+  for (const mechanics::Constraint& constraint : system.constraints()) names.push_back(constraint.name);
+  return names;
+}
+
+TrajectoryFile::TrajectoryFile(const std::string& path, const mechanics::LagrangianSystem& system,
+                               double begin, double end, long samples)
+    : file_(opened(path)), path_(path), system_(system), begin_(begin), end_(end), samples_(samples) {
+  std::string line = "t";
+  for (const char* mark : {"", "'", "''"})
+    for (const std::string& name : system.coordinates()) line += "," + heading(name + mark);
+  for (const std::string& name : constraint_names(system)) line += "," + heading("lambda[" + name + "]");
+  file_ << line << ",energy\n";
+}
+
+double TrajectoryFile::time(long row) const {
+  if (row == samples_ - 1) return end_;
+  return begin_ + (end_ - begin_) * (static_cast<double>(row) / static_cast<double>(samples_ - 1));
+}
+
+void TrajectoryFile::write(const mechanics::State& state, const convex::Vector& q2,
+                           const convex::Vector& lambda) {
+  std::string line;
+  append(line, state.t);
+  for (const convex::Vector* numbers : {&state.q, &state.v, &q2, &lambda})
+    for (Index i = 0; i < numbers->size(); ++i) {
+      line += ',';
+      append(line, (*numbers)[i]);
+    }
+  line += ',';
+  append(line, system_.energy(state));
+  file_ << line << '\n';
+  ++row_;
+}
+
+void TrajectoryFile::follow(const mechanics::Motion& motion) {
+  const mechanics::Arc& arc = motion.arc();
+  while (row_ < samples_ && time(row_) < motion.state().t) {
+    const double tau = std::min(std::max(0.0, time(row_) - arc.t), arc.length);
+    mechanics::State state = arc.state(tau);
+    state.t = time(row_);
+    write(state, arc.acceleration(tau), arc.multipliers(tau));
+  }
+}
+
+void TrajectoryFile::finish(const mechanics::Motion& motion) {
+  if (motion.acceleration().size() == motion.state().q.size())
+    while (row_ < samples_ && time(row_) <= motion.state().t)
+      write(motion.state(), motion.acceleration(), motion.multipliers());
+  require_written(file_, path_);
+}
+
+EventsFile::EventsFile(const std::string& path, const mechanics::LagrangianSystem& system)
+    : file_(opened(path)),
+      path_(path),
+      coordinates_(system.coordinates()),
+      constraints_(constraint_names(system)) {}
+
+void EventsFile::write(const mechanics::MotionEvent& event) {
+  JsonWriter json;
+  json.begin_object().key("t").value(event.t).key("kind").value(mechanics::name(event.kind));
+  json.key("constraints").begin_array();
+  for (const Index a : event.constraints) json.value(constraints_[static_cast<std::size_t>(a)]);
+  json.end_array();
+  json.key("velocity_before").numbers(coordinates_, event.velocity_before);
+  json.key("velocity_after").numbers(coordinates_, event.velocity_after);
+  file_ << json.end_object().text() << '\n';
+}
+
+void EventsFile::finish() { require_written(file_, path_); }
+
+}  // namespace cli

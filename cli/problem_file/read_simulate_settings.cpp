@@ -1,0 +1,61 @@
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/tables.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+
+/// 0 <= e <= 1.
+double require_restitution(const TomlValue& value, const std::string& where) {
+  const double e = require_number(value, where);
+  if (!(e >= 0 && e <= 1))
+    throw InvalidInput(
+        where + ": " + shown(value.text) + " is not from 0 to 1; an impact keeps energy (1) or takes it (0)",
+        value.place);
+  return e;
+}
+
+long require_samples(const TomlValue& value) {
+  const double samples = require_number(value, "simulate.samples");
+  constexpr double most = 1e8;
+  if (!(samples >= 2 && samples <= most) || samples != static_cast<double>(static_cast<long>(samples)))
+    throw InvalidInput("simulate.samples: " + shown(value.text) +
+                           " is no number of rows; give an integer from 2 to 100000000",
+                       value.place);
+  return static_cast<long>(samples);
+}
+
+}  // namespace
+
+SimulateSettings read_simulate_settings(const TomlValue& table) {
+  require_known_keys(require_table(table, "simulate"), "simulate",
+                     {"until", "method", "tolerance", "step", "restitution", "samples", "impact_law"});
+  SimulateSettings settings;
+  if (const TomlValue* until = table.find("until")) settings.until = require_number(*until, "simulate.until");
+  if (const TomlValue* method = table.find("method")) {
+    settings.method = require_string(*method, "simulate.method");
+    settings.method_place = method->place;
+  }
+  if (const TomlValue* tolerance = table.find("tolerance"))
+    settings.tolerance = require_positive(*tolerance, "simulate.tolerance");
+  if (const TomlValue* step = table.find("step")) settings.step = require_positive(*step, "simulate.step");
+  if (const TomlValue* restitution = table.find("restitution")) {
+    if (restitution->kind == TomlValue::Kind::table) {
+      for (const TomlEntry& entry : restitution->table)
+        settings.restitutions.push_back(
+            {entry.key, entry.place,
+             require_restitution(entry.value, "simulate.restitution." + shown(entry.key))});
+    } else {
+      settings.restitution = require_restitution(*restitution, "simulate.restitution");
+    }
+  }
+  if (const TomlValue* samples = table.find("samples")) settings.samples = require_samples(*samples);
+  if (const TomlValue* law = table.find("impact_law")) {
+    settings.impact_law = require_string(*law, "simulate.impact_law");
+    settings.impact_law_place = law->place;
+  }
+  return settings;
+}
+
+}  // namespace cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/vector.hpp"
+
+namespace mechanics {
+
+using convex::Index;
+
+/// The last impacts of a contact, and what they lead to: intervals that shrink by a steady ratio r < 1 come
+/// to an end at a time that their sum gives, Δ r / (1 - r) after the last one (Zeno).
+class ImpactHistory {
+ public:
+  /// An impact at t, `since` the last one: two numbers, since differences of times lose their digits.
+  void add(double since, double rate_after);
+  /// The contact was at rest, or free for another reason: what was is no part of what comes.
+  void forget() { *this = ImpactHistory(); }
+
+  long count() const { return count_; }
+  /// Whether the last three intervals shrink by one ratio.
+  bool shrinks() const;
+  double ratio() const { return interval_[0] / interval_[1]; }
+  /// The time from the last impact to the end, and how far it may be off by the drift of the ratio.
+  double remaining() const;
+  double remaining_error() const;
+  /// How high, in units of f, the next bounce goes.
+  double next_height() const { return 0.25 * rate_after_ * interval_[0] * ratio(); }
+
+ private:
+  long count_ = 0;
+  double interval_[3] = {0, 0, 0};  // the last one first
+  double rate_after_ = 0;
+};
+
+}  // namespace mechanics

@@ -1,0 +1,332 @@
+#include "mechanics/motion/course.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/motion/impact.hpp"
+#include "mechanics/motion/step_length.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Times within so many roundings of each other are one: several events at once.
+constexpr double roundings_of_time = 64;
+
+/// A step that misses the equations at its end by more than this many times its tolerance is taken again.
+constexpr double allowed_defect = 1e3;
+
+/// So many events at one instant, for each constraint, have no end.
+constexpr long most_events_at_once = 50;
+
+MotionOptions checked(MotionOptions options, const LagrangianSystem& system) {
+  const auto m = static_cast<Index>(system.constraints().size());
+  if (options.restitution.size() == 0) options.restitution = Vector::Zero(m);
+  if (options.contact_tolerance.size() == 0)
+    options.contact_tolerance = Vector::Constant(m, default_contact_tolerance);
+  if (options.restitution.size() != m || options.contact_tolerance.size() != m)
+    throw convex::InvalidInput("restitution: one number a constraint is needed");
+  for (Index a = 0; a < m; ++a)
+    if (!(options.restitution[a] >= 0 && options.restitution[a] <= 1))
+      throw convex::InvalidInput("restitution of " + system.constraints()[static_cast<std::size_t>(a)].name +
+                                 ": " + number_text(options.restitution[a]) +
+                                 " is not from 0 to 1; an impact takes energy, or keeps it");
+  if (!(options.tolerance > 0)) throw convex::InvalidInput("tolerance: not a positive number");
+  return options;
+}
+
+}  // namespace
+
+Motion::Course::Course(const LagrangianSystem& of, const State& at, MotionOptions chosen)
+    : options(checked(std::move(chosen), of)),
+      system(of),
+      expansion_(of.model(), taylor_order(options.tolerance)) {
+  const auto m = system.constraints().size();
+  zeros_of_f_.assign(m, 0);
+  zeros_of_lambda_.assign(m, 0);
+  zeros_of_switch_.assign(expansion_.switches(), 0);
+  is_weak_.assign(m, false);
+  elapsed_.assign(m, 0.0);
+  history_.resize(m);
+  begin(at);
+}
+
+void Motion::Course::stop(std::string reason) {
+  status = MotionStatus::stopped;
+  why = std::move(reason);
+}
+
+void Motion::Course::event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before) {
+  std::sort(constraints.begin(), constraints.end());
+  events.push_back({state.t, kind, std::move(constraints), velocity_before, state.v});
+  ++record.events;
+  if (kind == EventKind::impact) ++record.impacts;
+}
+
+void Motion::Course::begin(const State& at) {
+  state = at;
+  const Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
+  done.t = state.t;
+  done.q = state.q;
+  expansion_.set(state);
+  const std::vector<Index> switches = find_branches();
+  std::vector<Index> touching;
+  for (const Index a : found.present)
+    if (!is_two_sided(a)) touching.push_back(a);
+  for (Index a = 0; a < expansion_.constraints(); ++a)
+    if (!is_two_sided(a) && found.rates.f[a] <= options.contact_tolerance[a] * found.rates.f_scale[a])
+      zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+  if (!found.closing.empty()) {
+    collide(found.closing, touching, switches);
+  } else {
+    begin_arc(touching, switches);
+  }
+}
+
+bool Motion::Course::advance(double until) {
+  if (status != MotionStatus::done || !(state.t < until)) return false;
+  events.clear();
+  if (record.steps >= options.step_limit) {
+    stop("the limit of " + std::to_string(options.step_limit) +
+         " steps is reached at t = " + number_text(state.t));
+    return false;
+  }
+  const double before = state.t;
+  try {
+    take_step(until);
+  } catch (const convex::InvalidInput& error) {
+    stop("at t = " + number_text(state.t) + ": " + error.what());
+  }
+  events_at_once_ = state.t > before ? 0 : events_at_once_ + 1;
+  const auto m = static_cast<long>(system.constraints().size());
+  if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
+    stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant");
+  return status == MotionStatus::done || !events.empty() || state.t > before;
+}
+
+std::vector<Watched> Motion::Course::watched(double end) const {
+  std::vector<Watched> all;
+  const auto add = [&](Zero::Of of, Index which, std::span<const double> c, int zeros, double sign,
+                       double rounding, double raise) {
+    Watched one{of, which, {}, 0};
+    double power = 1, size = 0;
+    for (std::size_t k = static_cast<std::size_t>(zeros); k < c.size(); ++k, power *= end) {
+      one.c.push_back(sign * c[k]);
+      size += std::abs(c[k]) * power;
+    }
+    if (one.c.empty() || size == 0) return;
+    one.c[0] += raise;
+    one.rounding = 4 * epsilon * size + rounding;
+    all.push_back(std::move(one));
+  };
+  std::vector<bool> held(system.constraints().size());
+  for (const Index a : persist_) held[static_cast<std::size_t>(a)] = true;
+  const double force = expansion_.inertia().norm(2 * next.q.col(2));
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (is_two_sided(a)) continue;
+    if (!held[k]) {
+      const double rounding = zeros_of_f_[k] > 0 ? 0 : 4 * epsilon * expansion_.position_scale(a);
+      add(Zero::Of::constraint, a, coefficients(next.f, a), zeros_of_f_[k], 1, rounding, 0);
+      continue;
+    }
+    const double length = expansion_.inertia().dual_norm(expansion_.row(a));
+    const double least = 1e-12 * std::max(force, expansion_.force_norm()) / length;
+    const bool weak = is_weak_[k];
+    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), weak ? 0 : zeros_of_lambda_[k], 1,
+        weak ? least : 0, weak ? 10 * least : 0);
+  }
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k],
+        expansion_.branch(k), 0, 0);
+  return all;
+}
+
+std::vector<Zero> Motion::Course::zeros_before(double end) const {
+  return first_zeros(watched(end), end, roundings_of_time * epsilon * (std::abs(state.t) + end));
+}
+
+/// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
+double Motion::Course::polished(const Zero& zero, double tau) {
+  if (zero.is_touch || zero.of == Zero::Of::branch) return tau;
+  constexpr int most_corrections = 4;
+  const auto k = static_cast<std::size_t>(zero.which);
+  const std::span<const double> c =
+      coefficients(zero.of == Zero::Of::constraint ? next.f : next.lambda, zero.which);
+  for (int i = 0; i < most_corrections; ++i) {
+    State there = next.state(tau);
+    expansion_.set(there);
+    double value = 0;
+    if (zero.of == Zero::Of::constraint) {
+      value = expansion_.f(zero.which);
+    } else {
+      if (is_weak_[k]) return tau;
+      const HeldRows::Answer answer = expansion_.acceleration(expansion_.held_rows(persist_), persist_);
+      for (std::size_t a = 0; a < persist_.size(); ++a)
+        if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
+    }
+    const double correction = value / slope_at(c, tau);
+    if (!(std::abs(correction) < 0.5 * tau)) return tau;
+    tau -= correction;
+    if (std::abs(correction) <= epsilon * (tau + std::abs(next.t))) break;
+  }
+  return tau;
+}
+
+/// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
+/// does not converge, and an expression that is not analytic.
+bool Motion::Course::fits(double tau) {
+  State there = next.state(tau);
+  expansion_.set(there);
+  const HeldRows rows = expansion_.held_rows(persist_);
+  const Vector q2 = expansion_.acceleration(rows, persist_).x;
+  const convex::Metric& A = expansion_.inertia();
+  double moved = 0, power = tau;
+  for (Index k = 1; k < next.q.cols(); ++k, power *= tau)
+    moved = std::max(moved, A.norm(next.q.col(k)) * power);
+  const double defect = A.norm(q2 - next.acceleration(tau)) * tau * tau;
+  const double rounding = 1e4 * epsilon * (moved + A.norm(q2) * tau * tau + A.norm(there.q) * tau);
+  const double orders = static_cast<double>(next.q.cols());
+  return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
+}
+
+void Motion::Course::move_time(double by) {
+  const double sum = state.t + by, part = sum - state.t;
+  low_ += (state.t - (sum - part)) + (by - part);
+  state.t = sum + low_;
+  low_ -= state.t - sum;
+}
+
+void Motion::Course::take_step(double until) {
+  double end = std::min(step_ahead_, until - state.t);
+  bool is_last = end == until - state.t;
+  const Ending* ending = endings_.empty() ? nullptr : &endings_.front();
+  if (ending != nullptr && ending->t - state.t < end) {
+    end = std::max(0.0, ending->t - state.t);
+    is_last = false;
+  }
+  std::vector<Zero> zeros;
+  double tau = end;
+  for (int halvings = 0;; ++halvings) {
+    constexpr int most_halvings = 40;
+    if (halvings > most_halvings)
+      return stop("at t = " + number_text(state.t) + ": no step, however short, keeps the tolerance");
+    zeros = zeros_before(end);
+    tau = end;
+    for (Zero& zero : zeros) {
+      zero.at = polished(zero, zero.at);
+      tau = std::min(tau, zero.at);
+    }
+    if (tau <= 0 || fits(tau)) break;
+    end = 0.5 * tau;
+    is_last = false;
+  }
+  const double together = roundings_of_time * epsilon * (std::abs(state.t) + tau);
+  std::erase_if(zeros, [&](const Zero& zero) { return zero.at > tau + together; });
+  ++record.steps;
+  done = next;
+  done.length = tau;
+  state.q = done.position(tau);
+  state.v = done.velocity(tau);
+  if (is_last && zeros.empty()) {
+    state.t = until;
+    low_ = 0;
+  } else {
+    move_time(tau);
+  }
+  for (double& elapsed : elapsed_) elapsed += tau;
+  expansion_.set(state);
+  look_for_penetration();
+  if (zeros.empty())
+    continue_arc();
+  else
+    handle(zeros);
+  tell_endings();
+}
+
+void Motion::Course::look_for_penetration() {
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const double f = is_two_sided(a) ? -std::abs(expansion_.f(a)) : expansion_.f(a);
+    if (f >= 0) continue;
+    const double scale = std::max(1.0, expansion_.position_scale(a));
+    if (-f / scale <= record.largest_penetration) continue;
+    record.largest_penetration = -f / scale;
+    record.most_penetrated = a;
+  }
+}
+
+void Motion::Course::tell_endings() {
+  while (!endings_.empty() && endings_.front().t <= state.t) {
+    const double now = state.t;
+    state.t = endings_.front().t;
+    event(EventKind::accumulation, endings_.front().constraints, state.v);
+    state.t = now;
+    endings_.erase(endings_.begin());
+  }
+}
+
+void Motion::Course::continue_arc() {
+  project();
+  if (status != MotionStatus::done) return;
+  std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
+  std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
+  std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  expansion_.expand({persist_, {}});
+  fill_next();
+}
+
+/// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
+void Motion::Course::project() {
+  if (persist_.empty()) return;
+  constexpr int most_corrections = 12;
+  constexpr double smallest = 4 * epsilon, largest = 1e-6;
+  const auto rows = static_cast<Index>(persist_.size());
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_corrections; ++i) {
+    const HeldRows held = expansion_.held_rows(persist_);
+    Vector f(rows), rate(rows);
+    for (Index a = 0; a < rows; ++a) {
+      f[a] = expansion_.f(persist_[static_cast<std::size_t>(a)]);
+      rate[a] = expansion_.rate(persist_[static_cast<std::size_t>(a)]);
+    }
+    const Vector dq = held.least_change(-f), dv = held.least_change(-rate);
+    const convex::Metric& A = expansion_.inertia();
+    const double by_q = A.norm(dq), by_v = A.norm(dv);
+    const double q = A.norm(state.q), v = A.norm(state.v);
+    const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
+    const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
+    if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;
+    last = size;
+    state.q += dq;
+    state.v += dv;
+    expansion_.set(state);
+  }
+  if (last < largest) return;
+  stop("at t = " + number_text(state.t) +
+       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state");
+}
+
+void Motion::Course::fill_next() {
+  const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
+  next.t = state.t;
+  next.q.resize(n, last + 1);
+  next.lambda.resize(m, last - 1);
+  next.f.resize(m, last + 1);
+  const auto copy = [](convex::RowMatrix& to, Index row, std::span<const double> c) {
+    std::copy(c.begin(), c.end(), to.data() + row * to.cols());
+  };
+  for (Index i = 0; i < n; ++i) copy(next.q, i, expansion_.position(i));
+  for (Index a = 0; a < m; ++a) {
+    copy(next.lambda, a, expansion_.multiplier(a));
+    copy(next.f, a, expansion_.constraint(a));
+  }
+  next.persist = persist_;
+  acceleration = 2 * next.q.col(2);
+  multipliers = next.lambda.col(0);
+  step_ahead_ = step_length(next, expansion_.inertia(), options.tolerance);
+}
+
+}  // namespace mechanics

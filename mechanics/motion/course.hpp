@@ -1,0 +1,78 @@
+#pragma once
+
+#include "mechanics/motion/accumulation.hpp"
+#include "mechanics/motion/expansion.hpp"
+#include "mechanics/motion/motion.hpp"
+#include "mechanics/motion/zero_search.hpp"
+
+namespace mechanics {
+
+/// The course of a motion: what `Motion` knows between two steps. A step ends at the first event of its arc;
+/// the event changes the velocity, and the right limit of the motion chooses the contacts of the next arc.
+class Motion::Course {
+ public:
+  Course(const LagrangianSystem& system, const State& state, MotionOptions options);
+  bool advance(double until);
+
+  MotionOptions options;
+  const LagrangianSystem& system;
+  State state;
+  Arc done, next;  ///< the arc behind, and the one ahead of `state`
+  std::vector<MotionEvent> events;
+  MotionStatus status = MotionStatus::done;
+  std::string why;
+  std::vector<Index> excluding;
+  MotionRecord record;
+  Vector acceleration, multipliers;
+
+ private:
+  /// A contact that a decided accumulation has brought to rest already; told when its time has come.
+  struct Ending {
+    double t;
+    std::vector<Index> constraints;
+  };
+
+  bool is_two_sided(Index a) const { return system.constraints()[static_cast<std::size_t>(a)].two_sided; }
+  const std::string& constraint_name(Index a) const {
+    return system.constraints()[static_cast<std::size_t>(a)].name;
+  }
+  void begin(const State& at);
+  void take_step(double until);
+  std::vector<Zero> zeros_before(double end) const;
+  std::vector<Watched> watched(double end) const;
+  double polished(const Zero& zero, double tau);
+  bool fits(double tau);
+  void move_time(double by);
+  void handle(const std::vector<Zero>& zeros);
+  void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
+               const std::vector<Index>& switches);
+  /// The contacts whose impacts come to an end so soon that they are at rest from now on.
+  std::vector<Index> accumulating(const std::vector<Index>& closing) const;
+  void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
+  std::vector<Index> find_branches();
+  /// A new arc from here. In question: contacts that may persist, and switches at 0.
+  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
+                                                  const std::vector<Index>& switches);
+  bool is_consistent(const std::vector<Index>& switches);
+  void continue_arc();
+  void project();
+  void fill_next();
+  void look_for_penetration();
+  void tell_endings();
+  void stop(std::string reason);
+  void event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before);
+
+  Expansion expansion_;
+  double low_ = 0;                                                   // the time is state.t + low_
+  std::vector<Index> persist_;                                       // held on the next arc
+  std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
+  std::vector<bool> is_weak_;                                        // held without a multiplier
+  std::vector<double> elapsed_;                                      // since the last impact, by constraint
+  std::vector<ImpactHistory> history_;
+  std::vector<Ending> endings_;
+  double step_ahead_ = 0;
+  long events_at_once_ = 0;
+};
+
+}  // namespace mechanics

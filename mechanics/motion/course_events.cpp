@@ -1,0 +1,253 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/motion/course.hpp"
+#include "mechanics/motion/impact.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A closing contact slower than this part of what its rate is the sum of closes softly.
+constexpr double softest_impact = 1e-12;
+
+/// A coefficient of a switch's argument below this part of the largest is what rounding left of 0.
+constexpr double undecided_part = 1e-12;
+
+/// Impacts of one contact that are followed one by one, however high they bounce.
+constexpr long most_impacts_followed = 100'000;
+
+std::vector<Index> united(std::vector<Index> a, const std::vector<Index>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  std::sort(a.begin(), a.end());
+  a.erase(std::unique(a.begin(), a.end()), a.end());
+  return a;
+}
+
+bool contains(const std::vector<Index>& all, Index a) {
+  return std::find(all.begin(), all.end(), a) != all.end();
+}
+
+}  // namespace
+
+/// What comes to 0 at the end of a step, all at once.
+void Motion::Course::handle(const std::vector<Zero>& zeros) {
+  std::vector<Index> closing, touching, switches, held;
+  for (const Index a : persist_)
+    if (!is_two_sided(a)) held.push_back(a);
+  for (const Zero& zero : zeros) {
+    if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
+    if (zero.of != Zero::Of::constraint) continue;
+    const bool closes = expansion_.rate(zero.which) < -softest_impact * expansion_.rate_scale(zero.which);
+    (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
+  }
+  const Vector before = state.v;
+  std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
+  if (!closing.empty()) {
+    collide(closing, united(held, touching), switches);
+    return;
+  }
+  begin_arc(united(held, touching), switches);
+  if (status != MotionStatus::done) return;
+  if (!touching.empty()) event(EventKind::contact, touching, before);
+  release_event(held, before);
+}
+
+/// Contacts that were held, are still at f = df/dt = 0, and persist no longer.
+void Motion::Course::release_event(const std::vector<Index>& held_before, const Vector& velocity_before) {
+  std::vector<Index> released;
+  for (const Index a : held_before)
+    if (!contains(persist_, a) && zeros_of_f_[static_cast<std::size_t>(a)] > 1) released.push_back(a);
+  if (!released.empty()) event(EventKind::release, released, velocity_before);
+}
+
+void Motion::Course::collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
+                             const std::vector<Index>& switches) {
+  std::vector<Index> present = united(closing, touching);
+  for (Index a = 0; a < expansion_.constraints(); ++a)
+    if (is_two_sided(a)) present.push_back(a);
+  std::vector<ImpactContact> contacts;
+  for (const Index a : present)
+    contacts.push_back({expansion_.row(a), contains(closing, a) ? expansion_.rate(a) : 0,
+                        options.restitution[a], is_two_sided(a)});
+  const convex::Metric& A = expansion_.inertia();
+  const ImpactOutcome outcome = impact(A, contacts);
+  if (!outcome.excluding.empty()) {
+    status = MotionStatus::infeasible;
+    for (const Index k : outcome.excluding) excluding.push_back(present[static_cast<std::size_t>(k)]);
+    why = "at t = " + number_text(state.t) + ": no velocity after the impact satisfies all contacts";
+    return;
+  }
+  const Vector before = state.v;
+  // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
+  const Vector b = expansion_.momentum() - A.multiply(before);
+  record.impact_energy += outcome.change.dot(A.multiply(before + 0.5 * outcome.change) + b);
+  record.ledger_energy += b.dot(outcome.change);
+  state.v = before + outcome.change;
+  std::vector<Index> hit, resting, left, held;
+  for (std::size_t k = 0; k < present.size(); ++k) {
+    const Index a = present[k], at = static_cast<Index>(k);
+    const double rate_before = contacts[k].rate, e = rate_before > 0 ? 0 : contacts[k].restitution;
+    record.ledger_energy += outcome.impulse[at] * (0.5 * (1 - e) * rate_before - expansion_.drift(a));
+    if (is_two_sided(a)) continue;
+    if (contains(persist_, a)) held.push_back(a);
+    if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
+    (outcome.rate[at] > 0 ? left : resting).push_back(a);
+    ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (rate_before < 0) history.add(elapsed_[static_cast<std::size_t>(a)], outcome.rate[at]);
+    if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
+  }
+  event(EventKind::impact, hit, before);
+  for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+  expansion_.set(state);
+  const std::vector<Index> ending = accumulating(closing);
+  if (!ending.empty()) {
+    const Vector bouncing = state.v;
+    const std::vector<Index> stopping = united(resting, ending);
+    Vector rates(static_cast<Index>(stopping.size()));
+    for (std::size_t k = 0; k < stopping.size(); ++k)
+      rates[static_cast<Index>(k)] = -expansion_.rate(stopping[k]);
+    const ImpactHistory last = history_[static_cast<std::size_t>(ending.front())];
+    state.v += expansion_.held_rows(stopping).least_change(rates);
+    expansion_.set(state);
+    begin_arc(stopping, switches);
+    const bool rest = status == MotionStatus::done && std::all_of(ending.begin(), ending.end(), [&](Index a) {
+                        return contains(persist_, a);
+                      });
+    if (rest) {
+      endings_.push_back({state.t + low_ + last.remaining(), ending});
+      std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
+      if (last.next_height() > options.tolerance)
+        record.remarks.push_back(
+            {state.t, "impacts that bounce up to f = " + number_text(last.next_height()) +
+                          " are not followed one by one; their end is known to " +
+                          number_text(last.remaining_error())});
+      return;
+    }
+    if (status != MotionStatus::done) return;
+    state.v = bouncing;
+    for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+    expansion_.set(state);
+  }
+  begin_arc(resting, switches);
+  if (status == MotionStatus::done) release_event(held, state.v);
+}
+
+std::vector<Index> Motion::Course::accumulating(const std::vector<Index>& closing) const {
+  std::vector<Index> found;
+  const auto is_near_its_end = [&](Index a) {
+    const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (!history.shrinks()) return false;
+    const double scale = std::max(1.0, expansion_.position_scale(a));
+    return history.next_height() <= epsilon * scale || history.count() >= most_impacts_followed;
+  };
+  for (const Index a : closing)
+    if (is_near_its_end(a)) found.push_back(a);
+  if (found.empty()) return found;
+  // Contacts whose impacts alternate with these come to their end at the same time.
+  const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
+    if (contains(found, a) || is_two_sided(a) || contains(persist_, a) || !history.shrinks()) continue;
+    const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
+    constexpr double alike = 0.05;
+    if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);
+  }
+  return found;
+}
+
+/// The branch of every switch by the sign of its argument; returns those whose argument is 0.
+std::vector<Index> Motion::Course::find_branches() {
+  std::vector<Index> at_zero;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {  // an argument may contain the switches before it
+    const double argument = expansion_.switch_argument(k)[0];
+    if (argument == 0) at_zero.push_back(static_cast<Index>(k));
+    if (argument == 0 || (argument > 0) == (expansion_.branch(k) > 0)) continue;
+    expansion_.branch(k) = argument > 0 ? 1 : -1;
+    expansion_.set(state);
+  }
+  return at_zero;
+}
+
+/// Whether each argument at 0 goes on with the sign of its branch: by the first derivative that is not 0.
+bool Motion::Course::is_consistent(const std::vector<Index>& switches) {
+  for (const Index which : switches) {
+    const auto k = static_cast<std::size_t>(which);
+    const std::span<const double> c = expansion_.switch_argument(k);
+    double largest = 0;
+    for (std::size_t j = 1; j < c.size(); ++j) largest = std::max(largest, std::abs(c[j]));
+    std::size_t first = 1;
+    while (first < c.size() && !(std::abs(c[first]) > undecided_part * largest)) ++first;
+    if (first < c.size() && c[first] * expansion_.branch(k) < 0) return false;
+    zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size() - 1));
+  }
+  return true;
+}
+
+/// The right limit on the branches that it itself takes: those across first, then all others.
+std::optional<ContactAnswer> Motion::Course::answer_on_branches(const std::vector<Index>& contacts,
+                                                                const std::vector<Index>& switches) {
+  ContactQuestion question{{}, contacts};
+  for (Index a = 0; a < expansion_.constraints(); ++a)
+    if (is_two_sided(a)) question.held.push_back(a);
+  constexpr std::size_t most_tried = 8;
+  const std::size_t tried = std::min(switches.size(), most_tried);
+  for (std::size_t choice = 0; choice < (std::size_t{1} << tried); ++choice) {
+    for (std::size_t j = 0; j < switches.size(); ++j) {
+      double& branch = expansion_.branch(static_cast<std::size_t>(switches[j]));
+      // Counting in Gray's order changes one branch at a time.
+      if (choice == 0 || (j < tried && ((choice ^ (choice >> 1U)) ^ ((choice - 1) ^ ((choice - 1) >> 1U))) ==
+                                           (std::size_t{1} << j)))
+        branch = -branch;
+    }
+    if (!switches.empty()) expansion_.set(state);
+    ContactAnswer answer = expansion_.expand(question);
+    if (!answer.excluding.empty() || is_consistent(switches)) return answer;
+  }
+  return std::nullopt;
+}
+
+void Motion::Course::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
+  std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
+  std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  std::fill(is_weak_.begin(), is_weak_.end(), false);
+  std::vector<double> branches;
+  for (const Index k : switches) branches.push_back(expansion_.branch(static_cast<std::size_t>(k)));
+  const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
+  if (!answer)
+    return stop(
+        "at t = " + number_text(state.t) +
+        ": no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along "
+        "the place where it changes, as with dry friction");
+  if (!answer->excluding.empty()) {
+    status = MotionStatus::infeasible;
+    excluding = answer->excluding;
+    why = "at t = " + number_text(state.t) + ": no acceleration satisfies all contacts";
+    return;
+  }
+  persist_ = answer->persist;
+  for (const auto& [a, order] : answer->open) zeros_of_f_[static_cast<std::size_t>(a)] = order;
+  for (const Index a : persist_) {
+    const auto k = static_cast<std::size_t>(a);
+    history_[k].forget();
+    const std::span<const double> lambda = expansion_.multiplier(a);
+    std::size_t zeros = 0;
+    while (zeros < lambda.size() && lambda[zeros] == 0) ++zeros;
+    is_weak_[k] = zeros == lambda.size();
+    zeros_of_lambda_[k] = is_weak_[k] ? 0 : static_cast<int>(zeros);
+  }
+  const State unprojected = state;
+  project();
+  if (status != MotionStatus::done) return;
+  if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
+  fill_next();
+  bool changed = false;
+  for (std::size_t j = 0; j < switches.size(); ++j)
+    changed = changed || branches[j] != expansion_.branch(static_cast<std::size_t>(switches[j]));
+  if (changed && done.length > 0) event(EventKind::branch, {}, state.v);
+}
+
+}  // namespace mechanics

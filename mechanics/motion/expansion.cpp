@@ -1,0 +1,259 @@
+#include "mechanics/motion/expansion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/automatic.hpp"
+#include "mechanics/gauss_problem.hpp"
+
+namespace mechanics {
+
+using expression::Slot;
+
+namespace {
+
+/// A slack or a multiplier below this part of its scale is taken for what rounding left of 0: the next
+/// derivative decides.
+constexpr double undecided_part = 1e-11;
+
+/// Coefficients are rounded about so many times, where rows that depend on each other are compared.
+constexpr double roundings_of_coefficients = 1 << 10;
+
+/// Columns of A found in one sweep.
+constexpr std::size_t lanes_at_once = 8;
+
+}  // namespace
+
+Expansion::Expansion(const expression::LagrangianModel& model, int order)
+    : model_(model),
+      equations_(model),
+      steps_(equations_.tape, equations_.program),
+      order_(order),
+      series_(steps_, order),
+      change_(steps_.series),
+      lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
+      f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))) {
+  convex::invariant(order >= 2, "a motion needs accelerations");
+}
+
+void Expansion::set(const State& state) {
+  state_ = state;
+  const expression::Program& program = equations_.program;
+  for (std::size_t i = 0; i < program.coordinates(); ++i) {
+    const double v = state.v[static_cast<Index>(i)];
+    series_[program.coordinate(i)][0] = state.q[static_cast<Index>(i)];
+    series_[program.coordinate(i)][1] = v;
+    series_[program.velocity(i)][0] = v;
+  }
+  series_[program.time()][0] = state.t;
+  series_[program.time()][1] = 1;
+  for (std::size_t group = 0; group < 3; ++group) series_.advance(group, 0);
+  check_finite(0);
+  find_inertia();
+}
+
+/// Something that enters coefficient k is not finite: the model says what, or says that a derivative is.
+void Expansion::check_finite(int k) const {
+  double spoiled = 0;  // 0 times a number, unless it is not finite
+  const auto look = [&](Slot slot) { spoiled += 0 * series_[slot][static_cast<std::size_t>(k)]; };
+  for (const Slot slot : equations_.momentum) look(slot);
+  for (const Slot slot : equations_.rate) look(slot);
+  for (const auto& [i, slot] : equations_.force) look(slot);
+  if (k == 0)
+    for (const Slot slot : equations_.constraint) look(slot);
+  if (spoiled == 0) return;
+  throw convex::InvalidInput("a value or a derivative of order " + std::to_string(k + 1) +
+                             " is not finite there");
+}
+
+/// A = ∂p/∂q', by columns.
+void Expansion::find_inertia() {
+  const Index n = coordinates();
+  const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
+  columns_.assign(steps_.series * lanes, 0.0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
+    const Index count = std::min(static_cast<Index>(lanes), n - first);
+    const auto seed = [&](double one) {
+      for (Index l = 0; l < count; ++l)
+        columns_[equations_.program.velocity(index(first + l)) * lanes + index(l)] = one;
+    };
+    seed(1);
+    series_.carry(columns_, lanes);
+    for (Index i = 0; i < n; ++i)
+      for (Index l = 0; l < count; ++l)
+        if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; a != 0)
+          entries.emplace_back(i, first + l, a);
+    seed(0);
+  }
+  convex::SparseMatrix columns(n, n);
+  columns.setFromTriplets(entries.begin(), entries.end());
+  const convex::SparseMatrix transposed = columns.transpose();
+  A_ = kinetic_metric(convex::SparseMatrix(0.5 * (columns + transposed)), model_.coordinates);
+}
+
+double Expansion::drift(Index a) const { return rate(a) - row(a).dot(state_.v); }
+
+Vector Expansion::row(Index a) const {
+  Vector u = Vector::Zero(coordinates());
+  for (const auto& [i, slot] : equations_.row[index(a)]) u[i] = series_[slot][0];
+  return u;
+}
+
+double Expansion::rate_scale(Index a) const {
+  double along = 0, scale = 0;
+  for (const auto& [i, slot] : equations_.row[index(a)]) {
+    const double part = series_[slot][0] * state_.v[i];
+    along += part;
+    scale = std::max(scale, std::abs(part));
+  }
+  return std::max(scale, std::abs(rate(a) - along));
+}
+
+double Expansion::position_scale(Index a) const {
+  double scale = std::abs(f(a));
+  for (const auto& [i, slot] : equations_.row[index(a)])
+    scale = std::max(scale, std::abs(series_[slot][0] * state_.q[i]));
+  return scale;
+}
+
+Vector Expansion::momentum() const {
+  Vector p(coordinates());
+  for (Index i = 0; i < p.size(); ++i) p[i] = series_[equations_.momentum[index(i)]][0];
+  return p;
+}
+
+HeldRows Expansion::held_rows(const std::vector<Index>& constraints) const {
+  std::vector<Vector> U;
+  for (const Index a : constraints) U.push_back(row(a));
+  return HeldRows(*A_, U);
+}
+
+/// r with A v_(k+1) = r + Uᵀ lambda_k / (k + 1).
+Vector Expansion::free_part(int k) const {
+  const auto order = static_cast<std::size_t>(k);
+  Vector r = Vector::Zero(coordinates());
+  for (const auto& [i, slot] : equations_.force) r[i] = series_[slot][order];
+  for (const Index a : pushing_) {
+    const std::span<const double> lambda = multiplier(a);
+    for (const auto& [i, slot] : equations_.row[index(a)]) {
+      const std::span<const double> u = series_[slot];
+      double sum = 0;
+      for (std::size_t j = 0; j < order; ++j) sum += lambda[j] * u[order - j];
+      r[i] += sum;
+    }
+  }
+  r /= k + 1;
+  for (Index i = 0; i < r.size(); ++i) r[i] -= series_[equations_.momentum[index(i)]][order + 1];
+  return r;
+}
+
+Vector Expansion::missing_rate(const std::vector<Index>& constraints, int k) const {
+  Vector s(static_cast<Index>(constraints.size()));
+  for (std::size_t a = 0; a < constraints.size(); ++a)
+    s[static_cast<Index>(a)] = -series_[equations_.rate[index(constraints[a])]][static_cast<std::size_t>(k)];
+  return s;
+}
+
+void Expansion::give_velocity(int k, const Vector& v) {
+  const expression::Program& program = equations_.program;
+  const auto order = static_cast<std::size_t>(k);
+  for (std::size_t i = 0; i < program.coordinates(); ++i) {
+    const double coefficient = v[static_cast<Index>(i)];
+    change_[program.velocity(i)] = coefficient;
+    series_[program.velocity(i)][order] = coefficient;
+    series_[program.coordinate(i)][order + 1] = coefficient / static_cast<double>(order + 1);
+  }
+  series_.carry(change_, 1);
+  series_.correct(k, change_);
+}
+
+void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda) {
+  for (std::size_t a = 0; a < constraints.size(); ++a)
+    lambda_[index(constraints[a] * (order_ - 1) + k)] = lambda[static_cast<Index>(a)];
+}
+
+Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k,
+                         const Vector& r) {
+  std::vector<Index> rows = persist;
+  rows.insert(rows.end(), open.begin(), open.end());
+  convex::RowMatrix U(static_cast<Index>(rows.size()), coordinates());
+  for (std::size_t a = 0; a < rows.size(); ++a) U.row(static_cast<Index>(a)) = row(rows[a]).transpose();
+  convex::NearestPointProblem problem{*A_, r, convex::ConstraintRows(U), missing_rate(rows, k + 1), {}};
+  for (std::size_t a = 0; a < persist.size(); ++a) problem.two_sided.push_back(static_cast<Index>(a));
+  problem.radii = convex::rounding_radii(problem, roundings_of_coefficients);
+  const convex::Solution solution = convex::automatic(problem);
+  if (solution.status == convex::Status::infeasible) {
+    for (std::size_t a = 0; a < rows.size(); ++a)
+      if (solution.farkas[static_cast<Index>(a)] != 0) answer.excluding.push_back(rows[a]);
+    return Vector::Zero(coordinates());
+  }
+  give_multipliers(k, rows, solution.lambda * (k + 1));
+  const double scale = std::max(solution.acceleration_norm, solution.force_norm);
+  std::vector<Index> undecided;
+  for (std::size_t a = persist.size(); a < rows.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    const double length = A_->dual_norm(U.row(at).transpose());
+    if (solution.slack[at] > undecided_part * (std::abs(problem.s[at]) + length * scale)) {
+      answer.open.push_back({rows[a], k + 2});
+    } else if (solution.lambda[at] * length > undecided_part * scale) {
+      persist.push_back(rows[a]);
+      pushing_.push_back(rows[a]);
+    } else {
+      undecided.push_back(rows[a]);
+      lambda_[index(rows[a] * (order_ - 1) + k)] = 0;
+    }
+  }
+  open = std::move(undecided);
+  return solution.q;
+}
+
+/// Velocities of order k as if they were 0, and everything else of that order.
+void Expansion::begin_order(int k) {
+  for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)
+    series_[equations_.program.velocity(i)][static_cast<std::size_t>(k + 1)] = 0;
+  series_.advance(0, k + 1);
+  if (k > 0) series_.advance(1, k);
+  check_finite(k);
+}
+
+HeldRows::Answer Expansion::acceleration(const HeldRows& rows, const std::vector<Index>& held) {
+  pushing_.clear();
+  begin_order(0);
+  return rows.solve(free_part(0), missing_rate(held, 1));
+}
+
+ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
+  ContactAnswer answer;
+  std::fill(lambda_.begin(), lambda_.end(), 0.0);
+  std::vector<Index> persist = contacts.held, open = contacts.open;
+  pushing_ = persist;
+  std::optional<HeldRows> rows;
+  for (int k = 0; k <= order_ - 2; ++k) {
+    begin_order(k);
+    const Vector r = free_part(k);
+    if (k == 0) force_norm_ = A_->dual_norm(r);
+    if (!open.empty()) {
+      const Vector v = choose(persist, open, answer, k, r);
+      if (!answer.excluding.empty()) return answer;
+      give_velocity(k + 1, v);
+      continue;
+    }
+    if (!rows) rows.emplace(held_rows(persist));
+    const HeldRows::Answer solved = rows->solve(r, missing_rate(persist, k + 1));
+    give_multipliers(k, persist, solved.lambda * (k + 1));
+    give_velocity(k + 1, solved.x);
+  }
+  answer.persist = std::move(persist);
+  answer.persist.insert(answer.persist.end(), open.begin(), open.end());
+  for (Index a = 0; a < constraints(); ++a) {
+    const std::span<const double> rate_of = series_[equations_.rate[index(a)]];
+    double* f_a = f_.data() + a * (order_ + 1);
+    f_a[0] = f(a);
+    for (int k = 1; k <= order_; ++k) f_a[k] = rate_of[static_cast<std::size_t>(k - 1)] / k;
+  }
+  return answer;
+}
+
+}  // namespace mechanics

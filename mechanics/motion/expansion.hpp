@@ -1,0 +1,124 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/motion/held_rows.hpp"
+#include "mechanics/motion/lagrange_equations.hpp"
+#include "mechanics/motion/taylor_series.hpp"
+#include "mechanics/state.hpp"
+
+namespace mechanics {
+
+/// Contacts at the beginning of an arc. `held` persist for certain, in the order in which their multipliers
+/// are to be determined where they depend on each other; `open` have f = df/dt = 0, and it is asked whether
+/// they persist.
+struct ContactQuestion {
+  std::vector<Index> held, open;
+};
+
+/// What the right limit of the motion says of them: those that persist, first the ones with a multiplier
+/// that is not 0, and those that open, with the order of the first derivative of f that is not 0.
+struct ContactAnswer {
+  struct Opening {
+    Index constraint;
+    int order;
+  };
+  std::vector<Index> persist;
+  std::vector<Opening> open;
+  std::vector<Index> excluding;  ///< constraints that no acceleration satisfies together; else empty
+};
+
+/// The Taylor series of a motion at a state, q(t + τ) = Σ q_k τ^k and the multipliers of the contacts that
+/// persist, found order by order from Lagrange's equations.
+///
+/// Order k + 1 of v = q' and order k of lambda: let p⁰ and g⁰ be the coefficients k + 1 of p = ∂T/∂q' and of
+/// df/dt when v_(k+1) is taken as 0. Both are of degree 1 in q', so that with A and U at the state itself
+///   A v_(k+1) + p⁰ = (F_k + Σ_a Σ_(j<=k) lambda_(a,j) u_(a,k-j)) / (k + 1),     U v_(k+1) + g⁰ = 0,
+/// a linear system with one and the same matrix for every order.
+///
+/// Where it is open whether a contact persists, the same system with complementarity, 0 <= lambda ⟂ slack >=
+/// 0, decides at the first order at which one of them is not 0: at order 0 this is Gauss' problem itself.
+class Expansion {
+ public:
+  Expansion(const expression::LagrangianModel& model, int order);
+
+  /// Coefficients 0 at a state: f, df/dt, A and what follows from them.
+  void set(const State& state);
+  const State& state() const { return state_; }
+  const convex::Metric& inertia() const { return *A_; }
+  double f(Index a) const { return series_[equations_.constraint[index(a)]][0]; }
+  double rate(Index a) const { return series_[equations_.rate[index(a)]][0]; }
+  /// ∂f_a/∂t = df_a/dt - u_a·v.
+  double drift(Index a) const;
+  Vector row(Index a) const;
+  /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.
+  double rate_scale(Index a) const;
+  /// The largest of |u_i q_i| and |f|: what f is about the sum of.
+  double position_scale(Index a) const;
+  /// ||r||_(A⁻¹) of the forces without reactions, once `expand` was asked.
+  double force_norm() const { return force_norm_; }
+  /// ∂T/∂q'.
+  Vector momentum() const;
+  /// Rows held with equality at this state.
+  HeldRows held_rows(const std::vector<Index>& constraints) const;
+
+  /// q'' at the state while the rows given are held: `rows` are those of `held`.
+  HeldRows::Answer acceleration(const HeldRows& rows, const std::vector<Index>& held);
+  /// The higher coefficients, and who persists.
+  ContactAnswer expand(const ContactQuestion& contacts);
+
+  int order() const { return order_; }
+  Index coordinates() const { return equations_.coordinates(); }
+  Index constraints() const { return equations_.constraints(); }
+  /// Coefficients of q_i and of f_a, 0 to `order`, and of lambda_a, 0 to order - 2 (zeros where the contact
+  /// does not persist).
+  std::span<const double> position(Index i) const { return series_[static_cast<expression::Slot>(i)]; }
+  std::span<const double> constraint(Index a) const { return f_of(a); }
+  std::span<const double> multiplier(Index a) const {
+    return {lambda_.data() + a * (order_ - 1), static_cast<std::size_t>(order_ - 1)};
+  }
+  /// Arguments whose signs choose a branch, coefficients 0 to order - 2.
+  std::size_t switches() const { return steps_.switches.size(); }
+  std::span<const double> switch_argument(std::size_t k) const {
+    return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
+  }
+  double& branch(std::size_t k) { return series_.branches()[k]; }
+  double branch(std::size_t k) const { return series_.branches()[k]; }
+  /// "|x|" as it was written, and where.
+  const Switch& switch_of(std::size_t k) const { return steps_.switches[k]; }
+
+ private:
+  std::span<const double> f_of(Index a) const {
+    return {f_.data() + a * (order_ + 1), static_cast<std::size_t>(order_ + 1)};
+  }
+  static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
+  void find_inertia();
+  void check_finite(int k) const;
+  void begin_order(int k);
+  Vector free_part(int k) const;
+  /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
+  Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k,
+                const Vector& r);
+  void give_velocity(int k, const Vector& v);
+  void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
+  Vector missing_rate(const std::vector<Index>& constraints, int k) const;
+
+  const expression::LagrangianModel& model_;
+  LagrangeEquations equations_;
+  TaylorSteps steps_;
+  int order_;
+  TaylorSeries series_;
+  State state_;
+  std::optional<convex::Metric> A_;
+  std::vector<double> change_;   // of every series, when velocities of highest order change
+  std::vector<double> columns_;  // the same, several at once
+  std::vector<double> lambda_;   // by constraint and order
+  std::vector<double> f_;        // likewise
+  std::vector<Index> pushing_;   // the constraints with a multiplier so far
+  double force_norm_ = 0;
+};
+
+}  // namespace mechanics

@@ -1,0 +1,66 @@
+#include "mechanics/motion/lagrange_equations.hpp"
+
+#include <cstdint>
+
+#include "mechanics/expression/gradient_nodes.hpp"
+#include "mechanics/expression/total_derivative.hpp"
+
+namespace mechanics {
+
+using namespace expression;
+
+namespace {
+
+using ByVariable = std::vector<std::pair<std::uint32_t, NodeId>>;
+
+/// F = ∂(T - V)/∂q + Q by coordinate; no_node where it is 0 by its structure.
+std::vector<NodeId> forces(Tape& tape, const LagrangianModel& model, const ByVariable& by_coordinate) {
+  std::vector<NodeId> found(model.coordinates.size(), no_node);
+  for (const auto& [i, derivative] : by_coordinate) found[i] = derivative;
+  for (const Index i : model.forced) {
+    const auto k = static_cast<std::size_t>(i);
+    const NodeId Q = model.forces[k];
+    found[k] = found[k] == no_node ? Q : tape.apply(Operation::add, found[k], Q, tape.origin(Q));
+  }
+  return found;
+}
+
+}  // namespace
+
+LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.tape) {
+  const NodeId T = model.kinetic;
+  const NodeId lagrangian =
+      model.potential == no_node ? T : tape.apply(Operation::subtract, T, model.potential, tape.origin(T));
+  const GradientNodes of_lagrangian = gradient_nodes(tape, lagrangian);
+  std::vector<NodeId> leading, following, last = model.f;
+  // The model has T positive definite in q', so that every velocity is in it; one that is not has p = 0.
+  std::vector<NodeId> p(model.coordinates.size(), tape.literal("0", 0, tape.origin(T)));
+  for (const auto& [i, derivative] : of_lagrangian.by_velocity) p[i] = derivative;
+  leading = p;
+  TotalDerivative rate_of(tape);
+  for (const NodeId f : model.f) leading.push_back(rate_of.of(f));
+
+  const std::vector<NodeId> F = forces(tape, model, of_lagrangian.by_coordinate);
+  std::vector<ByVariable> gradients;
+  for (const NodeId force_node : F)
+    if (force_node != no_node) following.push_back(force_node);
+  for (const NodeId f : model.f) {
+    gradients.push_back(gradient_nodes(tape, f).by_coordinate);
+    for (const auto& [i, u] : gradients.back()) following.push_back(u);
+  }
+
+  program = Program(tape, model.coordinates.size(), {leading, following, last});
+  const auto& of_leading = program.roots(0);
+  momentum.assign(of_leading.begin(), of_leading.begin() + static_cast<std::ptrdiff_t>(p.size()));
+  rate.assign(of_leading.begin() + static_cast<std::ptrdiff_t>(p.size()), of_leading.end());
+  auto next = program.roots(1).begin();
+  for (std::size_t i = 0; i < F.size(); ++i)
+    if (F[i] != no_node) force.emplace_back(static_cast<Index>(i), *next++);
+  for (const ByVariable& gradient : gradients) {
+    row.emplace_back();
+    for (const auto& [i, u] : gradient) row.back().emplace_back(static_cast<Index>(i), *next++);
+  }
+  constraint = program.roots(2);
+}
+
+}  // namespace mechanics

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "mechanics/expression/lagrangian_model.hpp"
+
+namespace mechanics {
+
+/// What has to be known along a motion to continue it, as expressions of one program. With p = ∂T/∂q' and
+/// F = ∂(T - V)/∂q + Q, Lagrange's equations (Moreau 1966, (5)) read
+///   dp/dt = F + Σ lambda_a u_a,     df_a/dt = u_a·q' + ∂f_a/∂t = 0 while contact a persists.
+struct LagrangeEquations {
+  using Slot = expression::Slot;
+
+  explicit LagrangeEquations(const expression::LagrangianModel& model);
+
+  Index coordinates() const { return static_cast<Index>(momentum.size()); }
+  Index constraints() const { return static_cast<Index>(constraint.size()); }
+
+  expression::Tape tape;
+  /// Group 0: p and df/dt, both of degree 1 in q'; group 1, in addition: F and u; group 2: f.
+  expression::Program program;
+  std::vector<Slot> momentum;                            ///< p_i
+  std::vector<std::pair<Index, Slot>> force;             ///< F_i where it is not 0 by its structure
+  std::vector<Slot> rate;                                ///< df_a/dt
+  std::vector<std::vector<std::pair<Index, Slot>>> row;  ///< u_a, zeros by structure left out
+  std::vector<Slot> constraint;                          ///< f_a
+};
+
+}  // namespace mechanics

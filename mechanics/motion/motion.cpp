@@ -1,0 +1,40 @@
+#include "mechanics/motion/motion.hpp"
+
+#include "mechanics/motion/course.hpp"
+
+namespace mechanics {
+
+const char* name(EventKind kind) {
+  switch (kind) {
+    case EventKind::impact:
+      return "impact";
+    case EventKind::contact:
+      return "contact";
+    case EventKind::release:
+      return "release";
+    case EventKind::accumulation:
+      return "accumulation";
+    case EventKind::branch:
+      return "branch";
+  }
+  return "";
+}
+
+Motion::Motion(const LagrangianSystem& system, const State& state, MotionOptions options)
+    : course_(std::make_unique<Course>(system, state, std::move(options))) {}
+Motion::~Motion() = default;
+Motion::Motion(Motion&&) noexcept = default;
+
+bool Motion::advance(double until) { return course_->advance(until); }
+const Arc& Motion::arc() const { return course_->done; }
+const std::vector<MotionEvent>& Motion::events() const { return course_->events; }
+const State& Motion::state() const { return course_->state; }
+const Vector& Motion::acceleration() const { return course_->acceleration; }
+const Vector& Motion::multipliers() const { return course_->multipliers; }
+double Motion::energy() const { return course_->system.energy(course_->state); }
+MotionStatus Motion::status() const { return course_->status; }
+const std::string& Motion::why() const { return course_->why; }
+const std::vector<Index>& Motion::excluding() const { return course_->excluding; }
+const MotionRecord& Motion::record() const { return course_->record; }
+
+}  // namespace mechanics

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/contacts.hpp"
+#include "mechanics/lagrangian_system.hpp"
+#include "mechanics/motion/arc.hpp"
+
+namespace mechanics {
+
+/// How to follow a motion.
+struct MotionOptions {
+  /// Estimated error of a step, relative to what the system moves in it. Loosen it for speed.
+  double tolerance = 1e-10;
+  Vector restitution;        ///< e_a, one a constraint, 0 <= e_a <= 1; empty: all 0
+  Vector contact_tolerance;  ///< of the state at the start, as of `contacts`; empty: the default
+  long step_limit = 10'000'000;
+};
+
+/// What happens at an instant.
+enum class EventKind { impact, contact, release, accumulation, branch };
+const char* name(EventKind);
+
+struct MotionEvent {
+  double t = 0;
+  EventKind kind = EventKind::impact;
+  std::vector<Index> constraints;  ///< those that close, open or come to rest; none for a branch
+  Vector velocity_before, velocity_after;
+};
+
+enum class MotionStatus { done, stopped, infeasible };
+
+/// Where accuracy was lost, or a decision was not determined: when, and what.
+struct MotionRemark {
+  double t = 0;
+  std::string what;
+};
+
+/// Counts and figures of the motion so far.
+struct MotionRecord {
+  long steps = 0, events = 0, impacts = 0;
+  double largest_penetration = 0;  ///< largest -f_a over its scale at the ends of steps
+  Index most_penetrated = -1;      ///< its constraint
+  double impact_energy = 0;        ///< Σ T+ - T- over the impacts, as T gives it
+  double ledger_energy = 0;        ///< the same by Σ P_a ((1 - e_a)/2 f'_a(v-) - ∂f_a/∂t) + b·(v+ - v-)
+  std::vector<MotionRemark> remarks;
+};
+
+/// The motion of a mechanical system with one-sided frictionless constraints: smooth arcs by Taylor series,
+/// events, impacts, accumulations of impacts, rest on contacts (docs/motion.md).
+///
+///   Motion motion(system, state, {.restitution = e});
+///   while (motion.advance(3.0)) use(motion.arc(), motion.events());
+class Motion {
+ public:
+  /// `system` must outlive the motion. Throws InvalidInput for e outside [0, 1], and where the state cannot
+  /// begin a motion: penetration, or two-sided constraints that do not hold.
+  Motion(const LagrangianSystem& system, const State& state, MotionOptions options = {});
+  ~Motion();
+  Motion(Motion&&) noexcept;
+
+  /// Goes on by one step, at most to `until`; false when nothing is left to do: `until` is reached, or
+  /// status() is not `done`.
+  bool advance(double until);
+
+  /// The last step as a function of time; its end is the state before the events there.
+  const Arc& arc() const;
+  /// The events at the end of the last step (or at the very start).
+  const std::vector<MotionEvent>& events() const;
+  /// The state now, after events.
+  const State& state() const;
+  /// Right limits at this state: q'' and the multipliers of all constraints.
+  const Vector& acceleration() const;
+  const Vector& multipliers() const;
+  double energy() const;
+
+  MotionStatus status() const;
+  /// Why the motion was stopped, or which constraints exclude each other.
+  const std::string& why() const;
+  const std::vector<Index>& excluding() const;
+  const MotionRecord& record() const;
+
+ private:
+  class Course;
+  std::unique_ptr<Course> course_;
+};
+
+}  // namespace mechanics

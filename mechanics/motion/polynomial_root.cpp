@@ -1,0 +1,135 @@
+#include "mechanics/motion/polynomial_root.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace mechanics {
+namespace {
+
+using Coefficients = std::vector<double>;
+
+/// Halvings after which an interval has no double inside.
+constexpr int deepest = 60;
+
+/// Σ c_k (end x)^k on [0, 1] by its Bernstein coefficients: b_j = Σ_k C(j,k)/C(d,k) c_k end^k.
+Coefficients bernstein(std::span<const double> c, double end) {
+  const std::size_t size = c.size();
+  Coefficients b(size);
+  // Rows of differences: Δ^k b_0 = c_k end^k / C(d,k), summed up from the highest difference down.
+  double power = 1, binomial = 1;
+  for (std::size_t k = 0; k < size; ++k) {
+    b[k] = c[k] * power / binomial;
+    power *= end;
+    binomial *= static_cast<double>(size - 1 - k) / static_cast<double>(k + 1);
+  }
+  for (std::size_t level = size - 1; level > 0; --level)
+    for (std::size_t j = level; j < size; ++j) b[j] += b[j - 1];
+  return b;
+}
+
+/// Cuts at the middle (de Casteljau): `b` becomes the left half, the right one is returned.
+Coefficients split(Coefficients& b) {
+  const std::size_t size = b.size();
+  Coefficients right(size);
+  for (std::size_t level = 0; level < size; ++level) {
+    right[size - 1 - level] = b[size - 1];
+    for (std::size_t j = size - 1; j > level; --j) b[j] = 0.5 * (b[j - 1] + b[j]);
+  }
+  return right;
+}
+
+/// The first x in [low, low + width] where the polynomial with coefficients b goes below `level`; infinite
+/// if it does not.
+double first_below(Coefficients b, double level, double low, double width, int depth) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (*std::min_element(b.begin(), b.end()) >= level) return never;
+  if (b.front() < level) return low;
+  const double middle = low + 0.5 * width;
+  if (depth == 0 || middle == low) return low;
+  Coefficients right = split(b);
+  const double found = first_below(std::move(b), level, low, 0.5 * width, depth - 1);
+  return found != never ? found : first_below(std::move(right), level, middle, 0.5 * width, depth - 1);
+}
+
+double value(std::span<const double> c, double x) {
+  double sum = 0;
+  for (std::size_t k = c.size(); k-- > 0;) sum = sum * x + c[k];
+  return sum;
+}
+
+double slope(std::span<const double> c, double x) {
+  double sum = 0;
+  for (std::size_t k = c.size(); k-- > 1;) sum = sum * x + static_cast<double>(k) * c[k];
+  return sum;
+}
+
+/// The zero between a point where p >= 0 and one where p <= 0: Newton's method, kept inside by bisection.
+double between(std::span<const double> c, double low, double high) {
+  double x = low;
+  for (int i = 0; i < 200; ++i) {
+    const double p = value(c, x);
+    if (p == 0) return x;
+    (p > 0 ? low : high) = x;
+    double next = x - p / slope(c, x);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == x || next == low || next == high) return next;
+    x = next;
+  }
+  return x;
+}
+
+/// Where p is least in an interval in which it falls at first and rises at last: the zero of p'.
+double least(std::span<const double> c, double low, double high) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (slope(c, middle) < 0 ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The coefficients of p(at + τ).
+void shift(Coefficients& c, double at) {
+  if (at == 0) return;
+  for (std::size_t level = 0; level + 1 < c.size(); ++level)
+    for (std::size_t k = c.size() - 1; k-- > level;) c[k] += at * c[k + 1];
+}
+
+/// The first τ in [0, end] with p(τ) < level (sense 1) or p(τ) > level (sense -1); infinite if there is none.
+double first_beyond(const Coefficients& c, double end, double level, double sense) {
+  Coefficients b = bernstein(c, end);
+  for (double& x : b) x *= sense;
+  return end * first_below(std::move(b), sense * level, 0, 1, deepest);
+}
+
+}  // namespace
+
+std::optional<FirstZero> first_zero(std::span<const double> coefficients, double end, double rounding) {
+  if (coefficients.empty() || !(end > 0)) return std::nullopt;
+  Coefficients c(coefficients.begin(), coefficients.end());
+  double begin = 0;
+  while (begin < end) {
+    const double enter = first_beyond(c, end - begin, rounding, 1);
+    if (!(enter <= end - begin)) return std::nullopt;
+    shift(c, enter);
+    begin += enter;
+    const double rest = end - begin;
+    const double leave = first_beyond(c, rest, 2 * rounding, -1);
+    const double below = first_beyond(c, rest, -rounding, 1);
+    const bool rises = enter == 0 && slope(c, 0) >= 0;
+    if (below < leave && !(rises && below == 0))
+      return FirstZero{begin + (c[0] > 0 ? between(c, 0, below) : 0), false};
+    if (!(leave <= rest)) {
+      if (value(c, rest) > 0 || slope(c, rest) >= 0) return std::nullopt;
+      return FirstZero{end, false};
+    }
+    if (!rises) return FirstZero{begin + least(c, 0, leave), true};
+    shift(c, leave);
+    begin += leave;
+  }
+  return std::nullopt;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,193 @@
+#include "mechanics/motion/taylor_steps.hpp"
+
+#include <cmath>
+
+#include "convex/invariant.hpp"
+
+namespace mechanics {
+
+using namespace expression;
+
+namespace {
+
+using Kind = TaylorStep::Kind;
+
+/// Whole powers up to this one are products; others go by the recurrence a f' = e f a', which needs a ≠ 0.
+constexpr double largest_product = 64;
+
+class Translation {
+ public:
+  Translation(const Tape& tape, const Program& program, TaylorSteps& to)
+      : tape_(tape), program_(program), to_(to), depends_(program.size()) {
+    for (std::size_t i = 0; i < program.coordinates(); ++i) depends_[program.velocity(i)] = true;
+  }
+
+  void translate(Slot slot) {
+    const auto& [operation, active, a, b] = program_[slot];
+    const std::size_t first = to_.steps.size();
+    const bool depends = depends_[a] || (arity(operation) == 2 && depends_[b]);
+    write(operation, active, slot, a, b);
+    depends_[slot] = depends;
+    for (std::size_t k = first; depends && k < to_.steps.size(); ++k) {
+      depends_[to_.steps[k].out] = true;
+      to_.by_velocity.push_back(k);
+    }
+  }
+
+ private:
+  Slot extra() {
+    depends_.push_back(false);
+    return static_cast<Slot>(to_.series++);
+  }
+  Slot constant(double value) {
+    const Slot slot = extra();
+    to_.constants.emplace_back(slot, value);
+    return slot;
+  }
+  void add(Kind kind, Slot out, Slot a, Slot b = 0, Slot partner = 0, double number = 0) {
+    to_.steps.push_back({kind, out, a, b, partner, number});
+  }
+  Slot made(Kind kind, Slot a, Slot b = 0) {
+    const Slot out = extra();
+    add(kind, out, a, b);
+    return out;
+  }
+  double value(Slot slot) const { return tape_.constant(program_.node(slot)); }
+
+  void add_switch(Kind kind, Slot out, Slot a) {
+    std::size_t k = 0;
+    while (k < to_.switches.size() && to_.switches[k].argument != a) ++k;
+    if (k == to_.switches.size()) to_.switches.push_back({a, program_.node(out)});
+    add(kind, out, a, 0, 0, static_cast<double>(k));
+  }
+
+  /// 1 + a² or (1 - a)(1 + a), which keeps its digits near 1.
+  Slot one_and_square(Slot a, bool minus) {
+    const Slot one = constant(1);
+    if (!minus) return made(Kind::sum, one, made(Kind::square, a));
+    return made(Kind::product, made(Kind::difference, one, a), made(Kind::sum, one, a));
+  }
+
+  void whole_power(Slot out, Slot a, double exponent) {
+    Slot result = 0, square = a;
+    bool is_first = true;
+    for (auto left = static_cast<unsigned>(std::abs(exponent)); left > 0; left /= 2) {
+      if (left % 2 == 1) {
+        result = is_first ? square : made(Kind::product, result, square);
+        is_first = false;
+      }
+      if (left > 1) square = made(Kind::square, square);
+    }
+    if (exponent < 0)
+      add(Kind::quotient, out, constant(1), result);
+    else
+      add(Kind::sum, out, result, constant(0));
+  }
+
+  void power(Active active, Slot out, Slot a, Slot b) {
+    if (active.b) {  // exp(b log a)
+      Slot logarithm = 0;
+      if (active.a)
+        logarithm = made(Kind::logarithm, a);
+      else
+        logarithm = constant(std::log(value(a)));
+      return add(Kind::exponential, out, made(Kind::product, b, logarithm));
+    }
+    const double exponent = value(b);
+    if (exponent == 2) return add(Kind::square, out, a);
+    if (exponent == 0.5) return add(Kind::root, out, a);
+    if (exponent == 0) return add(Kind::sum, out, constant(1), constant(0));
+    if (exponent == std::floor(exponent) && std::abs(exponent) <= largest_product)
+      return whole_power(out, a, exponent);
+    add(Kind::power, out, a, 0, 0, exponent);
+  }
+
+  void write(Operation operation, Active active, Slot out, Slot a, Slot b) {
+    switch (operation) {
+      case Operation::negate:
+        return add(Kind::negative, out, a);
+      case Operation::add:
+        return add(Kind::sum, out, a, b);
+      case Operation::subtract:
+        return add(Kind::difference, out, a, b);
+      case Operation::multiply:
+        if (!active.a) return add(Kind::multiple, out, a, b, 0, value(a));
+        if (!active.b) return add(Kind::multiple, out, b, a, 0, value(b));
+        return a == b ? add(Kind::square, out, a) : add(Kind::product, out, a, b);
+      case Operation::divide:
+        if (!active.b) return add(Kind::share, out, a, 0, 0, value(b));
+        return add(Kind::quotient, out, a, b);
+      case Operation::power:
+        return power(active, out, a, b);
+      case Operation::sin:
+        return add(Kind::sine, out, a, 0, extra());
+      case Operation::cos: {
+        const Slot sine = extra();
+        return add(Kind::sine, sine, a, 0, out);
+      }
+      case Operation::tan:
+        return add(Kind::tangent, out, a, 0, extra());
+      case Operation::asin:
+        return add(Kind::arc, out, a, static_cast<Slot>(operation), made(Kind::root, one_and_square(a, true)),
+                   1);
+      case Operation::acos:
+        return add(Kind::arc, out, a, static_cast<Slot>(operation), made(Kind::root, one_and_square(a, true)),
+                   -1);
+      case Operation::atan:
+        return add(Kind::arc, out, a, static_cast<Slot>(operation), one_and_square(a, false), 1);
+      case Operation::atan2:
+        return add(Kind::angle, out, a, b, made(Kind::sum, made(Kind::square, a), made(Kind::square, b)));
+      case Operation::sinh:
+        return add(Kind::sinh, out, a, 0, extra());
+      case Operation::cosh: {
+        const Slot sinh = extra();
+        return add(Kind::sinh, sinh, a, 0, out);
+      }
+      case Operation::tanh:
+        return add(Kind::tanh, out, a, 0, extra());
+      case Operation::exp:
+        return add(Kind::exponential, out, a);
+      case Operation::log:
+        return add(Kind::logarithm, out, a);
+      case Operation::sqrt:
+        return add(Kind::root, out, a);
+      case Operation::abs:
+        return add_switch(Kind::absolute, out, a);
+      case Operation::sign:
+        return add_switch(Kind::sign, out, a);
+      default:
+        convex::invariant(false, "every operation has a Taylor recurrence");
+    }
+  }
+
+  const Tape& tape_;
+  const Program& program_;
+  TaylorSteps& to_;
+  std::vector<bool> depends_;  // on velocities, by series
+};
+
+/// Whether the highest coefficient of the result is linear in those of what depends on velocities, given the
+/// lower ones. The text of T is checked for degree 2, so that p and df/dt have degree 1.
+bool is_affine(Kind kind) {
+  return kind == Kind::sum || kind == Kind::difference || kind == Kind::negative || kind == Kind::product ||
+         kind == Kind::multiple || kind == Kind::square || kind == Kind::quotient || kind == Kind::share;
+}
+
+}  // namespace
+
+TaylorSteps::TaylorSteps(const Tape& tape, const Program& program) : series(program.size()) {
+  for (Slot slot = program.time() + 1; slot < program.begin(); ++slot)
+    constants.emplace_back(slot, tape.constant(program.node(slot)));
+  Translation translation(tape, program, *this);
+  Slot slot = program.begin();
+  for (std::size_t group = 0; group < program.groups(); ++group) {
+    for (; slot < program.end(group); ++slot) translation.translate(slot);
+    ends.push_back(steps.size());
+    if (group > 0) continue;
+    for (const std::size_t k : by_velocity)
+      convex::invariant(is_affine(steps[k].kind), "momenta are of degree 1 in the velocities");
+  }
+  while (!by_velocity.empty() && by_velocity.back() >= ends[0]) by_velocity.pop_back();
+}
+
+}  // namespace mechanics

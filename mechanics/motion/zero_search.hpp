@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "mechanics/motion/arc.hpp"
+
+namespace mechanics {
+
+/// Something on an arc that comes to 0.
+struct Zero {
+  enum class Of { constraint, multiplier, branch };
+  Of of;
+  Index which;  ///< the constraint, or the switch
+  double at;    ///< τ
+  bool is_touch = false;
+};
+
+/// What is watched on an arc. `leading`: how many coefficients are 0 because of the event at its beginning.
+struct Watched {
+  Zero::Of of;
+  Index which;
+  std::vector<double> c;  ///< coefficients, positive just after the beginning, without the leading zeros
+  double rounding;        ///< what rounding leaves of a 0
+};
+
+/// The zeros of what is watched in (0, end], the first one of each; those not first in time by more than
+/// `together` are left out.
+std::vector<Zero> first_zeros(const std::vector<Watched>& watched, double end, double together);
+
+}  // namespace mechanics
