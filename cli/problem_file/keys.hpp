@@ -28,4 +28,7 @@ double require_number(const TomlValue& value, const std::string& where);
 /// A finite number greater than 0.
 double require_positive(const TomlValue& value, const std::string& where);
 
+/// A coefficient of restitution, 0 <= e <= 1.
+double require_restitution(const TomlValue& value, const std::string& where);
+
 }  // namespace cli

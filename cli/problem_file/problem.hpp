@@ -13,10 +13,18 @@
 
 namespace cli {
 
+/// A number that a file gives for a constraint, or for a family of them.
+struct NamedNumber {
+  std::string constraint;
+  convex::Place place;
+  double value = 0;
+};
+
 /// `[system]` and `[state]`: a mechanical system by its Lagrangian data.
 struct SystemProblem {
   mechanics::LagrangianText system;
   mechanics::StateText state;
+  std::vector<NamedNumber> restitutions;  ///< that [system.looseness] gives to its constraints
 };
 
 /// `[projection]`: the same problem from numbers.
@@ -43,13 +51,6 @@ struct ConeProblem {
   convex::Index n = 0;
   std::optional<convex::ExactVector> z;
   convex::ExactMetric W;
-};
-
-/// A number that a file gives for a constraint, or for a family of them.
-struct NamedNumber {
-  std::string constraint;
-  convex::Place place;
-  double value = 0;
 };
 
 /// `[solve]`: what a file says about how to solve it.

@@ -6,16 +6,6 @@ namespace {
 
 using convex::InvalidInput;
 
-/// 0 <= e <= 1.
-double require_restitution(const TomlValue& value, const std::string& where) {
-  const double e = require_number(value, where);
-  if (!(e >= 0 && e <= 1))
-    throw InvalidInput(
-        where + ": " + shown(value.text) + " is not from 0 to 1; an impact keeps energy (1) or takes it (0)",
-        value.place);
-  return e;
-}
-
 long require_samples(const TomlValue& value) {
   const double samples = require_number(value, "simulate.samples");
   constexpr double most = 1e8;

@@ -33,9 +33,9 @@ std::vector<NamedText> named(const TomlValue* table, const std::string& where) {
 }
 
 mechanics::LagrangianText read_lagrangian(const TomlValue& table) {
-  require_known_keys(
-      table, "system",
-      {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces", "constraints"});
+  require_known_keys(table, "system",
+                     {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces",
+                      "constraints", "looseness"});
   mechanics::LagrangianText system;
   const TomlValue* coordinates = table.find("coordinates");
   if (coordinates == nullptr || coordinates->kind != TomlValue::Kind::array)
@@ -67,15 +67,54 @@ mechanics::StateText read_state(const TomlValue& table) {
   return state;
 }
 
+/// "mesh" and "_lower" make "mesh_lower", "mesh[i in 1..3]" makes "mesh_lower[i in 1..3]".
+std::string with_suffix(const std::string& name, const std::string& suffix) {
+  const std::size_t index = name.find('[');
+  if (index == std::string::npos) return name + suffix;
+  return name.substr(0, index) + suffix + name.substr(index);
+}
+
+/// `[system.looseness]`: two one-sided constraints for each element, -gap/2 <= a - b <= gap/2.
+void add_looseness(SystemProblem& problem, const TomlValue* table) {
+  if (table == nullptr) return;
+  for (const TomlEntry& entry : require_table(*table, "system.looseness").table) {
+    const std::string where = "system.looseness." + shown(entry.key);
+    const TomlValue& element = require_table(entry.value, where);
+    require_known_keys(element, where, {"between", "gap", "restitution"});
+    const TomlValue *between = element.find("between"), *gap = element.find("gap");
+    if (between == nullptr || between->kind != TomlValue::Kind::array || between->array.size() != 2)
+      throw InvalidInput(where + ".between: not two expressions; write between = [\"a\", \"i*b\"]",
+                         between == nullptr ? entry.place : between->place);
+    if (gap == nullptr)
+      throw InvalidInput(where + ".gap: missing; write gap = 0.01, the whole play", entry.place);
+    if (gap->is_number() && gap->number < 0)
+      throw InvalidInput(where + ".gap: " + shown(gap->text) + " is negative; give the whole play, >= 0",
+                         gap->place);
+    const Text a = expression(between->array[0], where + ".between"),
+               b = expression(between->array[1], where + ".between"), play = expression(*gap, where + ".gap");
+    const std::string difference = "(" + a.text + ") - (" + b.text + ")";
+    const auto add = [&](const char* suffix, const std::string& relation) {
+      const std::string name = with_suffix(entry.key, suffix);
+      problem.system.constraints.push_back(
+          {{name, entry.place}, {difference + relation + "(" + play.text + ")/2", a.begin}});
+      if (const TomlValue* e = element.find("restitution"))
+        problem.restitutions.push_back({name, entry.place, require_restitution(*e, where + ".restitution")});
+    };
+    add("_lower", " >= -");
+    add("_upper", " <= ");
+  }
+}
+
 }  // namespace
 
 SystemProblem read_system(const TomlValue& document) {
   const TomlValue& system = *document.find("system");
   const TomlValue* state = document.find("state");
-  SystemProblem problem{read_lagrangian(system), {}};
+  SystemProblem problem{read_lagrangian(system), {}, {}};
   if (state == nullptr)
     throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
                        system.place);
+  add_looseness(problem, system.find("looseness"));
   problem.state = read_state(require_table(*state, "state"));
   return problem;
 }

@@ -4,11 +4,11 @@
 
 namespace mechanics {
 
-void ImpactHistory::add(double since, double rate_after) {
+void ImpactHistory::add(double since, double speed) {
   interval_[2] = interval_[1];
   interval_[1] = interval_[0];
   interval_[0] = since;
-  rate_after_ = rate_after;
+  speed_ = speed;
   ++count_;
 }
 

@@ -12,9 +12,9 @@ using convex::Index;
 /// to an end at a time that their sum gives, Δ r / (1 - r) after the last one (Zeno).
 class ImpactHistory {
  public:
-  /// An impact at t, `since` the last one: two numbers, since differences of times lose their digits.
-  void add(double since, double rate_after);
-  /// The contact was at rest, or free for another reason: what was is no part of what comes.
+  /// An impact at the time `since` after the last one (differences of times would lose digits), with the
+  /// speed -df/dt before it.
+  void add(double since, double speed);
   void forget() { *this = ImpactHistory(); }
 
   long count() const { return count_; }
@@ -24,13 +24,13 @@ class ImpactHistory {
   /// The time from the last impact to the end, and how far it may be off by the drift of the ratio.
   double remaining() const;
   double remaining_error() const;
-  /// How high, in units of f, the next bounce goes.
-  double next_height() const { return 0.25 * rate_after_ * interval_[0] * ratio(); }
+  /// A bound on how high, in units of f, the next bounce goes.
+  double next_height() const { return 0.25 * speed_ * interval_[0]; }
 
  private:
   long count_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
-  double rate_after_ = 0;
+  double speed_ = 0;
 };
 
 }  // namespace mechanics

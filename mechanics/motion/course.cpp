@@ -19,6 +19,9 @@ constexpr double roundings_of_time = 64;
 /// A step that misses the equations at its end by more than this many times its tolerance is taken again.
 constexpr double allowed_defect = 1e3;
 
+/// A multiplier below this part of the forces is none.
+constexpr double weakest_multiplier = 1e-12;
+
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
@@ -43,7 +46,7 @@ MotionOptions checked(MotionOptions options, const LagrangianSystem& system) {
 Motion::Course::Course(const LagrangianSystem& of, const State& at, MotionOptions chosen)
     : options(checked(std::move(chosen), of)),
       system(of),
-      expansion_(of.model(), taylor_order(options.tolerance)) {
+      expansion_(of.model(), taylor_order(tolerance_of_step(options.tolerance))) {
   const auto m = system.constraints().size();
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
@@ -57,6 +60,11 @@ Motion::Course::Course(const LagrangianSystem& of, const State& at, MotionOption
 void Motion::Course::stop(std::string reason) {
   status = MotionStatus::stopped;
   why = std::move(reason);
+}
+
+void Motion::Course::remark(std::string what) {
+  constexpr std::size_t most_remarks = 100;
+  if (record.remarks.size() < most_remarks) record.remarks.push_back({state.t, std::move(what)});
 }
 
 void Motion::Course::event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before) {
@@ -107,46 +115,37 @@ bool Motion::Course::advance(double until) {
   return status == MotionStatus::done || !events.empty() || state.t > before;
 }
 
-std::vector<Watched> Motion::Course::watched(double end) const {
-  std::vector<Watched> all;
-  const auto add = [&](Zero::Of of, Index which, std::span<const double> c, int zeros, double sign,
-                       double rounding, double raise) {
-    Watched one{of, which, {}, 0};
-    double power = 1, size = 0;
-    for (std::size_t k = static_cast<std::size_t>(zeros); k < c.size(); ++k, power *= end) {
-      one.c.push_back(sign * c[k]);
-      size += std::abs(c[k]) * power;
-    }
-    if (one.c.empty() || size == 0) return;
-    one.c[0] += raise;
-    one.rounding = 4 * epsilon * size + rounding;
-    all.push_back(std::move(one));
+/// What comes to 0 on the next arc ends it: constraints that are free, multipliers, arguments of switches.
+void Motion::Course::watch() {
+  watched_.clear();
+  const auto add = [&](Zero::Of of, Index which, std::span<const double> c, int zeros, double rounding) {
+    watched_.push_back({of, which, {c.begin() + zeros, c.end()}, rounding});
   };
   std::vector<bool> held(system.constraints().size());
   for (const Index a : persist_) held[static_cast<std::size_t>(a)] = true;
-  const double force = expansion_.inertia().norm(2 * next.q.col(2));
+  const convex::Metric& A = expansion_.inertia();
+  const double force = std::max(A.norm(acceleration), expansion_.force_norm());
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const auto k = static_cast<std::size_t>(a);
     if (is_two_sided(a)) continue;
     if (!held[k]) {
       const double rounding = zeros_of_f_[k] > 0 ? 0 : 4 * epsilon * expansion_.position_scale(a);
-      add(Zero::Of::constraint, a, coefficients(next.f, a), zeros_of_f_[k], 1, rounding, 0);
+      add(Zero::Of::constraint, a, coefficients(next.f, a), zeros_of_f_[k], rounding);
       continue;
     }
-    const double length = expansion_.inertia().dual_norm(expansion_.row(a));
-    const double least = 1e-12 * std::max(force, expansion_.force_norm()) / length;
-    const bool weak = is_weak_[k];
-    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), weak ? 0 : zeros_of_lambda_[k], 1,
-        weak ? least : 0, weak ? 10 * least : 0);
+    // A contact without a multiplier has one from rounding: only what is more than that releases it.
+    const double least = weakest_multiplier * force / A.dual_norm(expansion_.row(a));
+    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], is_weak_[k] ? least : 0);
+    if (is_weak_[k]) watched_.back().c[0] += 10 * least;
   }
-  for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k],
-        expansion_.branch(k), 0, 0);
-  return all;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k], 0);
+    for (double& c : watched_.back().c) c *= expansion_.branch(k);
+  }
 }
 
 std::vector<Zero> Motion::Course::zeros_before(double end) const {
-  return first_zeros(watched(end), end, roundings_of_time * epsilon * (std::abs(state.t) + end));
+  return first_zeros(watched_, end, roundings_of_time * epsilon * (std::abs(state.t) + end));
 }
 
 /// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
@@ -157,8 +156,7 @@ double Motion::Course::polished(const Zero& zero, double tau) {
   const std::span<const double> c =
       coefficients(zero.of == Zero::Of::constraint ? next.f : next.lambda, zero.which);
   for (int i = 0; i < most_corrections; ++i) {
-    State there = next.state(tau);
-    expansion_.set(there);
+    expansion_.set(next.state(tau));
     double value = 0;
     if (zero.of == Zero::Of::constraint) {
       value = expansion_.f(zero.which);
@@ -179,16 +177,21 @@ double Motion::Course::polished(const Zero& zero, double tau) {
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
 /// does not converge, and an expression that is not analytic.
 bool Motion::Course::fits(double tau) {
-  State there = next.state(tau);
-  expansion_.set(there);
-  const HeldRows rows = expansion_.held_rows(persist_);
-  const Vector q2 = expansion_.acceleration(rows, persist_).x;
+  const State there = next.state(tau);
+  Vector q2;
+  try {
+    expansion_.set(there);
+    q2 = expansion_.acceleration(expansion_.held_rows(persist_), persist_).x;
+  } catch (const convex::InvalidInput& error) {
+    obstacle_ = error.what();
+    return false;
+  }
   const convex::Metric& A = expansion_.inertia();
   double moved = 0, power = tau;
   for (Index k = 1; k < next.q.cols(); ++k, power *= tau)
     moved = std::max(moved, A.norm(next.q.col(k)) * power);
   const double defect = A.norm(q2 - next.acceleration(tau)) * tau * tau;
-  const double rounding = 1e4 * epsilon * (moved + A.norm(q2) * tau * tau + A.norm(there.q) * tau);
+  const double rounding = 1e4 * epsilon * (moved + (A.norm(q2) + expansion_.force_norm()) * tau * tau);
   const double orders = static_cast<double>(next.q.cols());
   return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
 }
@@ -210,10 +213,12 @@ void Motion::Course::take_step(double until) {
   }
   std::vector<Zero> zeros;
   double tau = end;
+  obstacle_.clear();
   for (int halvings = 0;; ++halvings) {
-    constexpr int most_halvings = 40;
-    if (halvings > most_halvings)
-      return stop("at t = " + number_text(state.t) + ": no step, however short, keeps the tolerance");
+    if (halvings > 0 && !(state.t + end > state.t))
+      return stop("at t = " + number_text(state.t) + ": " +
+                  (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
+                  "; the motion ends here, or the expressions have to be written otherwise");
     zeros = zeros_before(end);
     tau = end;
     for (Zero& zero : zeros) {
@@ -326,7 +331,12 @@ void Motion::Course::fill_next() {
   next.persist = persist_;
   acceleration = 2 * next.q.col(2);
   multipliers = next.lambda.col(0);
-  step_ahead_ = step_length(next, expansion_.inertia(), options.tolerance);
+  const double tolerance = tolerance_of_step(options.tolerance);
+  step_ahead_ = step_length(next, expansion_.inertia(), tolerance);
+  watch();
+  for (const Watched& one : watched_)
+    if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
+      step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
 }
 
 }  // namespace mechanics

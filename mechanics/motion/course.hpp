@@ -39,7 +39,7 @@ class Motion::Course {
   void begin(const State& at);
   void take_step(double until);
   std::vector<Zero> zeros_before(double end) const;
-  std::vector<Watched> watched(double end) const;
+  void watch();
   double polished(const Zero& zero, double tau);
   bool fits(double tau);
   void move_time(double by);
@@ -61,16 +61,19 @@ class Motion::Course {
   void look_for_penetration();
   void tell_endings();
   void stop(std::string reason);
+  void remark(std::string what);
   void event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before);
 
   Expansion expansion_;
-  double low_ = 0;                                                   // the time is state.t + low_
-  std::vector<Index> persist_;                                       // held on the next arc
+  std::string obstacle_;        // why a step could not be taken, if an expression said so
+  double low_ = 0;              // the time is state.t + low_
+  std::vector<Index> persist_;  // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<bool> is_weak_;                                        // held without a multiplier
   std::vector<double> elapsed_;                                      // since the last impact, by constraint
   std::vector<ImpactHistory> history_;
   std::vector<Ending> endings_;
+  std::vector<Watched> watched_;  // on the next arc
   double step_ahead_ = 0;
   long events_at_once_ = 0;
 };

@@ -43,6 +43,11 @@ void Motion::Course::handle(const std::vector<Zero>& zeros) {
     if (zero.of != Zero::Of::constraint) continue;
     const bool closes = expansion_.rate(zero.which) < -softest_impact * expansion_.rate_scale(zero.which);
     (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
+    if (zero.is_touch)
+      remark(
+          constraint_name(zero.which) +
+          " is touched and left within rounding: data that differ in their last digits make it an impact, or "
+          "nothing");
   }
   const Vector before = state.v;
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
@@ -97,7 +102,7 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
     (outcome.rate[at] > 0 ? left : resting).push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (rate_before < 0) history.add(elapsed_[static_cast<std::size_t>(a)], outcome.rate[at]);
+    if (rate_before < 0) history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before);
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
   event(EventKind::impact, hit, before);
@@ -118,13 +123,14 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
                         return contains(persist_, a);
                       });
     if (rest) {
+      for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
       endings_.push_back({state.t + low_ + last.remaining(), ending});
       std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (last.next_height() > options.tolerance)
-        record.remarks.push_back(
-            {state.t, "impacts that bounce up to f = " + number_text(last.next_height()) +
-                          " are not followed one by one; their end is known to " +
-                          number_text(last.remaining_error())});
+        remark("impacts of " + constraint_name(ending.front()) +
+               " that bounce up to f = " + number_text(last.next_height()) +
+               " are not followed one by one; they end at t = " + number_text(endings_.back().t) +
+               " within " + number_text(std::max(last.remaining_error(), epsilon * state.t)));
       return;
     }
     if (status != MotionStatus::done) return;
@@ -151,7 +157,7 @@ std::vector<Index> Motion::Course::accumulating(const std::vector<Index>& closin
   const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (contains(found, a) || is_two_sided(a) || contains(persist_, a) || !history.shrinks()) continue;
+    if (contains(found, a) || is_two_sided(a) || !history.shrinks()) continue;
     const double end = history.remaining() - elapsed_[static_cast<std::size_t>(a)];
     constexpr double alike = 0.05;
     if (std::abs(end - remaining) <= alike * remaining) found.push_back(a);
@@ -232,7 +238,6 @@ void Motion::Course::begin_arc(const std::vector<Index>& contacts, const std::ve
   for (const auto& [a, order] : answer->open) zeros_of_f_[static_cast<std::size_t>(a)] = order;
   for (const Index a : persist_) {
     const auto k = static_cast<std::size_t>(a);
-    history_[k].forget();
     const std::span<const double> lambda = expansion_.multiplier(a);
     std::size_t zeros = 0;
     while (zeros < lambda.size() && lambda[zeros] == 0) ++zeros;

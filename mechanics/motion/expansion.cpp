@@ -221,7 +221,9 @@ void Expansion::begin_order(int k) {
 HeldRows::Answer Expansion::acceleration(const HeldRows& rows, const std::vector<Index>& held) {
   pushing_.clear();
   begin_order(0);
-  return rows.solve(free_part(0), missing_rate(held, 1));
+  const Vector r = free_part(0);
+  force_norm_ = A_->dual_norm(r);
+  return rows.solve(r, missing_rate(held, 1));
 }
 
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {

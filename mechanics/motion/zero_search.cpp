@@ -8,11 +8,17 @@
 namespace mechanics {
 namespace {
 
-/// Too large to come down to 0 before `end`.
-bool stays_away(const Watched& one, double end) {
-  double rest = one.rounding, power = end;
-  for (std::size_t k = 1; k < one.c.size(); ++k, power *= end) rest += std::abs(one.c[k]) * power;
-  return one.c[0] > rest;
+/// A value by Horner's rule is rounded about so many times, relative to what it is the sum of.
+constexpr double roundings_of_value = 8;
+
+/// Σ |c_k| end^k: what a value is the sum of.
+double size(const Watched& one, double end) {
+  double sum = 0, power = 1;
+  for (const double c : one.c) {
+    sum += std::abs(c) * power;
+    power *= end;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -20,8 +26,10 @@ bool stays_away(const Watched& one, double end) {
 std::vector<Zero> first_zeros(const std::vector<Watched>& watched, double end, double together) {
   std::vector<Zero> found;
   for (const Watched& one : watched) {
-    if (stays_away(one, end)) continue;
-    const std::optional<FirstZero> zero = first_zero(one.c, end, one.rounding);
+    const double all = size(one, end);
+    const double rounding = one.rounding + roundings_of_value * convex::unit_roundoff * all;
+    if (all == 0 || one.c[0] > all - one.c[0] + rounding) continue;  // too large to come down to 0
+    const std::optional<FirstZero> zero = first_zero(one.c, end, rounding);
     if (!zero) continue;
     found.push_back({one.of, one.which, zero->at, zero->is_touch});
     end = std::min(end, zero->at + together);

@@ -15,12 +15,12 @@ struct Zero {
   bool is_touch = false;
 };
 
-/// What is watched on an arc. `leading`: how many coefficients are 0 because of the event at its beginning.
+/// What is watched on an arc.
 struct Watched {
   Zero::Of of;
   Index which;
   std::vector<double> c;  ///< coefficients, positive just after the beginning, without the leading zeros
-  double rounding;        ///< what rounding leaves of a 0
+  double rounding;        ///< what rounding leaves of a 0, besides that of the terms
 };
 
 /// The zeros of what is watched in (0, end], the first one of each; those not first in time by more than
