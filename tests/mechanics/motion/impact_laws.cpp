@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "convex/invalid_input.hpp"
+#include "mechanics/motion/impact.hpp"
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+using convex::Matrix;
+using convex::Metric;
+
+namespace {
+
+/// n equal balls in a row, all touching, the first at speed 1.
+ImpactOutcome cradle(Index n, double e) {
+  std::vector<ImpactContact> contacts;
+  for (Index k = 0; k + 1 < n; ++k) {
+    Vector u = Vector::Zero(n);
+    u[k] = -1;
+    u[k + 1] = 1;
+    contacts.push_back({u, k == 0 ? -1.0 : 0.0, e, false});
+  }
+  return impact(Metric::identity(n), contacts);
+}
+
+}  // namespace
+
+TEST_CASE("Newton's cradle under Moreau's law: the first ball turns back, the others go on as one") {
+  for (const Index n : {3, 5, 12}) {
+    const ImpactOutcome found = cradle(n, 1);
+    const double size = static_cast<double>(n);
+    CHECK(found.change[0] + 1 == doctest::Approx((2 - size) / size).epsilon(1e-14));
+    for (Index k = 1; k < n; ++k) CHECK(found.change[k] == doctest::Approx(2 / size).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("with one e and all contacts closing v+ is -e v- + (1 + e) proj_V v-") {
+  // A wedge with three redundant walls, in a metric that couples the coordinates.
+  const Metric A = Metric::dense(Matrix{{2, 1}, {1, 3}});
+  const Vector before{{-1, -2}};
+  for (const double e : {0.0, 0.4, 1.0}) {
+    std::vector<ImpactContact> contacts, plastic;
+    for (const Vector& u : {Vector{{1, 0}}, Vector{{0, 1}}, Vector{{1, 1}}}) {
+      contacts.push_back({u, u.dot(before), e, false});
+      plastic.push_back({u, u.dot(before), 0, false});
+    }
+    const Vector v = before + impact(A, contacts).change, projected = before + impact(A, plastic).change;
+    CHECK((v - (-e * before + (1 + e) * projected)).norm() <= 1e-14);
+    CHECK(A.norm(v) <= A.norm(before) * (1 + 1e-15));
+    if (e == 1) CHECK(A.norm(v) == doctest::Approx(A.norm(before)).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a contact that opens before the impact counts with e = 0, and a two-sided one is held") {
+  const Metric A = Metric::identity(2);
+  // Opening at rate 3, closing at rate 2, orthogonal: the first is left alone.
+  const ImpactOutcome apart = impact(A, {{Vector{{1, 0}}, 3, 1, false}, {Vector{{0, 1}}, -2, 0.5, false}});
+  CHECK(apart.change == Vector{{0, 3}});
+  CHECK(apart.rate[1] == doctest::Approx(1));
+  const ImpactOutcome held = impact(A, {{Vector{{1, 1}}, 0, 1, true}, {Vector{{0, 1}}, -2, 0.5, false}});
+  CHECK(held.change.isApprox(Vector{{-3, 3}}, 1e-14));
+  CHECK(held.rate[0] == 0);
+}
+
+TEST_CASE("no velocity satisfies walls that close on each other: the two are named") {
+  const ImpactOutcome found =
+      impact(Metric::identity(1), {{Vector{{1}}, -1, 0, false}, {Vector{{-1}}, -1, 0, false}});
+  CHECK(found.excluding == std::vector<Index>{0, 1});
+  const SystemText squeeze{{"x"}, "x'^2/2", "", {}, {}, {}, {{"left", "x >= t"}, {"right", "x <= 2 - t"}}};
+  const Followed caught = followed(squeeze, state({1}, {0}), 3);
+  CHECK(caught.motion.status() == MotionStatus::infeasible);
+  CHECK(caught.motion.excluding() == std::vector<Index>{0, 1});
+  CHECK(caught.end().t == doctest::Approx(1));
+}
+
+TEST_CASE("the ledger of impulses has the kinetic energy that impacts take, moving walls and b included") {
+  const SystemText text{
+      {"x", "y"},
+      "(2 + cos(x))/2*x'^2 + x'*y'/2 + y'^2 + (1 + y)*x'*cos(t)",
+      "9.81*y",
+      {},
+      {},
+      {},
+      {{"floor", "y >= 0.1*sin(5*t) + 0.05*x"}, {"left", "x >= -1 + 0.1*cos(3*t)"}, {"right", "x <= 1"}}};
+  MotionOptions options;
+  options.restitution = Vector{{0.9, 0.5, 1}};
+  const Followed found = followed(text, state({0, 1}, {1.5, 0}), 6, options);
+  const MotionRecord& record = found.motion.record();
+  CHECK(record.impacts > 10);
+  CHECK(std::abs(record.impact_energy) > 0.1);
+  CHECK(std::abs(record.impact_energy - record.ledger_energy) <= 1e-12 * static_cast<double>(record.impacts));
+}
+
+TEST_CASE("e outside 0 to 1 is refused with the constraint") {
+  for (const double e : {1.1, -0.1, std::nan("")}) {
+    const std::string error = error_of([&] { followed(ball(), state({1}, {0}), 1, restitution(ball(), e)); });
+    CHECK(error.find("floor") != std::string::npos);
+    CHECK(error.find("0 to 1") != std::string::npos);
+  }
+}

@@ -1,0 +1,104 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+
+TEST_CASE("a ladder leaves a smooth wall at two thirds of its first height") {
+  const SystemText text{{"x", "y", "a"},
+                        "m/2*(x'^2 + y'^2) + m*l^2/24*a'^2",
+                        "m*9.81*y",
+                        {{"m", "3"}, {"l", "2"}},
+                        {},
+                        {},
+                        {{"wall", "x >= l/2*cos(a)"}, {"floor", "y >= l/2*sin(a)"}}};
+  for (const double start : {1.5, 1.2, 0.6}) {
+    const Followed found = followed(text, state({std::cos(start), std::sin(start), start}, {0, 0, 0}), 0.5);
+    const Followed later = followed(text, state({std::cos(start), std::sin(start), start}, {0, 0, 0}), 2.0);
+    const std::vector<MotionEvent> released = later.of(EventKind::release);
+    REQUIRE(released.size() >= 1);
+    CHECK(released[0].constraints == std::vector<Index>{0});
+    // m l²/3 a'²/2 = m g l/2 (sin a_0 - sin a), and the wall lets go where sin a = 2/3 sin a_0.
+    const double rate = -std::sqrt(9.81 * 3 / 2 * std::sin(start) / 3);
+    CHECK(released[0].velocity_before[2] == doctest::Approx(rate).epsilon(1e-13));
+    CHECK(found.motion.status() == MotionStatus::done);
+  }
+}
+
+TEST_CASE("a particle leaves a smooth cylinder where the cosine has fallen by a third") {
+  const SystemText text{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {}, {{"cylinder", "x^2 + y^2 >= 4"}}};
+  const double start = 0.1;
+  const Followed found = followed(text, state({2 * std::sin(start), 2 * std::cos(start)}, {0, 0}), 1.4);
+  REQUIRE(found.events.size() == 1);
+  CHECK(found.events[0].kind == EventKind::release);
+  // v² = 2 g (y_0 - y) = g y at the release, y = 2/3 y_0.
+  CHECK(found.events[0].velocity_before.squaredNorm() ==
+        doctest::Approx(9.81 * 4 / 3 * std::cos(start)).epsilon(1e-13));
+  const Vector v = found.events[0].velocity_before;
+  CHECK(-v[1] / v.norm() ==
+        doctest::Approx(std::sqrt(1 - std::pow(2 * std::cos(start) / 3, 2))).epsilon(1e-12));
+}
+
+TEST_CASE("a body leaves a shaken table when the table falls as fast as it") {
+  const SystemText text = ball("y >= 0.1*sin(12*t)");
+  const Followed found = followed(text, state({0}, {1.2}), 0.2);
+  REQUIRE(found.events.size() == 1);
+  CHECK(found.events[0].kind == EventKind::release);
+  CHECK(std::abs(found.events[0].t - std::asin(9.81 / 14.4) / 12) <= 1e-15);
+}
+
+TEST_CASE("the first derivative that is not 0 decides whether a body at rest is lifted, and when") {
+  const auto pushed = [](const char* force) {
+    return SystemText{{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {{"wall", "x >= 0"}}};
+  };
+  struct Case {
+    const char* force;
+    double position, release;  // at t = 1; when, after the beginning, or -1
+  };
+  for (const auto& [force, position, release] :
+       {Case{"t", 1.0 / 6, -1}, Case{"-t", 0, -1}, Case{"t^3 - 0.5*t", -1, std::sqrt(0.5)},
+        Case{"t^2", 1.0 / 12, -1}, Case{"-t^2*(2 - t)", 0, -1}, Case{"0", 0, -1}}) {
+    CAPTURE(force);
+    const Followed found = followed(pushed(force), state({0}, {0}), 1);
+    CHECK(found.motion.status() == MotionStatus::done);
+    if (position >= 0) CHECK(std::abs(found.end().q[0] - position) <= 1e-15);
+    REQUIRE(found.events.size() == (release > 0 ? 1 : 0));
+    if (release > 0) CHECK(std::abs(found.events[0].t - release) <= 1e-15);
+  }
+}
+
+TEST_CASE("a table on four legs lets go two of them when the load passes the edge, and not before") {
+  // Legs at (±1, ±1), mass 1 and weight 10 at the centre, the load 20 at (1.5 t, 0.3 t): all lambda >= 0
+  // until the centre of the forces, (1.5 t, 0.3 t) 20/30, is outside the square: at t = 1.
+  const SystemText text{{"z", "a", "b"},
+                        "(z'^2 + a'^2/3 + b'^2/3)/2",
+                        "10*z",
+                        {},
+                        {},
+                        {{"z", "-20"}, {"a", "-20*1.5*t"}, {"b", "-20*0.3*t"}},
+                        {{"east_north", "z + a + b >= 0"},
+                         {"west_north", "z - a + b >= 0"},
+                         {"west_south", "z - a - b >= 0"},
+                         {"east_south", "z + a - b >= 0"}}};
+  const Followed found = followed(text, state({0, 0, 0}, {0, 0, 0}), 1.1);
+  REQUIRE(found.events.size() == 1);
+  CHECK(found.events[0].kind == EventKind::release);
+  CHECK(found.events[0].constraints == std::vector<Index>{1, 2});
+  CHECK(std::abs(found.events[0].t - 1) <= 1e-14);
+}
+
+TEST_CASE("a string is slack at half its turn, and taut again on the circle") {
+  const SystemText text{{"x", "y"}, "(x'^2 + y'^2)/2", "10*y", {}, {}, {}, {{"string", "x^2 + y^2 <= 1"}}};
+  const Followed found = followed(text, state({0, -1}, {std::sqrt(35.0), 0}), 1.35199);
+  REQUIRE(found.events.size() == 2);
+  CHECK(found.events[0].kind == EventKind::release);
+  CHECK(std::abs(found.events[0].t - 0.477393378664795955980534) <= 1e-14);
+  CHECK(found.events[1].kind == EventKind::impact);
+  CHECK(std::abs(found.events[1].t - 1.251990047906279333016387) <= 1e-13);
+  CHECK(std::abs(found.end().q[0] + 0.1097289875283429760222784) <= 1e-12);
+  CHECK(std::abs(found.end().v[1] - 0.1166038101590431841832241) <= 1e-11);
+}
