@@ -65,8 +65,10 @@ Answer simulate_file(const std::string& file, const Options& options) {
   chosen.tolerance = options.tolerance.value_or(settings.tolerance.value_or(chosen.tolerance));
   chosen.step_limit = options.step_limit.value_or(chosen.step_limit);
   chosen.contact_tolerance = contact_tolerances(problem.solve, constraints);
+  std::vector<NamedNumber> restitutions = text->restitutions;  // those of [simulate] come later, and win
+  restitutions.insert(restitutions.end(), settings.restitutions.begin(), settings.restitutions.end());
   chosen.restitution =
-      numbers_by_constraint("simulate.restitution", settings.restitution, settings.restitutions, constraints);
+      numbers_by_constraint("simulate.restitution", settings.restitution, restitutions, constraints);
   std::optional<mechanics::Motion> begun;
   try {
     begun.emplace(*system, state, chosen);

@@ -56,14 +56,6 @@ TEST_CASE("the program alone exits two and shows what it can do on standard erro
   CHECK(outcome.err.find("solve") != std::string::npos);
 }
 
-TEST_CASE("what the contract plans and the program has not exits two and says so") {
-  const Folder folder;
-  const std::string file = folder.write("problem.toml", point_on_floor());
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"simulate", file}, {"simulate", file, "--output", "F.csv"}})
-    expect_wrong(arguments, {"not available yet"});
-}
-
 TEST_CASE("what the program never heard of exits two and is named") {
   const Folder folder;
   const std::string file = folder.write("problem.toml", point_on_floor());
