@@ -40,19 +40,6 @@ Coefficients split(Coefficients& b) {
   return right;
 }
 
-/// The first x in [low, low + width] where the polynomial with coefficients b goes below `level`; infinite
-/// if it does not.
-double first_below(Coefficients b, double level, double low, double width, int depth) {
-  constexpr double never = std::numeric_limits<double>::infinity();
-  if (*std::min_element(b.begin(), b.end()) >= level) return never;
-  if (b.front() < level) return low;
-  const double middle = low + 0.5 * width;
-  if (depth == 0 || middle == low) return low;
-  Coefficients right = split(b);
-  const double found = first_below(std::move(b), level, low, 0.5 * width, depth - 1);
-  return found != never ? found : first_below(std::move(right), level, middle, 0.5 * width, depth - 1);
-}
-
 double value(std::span<const double> c, double x) {
   double sum = 0;
   for (std::size_t k = c.size(); k-- > 0;) sum = sum * x + c[k];
@@ -97,17 +84,46 @@ void shift(Coefficients& c, double at) {
     for (std::size_t k = c.size() - 1; k-- > level;) c[k] += at * c[k + 1];
 }
 
+/// How often the signs of numbers change, zeros left out; from 2 on it does not matter.
+int sign_changes(const Coefficients& b) {
+  int changes = 0;
+  double last = 0;
+  for (const double x : b) {
+    if (x == 0) continue;
+    if (x * last < 0 && ++changes == 2) break;
+    last = x > 0 ? 1 : -1;
+  }
+  return changes;
+}
+
+/// The first x in [low, low + width] where p goes below 0; infinite if it does not. b: the Bernstein
+/// coefficients of p there; c: its coefficients.
+double first_below(Coefficients b, const Coefficients& c, double low, double width, int depth) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (b.front() < 0) return low;
+  const int changes = sign_changes(b);
+  if (changes == 0) return never;
+  if (changes == 1 && b.back() < 0) return between(c, low, low + width);
+  const double middle = low + 0.5 * width;
+  if (depth == 0 || middle == low) return low;
+  Coefficients right = split(b);
+  const double found = first_below(std::move(b), c, low, 0.5 * width, depth - 1);
+  return found != never ? found : first_below(std::move(right), c, middle, 0.5 * width, depth - 1);
+}
+
 /// The first τ in [0, end] with p(τ) < level (sense 1) or p(τ) > level (sense -1); infinite if there is none.
-double first_beyond(const Coefficients& c, double end, double level, double sense) {
-  Coefficients b = bernstein(c, end);
-  for (double& x : b) x *= sense;
-  return end * first_below(std::move(b), sense * level, 0, 1, deepest);
+double first_beyond(Coefficients c, double end, double level, double sense) {
+  c[0] -= level;
+  for (double& x : c) x *= sense;
+  return first_below(bernstein(c, end), c, 0, end, deepest);
 }
 
 }  // namespace
 
 std::optional<FirstZero> first_zero(std::span<const double> coefficients, double end, double rounding) {
   if (coefficients.empty() || !(end > 0)) return std::nullopt;
+  while (coefficients.size() > 1 && coefficients.back() == 0)
+    coefficients = coefficients.first(coefficients.size() - 1);
   Coefficients c(coefficients.begin(), coefficients.end());
   double begin = 0;
   while (begin < end) {
