@@ -20,6 +20,9 @@ constexpr double undecided_part = 1e-11;
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
 
+/// Up to so many coordinates A is written down in full.
+constexpr Index small_system = 32;
+
 /// Columns of A found in one sweep.
 constexpr std::size_t lanes_at_once = 8;
 
@@ -72,6 +75,8 @@ void Expansion::find_inertia() {
   const Index n = coordinates();
   const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
   columns_.assign(steps_.series * lanes, 0.0);
+  const bool is_small = n <= small_system;
+  convex::Matrix small = convex::Matrix::Zero(is_small ? n : 0, is_small ? n : 0);
   std::vector<Eigen::Triplet<double>> entries;
   for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
     const Index count = std::min(static_cast<Index>(lanes), n - first);
@@ -83,9 +88,20 @@ void Expansion::find_inertia() {
     series_.carry(columns_, lanes);
     for (Index i = 0; i < n; ++i)
       for (Index l = 0; l < count; ++l)
-        if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; a != 0)
+        if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; is_small)
+          small(i, first + l) = a;
+        else if (a != 0)
           entries.emplace_back(i, first + l, a);
     seed(0);
+  }
+  if (is_small) {
+    small = (0.5 * (small + small.transpose())).eval();
+    if ((small.diagonal().array() > 0).all() && small.isDiagonal(0)) {
+      A_ = convex::Metric::diagonal(small.diagonal());
+      return;
+    }
+    A_ = kinetic_metric(small.sparseView(0, 0), model_.coordinates);
+    return;
   }
   convex::SparseMatrix columns(n, n);
   columns.setFromTriplets(entries.begin(), entries.end());

@@ -37,6 +37,7 @@ HeldRows::HeldRows(const convex::Metric& A, const std::vector<Vector>& U)
 
 HeldRows::Answer HeldRows::solve(const Vector& r, const Vector& s) const {
   const Index k = count();
+  if (k == 0) return {A_.solve(r), Vector::Zero(given_)};
   const auto Q = Q_.leftCols(k);
   const auto R = R_.topLeftCorner(k, k);
   // With x = F⁻ᵀ w: w = F⁻¹ r + Q R lambda, Rᵀ Qᵀ w = s.

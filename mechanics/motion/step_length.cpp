@@ -17,6 +17,9 @@ int taylor_order(double tolerance) {
 
 namespace {
 
+/// The largest of the first terms is what the last ones are compared with.
+constexpr std::size_t compared_terms = 3;
+
 /// By the sizes of coefficients 0, 1, …; those before `first` do not count.
 double length(std::span<const double> size, std::size_t first, double tolerance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -28,7 +31,7 @@ double length(std::span<const double> size, std::size_t first, double tolerance)
   for (const std::size_t k : {top, top - 1}) {
     if (size[k] == 0) continue;
     double longest = 0;
-    for (std::size_t j = first; j < k; ++j)
+    for (std::size_t j = first; j < std::min(k, first + compared_terms); ++j)
       longest =
           std::max(longest, std::pow(tolerance * (size[j] / size[k]), 1.0 / static_cast<double>(k - j)));
     shortest = std::min(shortest, longest);

@@ -16,7 +16,7 @@ double tolerance_of_step(double tolerance);
 /// and Zou 2005, section 3.2), two more serve the derivatives.
 int taylor_order(double tolerance);
 
-/// The largest h with ||q_k||_A h^k <= tolerance · max_(0<j<k) ||q_j||_A h^j for the last two orders k that
+/// The largest h with ||q_k||_A h^k <= tolerance · max_(0<j<4) ||q_j||_A h^j for the last two orders k that
 /// are not 0: the error of a step against what the system moves in it, whatever the units and the origin.
 /// Infinite when q is a polynomial of at most half the order, as far as its coefficients tell.
 double step_length(const Arc& arc, const convex::Metric& A, double tolerance);
