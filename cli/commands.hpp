@@ -19,6 +19,9 @@ Exit derive_command(const Options&);
 /// `moreau simulate FILE…`: the motion, with its events.
 Exit simulate_command(const Options&);
 
+/// `moreau orbit FILE --period P`: a periodic motion, its multipliers, its branch over a parameter.
+Exit orbit_command(const Options&);
+
 /// `moreau methods`: the methods of solution that a file can name.
 Exit methods_command(const Options&);
 

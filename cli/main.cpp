@@ -123,8 +123,33 @@ void add_simulate(CLI::App& app, Options& options, std::function<Exit(const Opti
   simulate->add_option("--events", options.events, "a line of JSON for each event")->type_name("F.jsonl");
   simulate->add_option("--limit", options.step_limit, "steps after which the motion is stopped; default 1e7")
       ->type_name("N");
+  simulate->add_flag("--impact-laws", options.impact_laws,
+                     "what each law of impact makes of the first impact, side by side");
   add_common(*simulate, options);
   simulate->callback([&] { chosen = cli::simulate_command; });
+}
+
+void add_orbit(CLI::App& app, Options& options, std::function<Exit(const Options&)>& chosen) {
+  CLI::App* orbit =
+      app.add_subcommand("orbit", "a motion that comes back to itself: its state and multipliers");
+  add_files(*orbit, options);
+  orbit
+      ->add_option("--period", options.period,
+                   "the forcing's period, an expression in the parameters, or free: unknown")
+      ->type_name("P");
+  orbit->add_option("--periods", options.periods, "it comes back after so many periods; default 1")
+      ->type_name("K")
+      ->check(CLI::PositiveNumber);
+  orbit->add_option("--modulo", options.modulo, "a coordinate that comes back up to a multiple: \"a=2*pi\"")
+      ->type_name("a=M");
+  orbit->add_option("--over", options.over, "the orbit continued over a parameter: \"w=1:0.01:3\"")
+      ->type_name("w=A:S:B");
+  orbit->add_option("--output", options.output, "the branch of --over as a table")->type_name("F.csv");
+  orbit->add_option("--tolerance", options.tolerance, "error of a step; default 1e-10")
+      ->type_name("X")
+      ->check(positive_number);
+  add_common(*orbit, options);
+  orbit->callback([&] { chosen = cli::orbit_command; });
 }
 
 /// A message about a first argument that is no command, with the nearest one; "" when it is one, or an
@@ -191,6 +216,7 @@ int main(int argc, char** argv) {
   derive->callback([&] { chosen = cli::derive_command; });
 
   add_simulate(app, options, chosen);
+  add_orbit(app, options, chosen);
 
   CLI::App* prox = app.add_subcommand(
       "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f");

@@ -35,6 +35,11 @@ struct Options {
   bool markdown = false;                   ///< of functions: docs/functions.md
   std::optional<std::string> plot;         ///< of solve: a picture to write
   std::optional<double> until;             ///< of simulate
+  std::optional<std::string> period;       ///< of orbit: an expression in the parameters, or "free"
+  long periods = 1;                        ///< of orbit
+  std::optional<std::string> over;         ///< of orbit: "w=1:0.01:3"
+  std::vector<std::string> modulo;         ///< of orbit: "a=2*pi"
+  bool impact_laws = false;                ///< of simulate: all laws at the first impact
   std::optional<std::string> events;       ///< of simulate: a file to write
   std::optional<long> step_limit;          ///< of simulate
   std::optional<std::string> data;         ///< of chart and stress: a table file to write

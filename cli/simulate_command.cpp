@@ -3,9 +3,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/each_file.hpp"
+#include "cli/impact_laws_report.hpp"
 #include "cli/motion_files.hpp"
 #include "cli/motion_report.hpp"
-#include "cli/numbers_by_constraint.hpp"
+#include "cli/motion_settings.hpp"
 #include "cli/scene.hpp"
 #include "mechanics/motion/motion.hpp"
 
@@ -29,29 +30,12 @@ class InterruptWatch {
   void (*before_)(int);
 };
 
-/// The methods and laws of the contract, and which of them there are.
-void require_available(const SimulateSettings& settings, const Options& options) {
-  const std::string method = options.method.value_or(settings.method.value_or("event-driven"));
-  const auto place = options.method ? std::nullopt : std::optional(settings.method_place);
-  if (method == "time-stepping")
-    throw InvalidInput("simulate.method: time-stepping is not available yet; take \"event-driven\"", place);
-  if (method != "event-driven")
-    throw InvalidInput("simulate.method: no method \"" + method + "\"; take \"event-driven\"", place);
-  const std::string law = settings.impact_law.value_or("moreau");
-  if (law == "poisson" || law == "sequential")
-    throw InvalidInput("simulate.impact_law: \"" + law + "\" is not available yet; take \"moreau\"",
-                       settings.impact_law_place);
-  if (law != "moreau")
-    throw InvalidInput("simulate.impact_law: no law \"" + law + "\"; take \"moreau\"",
-                       settings.impact_law_place);
-}
-
 Answer simulate_file(const std::string& file, const Options& options) {
   const Problem problem = read_problem_file(file);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau simulate` takes a file with [system]");
   const SimulateSettings& settings = problem.simulate;
-  require_available(settings, options);
+  require_event_driven(settings, options);
   if (!options.until && !settings.until)
     throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
   const auto start = std::chrono::steady_clock::now();
@@ -60,15 +44,7 @@ Answer simulate_file(const std::string& file, const Options& options) {
   const double until = options.until.value_or(settings.until.value_or(0));
   if (!(until >= state.t))
     throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
-  const std::vector<std::string> constraints = constraint_names(*system);
-  mechanics::MotionOptions chosen;
-  chosen.tolerance = options.tolerance.value_or(settings.tolerance.value_or(chosen.tolerance));
-  chosen.step_limit = options.step_limit.value_or(chosen.step_limit);
-  chosen.contact_tolerance = contact_tolerances(problem.solve, constraints);
-  std::vector<NamedNumber> restitutions = text->restitutions;  // those of [simulate] come later, and win
-  restitutions.insert(restitutions.end(), settings.restitutions.begin(), settings.restitutions.end());
-  chosen.restitution =
-      numbers_by_constraint("simulate.restitution", settings.restitution, restitutions, constraints);
+  const mechanics::MotionOptions chosen = motion_options(problem, *system, options);
   std::optional<mechanics::Motion> begun;
   try {
     begun.emplace(*system, state, chosen);
@@ -92,9 +68,14 @@ Answer simulate_file(const std::string& file, const Options& options) {
   };
   const InterruptWatch watch;
   tell();
-  while (interrupted == 0 && motion.advance(until)) {
+  const auto goes_on = [&] { return !options.impact_laws || !motion.record().first_impact; };
+  while (interrupted == 0 && goes_on() && motion.advance(until)) {
     if (trajectory) trajectory->follow(motion);
     tell();
+  }
+  if (options.impact_laws) {
+    const std::string laws = options.json ? impact_laws_json(followed) + "\n" : impact_laws_text(followed);
+    return {motion.record().first_impact ? Exit::solved : Exit::inaccurate, laws};
   }
   followed.interrupted = interrupted != 0 && motion.state().t < until;
   if (trajectory) trajectory->finish(motion);

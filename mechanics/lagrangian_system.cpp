@@ -170,6 +170,14 @@ Vector LagrangianSystem::second_rates(const State& state, const Vector& q2) cons
   return result;
 }
 
+double LagrangianSystem::kinetic_energy(const State& state) const {
+  check_size(*model_, state);
+  bool is_finite = true;
+  const Values x = model_->motion.values(state, 0, is_finite);
+  if (!is_finite) refuse_values(*model_, model_->motion, 0, x, 0, names_of_motion(*model_, 0));
+  return x[model_->motion.roots(0)[0]];
+}
+
 double LagrangianSystem::energy(const State& state) const {
   check_size(*model_, state);
   bool is_finite = true;

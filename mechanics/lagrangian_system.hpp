@@ -28,6 +28,7 @@ class LagrangianSystem : public System {
   ContactRows contact_rows(const State& state, const std::vector<Index>& constraints) const override;
   Vector second_rates(const State& state, const Vector& q2) const override;
   double energy(const State& state) const override;
+  double kinetic_energy(const State& state) const;
 
   /// The state that a text gives: every position, velocities (0 where missing) and t (0 where missing), as
   /// expressions in the parameters and t. InvalidInput, with the place, for what is missing, unknown or not

@@ -79,16 +79,21 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
     contacts.push_back({expansion_.row(a), contains(closing, a) ? expansion_.rate(a) : 0,
                         options.restitution[a], is_two_sided(a)});
   const convex::Metric& A = expansion_.inertia();
-  const ImpactOutcome outcome = impact(A, contacts);
+  // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
+  const Vector before = state.v;
+  const Vector b = expansion_.momentum() - A.multiply(before);
+  if (!record.first_impact)
+    record.first_impact = ImpactScene{state.t, A, before, system.kinetic_energy(state), b, present, contacts};
+  const ImpactOutcome outcome = impact(A, contacts, options.impact_law);
+  if (!outcome.undetermined.empty())
+    return stop("at t = " + number_text(state.t) + ": " + std::string(outcome.undetermined));
+  if (!outcome.remark.empty()) remark(std::string(outcome.remark));
   if (!outcome.excluding.empty()) {
     status = MotionStatus::infeasible;
     for (const Index k : outcome.excluding) excluding.push_back(present[static_cast<std::size_t>(k)]);
     why = "at t = " + number_text(state.t) + ": no velocity after the impact satisfies all contacts";
     return;
   }
-  const Vector before = state.v;
-  // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
-  const Vector b = expansion_.momentum() - A.multiply(before);
   record.impact_energy += outcome.change.dot(A.multiply(before + 0.5 * outcome.change) + b);
   record.ledger_energy += b.dot(outcome.change);
   state.v = before + outcome.change;
@@ -96,7 +101,9 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k], at = static_cast<Index>(k);
     const double rate_before = contacts[k].rate, e = rate_before > 0 ? 0 : contacts[k].restitution;
-    record.ledger_energy += outcome.impulse[at] * (0.5 * (1 - e) * rate_before - expansion_.drift(a));
+    // By Moreau's law f'(v+) = -e f'(v-) wherever P is not 0.
+    const double rate_after = options.impact_law == ImpactLaw::moreau ? -e * rate_before : outcome.rate[at];
+    record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
     if (is_two_sided(a)) continue;
     if (contains(persist_, a)) held.push_back(a);
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);

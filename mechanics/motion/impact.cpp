@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 
 namespace mechanics {
 namespace {
@@ -13,39 +14,131 @@ constexpr double undecided_part = 1e-12;
 /// Rows and rates are rounded about so many times.
 constexpr double roundings_of_rows = 64;
 
-}  // namespace
+/// P that differ by less than this part are one, where it is asked whether they are unique.
+constexpr double alike = 1e-9;
 
-ImpactOutcome impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
-  const auto m = static_cast<Index>(contacts.size());
-  convex::RowMatrix U(m, A.dimension());
-  Vector s(m);
+/// The least change of the velocity with u_a·change >= s_a.
+convex::NearestPointProblem least_change(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
+                                         const Vector& s) {
+  convex::RowMatrix U(s.size(), A.dimension());
   std::vector<Index> two_sided;
-  for (Index a = 0; a < m; ++a) {
+  for (Index a = 0; a < s.size(); ++a) {
     const ImpactContact& contact = contacts[static_cast<std::size_t>(a)];
     U.row(a) = contact.u.transpose();
-    const double e = contact.two_sided || contact.rate > 0 ? 0 : contact.restitution;
-    s[a] = -(1 + e) * contact.rate;
     if (contact.two_sided) two_sided.push_back(a);
   }
   convex::NearestPointProblem problem{A, Vector::Zero(A.dimension()), convex::ConstraintRows(U), s,
                                       two_sided};
   problem.radii = convex::rounding_radii(problem, roundings_of_rows);
-  convex::Solution solution = convex::automatic(problem);
+  return problem;
+}
+
+ImpactOutcome excluded(const convex::Solution& solution) {
   ImpactOutcome outcome;
-  if (solution.status == convex::Status::infeasible) {
-    for (Index a = 0; a < m; ++a)
-      if (solution.farkas[a] != 0) outcome.excluding.push_back(a);
+  for (Index a = 0; a < solution.farkas.size(); ++a)
+    if (solution.farkas[a] != 0) outcome.excluding.push_back(a);
+  return outcome;
+}
+
+/// f' after a change, 0 where rounding hides what it is.
+Vector rates_after(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
+                   const Vector& change) {
+  Vector rates(static_cast<Index>(contacts.size()));
+  const double moved = A.norm(change);
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const ImpactContact& contact = contacts[a];
+    const double scale = std::abs(contact.rate) + A.dual_norm(contact.u) * moved;
+    const double after = contact.rate + contact.u.dot(change);
+    rates[static_cast<Index>(a)] = std::abs(after) <= undecided_part * scale ? 0 : after;
+  }
+  return rates;
+}
+
+bool have_one_restitution(const std::vector<ImpactContact>& contacts, const Vector& impulse) {
+  double e = -1;
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    if (contacts[a].two_sided || contacts[a].rate > 0) continue;
+    if (e >= 0 && contacts[a].restitution != e) return false;
+    e = contacts[a].restitution;
+  }
+  return impulse.size() > 0;
+}
+
+}  // namespace
+
+const char* name(ImpactLaw law) {
+  switch (law) {
+    case ImpactLaw::moreau:
+      return "moreau";
+    case ImpactLaw::poisson:
+      return "poisson";
+    case ImpactLaw::sequential:
+      return "sequential";
+  }
+  return "";
+}
+
+std::optional<ImpactLaw> impact_law_named(std::string_view wanted) {
+  for (const ImpactLaw law : impact_laws)
+    if (wanted == name(law)) return law;
+  return std::nullopt;
+}
+
+ImpactOutcome impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts, ImpactLaw law) {
+  switch (law) {
+    case ImpactLaw::moreau:
+      return moreau_impact(A, contacts);
+    case ImpactLaw::poisson:
+      return poisson_impact(A, contacts);
+    case ImpactLaw::sequential:
+      return sequential_impact(A, contacts);
+  }
+  return {};
+}
+
+ImpactOutcome moreau_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
+  Vector s(static_cast<Index>(contacts.size()));
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const ImpactContact& contact = contacts[a];
+    const double e = contact.two_sided || contact.rate > 0 ? 0 : contact.restitution;
+    s[static_cast<Index>(a)] = -(1 + e) * contact.rate;
+  }
+  convex::Solution solution = convex::automatic(least_change(A, contacts, s));
+  if (solution.status == convex::Status::infeasible) return excluded(solution);
+  Vector rates = rates_after(A, contacts, solution.q);
+  return {std::move(solution.q), std::move(solution.lambda), std::move(rates)};
+}
+
+ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
+  Vector s(static_cast<Index>(contacts.size()));
+  for (std::size_t a = 0; a < contacts.size(); ++a) s[static_cast<Index>(a)] = -contacts[a].rate;
+  const convex::NearestPointProblem closing = least_change(A, contacts, s);
+  const convex::Solution compression = convex::automatic(closing);
+  if (compression.status == convex::Status::infeasible) return excluded(compression);
+  ImpactOutcome outcome;
+  if (!have_one_restitution(contacts, compression.lambda) &&
+      !convex::multipliers(closing, compression, alike, false).unique) {
+    outcome.undetermined =
+        "Poisson's law does not determine the impact: the impulses of compression are not unique, and the "
+        "restitutions differ";
     return outcome;
   }
-  outcome.rate = U * solution.q;
-  for (Index a = 0; a < m; ++a) {
-    const double before = contacts[static_cast<std::size_t>(a)].rate;
-    const double scale = std::abs(before) + A.dual_norm(U.row(a).transpose()) * A.norm(solution.q);
-    outcome.rate[a] += before;
-    if (std::abs(outcome.rate[a]) <= undecided_part * scale) outcome.rate[a] = 0;
+  // What expands at least, e P_c, and the least change from there.
+  Vector given = Vector::Zero(s.size()), least = Vector::Zero(A.dimension());
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    if (contacts[a].two_sided) continue;
+    given[at] = contacts[a].restitution * compression.lambda[at];
+    least += given[at] * contacts[a].u;
   }
-  outcome.change = std::move(solution.q);
-  outcome.impulse = std::move(solution.lambda);
+  const Vector before = compression.q + A.solve(least);
+  for (std::size_t a = 0; a < contacts.size(); ++a)
+    s[static_cast<Index>(a)] = -contacts[a].rate - contacts[a].u.dot(before);
+  const convex::Solution expansion = convex::automatic(least_change(A, contacts, s));
+  if (expansion.status == convex::Status::infeasible) return excluded(expansion);
+  outcome.change = before + expansion.q;
+  outcome.impulse = compression.lambda + given + expansion.lambda;
+  outcome.rate = rates_after(A, contacts, outcome.change);
   return outcome;
 }
 

@@ -8,6 +8,7 @@
 #include "mechanics/contacts.hpp"
 #include "mechanics/lagrangian_system.hpp"
 #include "mechanics/motion/arc.hpp"
+#include "mechanics/motion/impact.hpp"
 
 namespace mechanics {
 
@@ -15,7 +16,8 @@ namespace mechanics {
 struct MotionOptions {
   /// Estimated error of a step, relative to what the system moves in it. Loosen it for speed.
   double tolerance = 1e-10;
-  Vector restitution;        ///< e_a, one a constraint, 0 <= e_a <= 1; empty: all 0
+  Vector restitution;  ///< e_a, one a constraint, 0 <= e_a <= 1; empty: all 0
+  ImpactLaw impact_law = ImpactLaw::moreau;
   Vector contact_tolerance;  ///< of the state at the start, as of `contacts`; empty: the default
   long step_limit = 10'000'000;
 };
@@ -39,6 +41,17 @@ struct MotionRemark {
   std::string what;
 };
 
+/// An impact before it is decided: what a law of impact needs.
+struct ImpactScene {
+  double t = 0;
+  convex::Metric A;
+  Vector velocity;
+  double kinetic = 0;  ///< T before
+  Vector b;            ///< ∂T/∂q' - A q'
+  std::vector<Index> constraints;
+  std::vector<ImpactContact> contacts;
+};
+
 /// Counts and figures of the motion so far.
 struct MotionRecord {
   long steps = 0, events = 0, impacts = 0;
@@ -47,6 +60,7 @@ struct MotionRecord {
   double impact_energy = 0;        ///< Σ T+ - T- over the impacts, as T gives it
   double ledger_energy = 0;        ///< the same by Σ P_a ((1 - e_a)/2 f'_a(v-) - ∂f_a/∂t) + b·(v+ - v-)
   std::vector<MotionRemark> remarks;
+  std::optional<ImpactScene> first_impact;
 };
 
 /// The motion of a mechanical system with one-sided frictionless constraints: smooth arcs by Taylor series,

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "cli/options.hpp"
+#include "cli/problem_file/problem.hpp"
+#include "mechanics/motion/motion.hpp"
+
+namespace cli {
+
+/// Throws InvalidInput when the file or the command line asks for another way than following each event.
+void require_event_driven(const SimulateSettings&, const Options&);
+
+/// How to follow the motion of a [system]: [simulate], [solve] contact_tolerance, what looseness has of its
+/// own; options of the command line win.
+mechanics::MotionOptions motion_options(const Problem&, const mechanics::System&, const Options&);
+
+}  // namespace cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/motion/motion.hpp"
+
+namespace mechanics {
+
+/// What is to come back.
+struct OrbitQuestion {
+  MotionOptions motion;
+  double period = 0;     ///< all of it, k periods of the forcing; of a free one, a guess, or 0
+  bool is_free = false;  ///< the period is unknown
+  Vector modulo;         ///< n: a coordinate comes back up to a multiple of this; 0: it comes back itself
+};
+
+/// A periodic motion: its state at the time of the guess, its period, the derivative of the map over the
+/// period.
+struct Orbit {
+  bool is_found = false;
+  std::string why;  ///< if it is not
+  State start;
+  double period = 0;
+  double residual = 0;  ///< how far the motion misses its start, relative to how far it goes
+  /// Eigenvalues of the derivative, the largest first; none where the map has no derivative: impacts come,
+  /// go, or change their order however little the start is moved.
+  std::optional<std::vector<std::complex<double>>> multipliers;
+  bool is_stable = false;  ///< all inside the unit circle, but for the 1 along an orbit of free period
+  std::vector<MotionEvent> impacts;
+};
+
+/// Newton's method on the map over one period, from a guess (shooting). The derivative of the map is taken by
+/// central differences of motions that are known to rounding, of the fourth order for the multipliers:
+/// impacts and releases on the way are in it as they are. Throws InvalidInput where the guess cannot begin a
+/// motion, and for two-sided constraints.
+Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question);
+
+}  // namespace mechanics
