@@ -121,6 +121,10 @@ void add_simulate(CLI::App& app, Options& options, std::function<Exit(const Opti
   simulate->add_option("--output", options.output, "the trajectory as a table: t, q, q', q'', lambda, energy")
       ->type_name("F.csv");
   simulate->add_option("--events", options.events, "a line of JSON for each event")->type_name("F.jsonl");
+  simulate
+      ->add_option("--plot", options.plot,
+                   "coordinates, gaps, multipliers and energy over time: F.svg or F.png (by gnuplot)")
+      ->type_name("FILE");
   simulate->add_option("--limit", options.step_limit, "steps after which the motion is stopped; default 1e7")
       ->type_name("N");
   simulate->add_flag("--impact-laws", options.impact_laws,

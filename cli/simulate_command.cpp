@@ -2,6 +2,7 @@
 #include <csignal>
 
 #include "cli/commands.hpp"
+#include "cli/drawing/motion_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/impact_laws_report.hpp"
 #include "cli/motion_files.hpp"
@@ -55,10 +56,15 @@ Answer simulate_file(const std::string& file, const Options& options) {
 
   std::optional<TrajectoryFile> trajectory;
   std::optional<EventsFile> events;
+  std::optional<MotionDrawing> drawing;
   constexpr long usual_samples = 201;
   if (options.output)
     trajectory.emplace(*options.output, *system, state.t, until, settings.samples.value_or(usual_samples));
   if (options.events) events.emplace(*options.events, *system);
+  if (options.plot) {
+    terminal_text(*options.plot, 1, 1);  // a name that is no picture's is refused before the work
+    drawing.emplace(*system, state.t, until);
+  }
   FollowedMotion followed{file, problem.title, *system, motion, {}, until};
   const auto tell = [&] {
     for (const mechanics::MotionEvent& event : motion.events()) {
@@ -71,6 +77,7 @@ Answer simulate_file(const std::string& file, const Options& options) {
   const auto goes_on = [&] { return !options.impact_laws || !motion.record().first_impact; };
   while (interrupted == 0 && goes_on() && motion.advance(until)) {
     if (trajectory) trajectory->follow(motion);
+    if (drawing) drawing->follow(motion);
     tell();
   }
   if (options.impact_laws) {
@@ -80,6 +87,10 @@ Answer simulate_file(const std::string& file, const Options& options) {
   followed.interrupted = interrupted != 0 && motion.state().t < until;
   if (trajectory) trajectory->finish(motion);
   if (events) events->finish();
+  if (drawing) {
+    drawing->finish(motion);
+    draw(*options.plot, drawing->drawing(problem.title.empty() ? file : problem.title));
+  }
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
 }
@@ -87,9 +98,9 @@ Answer simulate_file(const std::string& file, const Options& options) {
 }  // namespace
 
 Exit simulate_command(const Options& options) {
-  if ((options.output || options.events) && options.files.size() > 1)
+  if ((options.output || options.events || options.plot) && options.files.size() > 1)
     return answered(options, {options.files[1], ""}, []() -> Exit {
-      throw InvalidInput("--output and --events take one problem file; run the files one by one");
+      throw InvalidInput("--output, --events and --plot take one problem file; run the files one by one");
     });
   return print_for_each_file(options, [&](const std::string& file) { return simulate_file(file, options); });
 }

@@ -84,11 +84,15 @@ void Motion::Course::begin(const State& at) {
   std::vector<Index> touching;
   for (const Index a : found.present)
     if (!is_two_sided(a)) touching.push_back(a);
-  for (Index a = 0; a < expansion_.constraints(); ++a)
-    if (!is_two_sided(a) && found.rates.f[a] <= options.contact_tolerance[a] * found.rates.f_scale[a])
-      zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+  std::vector<Index> opening;  // f = 0 and df/dt > 0
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || found.rates.f[a] > options.contact_tolerance[a] * found.rates.f_scale[a]) continue;
+    zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+    if (found.rates.df[a] > options.contact_tolerance[a] * found.rates.df_scale[a]) opening.push_back(a);
+  }
   if (!found.closing.empty()) {
-    collide(found.closing, touching, switches);
+    opening.insert(opening.end(), touching.begin(), touching.end());
+    collide(found.closing, opening, switches);
   } else {
     begin_arc(touching, switches);
   }

@@ -14,7 +14,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// A closing contact slower than this part of what its rate is the sum of closes softly.
 constexpr double softest_impact = 1e-12;
 
-/// A coefficient of a switch's argument below this part of the largest is what rounding left of 0.
+/// A number below this part of what it belongs to is what rounding left of 0: a coefficient of a switch's
+/// argument beside the largest, an impulse beside the change of velocity.
 constexpr double undecided_part = 1e-12;
 
 /// Impacts of one contact that are followed one by one, however high they bounce.
@@ -75,9 +76,13 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) present.push_back(a);
   std::vector<ImpactContact> contacts;
-  for (const Index a : present)
-    contacts.push_back({expansion_.row(a), contains(closing, a) ? expansion_.rate(a) : 0,
-                        options.restitution[a], is_two_sided(a)});
+  for (const Index a : present) {
+    // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
+    const double rate = expansion_.rate(a);
+    const bool moves = contains(closing, a) || rate > softest_impact * expansion_.rate_scale(a);
+    contacts.push_back(
+        {expansion_.row(a), moves && !is_two_sided(a) ? rate : 0, options.restitution[a], is_two_sided(a)});
+  }
   const convex::Metric& A = expansion_.inertia();
   // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
   const Vector before = state.v;
@@ -106,7 +111,8 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
     record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
     if (is_two_sided(a)) continue;
     if (contains(persist_, a)) held.push_back(a);
-    if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
+    const double pushed = outcome.impulse[at] * A.dual_norm(contacts[k].u);
+    if (rate_before < 0 || pushed > undecided_part * A.norm(outcome.change)) hit.push_back(a);
     (outcome.rate[at] > 0 ? left : resting).push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0) history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before);

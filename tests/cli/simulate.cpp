@@ -99,6 +99,21 @@ TEST_CASE("simulate prints the end of the motion and writes evenly spaced rows")
   CHECK(lines(events).size() == 2);
 }
 
+TEST_CASE("the motion is drawn with a panel for each kind of number") {
+  const Folder folder;
+  const std::string file = folder.write("ball.toml", ball("until = 1.5\nrestitution = 0.8"));
+  const std::string picture = folder.path("motion.svg");
+  const Outcome outcome = run({"simulate", file, "--quiet", "--plot", picture});
+  CHECK(outcome.code == 0);
+  const std::vector<std::string> drawn =
+      lines(std::filesystem::exists(picture) ? picture : picture + ".gnuplot");
+  REQUIRE(!drawn.empty());
+  std::string all;
+  for (const std::string& line : drawn) all += line + "\n";
+  for (const char* word : {"floor", "T + V", "lambda"}) CHECK(all.find(word) != std::string::npos);
+  CHECK(run({"simulate", file, "--plot", folder.path("motion.pdf")}).code == 2);
+}
+
 TEST_CASE("a row at an event holds the state after it") {
   const Folder folder;
   // From 1 to the wall at 2, at speed 1: back at speed 1/2 from t = 1 on.

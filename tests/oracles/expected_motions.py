@@ -110,7 +110,11 @@ def rocking_block():
     return events
 
 
-CASES = {"ball": ball, "oscillator_stop": oscillator, "pendulum_stop": pendulum, "ladder": ladder,
+def cradle():
+    return [event("impact", mpf(2), ["gap[1]", "gap[2]", "gap[3]", "gap[4]"], **{f"x[{i}]": mpf(i == 5) for i in range(1, 6)})]
+
+
+CASES = {"cradle": cradle, "ball": ball, "oscillator_stop": oscillator, "pendulum_stop": pendulum, "ladder": ladder,
          "cylinder": cylinder, "shaken_table": shaken_table, "impact_pair": impact_pair,
          "rocking_block": rocking_block}
 

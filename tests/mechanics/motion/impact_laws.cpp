@@ -64,6 +64,16 @@ TEST_CASE("a contact that opens before the impact counts with e = 0, and a two-s
   CHECK(held.rate[0] == 0);
 }
 
+TEST_CASE("a contact that opens at the start does not close by the impact of another") {
+  // In the corner of x >= 0 and y >= x, moving up and to the left: y - x opens, x closes.
+  const SystemText text{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"left", "x >= 0"}, {"slope", "y >= x"}}};
+  const Followed found = followed(text, state({0, 0}, {-2, -1}), 1, restitution(text, 1));
+  CHECK(found.motion.status() == MotionStatus::done);
+  CHECK(found.motion.record().largest_penetration == 0);
+  CHECK(found.end().q[1] >= found.end().q[0]);
+}
+
 TEST_CASE("no velocity satisfies walls that close on each other: the two are named") {
   const ImpactOutcome found =
       impact(Metric::identity(1), {{Vector{{1}}, -1, 0, false}, {Vector{{-1}}, -1, 0, false}});

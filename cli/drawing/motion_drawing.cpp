@@ -1,0 +1,127 @@
+#include "cli/drawing/motion_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+
+#include "cli/motion_files.hpp"
+#include "mechanics/motion/taylor_series.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::Vector;
+
+constexpr Index most_curves = 8;
+constexpr long points = 1201;
+constexpr std::size_t most_marks = 300;
+constexpr int panel_height = 190;
+
+constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                             "#e69f00", "#56b4e9", "#882255", "#222222"};
+
+const char* colour(mechanics::EventKind kind) {
+  switch (kind) {
+    case mechanics::EventKind::impact:
+      return "#d55e00";
+    case mechanics::EventKind::contact:
+      return "#e69f00";
+    case mechanics::EventKind::release:
+      return "#009e73";
+    case mechanics::EventKind::accumulation:
+      return "#882255";
+    case mechanics::EventKind::branch:
+      return "#888888";
+  }
+  return "#888888";
+}
+
+/// One panel: curves of some columns of the points.
+struct Panel {
+  std::string label;
+  std::vector<std::string> names;
+  Index first_column;
+};
+
+std::string panel_script(const Panel& panel, bool is_last) {
+  std::string text = fmt::format("set ylabel {} font \",10\"\n", quoted(panel.label));
+  text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
+  text += "plot ";
+  for (std::size_t k = 0; k < panel.names.size(); ++k)
+    text += fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}",
+                        k > 0 ? ", \\\n  " : "", panel.first_column + static_cast<Index>(k),
+                        colours[k % colours.size()], quoted(panel.names[k]));
+  return text + "\n";
+}
+
+}  // namespace
+
+MotionDrawing::MotionDrawing(const mechanics::LagrangianSystem& system, double begin, double end)
+    : system_(system),
+      begin_(begin),
+      end_(end),
+      coordinates_(std::min(most_curves, static_cast<Index>(system.coordinates().size()))),
+      constraints_(std::min(most_curves, static_cast<Index>(system.constraints().size()))) {}
+
+void MotionDrawing::add(double t, const Vector& q, const Vector& f, const Vector& lambda, double energy) {
+  points_ += fmt::format("{}", t);
+  for (Index i = 0; i < coordinates_; ++i) points_ += fmt::format(" {}", q[i]);
+  for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", f[a]);
+  for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", lambda[a]);
+  points_ += fmt::format(" {}\n", energy);
+  ++point_;
+}
+
+void MotionDrawing::follow(const mechanics::Motion& motion) {
+  const mechanics::Arc& arc = motion.arc();
+  for (; point_ < points;) {
+    const double t = begin_ + (end_ - begin_) * static_cast<double>(point_) / static_cast<double>(points - 1);
+    if (!(t < motion.state().t)) break;
+    const double tau = std::clamp(t - arc.t, 0.0, arc.length);
+    Vector f(constraints_);
+    for (Index a = 0; a < constraints_; ++a)
+      f[a] = mechanics::value_at(mechanics::coefficients(arc.f, a), tau);
+    add(t, arc.position(tau), f, arc.multipliers(tau), system_.energy(arc.state(tau)));
+  }
+  for (const mechanics::MotionEvent& event : motion.events())
+    if (events_.size() < most_marks) events_.push_back(event);
+}
+
+void MotionDrawing::finish(const mechanics::Motion& motion) {
+  if (motion.multipliers().size() != static_cast<Index>(system_.constraints().size())) return;
+  add(motion.state().t, motion.state().q, system_.constraint_rates(motion.state()).f, motion.multipliers(),
+      motion.energy());
+}
+
+Drawing MotionDrawing::drawing(const std::string& title) const {
+  const std::vector<std::string> constraints = constraint_names(system_);
+  std::vector<Panel> panels{
+      {"q", {system_.coordinates().begin(), system_.coordinates().begin() + coordinates_}, 2}};
+  if (constraints_ > 0) {
+    const std::vector<std::string> drawn(constraints.begin(), constraints.begin() + constraints_);
+    panels.push_back({"f", drawn, 2 + coordinates_});
+    panels.push_back({"lambda", drawn, 2 + coordinates_ + constraints_});
+  }
+  panels.push_back({"energy", {"T + V"}, 2 + coordinates_ + 2 * constraints_});
+  Drawing made;
+  made.height = panel_height * static_cast<int>(panels.size()) + 40;
+  made.script = "$points << EOD\n" + points_ + "EOD\n";
+  made.script += fmt::format(
+      "set multiplot layout {},1 title {} font \",11\" margins 0.11,0.82,0.07,0.94 spacing 0.03\n"
+      "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
+      "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
+      panels.size(), quoted(title), begin_, end_);
+  for (const mechanics::MotionEvent& event : events_)
+    fmt::format_to(std::back_inserter(made.script),
+                   "set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb \"{1}\" lw 0.5 dt 3 back\n",
+                   event.t, colour(event.kind));
+  for (std::size_t k = 0; k < panels.size(); ++k)
+    made.script += panel_script(panels[k], k + 1 == panels.size());
+  made.script += "unset multiplot\n";
+  return made;
+}
+
+}  // namespace cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/drawing/gnuplot.hpp"
+#include "mechanics/motion/motion.hpp"
+
+namespace cli {
+
+/// A motion over one axis of time: coordinates, gaps f of the constraints, multipliers, T + V; events are
+/// marked. Of each kind the first eight are drawn.
+class MotionDrawing {
+ public:
+  MotionDrawing(const mechanics::LagrangianSystem& system, double begin, double end);
+  /// The points before the present time of the motion, from its last step, and its events.
+  void follow(const mechanics::Motion& motion);
+  /// The point of the present state, at the end of the motion.
+  void finish(const mechanics::Motion& motion);
+  Drawing drawing(const std::string& title) const;
+
+ private:
+  void add(double t, const convex::Vector& q, const convex::Vector& f, const convex::Vector& lambda,
+           double energy);
+
+  const mechanics::LagrangianSystem& system_;
+  double begin_, end_;
+  convex::Index coordinates_, constraints_;  // that are drawn
+  long point_ = 0;
+  std::string points_;
+  std::vector<mechanics::MotionEvent> events_;
+};
+
+}  // namespace cli

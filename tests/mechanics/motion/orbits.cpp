@@ -1,0 +1,89 @@
+#include "mechanics/motion/orbit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+
+namespace {
+
+/// A mass between walls A sin(w t) ± d.
+SystemText pair(const char* A, const char* d, const char* w) {
+  return {{"x"},
+          "x'^2/2",
+          "",
+          {{"A", A}, {"d", d}, {"w", w}},
+          {},
+          {},
+          {{"lower", "x - A*sin(w*t) >= -d"}, {"upper", "x - A*sin(w*t) <= d"}}};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the symmetric orbit of the impact pair has the phase, the speed and the multipliers of its closed "
+    "form") {
+  const SystemText text = pair("1", "1", "2*pi");
+  const auto made = system(text);
+  OrbitQuestion question;
+  question.motion = restitution(text, 0.7);
+  question.period = 1;
+  const Orbit found = find_orbit(*made, state({0.28334}, {-7.9043}, 0.5), question);
+  REQUIRE(found.is_found);
+  REQUIRE(found.impacts.size() == 2);
+  const double phase = 1.794547460536939, pi = std::acos(-1.0);
+  CHECK(std::abs(found.impacts[1].t - (1 + phase / (2 * pi))) <= 1e-12);
+  CHECK(std::abs(found.impacts[0].velocity_after[0] - 7.9002879073085985) <= 1e-11);
+  REQUIRE(found.multipliers);
+  CHECK(std::abs((*found.multipliers)[0] - 3.44640644840723306477424) <= 1e-9);
+  CHECK(std::abs((*found.multipliers)[1] - 0.069666768442521608343461) <= 1e-9);
+  // The product is e^4: two impacts, each with e^2.
+  CHECK(std::abs((*found.multipliers)[0] * (*found.multipliers)[1] - std::pow(0.7, 4)) <= 1e-10);
+  CHECK_FALSE(found.is_stable);
+}
+
+TEST_CASE("a forced linear oscillator has the multipliers exp(lambda T)") {
+  const SystemText text{{"x"}, "x'^2", "9*x^2", {}, {}, {{"x", "5*cos(2.5*t) - 0.8*x'"}}, {}};
+  const auto made = system(text);
+  OrbitQuestion question;
+  question.period = 2 * std::acos(-1.0) / 2.5;
+  const Orbit found = find_orbit(*made, state({0.5}, {0}), question);
+  REQUIRE(found.is_found);
+  CHECK(std::abs(found.start.q[0] - 0.8029197080291970802919708) <= 1e-13);
+  const std::complex<double> lambda(-0.2, std::sqrt(9 - 0.04));
+  REQUIRE(found.multipliers);
+  CHECK(std::abs((*found.multipliers)[0] - std::exp(lambda * question.period)) <= 1e-11);
+  CHECK(found.is_stable);
+}
+
+TEST_CASE("an orbit of unknown period is found, with a 1 along it") {
+  const SystemText text{{"x"}, "x'^2/2", "x^2/2", {}, {}, {{"x", "-(x^2 + x'^2 - 1)*x'"}}, {}};
+  const auto made = system(text);
+  OrbitQuestion question;
+  question.is_free = true;
+  const Orbit found = find_orbit(*made, state({0.95}, {0.1}), question);
+  REQUIRE(found.is_found);
+  const double turn = 2 * std::acos(-1.0);
+  CHECK(std::abs(found.period - turn) <= 1e-11);
+  REQUIRE(found.multipliers);
+  CHECK(std::abs((*found.multipliers)[0] - 1.0) <= 1e-9);
+  CHECK(std::abs((*found.multipliers)[1] - std::exp(-turn)) <= 1e-9);
+  CHECK(found.is_stable);
+}
+
+TEST_CASE("a motion that never comes back is no orbit, and two-sided constraints are refused") {
+  const auto falls = system(ball());
+  OrbitQuestion question;
+  question.period = 1;
+  const Orbit none = find_orbit(*falls, state({1000}, {0}), question);
+  CHECK_FALSE(none.is_found);
+  CHECK_FALSE(none.why.empty());
+  const auto held = system({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"rod", "x^2 + y^2 = 1"}}});
+  CHECK(error_of([&] {
+          find_orbit(*held, state({1, 0}, {0, 1}), question);
+        }).find("rod") != std::string::npos);
+}
