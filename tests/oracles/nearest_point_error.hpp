@@ -6,7 +6,7 @@
 
 namespace oracles {
 
-/// "A few 1e-15" of docs/methods.md.
+/// "A few 1e-15" of docs/methods/figures.md.
 inline constexpr double few_roundings = 4e-15;
 
 /// What errors of q are measured against: max(||q||_A, ||z||_(A⁻¹)), positive.

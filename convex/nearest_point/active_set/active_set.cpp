@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// precision.
 constexpr double rounding_of_w = 8 * unit_roundoff;
 
-/// In a block a row this close to the span of the others is left to the careful steps.
+/// In a block a row this close to the span of the others is looked at alone.
 constexpr double block_dependence = 1e-7;
 
 /// Changes of the working set after a refinement before the method gives up, beyond one for each row, and

@@ -5,13 +5,14 @@
 
 namespace convex {
 
-/// The dual active-set method (Goldfarb and Idnani 1983) on whitened rows with an updated orthogonal factor,
-/// after a start by blocks, finished by refinement against the original KKT system (docs/methods.md).
+/// The dual active-set method (Goldfarb and Idnani 1983) on whitened rows, finished by refinement against the
+/// original KKT system: on their Gram matrix, by blocks where these settle (`solve_by_gram_matrix`); what is
+/// in doubt goes on from the rows held with an updated orthogonal factor, what is open then in fractions
+/// (docs/methods/active-set.md).
 ///
 /// Finite: every full step raises the dual objective strictly, and between two full steps rows are only
 /// dropped, so no set of rows returns; dependent rows are never taken in. Redundant, repeated, weakly active
-/// rows and implicit equalities need no assumption. The start by blocks is limited in number and proves
-/// nothing.
+/// rows and implicit equalities need no assumption. Blocks are limited in number and prove nothing.
 ///
 /// Throws InvalidInput as `validate` does.
 /// `guess`: rows thought to be active; empty when nothing is known.

@@ -8,7 +8,7 @@
 namespace convex {
 
 /// A row entering of which less than this part, squared, lies outside the span of those held is nearly
-/// dependent, and left to a longer way.
+/// dependent, and left to `GramSolve`.
 inline constexpr double nearly_dependent = 1e-6;
 
 /// `SmallKernels`, to be compiled for a processor family each. Packs: one when n and m are at most 8, so that

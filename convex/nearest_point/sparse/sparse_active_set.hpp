@@ -7,8 +7,8 @@ namespace convex {
 
 /// For many coordinates and sparse A and U: an interior-point start shows which rows are active, and the
 /// equations of these, made definite by a small weight on the multipliers, are refined against the original
-/// data in twice the working precision (docs/methods.md, "sparse"). Redundant rows are ordinary input. One
-/// order of elimination serves all.
+/// data in twice the working precision (docs/methods/sparse-active-set.md). Redundant rows are ordinary
+/// input. One order of elimination serves all.
 ///
 /// Rows with a wrong sign are exchanged, all at once, as long as fewer are wrong each time; then the start is
 /// taken closer, at most a fixed number of times. It ends with a point that has no wrong sign, with a Farkas
