@@ -120,7 +120,7 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
       if (pivoting.holds(a))
         rows.push_back(white.rows[static_cast<std::size_t>(lcp.columns[static_cast<std::size_t>(a)])]);
     Accuracy rest = accuracy;
-    rest.limit = 0;  // the judge decides what is left open
+    rest.limit = 0;  // `crossover` decides what is left open
     if (rest.step_limit > 0) rest.step_limit -= pivoting.steps();
     const Solution one_by_one = active_set(problem, rest, rows);
     candidate.finished = one_by_one.status != Status::gave_up;

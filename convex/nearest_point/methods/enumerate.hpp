@@ -6,7 +6,7 @@
 namespace convex {
 
 /// Every independent set of rows is held in turn, in the order of a tree over the rows, until one meets all
-/// conditions to rounding; the one that violates them least is handed to the judge. The definition turned
+/// conditions to rounding; the one that violates them least is handed to `crossover`. The definition turned
 /// into a method, for up to 20 one-sided rows.
 Solution enumerate(const NearestPointProblem&, const Accuracy& = {});
 
