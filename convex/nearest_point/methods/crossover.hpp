@@ -46,8 +46,7 @@ Solution crossover(const NearestPointProblem&, const Candidate&, const Accuracy&
 std::optional<Solution> without_a_method(const NearestPointProblem&, std::string_view method,
                                          const Accuracy&);
 
-/// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and `crossover` go by sparse
-/// factors.
+/// Whether factors of n·min(n, m) numbers are affordable. Beyond, methods and crossover go by sparse ones.
 bool is_dense_size(const NearestPointProblem&);
 
 /// Up to so many rows, methods that work on a matrix of rows by rows are affordable.
