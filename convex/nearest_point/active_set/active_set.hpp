@@ -6,9 +6,8 @@
 namespace convex {
 
 /// The dual active-set method (Goldfarb and Idnani 1983) on whitened rows, finished by refinement against the
-/// original KKT system: on their Gram matrix, by blocks where these settle (`solve_by_gram_matrix`); what is
-/// in doubt goes on from the rows held with an updated orthogonal factor, what is open then in fractions
-/// (docs/methods/active-set.md).
+/// original KKT system: on their Gram matrix, by blocks where these settle; what is in doubt goes on with an
+/// updated orthogonal factor, what is open then in fractions (docs/methods/active-set.md).
 ///
 /// Finite: every full step raises the dual objective strictly, and between two full steps rows are only
 /// dropped, so no set of rows returns; dependent rows are never taken in. Redundant, repeated, weakly active
