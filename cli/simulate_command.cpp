@@ -62,7 +62,7 @@ Answer simulate_file(const std::string& file, const Options& options) {
     trajectory.emplace(*options.output, *system, state.t, until, settings.samples.value_or(usual_samples));
   if (options.events) events.emplace(*options.events, *system);
   if (options.plot) {
-    terminal_text(*options.plot, 1, 1);  // a name that is no picture's is refused before the work
+    require_drawable(*options.plot);
     drawing.emplace(*system, state.t, until);
   }
   FollowedMotion followed{file, problem.title, *system, motion, {}, until};

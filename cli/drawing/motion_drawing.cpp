@@ -20,7 +20,7 @@ constexpr long points = 1201;
 constexpr std::size_t most_marks = 300;
 constexpr int panel_height = 190;
 
-constexpr std::array colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+constexpr std::array line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                              "#e69f00", "#56b4e9", "#882255", "#222222"};
 
 const char* colour(mechanics::EventKind kind) {
@@ -53,7 +53,7 @@ std::string panel_script(const Panel& panel, bool is_last) {
   for (std::size_t k = 0; k < panel.names.size(); ++k)
     text += fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}",
                         k > 0 ? ", \\\n  " : "", panel.first_column + static_cast<Index>(k),
-                        colours[k % colours.size()], quoted(panel.names[k]));
+                        line_colours[k % line_colours.size()], quoted(panel.names[k]));
   return text + "\n";
 }
 

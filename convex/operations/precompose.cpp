@@ -4,6 +4,7 @@
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/inverse.hpp"
+#include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
@@ -50,7 +51,7 @@ class Precompose : public Operation {
   double recession(const Vector& d) const override { return f_.node().recession(A_ * d); }
   /// v = Aᵀp is p·(Ax + b) - p·b, with Ax + b in the domain of f.
   double domain_support(const Vector& v) const override {
-    const Vector p = Eigen::ColPivHouseholderQR<Matrix>(A_.transpose()).solve(v);
+    const Vector p = linear_algebra::least_squares(A_.transpose(), v);
     const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
     return in_range ? f_.node().domain_support(p) - p.dot(b_) : std::numeric_limits<double>::infinity();
   }

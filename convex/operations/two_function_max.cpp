@@ -11,7 +11,7 @@ namespace convex {
 namespace {
 
 constexpr double least_weight = 1e-30;
-constexpr int step_limit = 80;
+constexpr int most_halvings = 80;
 /// Brackets shorter than this part of t, or of 1 - t, have ended.
 constexpr double shortest = 2 * unit_roundoff;
 
@@ -55,7 +55,7 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   if (high->difference >= 0) return named(high->prox);
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
   double low_value = low->difference, high_value = high->difference;
-  for (int step = 0; step < step_limit && !WorkLimit::passed(); ++step) {
+  for (int step = 0; step < most_halvings && !WorkLimit::passed(); ++step) {
     const double width = high->t - low->t, drop = low->difference - high->difference;
     if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
       moved_per_difference = W.norm(low->prox.x - high->prox.x) / drop;

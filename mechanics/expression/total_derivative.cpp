@@ -5,7 +5,7 @@
 namespace mechanics::expression {
 namespace {
 
-constexpr NodeId pending = no_node - 1, found = no_node - 2;
+constexpr NodeId pending = no_node - 1, marked = no_node - 2;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ NodeId TotalDerivative::of(NodeId node) {
     const NodeId next = open.back();
     open.pop_back();
     if (tape_->is_constant(next) || known_[next] != pending) continue;
-    known_[next] = found;
+    known_[next] = marked;
     todo.push_back(next);
     if (arity(tape_->operation(next)) >= 1) open.push_back(tape_->a(next));
     if (arity(tape_->operation(next)) == 2) open.push_back(tape_->b(next));

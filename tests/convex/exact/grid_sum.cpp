@@ -19,11 +19,11 @@ Rational exact_sum(const Vector& u, const Vector& q, double s) {
   return sum;
 }
 
-/// Whole numbers of at most so many bits times 2^exponent.
-Vector on_grid(Index n, int bits, int exponent, std::mt19937_64& generator) {
+/// Whole numbers of at most so many most_bits times 2^exponent.
+Vector on_grid(Index n, int most_bits, int exponent, std::mt19937_64& generator) {
   Vector x(n);
   for (double& entry : x) {
-    const auto whole = static_cast<double>(generator() >> (64 - bits));
+    const auto whole = static_cast<double>(generator() >> (64 - most_bits));
     entry = std::ldexp((generator() & 1U) != 0 ? whole : -whole, exponent);
   }
   return x;
@@ -36,11 +36,11 @@ TEST_CASE("a sum that is given is the exact one") {
   int given = 0, refused = 0;
   for (int trial = 0; trial < 20000; ++trial) {
     const Index n = 1 + static_cast<Index>(generator() % 12);
-    const auto bits = [&] { return 1 + static_cast<int>(generator() % 53); };
+    const auto most_bits = [&] { return 1 + static_cast<int>(generator() % 53); };
     const auto exponent = [&] { return static_cast<int>(generator() % 400) - 200; };
     const int of_u = exponent(), of_q = exponent();
-    const Vector q = on_grid(n, bits(), of_q, generator), u = on_grid(n, bits(), of_u, generator);
-    const double s = on_grid(1, bits(), of_u + of_q + static_cast<int>(generator() % 9) - 4, generator)[0];
+    const Vector q = on_grid(n, most_bits(), of_q, generator), u = on_grid(n, most_bits(), of_u, generator);
+    const double s = on_grid(1, most_bits(), of_u + of_q + static_cast<int>(generator() % 9) - 4, generator)[0];
     const std::optional<double> sum = GridSum(q).value(u.data(), s);
     (sum ? given : refused) += 1;
     if (sum) CHECK((Rational(*sum) == exact_sum(u, q, s)));

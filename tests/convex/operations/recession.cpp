@@ -8,7 +8,7 @@ using convex::Vector;
 
 namespace {
 
-constexpr const char* expressions[] = {
+constexpr const char* far_expressions[] = {
     "entropy()",
     "logistic()",
     "log_barrier()",
@@ -55,7 +55,7 @@ Vector inside(const Function& f, const Vector& z) { return f.prox(z, convex::Met
 }  // namespace
 
 TEST_CASE("along a direction a function rises by no more than its recession function says") {
-  for (const char* text : expressions) {
+  for (const char* text : far_expressions) {
     CAPTURE(text);
     const Function f = samples::function(text, 2);
     for (const Vector& z : samples::points(2))
@@ -74,7 +74,7 @@ TEST_CASE("along a direction a function rises by no more than its recession func
 }
 
 TEST_CASE("no point of the domain is beyond the support function of the domain") {
-  for (const char* text : expressions) {
+  for (const char* text : far_expressions) {
     CAPTURE(text);
     const Function f = samples::function(text, 2);
     for (const Vector& z : samples::points(2))
@@ -88,7 +88,7 @@ TEST_CASE("no point of the domain is beyond the support function of the domain")
 
 TEST_CASE("the two are those of the conjugate, the other way round, where both are known") {
   const auto both = [](double a, double b) { return std::isfinite(a) && std::isfinite(b); };
-  for (const char* text : expressions) {
+  for (const char* text : far_expressions) {
     CAPTURE(text);
     const Function f = samples::function(text, 2), g = f.conjugate();
     for (const Vector& d : directions()) {
