@@ -14,18 +14,19 @@ std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVecto
   for (Index a = 0; a < problem.rows(); ++a)
     if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);
   if (problem.radii) return touched.empty() ? std::string_view() : open_question::touched;
-  const bool is_exact = keeps_exactly(problem, q.hi, set.rows(), touched);
+  const std::optional<Vector> exact = slacks_if_kept(problem, q.hi, set.rows(), touched);
   WorkingSet::Split split;
   SlackOnEdge edge(problem, row_scale.data());
   for (Index a : touched) {
-    if (is_exact) break;
+    if (exact) break;
     set.split(a, split);
     const std::optional<int> sign = edge.sign(a, set.rows().data(), set.size(), split.coefficients.data());
     if (!sign && split.rho > 0) return open_question::touched;
     if (!sign || *sign < 0 || (*sign > 0 && two_sided[static_cast<std::size_t>(a)]))
       return open_question::dependence;
   }
-  for (Index a : touched) slack[a] = 0;
+  for (std::size_t k = 0; k < touched.size(); ++k)
+    slack[touched[k]] = exact ? (*exact)[static_cast<Index>(k)] : 0;
   return {};
 }
 

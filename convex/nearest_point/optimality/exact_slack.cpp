@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
@@ -45,9 +46,8 @@ double entry(const ConstraintRows& U, Index a, Index i) {
   return U.is_sparse() ? U.sparse().coeff(a, i) : U.dense()(a, i);
 }
 
-}  // namespace
-
-int slack_sign(const NearestPointProblem& problem, Index a, const Vector& q) {
+/// u_a·q - s_a.
+ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Vector& q) {
   ExactSum sum;
   sum.add(-problem.s[a]);
   if (problem.U.is_sparse())
@@ -55,8 +55,10 @@ int slack_sign(const NearestPointProblem& problem, Index a, const Vector& q) {
       sum.add_product(it.value(), q[it.col()]);
   else
     for (Index i = 0; i < q.size(); ++i) sum.add_product(problem.U.dense()(a, i), q[i]);
-  return sum.sign();
+  return sum;
 }
+
+}  // namespace
 
 /// Looks for a grid that all numbers of U lie on.
 void SlackOnEdge::find_grid() {
@@ -122,20 +124,25 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
   return sign_of_loads(p, whole);
 }
 
-bool keeps_exactly(const NearestPointProblem& problem, const Vector& q, const std::vector<Index>& held,
-                   const std::vector<Index>& touched) {
+std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Vector& q,
+                                     const std::vector<Index>& held, const std::vector<Index>& touched) {
   const GridSum on_grid(q);
-  const auto sign_of_slack = [&](Index a) {
+  // A slack that is too small for a double has its sign all the same.
+  const auto slack_of = [&](Index a) {
     if (!problem.U.is_sparse())
       if (const auto slack = on_grid.value(problem.U.dense().data() + a * q.size(), problem.s[a]))
-        return *slack > 0 ? 1 : *slack < 0 ? -1 : 0;
-    return slack_sign(problem, a, q);
+        return *slack;
+    const ExactSum sum = exact_slack(problem, a, q);
+    return sum.sign() * std::max(std::abs(sum.value()), std::numeric_limits<double>::denorm_min());
   };
-  return std::all_of(held.begin(), held.end(), [&](Index a) { return sign_of_slack(a) == 0; }) &&
-         std::all_of(touched.begin(), touched.end(), [&](Index a) {
-           const int sign = sign_of_slack(a);
-           return sign == 0 || (sign > 0 && !is_two_sided(problem, a));
-         });
+  for (Index a : held)
+    if (slack_of(a) != 0) return std::nullopt;
+  Vector slacks(static_cast<Index>(touched.size()));
+  for (std::size_t k = 0; k < touched.size(); ++k) {
+    const double slack = slacks[static_cast<Index>(k)] = slack_of(touched[k]);
+    if (slack < 0 || (slack > 0 && is_two_sided(problem, touched[k]))) return std::nullopt;
+  }
+  return slacks;
 }
 
 }  // namespace convex

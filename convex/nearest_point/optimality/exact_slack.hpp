@@ -9,9 +9,6 @@
 /// Signs of slacks without rounding, for rows whose slack twice the working precision cannot tell from zero.
 namespace convex {
 
-/// The sign of u_a·q - s_a.
-int slack_sign(const NearestPointProblem&, Index a, const Vector& q);
-
 /// Slacks where rows W hold with equality, without rounding.
 class SlackOnEdge {
  public:
@@ -37,10 +34,10 @@ class SlackOnEdge {
       -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
 };
 
-/// Whether the doubles q are the point of the rows `held` and keep the rows `touched`, all without rounding:
-/// the rows held and two-sided ones have a slack of 0, the others none below. With multipliers lambda >= 0 of
-/// the rows held, ||q - q*||_A <= ||Aq - z - Uᵀlambda||_(A⁻¹) then, q* the solution.
-bool keeps_exactly(const NearestPointProblem&, const Vector& q, const std::vector<Index>& held,
-                   const std::vector<Index>& touched);
-
+/// The slacks of the rows `touched` at the doubles q, each the double nearest to its own, if q is the point
+/// of the rows `held` and keeps those touched, all without rounding: the rows held and two-sided ones have a
+/// slack of 0, the others none below. With multipliers lambda >= 0 of the rows held, ||q - q*||_A <=
+/// ||Aq - z - Uᵀlambda||_(A⁻¹) then, q* the solution.
+std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Vector& q,
+                                     const std::vector<Index>& held, const std::vector<Index>& touched);
 }  // namespace convex

@@ -128,7 +128,8 @@ bool GramSolve::finish(const Accuracy& accuracy, Solution& solution) {
 /// forces are, so far as their signs are told, the point is that one.
 bool GramSolve::is_exact_vertex() const {
   return set_->size() == n_ && !problem_.radii &&
-         keeps_exactly(problem_, Eigen::Map<const Vector>(q_, n_), std::vector<Index>(rows_, rows_ + n_), {});
+         slacks_if_kept(problem_, Eigen::Map<const Vector>(q_, n_), std::vector<Index>(rows_, rows_ + n_),
+                        {});
 }
 
 /// q and lambda of the rows held, in doubles.

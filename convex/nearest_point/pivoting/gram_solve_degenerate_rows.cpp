@@ -78,8 +78,8 @@ GramSolve::Slacks GramSolve::look_at_violated(Index count) {
 /// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
 /// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
 GramSolve::Slacks GramSolve::decide_degenerate_rows() {
-  if (keeps_touched_rows_exactly()) {
-    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k] = 0;
+  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
+    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k] = (*slacks)[k];
     return Slacks::kept;
   }
   if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
@@ -140,11 +140,11 @@ double GramSolve::slack_noise(Index a) const {
          margin * row_scale_[a] * (remaining_ + silenced_);
 }
 
-/// Whether q is, without rounding, the point of the rows held and keeps those it touches.
-bool GramSolve::keeps_touched_rows_exactly() const {
-  return keeps_exactly(problem_, Eigen::Map<const Vector>(q_, n_),
-                       std::vector<Index>(rows_, rows_ + set_->size()),
-                       std::vector<Index>(touched_, touched_ + touched_count_));
+/// The slacks of the rows touched where q is, without rounding, the point of the rows held and keeps them.
+std::optional<Vector> GramSolve::slacks_of_touched_rows_if_kept() const {
+  return slacks_if_kept(problem_, Eigen::Map<const Vector>(q_, n_),
+                        std::vector<Index>(rows_, rows_ + set_->size()),
+                        std::vector<Index>(touched_, touched_ + touched_count_));
 }
 
 /// The sign of the slack of row a where a row held that is parallel to it, not one bit off, holds with

@@ -180,11 +180,14 @@ bool SmallGramSolve::keeps_rows_outside() {
     if (t.slack[a] > unsure) continue;
     if (t.slack[a] < -unsure) return false;
     touched.push_back(a);
-    t.slack[a] = 0;
   }
   if (touched.empty()) return true;
-  return !problem_.radii && keeps_exactly(problem_, Eigen::Map<const Vector>(t.q, t.n),
-                                          std::vector<Index>(t.rows, t.rows + t.size), touched);
+  if (problem_.radii) return false;
+  const std::optional<Vector> slacks = slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
+                                                      std::vector<Index>(t.rows, t.rows + t.size), touched);
+  if (!slacks) return false;
+  for (std::size_t k = 0; k < touched.size(); ++k) t.slack[touched[k]] = (*slacks)[static_cast<Index>(k)];
+  return true;
 }
 
 /// Whether the answer in doubles is within so much, no row close to tipping over.
