@@ -191,6 +191,8 @@ long decide_contacts(const LagrangianModel& model, const StateText& text, const 
   const auto state = read_state_exactly(model, text, precision);
   if (!state) return 0;
   ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
+  const double numbers = static_cast<double>(model.coordinates.size() + wanted.size());
+  const double most = std::min(most_telling_precision, most_telling_bits / numbers);
   double telling = 0;
   for (const Index a : wanted) {
     const auto k = static_cast<std::size_t>(a);
@@ -200,7 +202,7 @@ long decide_contacts(const LagrangianModel& model, const StateText& text, const 
     found[k] = verdict(*f, model.constraints[k].two_sided);
     if (found[k] != ContactVerdict::undecided) continue;
     for (const Number* x : {&f->value, &f->along})
-      if (const auto needed = x->telling_precision(); needed && *needed <= most_telling_precision)
+      if (const auto needed = x->telling_precision(); needed && *needed <= most)
         telling = std::max(telling, *needed);
   }
   return static_cast<long>(std::ceil(telling));

@@ -41,6 +41,7 @@ std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&,
 
 inline constexpr std::size_t most_exact_coordinates = 40;
 inline constexpr long first_precision = 192, last_precision = 768;
-inline constexpr double most_telling_precision = 200000;
+/// Of one number, and of all coordinates and constraints asked for together: a second or so.
+inline constexpr double most_telling_precision = 200000, most_telling_bits = 2e7;
 
 }  // namespace mechanics
