@@ -17,7 +17,7 @@ constexpr double met = 1e-10;
 
 /// Steps of differences, relative to how far the motion goes: of the second order for Newton's method, of the
 /// fourth for the multipliers; shorter ones where the events on the way change.
-constexpr double newton_step = 1e-6, multiplier_step = 1e-3, shortest_step = 1e-7;
+constexpr double newton_step = 1e-6, multiplier_step = 2e-4, shortest_step = 1e-7;
 
 /// Points of an arc that are looked at when a return is searched for.
 constexpr int looks_per_arc = 16;

@@ -41,8 +41,8 @@ TEST_CASE("all laws agree on one contact, and on contacts that do not feel each 
 TEST_CASE("one contact after the other, the last ball of the cradle alone goes on") {
   for (const Index n : {2, 5, 20}) {
     const ImpactOutcome found = impact(Metric::identity(n), cradle(n, 1), ImpactLaw::sequential);
-    CHECK(std::abs(found.change[0] + 1) <= 1e-15);
-    for (Index k = 1; k < n; ++k) CHECK(std::abs(found.change[k] - (k == n - 1 ? 1 : 0)) <= 1e-15);
+    CHECK(std::abs(found.change[0] + 1) <= 1e-14);
+    for (Index k = 1; k < n; ++k) CHECK(std::abs(found.change[k] - (k == n - 1 ? 1 : 0)) <= 1e-14);
     CHECK(found.remark.empty());
   }
 }
