@@ -1,11 +1,10 @@
-#include <Eigen/Eigenvalues>
-
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/epigraph.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/composite/graph_placement.hpp"
 #include "convex/composite/perspective.hpp"
 #include "convex/invariant.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 
 namespace convex {
 namespace {
@@ -48,11 +47,11 @@ std::optional<SplitQuadratic> split_quadratic(const Atom& f, Index rows) {
   constexpr double rank_tolerance = 8 * unit_roundoff;  // of an eigenvalue, times n and the largest
   const auto form = f.quadratic_form(rows);
   if (!form || form->Q.nonZeros() == 0) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen{Matrix(form->Q)};
-  const Vector& values = eigen.eigenvalues();
+  const linear_algebra::SymmetricEigen eigen{Matrix(form->Q)};
+  const Vector& values = eigen.values;
   const Index rank =
       (values.array() > rank_tolerance * static_cast<double>(rows) * values.cwiseAbs().maxCoeff()).count();
-  const Matrix L = eigen.eigenvectors().rightCols(rank) * values.tail(rank).cwiseSqrt().asDiagonal();
+  const Matrix L = eigen.vectors.rightCols(rank) * values.tail(rank).cwiseSqrt().asDiagonal();
   return SplitQuadratic{L.transpose().sparseView(), form->c, form->constant};
 }
 

@@ -1,13 +1,12 @@
-#include "mechanics/motion/eigenvalues.hpp"
+#include "convex/linear_algebra/complex_eigenvalues.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 
-namespace mechanics {
+namespace convex::linear_algebra {
 
-std::vector<std::complex<double>> eigenvalues(const convex::Matrix& M) {
-  const Eigen::EigenSolver<convex::Matrix> solver(M, false);
+std::vector<std::complex<double>> complex_eigenvalues(const Matrix& M) {
+  const Eigen::EigenSolver<Matrix> solver(M, false);
   std::vector<std::complex<double>> found(solver.eigenvalues().begin(), solver.eigenvalues().end());
   std::sort(found.begin(), found.end(), [](const auto& x, const auto& y) {
     const double a = std::abs(x), b = std::abs(y);
@@ -18,8 +17,4 @@ std::vector<std::complex<double>> eigenvalues(const convex::Matrix& M) {
   return found;
 }
 
-convex::Vector solved(const convex::Matrix& M, const convex::Vector& y) {
-  return Eigen::CompleteOrthogonalDecomposition<convex::Matrix>(M).solve(y);
-}
-
-}  // namespace mechanics
+}  // namespace convex::linear_algebra
