@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanics/motion/eigenvalues.hpp"
+#include "convex/linear_algebra/complete_orthogonal.hpp"
+#include "convex/linear_algebra/complex_eigenvalues.hpp"
 
 namespace mechanics {
 namespace {
@@ -199,7 +200,7 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
       J.row(size).head(size) = across.transpose();
       right[size] = -across.dot(x - first);
     }
-    const Vector step = solved(J, right);
+    const Vector step = convex::linear_algebra::CompleteOrthogonal(J).solve(right);
     bool is_better = false;
     for (double part = 1; part > 1e-4 && !is_better; part *= 0.5) {
       const Vector next = x + part * step.head(size);
@@ -231,7 +232,7 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
   for (double step = multiplier_step; step > shortest_step && !orbit.multipliers; step *= 0.25)
     if (const auto D = map.derivative(x, orbit.period, flight, step, true, false))
-      orbit.multipliers = eigenvalues(*D);
+      orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
   if (!orbit.multipliers) return orbit;
   std::vector<std::complex<double>> others = *orbit.multipliers;
   if (question.is_free)
