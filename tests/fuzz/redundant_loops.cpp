@@ -71,21 +71,21 @@ struct Bar {
   std::string point, x, y, length;
 };
 
-using Vector = std::vector<long double>;
+using LongNumbers = std::vector<long double>;
 
-long double dot(const Vector& mass, const Vector& x, const Vector& y) {
+long double dot(const LongNumbers& mass, const LongNumbers& x, const LongNumbers& y) {
   long double sum = 0;
   for (std::size_t i = 0; i < mass.size(); ++i) sum += mass[i] * x[i] * y[i];
   return sum;
 }
 
 /// q'' = Σ q_j θ_j'' + bend with q_j·M (q'' - g) = 0 for each angle: at most two angles.
-Vector acceleration(const Vector& mass, const std::vector<Vector>& slope, const Vector& bend) {
+LongNumbers acceleration(const LongNumbers& mass, const std::vector<LongNumbers>& slope, const LongNumbers& bend) {
   const long double g = 9.81L;
-  Vector force(mass.size());
+  LongNumbers force(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) force[i] = (i % 2 == 1 ? -g : 0.0L) - bend[i];
-  Vector found = bend;
-  const auto add = [&](long double angle, const Vector& along) {
+  LongNumbers found = bend;
+  const auto add = [&](long double angle, const LongNumbers& along) {
     for (std::size_t i = 0; i < found.size(); ++i) found[i] += angle * along[i];
   };
   const long double a = dot(mass, slope[0], slope[0]), r = dot(mass, slope[0], force);
@@ -118,8 +118,8 @@ Loop draw_loop(Random& random) {
   std::vector<Point> points;
   std::vector<Bar> bars;
   std::vector<std::string> rows;
-  std::vector<Vector> slope(1);
-  Vector bend;
+  std::vector<LongNumbers> slope(1);
+  LongNumbers bend;
   const auto place = [&](long double x1, long double y1, long double x2, long double y2) {
     slope[0].push_back(x1);
     slope[0].push_back(y1);
