@@ -4,7 +4,7 @@ namespace convex {
 namespace {
 
 /// Some seconds; a question with one root in another takes some ten thousand.
-constexpr long most_evaluations = 3'000'000;
+constexpr long most_evaluations = 1'000'000;
 
 struct Work {
   long evaluations = 0;
