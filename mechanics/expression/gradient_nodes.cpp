@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "convex/invalid_input.hpp"
+
 namespace mechanics::expression {
 namespace {
 
@@ -109,8 +111,11 @@ NodeId Sweep::slope(NodeId node) {
       return binary(divide, number("0.5", 0.5, at_), node);
     case abs:
       return unary(sign, a);
+    case sign:
+      return no_node;
     default:
-      return no_node;  // sign
+      throw convex::InvalidInput("\"" + std::string(symbol(tape_->operation(node))) +
+                                 "\" has no derivative in symbols; write the expressions without it");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
 namespace mechanics {
@@ -156,7 +157,10 @@ class Translation {
       case Operation::sign:
         return add_switch(Kind::sign, out, a);
       default:
-        convex::invariant(false, "every operation has a Taylor recurrence");
+        throw convex::InvalidInput(
+            "\"" + std::string(symbol(operation)) +
+            "\" has no Taylor series here, so that its motion cannot be followed; write the "
+            "expressions without it");
     }
   }
 
