@@ -1,6 +1,7 @@
 #include "mechanics/expression/zero_set.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace mechanics::expression {
 namespace {
@@ -13,6 +14,26 @@ bool is_factor(const Tape& tape, NodeId node) {
   return tape.is_constant(node) && std::isfinite(tape.constant(node)) && tape.constant(node) != 0;
 }
 
+/// The one factor that a product has beside numbers, and how often; f itself, once, where there are several.
+std::pair<NodeId, int> only_factor(const Tape& tape, NodeId f) {
+  const NodeId a = tape.a(f), b = tape.b(f);
+  switch (tape.operation(f)) {
+    case Operation::negate:
+      return only_factor(tape, a);
+    case Operation::divide:
+      return is_factor(tape, b) ? only_factor(tape, a) : std::pair{f, 1};
+    case Operation::multiply: {
+      if (is_factor(tape, a)) return only_factor(tape, b);
+      if (is_factor(tape, b)) return only_factor(tape, a);
+      const auto [left, times] = only_factor(tape, a);
+      const auto [right, more] = only_factor(tape, b);
+      return left == right ? std::pair{left, times + more} : std::pair{f, 1};
+    }
+    default:
+      return {f, 1};
+  }
+}
+
 /// One step from f towards g; f where there is none.
 NodeId within(const Tape& tape, NodeId f, bool& is_power) {
   const NodeId a = tape.a(f), b = tape.b(f);
@@ -21,9 +42,11 @@ NodeId within(const Tape& tape, NodeId f, bool& is_power) {
       return a;
     case Operation::subtract:
       return is_zero(tape, b) ? a : is_zero(tape, a) ? b : f;
-    case Operation::multiply:
-      if (a == b) is_power = true;
-      return a == b || is_factor(tape, b) ? a : is_factor(tape, a) ? b : f;
+    case Operation::multiply: {
+      const auto [factor, times] = only_factor(tape, f);
+      if (times > 1) is_power = true;
+      return factor;
+    }
     case Operation::divide:
       return is_factor(tape, b) ? a : f;
     case Operation::power:

@@ -23,6 +23,9 @@ CallValue summed(const Point& x, const Term& term) {
 Real xlogx(Real x) { return x > 0 ? x * std::log(x) : x < 0 ? infinity : 0; }
 
 /// A value that rounding has put just outside [0, …) is that of 0.
+/// Whether (x|y) = x·y, which alone is known here of operations that take the product of the metric.
+thread_local bool plain_product = true;
+
 Real not_negative(Real x, Real scale) { return x < 0 && x >= -slack_of_sets * scale ? 0 : x; }
 
 std::optional<CallValue> atom_value(const Call& f, const Point& x) {
@@ -256,6 +259,7 @@ std::optional<CallValue> value_of_call(const Call& f, const Point& x) {
     if (name == "inf_convolution")
       return one_search([&](Real w) { return plus(at(0, w), at(1, x[0] - w)); }, seeds);
     if (name == "proximal_average") {
+      if (!plain_product) return std::nullopt;
       const Real t = number(f, 2, 0.5L), gamma = number(f, 3, 1);
       return one_search(
           [&](Real p) {
@@ -267,6 +271,8 @@ std::optional<CallValue> value_of_call(const Call& f, const Point& x) {
   }
   return atom_value(f, x);
 }
+
+void set_product(bool is_plain) { plain_product = is_plain; }
 
 std::optional<CallValue> call_value(const Call& f, const Point& x, Real slack) {
   slack_of_sets = slack;

@@ -33,6 +33,9 @@ struct LineMinimum {
 template <class F>
 LineMinimum least_on_line(const F& f, const std::vector<Real>& seeds);
 
+/// Whether the metric's product is x·y: where it is not, operations that take it have no value here.
+void set_product(bool is_plain);
+
 }  // namespace fuzz
 
 #include "tests/fuzz/least_on_line.hpp"

@@ -187,6 +187,7 @@ Outcome outcome(const Question& question) {
     const Vector z = cli::parse_vector(question.z, "z");
     const Metric W =
         question.metric.empty() ? Metric::identity(z.size()) : cli::parse_metric(question.metric);
+    set_product(question.metric.empty());
     const Call call = cli::parse_call(question.f, "f");
     const Function f = convex::make_function(call, {W});
     const Subject subject{call, f, W, z};

@@ -57,6 +57,7 @@ TEST_CASE("every mechanism of the library is solved exactly from its text, or en
     REQUIRE(text);
     const json expected = expected_of(name);
     if (expected.contains("added_rows")) continue;  // no problem of second derivatives alone
+    if (expected.value("kind", "") == "motion") continue;
     const std::vector<convex::Index> guess = convex::likely_active_rows(scene.problem);
     convex::ExactVector q;
     if (text->is_exact) {

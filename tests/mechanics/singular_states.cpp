@@ -4,37 +4,16 @@
 #include <random>
 
 #include "mechanics/singular/resolution.hpp"
-#include "tests/mechanics/system_text.hpp"
+#include "tests/mechanics/singular_answer.hpp"
 
 using namespace mechanics;
+using tests::Answer;
+using tests::answer;
 using tests::error_of;
 using tests::Lines;
+using tests::particle;
 
 namespace {
-
-struct Answer {
-  Resolution resolution;
-  GaussSolution solution;
-  const Vector& q2() const { return solution.primal.q; }
-};
-
-Answer answer(const LagrangianSystem& system, const State& state) {
-  const Vector tolerance =
-      Vector::Constant(static_cast<Index>(system.constraints().size()), default_contact_tolerance);
-  GaussSolution last;
-  Resolution resolution =
-      resolve(system, state, guessed_radii(state), gauss_problem(system, state, tolerance),
-              [&](const convex::NearestPointProblem& problem) -> const GaussSolution& {
-                return last = solve(problem);
-              });
-  return {std::move(resolution), std::move(last)};
-}
-
-/// A particle of mass 1 in the plane under gravity.
-std::unique_ptr<const LagrangianSystem> particle(const Lines& constraints, const Lines& forces = {},
-                                                 const std::string& potential = "9.81*y") {
-  return tests::system({{"x", "y"}, "(x'^2 + y'^2)/2", potential, {}, {}, forces, constraints});
-}
 
 /// A particle in space under gravity, its coordinates of unequal inertia.
 std::unique_ptr<const LagrangianSystem> in_space(const Lines& constraints) {
@@ -346,26 +325,4 @@ TEST_CASE("a redundant loop typed with ten digits counts as redundant, and is sa
   CHECK(found.resolution.warnings[0].kind == Warning::Kind::singular);
   CHECK(found.resolution.warnings[0].message.find("more digits") != std::string::npos);
   CHECK(found.solution.multipliers.unique == false);
-}
-
-TEST_CASE("a contradiction that a solver sees in the rounding of a redundant rod is none") {
-  const double l = std::sqrt(2.0);
-  const auto rod = particle({{"rod", "sqrt(x^2 + y^2) = sqrt(2)"}, {"twin", "x^2 + y^2 = 2"}});
-  const State state = tests::state({l * std::sin(1), -l * std::cos(1)}, {std::cos(1), std::sin(1)});
-  const Vector tolerance = Vector::Constant(2, default_contact_tolerance);
-  for (const auto seen : {convex::Status::infeasible, convex::Status::gave_up}) {
-    int solves = 0;
-    GaussSolution last;
-    const Resolution found = resolve(*rod, state, guessed_radii(state), gauss_problem(*rod, state, tolerance),
-                                     [&](const convex::NearestPointProblem& problem) -> const GaussSolution& {
-                                       last = solve(problem);
-                                       if (++solves == 1) last.primal.status = seen;
-                                       return last;
-                                     });
-    CHECK(solves == 2);
-    CHECK(near(last.primal.q, answer(*rod, state).q2()));
-    CHECK(found.is_settled);
-    REQUIRE(found.warnings.size() == 1);
-    CHECK(found.warnings[0].message.find("was left out") != std::string::npos);
-  }
 }

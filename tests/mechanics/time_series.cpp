@@ -99,7 +99,7 @@ TEST_CASE("radii cover what rounding did: a cancelled sum is 0 within its radius
 TEST_CASE("a derivative that does not exist is not finite") {
   std::vector<TimeSeries> q(2);
   q[0].c[1] = 1;
-  for (const char* f : {"abs(x)", "sqrt(x)", "x^2.5", "log(x)", "1/x"}) {
+  for (const char* f : {"abs(x)", "sqrt(x)", "x^2.5 + x", "log(x)", "1/x"}) {
     CAPTURE(f);
     const auto last = series(*with(f), q, 0, 4).c[4];
     CHECK_FALSE((std::isfinite(last.value) && std::isfinite(last.radius)));
