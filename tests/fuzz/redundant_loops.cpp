@@ -80,7 +80,8 @@ long double dot(const LongNumbers& mass, const LongNumbers& x, const LongNumbers
 }
 
 /// q'' = Σ q_j θ_j'' + bend with q_j·M (q'' - g) = 0 for each angle: at most two angles.
-LongNumbers acceleration(const LongNumbers& mass, const std::vector<LongNumbers>& slope, const LongNumbers& bend) {
+LongNumbers acceleration(const LongNumbers& mass, const std::vector<LongNumbers>& slope,
+                         const LongNumbers& bend) {
   const long double g = 9.81L;
   LongNumbers force(mass.size());
   for (std::size_t i = 0; i < mass.size(); ++i) force[i] = (i % 2 == 1 ? -g : 0.0L) - bend[i];
