@@ -115,7 +115,7 @@ std::string hypothesis_text(const SolvedScene& solved) {
                   with_numbers(solved, hypothesis.two_sided.multipliers));
   if (hypothesis.drop_negative_is_right)
     text += rule_text(solved);
-  else
+  else if (solved.solution.primal.status == convex::Status::solved)
     text +=
         "Those multipliers are not unique, so the rule \"drop the negative ones\" has no definite meaning.\n";
   return text;

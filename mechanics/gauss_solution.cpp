@@ -70,7 +70,8 @@ GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, con
   const double tolerance = zero_tolerance(options.accuracy);
   const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
   found.multipliers = convex::multipliers(problem, found.primal, tolerance, ranges);
-  found.touching = touching_contacts(problem, found.primal, found.multipliers, tolerance);
+  if (found.primal.status == convex::Status::solved)
+    found.touching = touching_contacts(problem, found.primal, found.multipliers, tolerance);
   const Vector& lambda = found.multipliers.least_norm;
   found.residuals = found.multipliers.unique
                         ? found.primal.residuals

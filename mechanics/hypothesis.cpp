@@ -94,7 +94,9 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   if (found.accepted || !set.unique) return found;
   const Solution dropped = held_solution(held(problem, kept));
   if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;
-  found.drop_negative_is_right = has_answer(dropped) && same(dropped.q);
+  // What is not solved is no truth to judge the rule by.
+  if (truth.status == convex::Status::solved)
+    found.drop_negative_is_right = has_answer(dropped) && same(dropped.q);
   return found;
 }
 

@@ -109,3 +109,15 @@ TEST_CASE("what simulate is told does not disturb solve") {
   };
   CHECK(answer(text) == answer(point_on_floor()));
 }
+
+TEST_CASE("an answer that is not solved is no truth to judge the rule of dropping by") {
+  const Outcome wrong = run(
+      {"solve", "--method", "drop-negative", MOREAU_SOURCE "/docs/problems/delassus_drops_too_much.toml"});
+  CHECK(wrong.code == 3);
+  CHECK(wrong.out.find("NOT solved") != std::string::npos);
+  CHECK(wrong.out.find("happens to be right") == std::string::npos);
+  CHECK(wrong.out.find("touches") == std::string::npos);
+  const Outcome right = run({"solve", MOREAU_SOURCE "/docs/problems/delassus_drops_too_much.toml"});
+  CHECK(right.code == 0);
+  CHECK(right.out.find("is wrong here (Delassus 1917)") != std::string::npos);
+}
