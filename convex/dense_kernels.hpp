@@ -23,9 +23,9 @@ inline void fill_packs(Index n, double value, double* to) {
 /// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
 ///
 /// A triangle stands in an ld×ld matrix by columns, ld a multiple of 8 no less than n: L in the lower part,
-/// Lᵀ in the upper one, the unit matrix up to padded(n); `inverse` has the inverse of each 8×8 block on the diagonal by columns,
-/// and its transpose, 128 numbers for a block. Vectors x are padded with zeros. Eight vectors side by
-/// side, X: n packs, pack i has entry i of each.
+/// Lᵀ in the upper one, the unit matrix up to padded(n); `inverse` has the inverse of each 8×8 block on the
+/// diagonal by columns, and its transpose, 128 numbers for a block. Vectors x are padded with zeros. Eight
+/// vectors side by side, X: n packs, pack i has entry i of each.
 struct DenseKernels {
   /// Factors W = L Lᵀ in place, W in the lower part of T. A pivot that is not positive leaves numbers that
   /// are not finite.

@@ -27,8 +27,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   /// An upper bound of the recession function, f∞(d) = sup over x in the domain of f(x + d) - f(x)
   /// (Rockafellar 1970, section 8): f*(v) is +inf where f∞(d) < v·d. +inf where none is known.
   virtual double recession(const Vector& d) const;
-  /// An upper bound of the support function of the domain, sup of v·x over the x with f(x) < inf, which is the
-  /// recession function of f*: f(x) is +inf where v·x exceeds it. +inf where none is known.
+  /// An upper bound of the support function of the domain, sup of v·x over the x with f(x) < inf, which is
+  /// the recession function of f*: f(x) is +inf where v·x exceeds it. +inf where none is known.
   virtual double domain_support(const Vector& v) const;
 
   /// f on Rⁿ as a quadratic program over x and auxiliary variables; exactly when facts().piecewise_quadratic.
