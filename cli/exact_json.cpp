@@ -109,8 +109,7 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
   json.key("contacts_hold").value(proof.contacts_hold);
   if (!proof.dependent.empty()) {
     json.key("dependent").begin_array();
-    for (const convex::Index a : proof.dependent)
-      json.value(scene.constraints[static_cast<std::size_t>(a)]);
+    for (const convex::Index a : proof.dependent) json.value(scene.constraints[static_cast<std::size_t>(a)]);
     json.end_array();
   }
   json.key("error_bound");

@@ -21,7 +21,7 @@ constexpr std::size_t most_marks = 300;
 constexpr int panel_height = 190;
 
 constexpr std::array line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                             "#e69f00", "#56b4e9", "#882255", "#222222"};
+                                  "#e69f00", "#56b4e9", "#882255", "#222222"};
 
 const char* colour(mechanics::EventKind kind) {
   switch (kind) {

@@ -40,7 +40,8 @@ TEST_CASE("a sum that is given is the exact one") {
     const auto exponent = [&] { return static_cast<int>(generator() % 400) - 200; };
     const int of_u = exponent(), of_q = exponent();
     const Vector q = on_grid(n, most_bits(), of_q, generator), u = on_grid(n, most_bits(), of_u, generator);
-    const double s = on_grid(1, most_bits(), of_u + of_q + static_cast<int>(generator() % 9) - 4, generator)[0];
+    const double s =
+        on_grid(1, most_bits(), of_u + of_q + static_cast<int>(generator() % 9) - 4, generator)[0];
     const std::optional<double> sum = GridSum(q).value(u.data(), s);
     (sum ? given : refused) += 1;
     if (sum) CHECK((Rational(*sum) == exact_sum(u, q, s)));
