@@ -164,10 +164,13 @@ Exit chart_command(const Options& options) {
     require_method(options.method.value_or(""), known, "--method");
     require_method(drawn.relative_to, known, "--relative");
     const std::vector<Trial> trials = charted(problems, options);
+    // Before the numbers kept are written over, as they may be.
+    const std::string correlation =
+        options.files.empty() && !options.profile ? correlation_text(trials) : std::string();
     write_chart(options, trials, drawn);
     if (options.quiet) return Exit::solved;
     if (!options.output) fmt::print("{}", table_text(trials, drawn));
-    if (options.files.empty() && !options.profile) fmt::print("{}", correlation_text(trials));
+    fmt::print("{}", correlation);
     return Exit::solved;
   });
 }
