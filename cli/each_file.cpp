@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <new>
 
-#include "cli/json_writer.hpp"
+#include "cli/report/json_writer.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli {
@@ -26,9 +26,9 @@ std::string with_caret(const std::string& text, convex::Place place) {
   return "  " + text + "\n  " + std::string(static_cast<std::size_t>(place.column - 1), ' ') + "^\n";
 }
 
-void report(const Options& options, const Source& source, const std::string& text, convex::Place place) {
+void report(const Printing& printing, const Source& source, const std::string& text, convex::Place place) {
   const std::string message = one_line(text);
-  if (options.json) {
+  if (printing.json) {
     JsonWriter json;
     json.begin_object().key("file").value(source.name).key("status").value("error");
     json.key("message").value(message).key("line").value(place.line).key("column").value(place.column);
@@ -41,25 +41,25 @@ void report(const Options& options, const Source& source, const std::string& tex
 
 }  // namespace
 
-Exit answered(const Options& options, const Source& source, const std::function<Exit()>& work) {
+Exit answered(const Printing& printing, const Source& source, const std::function<Exit()>& work) {
   try {
     return work();
   } catch (const convex::InvalidInput& error) {
-    report(options, source, error.what(), error.place().value_or(convex::Place{}));
+    report(printing, source, error.what(), error.place().value_or(convex::Place{}));
   } catch (const std::bad_alloc&) {
-    report(options, source, "needs more memory than there is; make the problem smaller", {});
+    report(printing, source, "needs more memory than there is; make the problem smaller", {});
   }
   return Exit::wrong_input;
 }
 
-Exit for_each_file(const Options& options, const std::function<Exit(const std::string&)>& work) {
+Exit for_each_file(const FileOptions& options, const std::function<Exit(const std::string&)>& work) {
   Exit worst = Exit::solved;
   for (const std::string& file : options.files)
     worst = std::max(worst, answered(options, {file, ""}, [&] { return work(file); }));
   return worst;
 }
 
-Exit print_for_each_file(const Options& options, const std::function<Answer(const std::string&)>& work) {
+Exit print_for_each_file(const FileOptions& options, const std::function<Answer(const std::string&)>& work) {
   bool first = true;
   return for_each_file(options, [&](const std::string& file) {
     const Answer answer = work(file);

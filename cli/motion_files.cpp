@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-#include "cli/json_writer.hpp"
+#include "cli/report/json_writer.hpp"
 
 namespace cli {
 namespace {

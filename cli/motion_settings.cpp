@@ -1,7 +1,7 @@
 #include "cli/motion_settings.hpp"
 
 #include "cli/motion_files.hpp"
-#include "cli/numbers_by_constraint.hpp"
+#include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/scene.hpp"
 
 namespace cli {
@@ -19,7 +19,7 @@ mechanics::ImpactLaw impact_law(const SimulateSettings& settings) {
 
 }  // namespace
 
-void require_event_driven(const SimulateSettings& settings, const Options& options) {
+void require_event_driven(const SimulateSettings& settings, const MotionChoice& options) {
   const std::string method = options.method.value_or(settings.method.value_or("event-driven"));
   const auto place = options.method ? std::nullopt : std::optional(settings.method_place);
   if (method == "time-stepping")
@@ -29,7 +29,7 @@ void require_event_driven(const SimulateSettings& settings, const Options& optio
 }
 
 mechanics::MotionOptions motion_options(const Problem& problem, const mechanics::System& system,
-                                        const Options& options) {
+                                        const MotionChoice& options) {
   const SimulateSettings& settings = problem.simulate;
   const std::vector<std::string> constraints = constraint_names(system);
   mechanics::MotionOptions chosen;

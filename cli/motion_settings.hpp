@@ -7,10 +7,10 @@
 namespace cli {
 
 /// Throws InvalidInput when the file or the command line asks for another way than following each event.
-void require_event_driven(const SimulateSettings&, const Options&);
+void require_event_driven(const SimulateSettings&, const MotionChoice&);
 
 /// How to follow the motion of a [system]: [simulate], [solve] contact_tolerance, what looseness has of its
 /// own; options of the command line win.
-mechanics::MotionOptions motion_options(const Problem&, const mechanics::System&, const Options&);
+mechanics::MotionOptions motion_options(const Problem&, const mechanics::System&, const MotionChoice&);
 
 }  // namespace cli

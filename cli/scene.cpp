@@ -2,7 +2,7 @@
 
 #include <numeric>
 
-#include "cli/numbers_by_constraint.hpp"
+#include "cli/problem_file/numbers_by_constraint.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -12,7 +12,7 @@ using convex::Index;
 using convex::InvalidInput;
 using convex::Vector;
 
-mechanics::GaussOptions solve_options(const Options& options, const SolveSettings& settings) {
+mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSettings& settings) {
   mechanics::GaussOptions made;
   made.always_ranges = options.ranges;
   made.accuracy.reduce = !options.full_model;
@@ -126,7 +126,7 @@ Problem read_problem_file(const std::string& file) {
   return read_problem(read_file(file), directory_of(file));
 }
 
-Scene make_scene(Problem problem, const std::string& file, const Options& options) {
+Scene make_scene(Problem problem, const std::string& file, const SceneOptions& options) {
   if (!std::holds_alternative<SystemProblem>(problem.content) &&
       !std::holds_alternative<ProjectionProblem>(problem.content))
     throw InvalidInput("no A, z, U and s here; give a file with [system] or [projection]");
@@ -144,7 +144,7 @@ Scene make_scene(Problem problem, const std::string& file, const Options& option
   return scene;
 }
 
-Scene read_scene(const std::string& file, const Options& options) {
+Scene read_scene(const std::string& file, const SceneOptions& options) {
   return make_scene(read_problem_file(file), file, options);
 }
 

@@ -52,9 +52,9 @@ convex::Vector contact_tolerances(const SolveSettings&, const std::vector<std::s
 Problem read_problem_file(const std::string& file);
 
 /// The scene of a [system] or a [projection]; options of the command line win over the file's [solve].
-Scene make_scene(Problem, const std::string& file, const Options& options);
+Scene make_scene(Problem, const std::string& file, const SceneOptions& options);
 
 /// Both in one. Throws InvalidInput when the file holds another kind of problem.
-Scene read_scene(const std::string& file, const Options& options);
+Scene read_scene(const std::string& file, const SceneOptions& options);
 
 }  // namespace cli

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/drawing/gnuplot.hpp"
-#include "cli/solve_report.hpp"
+#include "cli/report/solve_report.hpp"
 
 namespace cli {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/json_writer.hpp"
+#include "cli/report/json_writer.hpp"
 #include "cli/measurement/machine.hpp"
 #include "convex/invalid_input.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <map>
 
+#include "cli/report/solve_report.hpp"
 #include "cli/resolved_scene.hpp"
-#include "cli/solve_report.hpp"
 #include "convex/invalid_input.hpp"
 #include "tests/fuzz/redundant_loops.hpp"
 
@@ -20,7 +20,7 @@ using convex::Status;
 
 /// What is wrong with an answer; empty when nothing is.
 std::string fault(const fuzz::Loop& loop, bool certify, const char* method) {
-  cli::Options options;
+  cli::SceneOptions options;
   if (*method != 0) options.method = method;
   cli::Scene scene = cli::make_scene(cli::read_problem(loop.file, "/nowhere"), "loop", options);
   cli::ProvedScene proved = cli::resolve_and_prove(scene, certify);

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/resolved_scene.hpp"
-#include "cli/solve_report.hpp"
+#include "cli/report/solve_report.hpp"
 
 using nlohmann::json;
 

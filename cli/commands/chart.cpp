@@ -1,0 +1,205 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/drawing/gnuplot.hpp"
+#include "cli/drawing/profile_drawing.hpp"
+#include "cli/drawing/work_precision_drawing.hpp"
+#include "cli/each_file.hpp"
+#include "cli/measurement/charted_problems.hpp"
+#include "cli/measurement/exams.hpp"
+#include "cli/measurement/progress.hpp"
+#include "cli/measurement/rank_correlation.hpp"
+#include "cli/measurement/trial_files.hpp"
+#include "cli/report/text_table.hpp"
+#include "convex/nearest_name.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using convex::MethodKind;
+
+/// What `moreau chart` is told.
+struct ChartOptions : MeasurementOptions {
+  std::vector<std::string> files;
+  std::optional<std::string> relative_to;  ///< the method whose times are the unit
+  std::string error = "acceleration";      ///< what the error is of
+  bool profile = false;
+};
+
+/// A direct method has one accuracy; the others are asked for each of these, and no further once two in a row
+/// were not reached.
+constexpr double direct_setting = 1e-9;
+constexpr std::array ladder{1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
+                            1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
+
+/// With --quick only each third step.
+constexpr std::size_t quick_step = 3;
+
+TrialLimits chart_limits(const ChartOptions& options) {
+  return options.quick ? TrialLimits{0.005, 0.5} : TrialLimits{};
+}
+
+/// Keeps the contests of the method asked for.
+void keep_asked(std::vector<Contest>& contests, const std::string& only) {
+  if (only.empty()) return;
+  std::erase_if(contests, [&](const Contest& contest) { return contest.method != only; });
+}
+
+void require_method(const std::string& name, const std::vector<std::string>& known, const char* option) {
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  throw InvalidInput(std::string(option) + " " + name + ": there is no such method; did you mean \"" +
+                     convex::nearest_name(name, known) + "\"?");
+}
+
+void chart_one(const Contest& contest, const TrialLimits& limits, std::size_t step,
+               std::vector<Trial>& trials) {
+  const auto add = [&](const convex::Accuracy& accuracy) {
+    Trial next = trial(contest, accuracy, limits);
+    if (!Progress::interrupted()) trials.push_back(std::move(next));
+    return !Progress::interrupted();
+  };
+  if (contest.kind == MethodKind::iterative) {
+    int missed = 0;
+    for (std::size_t k = 0; k < ladder.size(); k += step) {
+      if (!add({.tolerance = ladder[k], .polish = false})) return;
+      const Trial& last = trials.back();
+      if (last.verdict() == Verdict::refused) return;
+      const bool reached = last.is_right() && last.judgement.error <= 10 * ladder[k];
+      missed = reached ? 0 : missed + 1;
+      if (missed == 2 || last.verdict() == Verdict::too_slow) break;
+    }
+    if (add({.tolerance = direct_setting}) && !trials.back().judgement.polished) trials.pop_back();
+    return;
+  }
+  // A direct method whose digits come from the judge has a marker more: its answer as it stands.
+  if (!add({.tolerance = direct_setting}) || !trials.back().judgement.polished) return;
+  if (add({.tolerance = direct_setting, .polish = false})) std::iter_swap(trials.end() - 1, trials.end() - 2);
+}
+
+std::vector<Trial> charted(const std::vector<ChartedProblem>& problems, const ChartOptions& options) {
+  const std::string only = options.method.value_or("");
+  std::vector<Trial> trials;
+  Progress progress(static_cast<int>(problems.size()));
+  for (const ChartedProblem& problem : problems) {
+    std::vector<Contest> contests = problem.contests();
+    keep_asked(contests, only);
+    for (const Contest& contest : contests) {
+      progress.now(problem.name + ": " + contest.method);
+      chart_one(contest, chart_limits(options), options.quick ? quick_step : 1, trials);
+      if (Progress::interrupted()) return trials;
+    }
+    progress.step();
+  }
+  return trials;
+}
+
+std::string digits_text(double error) {
+  if (!std::isfinite(error)) return "-";
+  return error > 0 ? fmt::format("{:.1f}", std::max(0.0, -std::log10(error))) : "exact";
+}
+
+/// Best on top: for each method its quickest right answer, or else its best.
+std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
+  std::string text;
+  std::vector<std::string> problems;
+  for (const Trial& t : trials)
+    if (problems.empty() || problems.back() != t.problem) problems.push_back(t.problem);
+  for (const std::string& problem : problems) {
+    std::vector<Trial> here;
+    for (const Trial& t : trials)
+      if (t.problem == problem && t.verdict() != Verdict::refused) here.push_back(t);
+    if (here.empty()) continue;
+    TextTable table({"method", "time", "digits", "verdict"});
+    std::vector<std::string> seen;
+    for (const Trial& t : ranked(here)) {
+      if (std::find(seen.begin(), seen.end(), t.method) != seen.end()) continue;
+      seen.push_back(t.method);
+      table.add({t.method, std::isfinite(t.seconds) ? fmt::format("{:.3g} s", t.seconds) : "-",
+                 digits_text(drawn.multipliers ? t.judgement.multiplier_error : t.judgement.error),
+                 verdict_text(t.verdict())});
+    }
+    text += fmt::format("{}: {} coordinates, {} contacts\n{}\n", problem, here.front().n, here.front().m,
+                        table.text());
+  }
+  return text;
+}
+
+std::vector<ChartedProblem> asked_problems(const ChartOptions& options) {
+  if (options.files.empty())
+    return options.profile ? profiled_problems(options.quick) : charted_problems(options.quick);
+  std::vector<ChartedProblem> problems;
+  for (const std::string& file : options.files) problems.push_back(charted_file(file));
+  return problems;
+}
+
+/// How alike this run and the committed data order the methods; "" where there is nothing to compare.
+std::string correlation_text(const std::vector<Trial>& trials) {
+  const std::optional<std::string> file = committed_data();
+  if (!file) return "";
+  std::vector<RankCorrelation> all = rank_correlations(trials, read_chart_csv(*file));
+  if (all.empty()) return "";
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  return fmt::format(
+      "Order of the methods beside docs/charts/speed_accuracy.csv: rank correlation {:.2f} in the median, "
+      "{:.2f} at least ({}).\n",
+      all[all.size() / 2].value, all.front().value, all.front().problem);
+}
+
+/// What is written: the data and the picture.
+void write_chart(const ChartOptions& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
+  if (options.data) {
+    write_file(*options.data, chart_csv(trials));
+    write_file(about_file(*options.data), measurement_json(trials, chart_limits(options)));
+  }
+  if (!options.output) return;
+  draw(*options.output, options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn));
+}
+
+Exit make_chart(const ChartOptions& options) {
+  const Source source{options.files.empty() ? "chart" : options.files.front(), ""};
+  return answered(options, source, [&] {
+    const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or("")};
+    if (options.output) require_drawable(*options.output);
+    const std::vector<ChartedProblem> problems = asked_problems(options);
+    const std::vector<std::string> known = contestant_names();
+    require_method(options.method.value_or(""), known, "--method");
+    require_method(drawn.relative_to, known, "--relative");
+    const std::vector<Trial> trials = charted(problems, options);
+    // Before the numbers kept are written over, as they may be.
+    const std::string correlation =
+        options.files.empty() && !options.profile ? correlation_text(trials) : std::string();
+    write_chart(options, trials, drawn);
+    if (options.quiet) return Exit::solved;
+    if (!options.output) fmt::print("{}", table_text(trials, drawn));
+    fmt::print("{}", correlation);
+    return Exit::solved;
+  });
+}
+
+}  // namespace
+
+void add_chart(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<ChartOptions>();
+  CLI::App& command =
+      add_command(program, "chart", "speed against accuracy, every method, one diagram a problem", chosen,
+                  [options] { return make_chart(*options); });
+  command.add_option("FILE", options->files, "problem files; without one, a set from the gallery");
+  command.add_option("--relative", options->relative_to, "times as multiples of this method's")
+      ->type_name("NAME");
+  command
+      .add_option("--error", options->error,
+                  "the error charted: that of the acceleration, or of the multipliers")
+      ->check(CLI::IsMember({"acceleration", "multipliers"}));
+  command.add_flag("--profile", options->profile,
+                   "performance profiles over the files, or over the whole gallery, small");
+  add_measurement(command, *options, "the table: problem, n, m, method, setting, seconds, error, status");
+}
+
+}  // namespace cli

@@ -1,0 +1,79 @@
+#include "cli/commands/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace cli {
+
+CLI::App& add_command(CLI::App& program, const char* name, const char* help, Work& chosen, Work work) {
+  CLI::App& command = *program.add_subcommand(name, help);
+  command.callback([&chosen, work = std::move(work)] { chosen = work; });
+  return command;
+}
+
+void add_printing(CLI::App& command, Printing& printing) {
+  command.add_flag("--json", printing.json, "one JSON object per file, one per line, on standard output");
+  command.add_flag("--quiet", printing.quiet, "no text; the exit code tells");
+}
+
+void add_files(CLI::App& command, FileOptions& options) {
+  command.add_option("FILE", options.files, "problem files; - is standard input")->required();
+  add_printing(command, options);
+}
+
+std::string positive_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0) return "";
+  return text + " is not a positive number; give one, such as 1e-9";
+}
+
+void add_accuracy(CLI::App& command, AccuracyOptions& options) {
+  command.add_option("--method", options.method, "method of solution (see `moreau methods`)")
+      ->type_name("NAME");
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "accept an error bound of X * max(1, ||q''||_A); default 1e-9")
+      ->type_name("X")
+      ->check(positive_number);
+  command
+      .add_option(
+          "--limit", options.limit,
+          "let fractions take N times their usual share (some seconds) where doubles cannot decide; 0: never")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void add_step_tolerance(CLI::App& command, MotionChoice& options) {
+  command.add_option("--tolerance", options.tolerance, "error of a step; default 1e-10")
+      ->type_name("X")
+      ->check(positive_number);
+}
+
+void add_function(CLI::App& command, FunctionOptions& options, bool needs_point) {
+  command
+      .add_option("f", options.expression,
+                  "a function of the call language, such as \"norm1(weight=2)\" (see `moreau functions`)")
+      ->required();
+  command.add_option("--at", options.at, "a point, such as \"[3, -1, 1/2]\"")
+      ->type_name("VECTOR")
+      ->required(needs_point);
+  command
+      .add_option(
+          "--metric", options.metric,
+          "the Gram matrix W of (x|y) = x.Wy: \"[[2, 1], [1, 2]]\", or \"diagonal [1, 2]\"; default identity")
+      ->type_name("MATRIX");
+}
+
+void add_measurement(CLI::App& command, MeasurementOptions& options, const char* columns) {
+  command.add_option("--method", options.method, "this method alone")->type_name("NAME");
+  command.add_option("--output", options.output, "the picture: F.svg or F.png (drawn by gnuplot)")
+      ->type_name("FILE");
+  command.add_option("--data", options.data, columns)->type_name("F.csv");
+  command.add_flag("--quick", options.quick, "fewer and smaller problems, half a minute at most");
+  command.add_flag("--quiet", options.quiet, "no text");
+}
+
+}  // namespace cli

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "cli/options.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cli {
+
+/// What the program is to do, once its command line is read.
+using Work = std::function<Exit()>;
+
+// Each command adds itself to the program, with its options; when it is the one called, its work goes to
+// `chosen`. One file a command, read as its help text.
+
+void add_solve(CLI::App& program, Work& chosen);
+void add_check(CLI::App& program, Work& chosen);
+void add_derive(CLI::App& program, Work& chosen);
+void add_simulate(CLI::App& program, Work& chosen);
+void add_orbit(CLI::App& program, Work& chosen);
+void add_prox(CLI::App& program, Work& chosen);
+void add_conjugate(CLI::App& program, Work& chosen);
+void add_functions(CLI::App& program, Work& chosen);
+void add_methods(CLI::App& program, Work& chosen);
+void add_gallery(CLI::App& program, Work& chosen);
+void add_chart(CLI::App& program, Work& chosen);
+void add_stress(CLI::App& program, Work& chosen);
+
+/// `moreau check --catalogue`: the laws over every set, function and operation of the language.
+Exit check_catalogue(const Printing&);
+
+// What several commands have.
+
+/// A command of this name; `work` is chosen when it is called.
+CLI::App& add_command(CLI::App& program, const char* name, const char* help, Work& chosen, Work work);
+
+/// --json and --quiet.
+void add_printing(CLI::App& command, Printing&);
+
+/// Problem files, and how their answers are printed.
+void add_files(CLI::App& command, FileOptions&);
+
+/// --method, --tolerance and --limit.
+void add_accuracy(CLI::App& command, AccuracyOptions&);
+
+/// --tolerance of a motion's steps.
+void add_step_tolerance(CLI::App& command, MotionChoice&);
+
+/// Of the text of an option: "", or what is wrong with it.
+std::string positive_number(const std::string& text);
+
+/// A function with a point and a metric, as `prox` and `conjugate` are asked for.
+struct FunctionOptions : Printing, AccuracyOptions {
+  std::string expression;             ///< a call of the language of functions
+  std::optional<std::string> at;      ///< a vector
+  std::optional<std::string> metric;  ///< a matrix, or "diagonal [1, 2]"
+};
+void add_function(CLI::App& command, FunctionOptions&, bool needs_point);
+
+/// A measurement with its picture and its table.
+struct MeasurementOptions : Printing {
+  std::optional<std::string> method;  ///< this one alone
+  std::optional<std::string> output, data;
+  bool quick = false;  ///< fewer problems, settings and repetitions
+};
+void add_measurement(CLI::App& command, MeasurementOptions&, const char* columns);
+
+}  // namespace cli

@@ -1,0 +1,139 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/each_file.hpp"
+#include "cli/function_language/domain_text.hpp"
+#include "cli/function_language/number_of_entries.hpp"
+#include "cli/function_language/parse_call.hpp"
+#include "cli/function_language/parse_metric.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+#include "convex/catalogue/catalogue.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using convex::Metric;
+using convex::Vector;
+
+struct ConjugateQuestion {
+  convex::Function f;
+  Metric W;
+  std::optional<Vector> y;
+};
+
+/// The function, the metric and the point of the command line; `source` tells which is being read.
+ConjugateQuestion read_question(const FunctionOptions& options, Source& source) {
+  std::optional<Vector> y;
+  std::optional<Metric> W;
+  if (options.at) {
+    source = {"--at", *options.at};
+    y = parse_vector(*options.at, "y");
+    if (y->size() == 0) throw InvalidInput("y: empty; give at least one number");
+    if (!y->allFinite()) throw InvalidInput("y: an entry is not finite; give finite numbers");
+  }
+  if (options.metric) {
+    source = {"--metric", *options.metric};
+    W = parse_metric(*options.metric);
+    if (y && W->dimension() != y->size())
+      throw InvalidInput(
+          fmt::format("metric: {} rows; give {}, one per entry of y", W->dimension(), y->size()));
+  }
+  source = {"f", options.expression};
+  const convex::Call call = parse_call(options.expression, "f");
+  if (!W) W = Metric::identity(y ? y->size() : number_of_entries(call));
+  return {convex::make_function(call, {*W}), *W, y};
+}
+
+/// Is the value right to the tolerance, relative to itself and at least 1? An infinite one is right when it
+/// is proved, with the error 0.
+convex::Status status_of(const std::optional<convex::Value>& value, const FunctionOptions& options) {
+  constexpr double default_tolerance = 1e-9;
+  if (!value) return convex::Status::solved;
+  const double size = std::isfinite(value->value) ? std::max(1.0, std::abs(value->value)) : 1;
+  const bool right = value->error <= options.tolerance.value_or(default_tolerance) * size;
+  return right ? convex::Status::solved : convex::Status::inaccurate;
+}
+
+/// What is known of g: where it is finite, and its value at the point of the question.
+struct ConjugateAnswer {
+  convex::Function g;
+  std::string domain;
+  std::optional<convex::Value> value;
+  convex::Status status = convex::Status::solved;
+};
+
+std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
+  const convex::Function& g = answer.g;
+  const std::string& domain = answer.domain;
+  JsonWriter json;
+  json.begin_object().key("kind").value("conjugate").key("status").value(name(answer.status));
+  json.key("f").value(to_text(question.f.call())).key("g").value(to_text(g.call()));
+  json.key("entries").value(question.W.dimension()).key("domain");
+  if (domain.empty())
+    json.null();
+  else
+    json.value(domain);
+  if (question.y) json.key("at").numbers(*question.y).key("value").value(answer.value->value);
+  if (question.y) json.key("error_bound").value(answer.value->error);
+  json.end_object();
+  return json.text();
+}
+
+std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
+  const convex::Function& g = answer.g;
+  const std::string& domain = answer.domain;
+  const bool plain = question.W.kind() == convex::MetricKind::identity;
+  std::string text = fmt::format("f = {}\ng = {}\n", to_text(question.f.call()), to_text(g.call()));
+  text += fmt::format(
+      "where g(y) = sup over x of {} - f(x){}\n", plain ? "x·y" : "x·Wy",
+      question.f.dimension() == 0 && plain ? "" : fmt::format(", with {} entries", question.W.dimension()));
+  text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
+  if (question.y) {
+    std::string entries;
+    for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);
+    text += fmt::format("g([{}]) = {}\n", entries, number_text(answer.value->value));
+    if (answer.status != convex::Status::solved)
+      text += fmt::format("NOT known to the accuracy that was asked for: its error may be {:.1e}.\n",
+                          answer.value->error);
+  }
+  return text;
+}
+
+Exit tell_conjugate(const FunctionOptions& options) {
+  Source source;
+  return answered(options, source, [&] {
+    const ConjugateQuestion question = read_question(options, source);
+    const convex::Function g = question.f.conjugate(question.W);
+    ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
+    if (question.y) answer.value = g.evaluate(*question.y);
+    answer.status = status_of(answer.value, options);
+    if (options.json)
+      fmt::print("{}\n", conjugate_json(question, answer));
+    else if (!options.quiet)
+      fmt::print("{}", conjugate_text(question, answer));
+    return exit_code(answer.status);
+  });
+}
+
+}  // namespace
+
+void add_conjugate(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<FunctionOptions>();
+  CLI::App& command =
+      add_command(program, "conjugate",
+                  "the conjugate g of a function, as an expression; where it is finite; its value at a point",
+                  chosen, [options] { return tell_conjugate(*options); });
+  add_function(command, *options, false);
+  add_printing(command, *options);
+}
+
+}  // namespace cli

@@ -1,0 +1,146 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/each_file.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/appell_function.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/scene.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::MetricKind;
+
+/// Above this many coordinates A is written as triplets.
+constexpr Index largest_full = 2000;
+
+/// Above this many coordinates a table is too wide for the screen, and a polynomial too long to read.
+constexpr Index widest = 12;
+
+std::string shortest_digits(double x) { return fmt::format("{}", x); }
+
+convex::SparseMatrix gram(const convex::Metric& A) {
+  if (A.kind() == MetricKind::dense) return A.dense_gram().sparseView(0, 0);
+  if (A.kind() == MetricKind::sparse) return A.sparse_gram();
+  convex::SparseMatrix diagonal(A.dimension(), A.dimension());
+  diagonal.reserve(Eigen::VectorXi::Constant(A.dimension(), 1));
+  for (Index i = 0; i < A.dimension(); ++i) diagonal.insert(i, i) = A.diagonal()[i];
+  return diagonal;
+}
+
+void write_full(JsonWriter& json, const convex::Matrix& A) {
+  json.begin_array();
+  for (Index i = 0; i < A.rows(); ++i) {
+    json.begin_array();
+    for (Index j = 0; j < A.cols(); ++j) json.value(A(i, j));
+    json.end_array();
+  }
+  json.end_array();
+}
+
+void write_triplets(JsonWriter& json, const convex::SparseMatrix& A) {
+  json.begin_object().key("triplets").begin_array();
+  for (Index j = 0; j < A.cols(); ++j)
+    for (convex::SparseMatrix::InnerIterator it(A, j); it; ++it)
+      json.begin_array().value(static_cast<Index>(it.row())).value(j).value(it.value()).end_array();
+  json.end_array().end_object();
+}
+
+std::string derive_json(const Scene& scene) {
+  const auto& [A, z, U, s, two_sided, radii] = scene.problem;
+  JsonWriter json;
+  json.begin_object().key("file").value(scene.file).key("names").begin_array();
+  for (const std::string& name : scene.coordinates) json.value(name);
+  json.end_array().key("A");
+  if (A.dimension() <= largest_full)
+    write_full(json, convex::Matrix(gram(A)));
+  else
+    write_triplets(json, gram(A));
+  json.key("z").numbers(scene.coordinates, z);
+  json.key("U").begin_object();
+  for (Index row = 0; row < U.count(); ++row) {
+    json.key(scene.contact_name(row));
+    if (A.dimension() <= largest_full) {
+      json.numbers(scene.coordinates, U.row(row));
+    } else {
+      const convex::Vector u = U.row(row);
+      json.begin_object();
+      for (Index i = 0; i < u.size(); ++i)
+        if (u[i] != 0) json.key(scene.coordinates[static_cast<std::size_t>(i)]).value(u[i]);
+      json.end_object();
+    }
+  }
+  json.end_object().key("s").numbers(scene.contact_names(), s);
+  json.key("two_sided").begin_array();
+  for (Index row : two_sided) json.value(scene.contact_name(row));
+  json.end_array().key("appell");
+  if (A.dimension() <= widest)
+    json.value(appell_function(scene, shortest_digits));
+  else
+    json.null();
+  return json.end_object().text();
+}
+
+std::string derive_text(const Scene& scene) {
+  const auto& [A, z, U, s, two_sided, radii] = scene.problem;
+  const std::string text = heading(scene.title, scene.file);
+  if (A.dimension() > widest)
+    return text +
+           fmt::format("{} coordinates, {} contacts: too wide for the screen; --json gives A, z, U and s.\n",
+                       A.dimension(), U.count());
+  std::vector<std::string> heading{"A q'' = z"};
+  heading.insert(heading.end(), scene.coordinates.begin(), scene.coordinates.end());
+  heading.emplace_back("z");
+  TextTable motion(heading);
+  const convex::Matrix full(gram(A));
+  for (Index i = 0; i < A.dimension(); ++i) {
+    std::vector<std::string> row{scene.coordinates[static_cast<std::size_t>(i)]};
+    for (Index j = 0; j < A.dimension(); ++j) row.push_back(number_text(full(i, j)));
+    row.push_back(number_text(z[i]));
+    motion.add(std::move(row));
+  }
+  heading.front() = "u·q'' >= s";
+  heading.back() = "s";
+  TextTable contacts(heading);
+  std::vector<bool> equal(static_cast<std::size_t>(U.count()), false);
+  for (Index row : two_sided) equal[static_cast<std::size_t>(row)] = true;
+  for (Index k = 0; k < U.count(); ++k) {
+    std::vector<std::string> row{scene.contact_name(k) + (equal[static_cast<std::size_t>(k)] ? " (=)" : "")};
+    const convex::Vector u = U.row(k);
+    for (Index j = 0; j < u.size(); ++j) row.push_back(number_text(u[j]));
+    row.push_back(number_text(s[k]));
+    contacts.add(std::move(row));
+  }
+  return text + motion.text() + "\n" + (U.count() > 0 ? contacts.text() : "  no contacts\n") +
+         "\nOf the accelerations that the contacts allow the true one makes Appell's function least:\n  " +
+         appell_function(scene, number_text) + " + a number without accelerations\n";
+}
+
+Exit derive_files(const FileOptions& options) {
+  return for_each_file(options, [&](const std::string& file) {
+    const Scene scene = read_scene(file, {});
+    if (options.json)
+      fmt::print("{}\n", derive_json(scene));
+    else if (!options.quiet)
+      fmt::print("{}", derive_text(scene));
+    return Exit::solved;
+  });
+}
+
+}  // namespace
+
+void add_derive(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<FileOptions>();
+  CLI::App& command = add_command(program, "derive", "A, z, U, s of a system at its state", chosen,
+                                  [options] { return derive_files(*options); });
+  add_files(command, *options);
+}
+
+}  // namespace cli

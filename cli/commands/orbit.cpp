@@ -1,0 +1,171 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/commands/orbit_branch.hpp"
+#include "cli/each_file.hpp"
+#include "cli/motion_files.hpp"
+#include "cli/motion_settings.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/scene.hpp"
+#include "mechanics/motion/orbit.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::InvalidInput;
+
+/// "a=2*pi" by coordinate, 0 where there is none.
+convex::Vector modulo(const Problem& problem, const mechanics::LagrangianSystem& system,
+                      const OrbitOptions& options) {
+  const std::vector<std::string>& coordinates = system.coordinates();
+  convex::Vector found = convex::Vector::Zero(static_cast<Index>(coordinates.size()));
+  for (const std::string& text : options.modulo) {
+    const std::size_t equals = text.find('=');
+    const auto place = std::find(coordinates.begin(), coordinates.end(), text.substr(0, equals));
+    if (equals == std::string::npos || place == coordinates.end())
+      throw InvalidInput("--modulo " + text + ": no coordinate and multiple; write --modulo \"a=2*pi\"");
+    const double multiple = value_of(problem, system, text.substr(equals + 1), "--modulo");
+    if (!(multiple > 0)) throw InvalidInput("--modulo " + text + ": the multiple is not positive");
+    found[place - coordinates.begin()] = multiple;
+  }
+  return found;
+}
+
+void write_numbers(JsonWriter& json, const std::vector<std::complex<double>>& numbers) {
+  json.begin_array();
+  for (const std::complex<double>& x : numbers)
+    json.begin_array().value(x.real()).value(x.imag()).end_array();
+  json.end_array();
+}
+
+std::string orbit_json(const std::string& file, const mechanics::LagrangianSystem& system,
+                       const mechanics::Orbit& orbit, double seconds) {
+  const std::vector<std::string>& coordinates = system.coordinates();
+  const std::vector<std::string> constraints = constraint_names(system);
+  JsonWriter json;
+  json.begin_object().key("file").value(file).key("kind").value("orbit");
+  json.key("status").value(orbit.is_found ? "solved" : "gave-up");
+  if (!orbit.is_found) json.key("why").value(orbit.why);
+  json.key("t").value(orbit.start.t).key("period").value(orbit.period);
+  json.key("position")
+      .numbers(coordinates, orbit.start.q)
+      .key("velocity")
+      .numbers(coordinates, orbit.start.v);
+  json.key("multipliers");
+  if (orbit.multipliers)
+    write_numbers(json, *orbit.multipliers);
+  else
+    json.null();
+  json.key("stable");
+  if (orbit.multipliers)
+    json.value(orbit.is_stable);
+  else
+    json.null();
+  json.key("impacts").begin_array();
+  for (const mechanics::MotionEvent& impact : orbit.impacts) {
+    json.begin_object().key("t").value(impact.t).key("constraints").begin_array();
+    for (const Index a : impact.constraints) json.value(constraints[static_cast<std::size_t>(a)]);
+    json.end_array().key("velocity_before").numbers(coordinates, impact.velocity_before);
+    json.key("velocity_after").numbers(coordinates, impact.velocity_after).end_object();
+  }
+  json.end_array().key("residual").value(orbit.residual).key("seconds").value(seconds);
+  return json.end_object().text();
+}
+
+std::string orbit_text(const std::string& head, const mechanics::LagrangianSystem& system,
+                       const mechanics::Orbit& orbit) {
+  std::string text = head;
+  if (!orbit.is_found) return text + "No orbit is found: " + orbit.why + ".\n";
+  text += fmt::format("The motion comes back after {}, {}.\n\n", orbit.period,
+                      !orbit.multipliers ? "its stability is not determined"
+                      : orbit.is_stable  ? "and is stable"
+                                         : "and is unstable");
+  TextTable state({fmt::format("at t = {}", orbit.start.t), "q", "q'"});
+  for (std::size_t i = 0; i < system.coordinates().size(); ++i)
+    state.add({system.coordinates()[i], fmt::format("{}", orbit.start.q[static_cast<Index>(i)]),
+               fmt::format("{}", orbit.start.v[static_cast<Index>(i)])});
+  text += state.text() + "\nMultipliers:";
+  if (!orbit.multipliers)
+    text += " none; events on the way change however little the start is moved.\n";
+  else
+    for (const auto& m : *orbit.multipliers)
+      text += m.imag() == 0 ? fmt::format(" {}", number_text(m.real()))
+                            : fmt::format(" {}{}{}i", number_text(m.real()), m.imag() < 0 ? "-" : "+",
+                                          number_text(std::abs(m.imag())));
+  text += fmt::format("\n{} impacts a period; the start is missed by {}.\n", orbit.impacts.size(),
+                      number_text(orbit.residual));
+  return text;
+}
+
+Answer orbit_file(const std::string& file, const OrbitOptions& options) {
+  const Problem problem = read_problem_file(file);
+  const auto* text = std::get_if<SystemProblem>(&problem.content);
+  if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
+  require_event_driven(problem.simulate, options);
+  if (!options.period)
+    throw InvalidInput("--period is missing; give the forcing's, --period \"2*pi/w\", or --period free");
+  const auto start = std::chrono::steady_clock::now();
+  const auto system = mechanics::lagrangian_system(text->system);
+  mechanics::OrbitQuestion question;
+  question.motion = motion_options(problem, *system, options);
+  question.modulo = modulo(problem, *system, options);
+  question.is_free = *options.period == "free";
+  if (!question.is_free) {
+    const double period = value_of(problem, *system, *options.period, "--period");
+    if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive");
+    question.period = period * static_cast<double>(options.periods);
+  }
+  if (options.over) return orbit_branch(file, problem, question, options);
+  const mechanics::State guess = system->state(text->state);
+  mechanics::Orbit orbit;
+  try {
+    mechanics::Motion motion(*system, guess, question.motion);
+    orbit = mechanics::find_orbit(*system, guess, question);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {orbit.is_found ? Exit::solved : Exit::inaccurate,
+          options.json ? orbit_json(file, *system, orbit, seconds) + "\n"
+                       : orbit_text(heading(problem.title, file), *system, orbit)};
+}
+
+Exit orbit_files(const OrbitOptions& options) {
+  return print_for_each_file(options, [&](const std::string& file) { return orbit_file(file, options); });
+}
+
+}  // namespace
+
+void add_orbit(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<OrbitOptions>();
+  CLI::App& command =
+      add_command(program, "orbit", "a motion that comes back to itself: its state and multipliers", chosen,
+                  [options] { return orbit_files(*options); });
+  add_files(command, *options);
+  command
+      .add_option("--period", options->period,
+                  "the forcing's period, an expression in the parameters, or free: unknown")
+      ->type_name("P");
+  command.add_option("--periods", options->periods, "it comes back after so many periods; default 1")
+      ->type_name("K")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--modulo", options->modulo, "a coordinate that comes back up to a multiple: \"a=2*pi\"")
+      ->type_name("a=M");
+  command.add_option("--over", options->over, "the orbit continued over a parameter: \"w=1:0.01:3\"")
+      ->type_name("w=A:S:B");
+  command.add_option("--output", options->output, "the branch of --over as a table")->type_name("F.csv");
+  add_step_tolerance(command, *options);
+}
+
+}  // namespace cli

@@ -1,0 +1,109 @@
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/drawing/decomposition_drawing.hpp"
+#include "cli/each_file.hpp"
+#include "cli/report/cone_report.hpp"
+#include "cli/report/decomposition_report.hpp"
+#include "cli/report/singular_report.hpp"
+#include "cli/report/solve_progress.hpp"
+#include "cli/resolved_scene.hpp"
+
+namespace cli {
+namespace {
+
+/// What `moreau solve` is told.
+struct SolveOptions : FileOptions, SceneOptions {
+  bool sensitivity = false;
+  bool null_space = false;          ///< of the multipliers, in JSON
+  bool certify = false;             ///< a proved error bound, or that there is no solution
+  std::optional<std::string> plot;  ///< a picture to write
+};
+
+Answer solve_scene(Scene scene, const SolveOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool proved = scene.solve.method->name == "exact" || options.certify;
+  std::optional<SolveProgress> progress(std::in_place);
+  ProvedScene resolved = resolve_and_prove(scene, options.certify);
+  mechanics::CertifiedSolution& found = resolved.found;
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  // Part of reading the mechanism, like the evaluation whose rounding it is about.
+  std::optional<double> as_evaluated;
+  if (scene.written && found.certificate.level == convex::ProofLevel::none) {
+    as_evaluated = count_evaluation_error(scene, found.solution);
+    found.certificate.error_bound = found.solution.primal.error_bound;
+  }
+  progress.reset();
+  SolvedScene solved =
+      solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);
+  solved.null_space = options.null_space;
+  solved.sensitivity = options.sensitivity;
+  solved.as_evaluated = as_evaluated;
+  if (proved) solved.certificate = found.certificate;
+  if (found.exact) solved.exact = &*found.exact;
+  solved.farkas = found.farkas;
+  if (found.text) solved.text = &*found.text;
+  solved.warnings = std::move(resolved.warnings);
+  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  if (options.plot) draw(*options.plot, decomposition_drawing(solved));
+  Exit exit = exit_code(found.solution.primal.status);
+  if (options.certify && found.certificate.level == convex::ProofLevel::none)
+    exit = std::max(exit, Exit::inaccurate);
+  return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
+}
+
+Answer solve_file(const std::string& file, const SolveOptions& options) {
+  if (options.plot) require_drawable(*options.plot);
+  Problem problem = read_problem_file(file);
+  if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
+    require_applicable(problem.solve, options, options.certify);
+    const SplitPoint split = split_point(*decomposition, problem.solve, options);
+    return {exit_code(split.split.status),
+            options.json ? split_json(split, file) + "\n" : heading(problem.title, file) + split_text(split)};
+  }
+  if (const auto* cone = std::get_if<ConeProblem>(&problem.content)) {
+    require_cone_settings(problem.solve, options);
+    const SolvedCone solved = solve_cone(*cone);
+    return {Exit::solved,
+            options.json ? cone_json(solved, file) + "\n" : heading(problem.title, file) + cone_text(solved)};
+  }
+  return solve_scene(make_scene(std::move(problem), file, options), options);
+}
+
+Exit solve_files(const SolveOptions& options) {
+  return print_for_each_file(options, [&](const std::string& file) { return solve_file(file, options); });
+}
+
+}  // namespace
+
+void add_solve(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<SolveOptions>();
+  CLI::App& command =
+      add_command(program, "solve", "which contacts persist, with which acceleration and reactions", chosen,
+                  [options] { return solve_files(*options); });
+  add_files(command, *options);
+  add_accuracy(command, *options);
+  command.add_flag("--ranges", options->ranges,
+                   "ranges of multipliers that are not unique, also beyond 1000 contacts");
+  command
+      .add_option_function<std::string>(
+          "--model", [options](const std::string& model) { options->full_model = model == "full"; },
+          "reduced (default): no more than the scene needs; full: the whole at once, and what that costs")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"reduced", "full"}));
+  command.add_flag("--null-space", options->null_space,
+                   "a basis of the changes of multipliers that no motion feels, in --json");
+  command.add_flag("--sensitivity", options->sensitivity,
+                   "with --json: derivatives by forces and bounds, and margins of the contacts");
+  command.add_flag("--certify", options->certify, "a proved error bound; exit 3 without proof");
+  command
+      .add_option("--plot", options->plot,
+                  "the decomposition drawn, for two coordinates: F.svg or F.png (by gnuplot)")
+      ->type_name("FILE");
+}
+
+}  // namespace cli

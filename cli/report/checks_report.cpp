@@ -1,0 +1,36 @@
+#include "cli/report/checks_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/report/json_writer.hpp"
+
+namespace cli {
+
+void write_checks(JsonWriter& json, const convex::LawReport& report) {
+  json.key("checks").begin_array();
+  for (const convex::Check& check : report.checks) {
+    json.begin_object().key("name").value(check.name).key("value").value(check.value);
+    json.key("bound").value(check.bound).key("passed").value(check.passed);
+    if (!check.counterexample.empty()) json.key("counterexample").value(check.counterexample);
+    json.end_object();
+  }
+  json.end_array().key("no_evidence").begin_array();
+  for (const std::string& line : report.no_evidence) json.value(line);
+  json.end_array();
+}
+
+std::string checks_text(const convex::LawReport& report) {
+  const auto failed = std::count_if(report.checks.begin(), report.checks.end(),
+                                    [](const convex::Check& check) { return !check.passed; });
+  return report.text() +
+         (failed > 0 ? fmt::format("\n{} of {} laws FAILED.\n", failed, report.checks.size())
+                     : fmt::format("\nAll {} laws hold within their bounds.\n", report.checks.size()));
+}
+
+Exit exit_code(const convex::LawReport& report, convex::Status status) {
+  return report.all_passed() ? exit_code(status) : Exit::no_solution;
+}
+
+}  // namespace cli

@@ -1,0 +1,105 @@
+#include "cli/report/impact_laws_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/motion_files.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using mechanics::ImpactLaw;
+using mechanics::ImpactOutcome;
+using mechanics::ImpactScene;
+
+/// T+ = T- + (v+ - v-)·(A (v+ + v-)/2 + b).
+double kinetic_after(const ImpactScene& scene, const ImpactOutcome& outcome) {
+  const convex::Vector middle = scene.velocity + 0.5 * outcome.change;
+  return scene.kinetic + outcome.change.dot(scene.A.multiply(middle) + scene.b);
+}
+
+std::string trouble(const FollowedMotion& followed, const ImpactScene& scene, const ImpactOutcome& outcome) {
+  if (outcome.excluding.empty()) return std::string(outcome.undetermined);
+  const std::vector<std::string> names = constraint_names(followed.system);
+  std::string text = "no velocity satisfies";
+  for (const Index k : outcome.excluding)
+    text += " " + names[static_cast<std::size_t>(scene.constraints[static_cast<std::size_t>(k)])];
+  return text;
+}
+
+std::vector<std::string> contact_names(const FollowedMotion& followed, const ImpactScene& scene) {
+  const std::vector<std::string> names = constraint_names(followed.system);
+  std::vector<std::string> chosen;
+  for (const Index a : scene.constraints) chosen.push_back(names[static_cast<std::size_t>(a)]);
+  return chosen;
+}
+
+}  // namespace
+
+std::string impact_laws_json(const FollowedMotion& followed) {
+  JsonWriter json;
+  json.begin_object().key("file").value(followed.file).key("kind").value("system");
+  const auto& scene = followed.motion.record().first_impact;
+  if (!scene) {
+    json.key("status").value("stopped").key("why").value("there is no impact before the end");
+    return json.end_object().text();
+  }
+  const std::vector<std::string> contacts = contact_names(followed, *scene);
+  json.key("status").value("done").key("t").value(scene->t).key("velocity_before");
+  json.numbers(followed.system.coordinates(), scene->velocity).key("kinetic_before").value(scene->kinetic);
+  json.key("laws").begin_object();
+  for (const ImpactLaw law : mechanics::impact_laws) {
+    const ImpactOutcome outcome = mechanics::impact(scene->A, scene->contacts, law);
+    json.key(mechanics::name(law)).begin_object();
+    if (const std::string why = trouble(followed, *scene, outcome); !why.empty()) {
+      json.key("why").value(why).end_object();
+      continue;
+    }
+    json.key("velocity_after").numbers(followed.system.coordinates(), scene->velocity + outcome.change);
+    json.key("impulses").numbers(contacts, outcome.impulse);
+    json.key("kinetic_after").value(kinetic_after(*scene, outcome));
+    if (!outcome.remark.empty()) json.key("remark").value(outcome.remark);
+    json.end_object();
+  }
+  return json.end_object().end_object().text();
+}
+
+std::string impact_laws_text(const FollowedMotion& followed) {
+  std::string text = heading(followed.title, followed.file);
+  const auto& scene = followed.motion.record().first_impact;
+  if (!scene) return text + fmt::format("There is no impact before t = {}.\n", followed.motion.state().t);
+  text += fmt::format("The first impact is at t = {}; T before it is {}.\n\n", scene->t,
+                      number_text(scene->kinetic));
+  std::vector<std::string> head{"", "before"};
+  std::vector<ImpactOutcome> outcomes;
+  std::string said;
+  for (const ImpactLaw law : mechanics::impact_laws) {
+    head.emplace_back(mechanics::name(law));
+    outcomes.push_back(mechanics::impact(scene->A, scene->contacts, law));
+    std::string why = trouble(followed, *scene, outcomes.back());
+    if (why.empty()) why = std::string(outcomes.back().remark);
+    if (!why.empty()) said += std::string(mechanics::name(law)) + ": " + why + ".\n";
+  }
+  TextTable table(head);
+  const auto add = [&](const std::string& what, const std::string& before, auto&& number) {
+    std::vector<std::string> row{what, before};
+    for (const ImpactOutcome& outcome : outcomes)
+      row.push_back(outcome.change.size() > 0 ? number_text(number(outcome)) : "");
+    table.add(std::move(row));
+  };
+  for (Index i = 0; i < scene->velocity.size(); ++i)
+    add(followed.system.coordinates()[static_cast<std::size_t>(i)] + "'", number_text(scene->velocity[i]),
+        [&](const ImpactOutcome& outcome) { return scene->velocity[i] + outcome.change[i]; });
+  const std::vector<std::string> contacts = contact_names(followed, *scene);
+  for (std::size_t a = 0; a < contacts.size(); ++a)
+    add("P of " + contacts[a], "",
+        [&](const ImpactOutcome& outcome) { return outcome.impulse[static_cast<Index>(a)]; });
+  add("T", number_text(scene->kinetic),
+      [&](const ImpactOutcome& outcome) { return kinetic_after(*scene, outcome); });
+  return text + table.text() + (said.empty() ? "" : "\n" + said);
+}
+
+}  // namespace cli

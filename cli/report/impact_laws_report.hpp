@@ -1,0 +1,11 @@
+#pragma once
+
+#include "cli/report/motion_report.hpp"
+
+namespace cli {
+
+/// v+, P and T+ of every law of impact at the first impact of a motion.
+std::string impact_laws_json(const FollowedMotion&);
+std::string impact_laws_text(const FollowedMotion&);
+
+}  // namespace cli

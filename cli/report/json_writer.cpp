@@ -1,0 +1,101 @@
+#include "cli/report/json_writer.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace cli {
+
+void JsonWriter::separate() {
+  if (needs_comma_) text_ += ',';
+  needs_comma_ = true;
+}
+
+JsonWriter& JsonWriter::open(char bracket) {
+  separate();
+  text_ += bracket;
+  needs_comma_ = false;
+  return *this;
+}
+
+JsonWriter& JsonWriter::close(char bracket) {
+  text_ += bracket;
+  needs_comma_ = true;
+  return *this;
+}
+
+JsonWriter& JsonWriter::key(std::string_view name) {
+  separate();
+  quote(name);
+  text_ += ':';
+  needs_comma_ = false;
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(double number) {
+  if (std::isinf(number)) return value(number > 0 ? "inf" : "-inf");
+  if (std::isnan(number)) return null();
+  separate();
+  std::array<char, 32> digits{};
+  const double positive_zero = number + 0.0;  // -0 is 0
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), positive_zero).ptr;
+  text_.append(digits.data(), end);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(convex::Index number) {
+  separate();
+  text_ += std::to_string(number);
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(bool truth) {
+  separate();
+  text_ += truth ? "true" : "false";
+  return *this;
+}
+
+JsonWriter& JsonWriter::value(std::string_view text) {
+  separate();
+  quote(text);
+  return *this;
+}
+
+JsonWriter& JsonWriter::null() {
+  separate();
+  text_ += "null";
+  return *this;
+}
+
+JsonWriter& JsonWriter::numbers(const std::vector<std::string>& names, const convex::Vector& x) {
+  begin_object();
+  for (std::size_t i = 0; i < names.size(); ++i) key(names[i]).value(x[static_cast<convex::Index>(i)]);
+  return end_object();
+}
+
+JsonWriter& JsonWriter::numbers(const convex::Vector& x) {
+  begin_array();
+  for (convex::Index i = 0; i < x.size(); ++i) value(x[i]);
+  return end_array();
+}
+
+void JsonWriter::quote(std::string_view text) {
+  text_ += '"';
+  for (char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      text_ += '\\';
+      text_ += c;
+    } else if (code < 0x20U) {
+      constexpr std::string_view hex = "0123456789abcdef";
+      text_ += "\\u00";
+      text_ += hex[code >> 4U];
+      text_ += hex[code & 15U];
+    } else {
+      text_ += c;
+    }
+  }
+  text_ += '"';
+}
+
+}  // namespace cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "cli/report/json_writer.hpp"
+#include "cli/report/solve_report.hpp"
+
+namespace cli {
+
+/// What was solved: `{"islands": [{"method", "first_coordinate", "coordinates", "contacts", "flops",
+/// "factor_nonzeros"}], "left_out": [{"constraint", "why"}], "flops"}`, and under --model full
+/// `"reduced": {"islands", "left_out", "flops", "difference"}`, what the reductions would have made of it.
+void write_model(JsonWriter&, const SolvedScene&);
+
+/// The same in a few lines.
+std::string model_text(const SolvedScene&);
+
+}  // namespace cli

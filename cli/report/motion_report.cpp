@@ -1,0 +1,125 @@
+#include "cli/report/motion_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/motion_files.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using mechanics::MotionStatus;
+
+bool is_stopped(const FollowedMotion& followed) {
+  return followed.interrupted || followed.motion.status() == MotionStatus::stopped;
+}
+
+std::string reason(const FollowedMotion& followed) {
+  return followed.motion.status() == MotionStatus::done ? "interrupted" : followed.motion.why();
+}
+
+std::string status(const FollowedMotion& followed) {
+  if (followed.motion.status() == MotionStatus::infeasible) return "infeasible";
+  return is_stopped(followed) ? "stopped" : "done";
+}
+
+std::string joined(const std::vector<Index>& constraints, const std::vector<std::string>& names) {
+  std::string text;
+  for (const Index a : constraints) text += (text.empty() ? "" : ", ") + names[static_cast<std::size_t>(a)];
+  return text;
+}
+
+}  // namespace
+
+Exit motion_exit(const FollowedMotion& followed) {
+  if (followed.motion.status() == MotionStatus::infeasible) return Exit::no_solution;
+  return is_stopped(followed) ? Exit::inaccurate : Exit::solved;
+}
+
+std::string motion_json(const FollowedMotion& followed) {
+  const mechanics::Motion& motion = followed.motion;
+  const mechanics::MotionRecord& record = motion.record();
+  const std::vector<std::string>& coordinates = followed.system.coordinates();
+  const std::vector<std::string> constraints = constraint_names(followed.system);
+  const mechanics::State& state = motion.state();
+  JsonWriter json;
+  json.begin_object().key("file").value(followed.file).key("kind").value("system");
+  json.key("status").value(status(followed));
+  if (status(followed) != "done") json.key("why").value(reason(followed));
+  if (motion.status() == MotionStatus::infeasible) {
+    json.key("constraints").begin_array();
+    for (const Index a : motion.excluding()) json.value(constraints[static_cast<std::size_t>(a)]);
+    json.end_array();
+  }
+  json.key("method").value("event-driven").key("t").value(state.t);
+  json.key("position").numbers(coordinates, state.q).key("velocity").numbers(coordinates, state.v);
+  const bool is_known = motion.acceleration().size() == state.q.size();
+  json.key("acceleration");
+  is_known ? json.numbers(coordinates, motion.acceleration()) : json.null();
+  json.key("multipliers");
+  is_known ? json.numbers(constraints, motion.multipliers()) : json.null();
+  json.key("energy").value(motion.energy());
+  json.key("events").value(static_cast<Index>(record.events));
+  json.key("impacts").value(static_cast<Index>(record.impacts));
+  json.key("steps").value(static_cast<Index>(record.steps));
+  json.key("penetration").value(record.largest_penetration);
+  json.key("impact_energy").value(record.impact_energy).key("ledger_energy").value(record.ledger_energy);
+  json.key("remarks").begin_array();
+  for (const mechanics::MotionRemark& remark : record.remarks)
+    json.begin_object().key("t").value(remark.t).key("message").value(remark.what).end_object();
+  json.end_array().key("seconds").value(followed.seconds);
+  return json.end_object().text();
+}
+
+std::string motion_text(const FollowedMotion& followed) {
+  const mechanics::Motion& motion = followed.motion;
+  const mechanics::MotionRecord& record = motion.record();
+  const std::vector<std::string> constraints = constraint_names(followed.system);
+  const mechanics::State& state = motion.state();
+  std::string text = heading(followed.title, followed.file);
+  if (status(followed) == "done")
+    text += fmt::format("The motion is followed to t = {}.\n\n", state.t);
+  else
+    text += fmt::format(
+        "The motion is {} at t = {}: {}.\n{}\n", status(followed), state.t, reason(followed),
+        motion.excluding().empty()
+            ? ""
+            : "Constraints that exclude each other: " + joined(motion.excluding(), constraints) + ".\n");
+  if (!followed.first_events.empty()) {
+    TextTable events({"event", "t", "constraints"});
+    for (const mechanics::MotionEvent& event : followed.first_events)
+      events.add(
+          {mechanics::name(event.kind), fmt::format("{}", event.t), joined(event.constraints, constraints)});
+    text += events.text();
+    if (record.events > static_cast<long>(followed.first_events.size()))
+      text += fmt::format("  … {} more; --events F.jsonl has them all\n",
+                          record.events - static_cast<long>(followed.first_events.size()));
+    text += "\n";
+  }
+  TextTable end({"", "q", "q'", "q''"});
+  const bool is_known = motion.acceleration().size() == state.q.size();
+  for (std::size_t i = 0; i < followed.system.coordinates().size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(state.v[k]),
+             is_known ? number_text(motion.acceleration()[k]) : ""});
+  }
+  text += end.text();
+  text += fmt::format("\n{} steps, {} events, {} of them impacts. T + V = {}.\n", record.steps, record.events,
+                      record.impacts, number_text(motion.energy()));
+  if (record.impacts > 0)
+    text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",
+                        number_text(record.impact_energy), number_text(record.ledger_energy));
+  text += fmt::format("Largest penetration, relative to the scale of f: {}{}.\n",
+                      number_text(record.largest_penetration),
+                      record.most_penetrated < 0
+                          ? ""
+                          : " (" + constraints[static_cast<std::size_t>(record.most_penetrated)] + ")");
+  for (const mechanics::MotionRemark& remark : record.remarks)
+    text += fmt::format("At t = {}: {}.\n", number_text(remark.t), remark.what);
+  return text;
+}
+
+}  // namespace cli

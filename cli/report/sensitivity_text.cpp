@@ -1,0 +1,113 @@
+#include "cli/report/sensitivity_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/report/text_table.hpp"
+#include "convex/nearest_point/multipliers/sensitivity.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::Vector;
+
+/// Wider and longer tables are left to --json.
+constexpr Index most_columns = 8, most_directions = 20;
+
+std::optional<convex::Derivative> derivative(const SolvedScene& solved, const Vector& dz, const Vector& ds) {
+  return convex::directional_derivative(solved.scene.problem, solved.solution.primal,
+                                        solved.solution.multipliers, dz, ds);
+}
+
+/// Whether one unit less does the opposite of one more.
+bool is_linear(const convex::Derivative& more, const convex::Derivative& less) {
+  constexpr double close = 1e-9;
+  const auto opposite = [](const Vector& x, const Vector& y) {
+    return (x + y).cwiseAbs().maxCoeff() <= close * x.cwiseAbs().maxCoeff();
+  };
+  return opposite(more.acceleration, less.acceleration) &&
+         more.multipliers.has_value() == less.multipliers.has_value() &&
+         (!more.multipliers || more.multipliers->size() == 0 ||
+          opposite(*more.multipliers, *less.multipliers));
+}
+
+class DerivativeTable {
+ public:
+  explicit DerivativeTable(const SolvedScene& solved) : solved_(solved), table_(head(solved)) {}
+
+  void add(const std::string& what, const Vector& dz, const Vector& ds) {
+    const auto more = derivative(solved_, dz, ds), less = derivative(solved_, -dz, -ds);
+    if (more && less && is_linear(*more, *less)) {
+      add_row("a unit more of " + what, more);
+      return;
+    }
+    add_row("a unit more of " + what, more);
+    add_row("a unit less of " + what, less);
+  }
+
+  std::string text() const { return table_.text(); }
+
+ private:
+  static std::vector<std::string> head(const SolvedScene& solved) {
+    std::vector<std::string> names{"changes"};
+    for (const std::string& coordinate : solved.scene.coordinates) names.push_back(coordinate + "''");
+    for (Index row = 0; row < solved.scene.problem.rows(); ++row)
+      names.push_back("lambda " + solved.scene.contact_name(row));
+    return names;
+  }
+
+  void add_row(const std::string& what, const std::optional<convex::Derivative>& by) {
+    std::vector<std::string> row{what};
+    const Index n = solved_.scene.problem.dimension(), m = solved_.scene.problem.rows();
+    for (Index i = 0; i < n; ++i) row.push_back(by ? number_text(by->acceleration[i]) : "-");
+    for (Index a = 0; a < m; ++a)
+      row.push_back(by && by->multipliers ? number_text((*by->multipliers)[a]) : "-");
+    table_.add(std::move(row));
+  }
+
+  const SolvedScene& solved_;
+  TextTable table_;
+};
+
+std::string derivatives_text(const SolvedScene& solved) {
+  const Index n = solved.scene.problem.dimension(), m = solved.scene.problem.rows();
+  if (n + m > most_columns || n + m > most_directions)
+    return fmt::format("Derivatives by {} forces and bounds: --json gives them.\n", n + m);
+  DerivativeTable table(solved);
+  for (Index i = 0; i < n; ++i)
+    table.add("the force on " + solved.scene.coordinates[static_cast<std::size_t>(i)], Vector::Unit(n, i),
+              Vector::Zero(m));
+  for (Index a = 0; a < m; ++a)
+    table.add("the bound of " + solved.scene.contact_name(a), Vector::Zero(n), Vector::Unit(m, a));
+  return "What changes, and by how much, until a contact opens or closes:\n" + table.text();
+}
+
+std::string margins_text(const SolvedScene& solved) {
+  const auto margins =
+      convex::margins(solved.scene.problem, solved.solution.primal, solved.solution.multipliers);
+  if (!margins) return "The multipliers are not unique: no margins.\n";
+  Index nearest = -1;
+  for (Index a = 0; a < margins->size(); ++a)
+    if (std::isfinite((*margins)[a]) && (nearest < 0 || (*margins)[a] < (*margins)[nearest])) nearest = a;
+  if (nearest < 0) return "No change of forces opens or closes a contact.\n";
+  TextTable table({"contact", "opens or closes when forces change by"});
+  const Index shown = std::min(margins->size(), most_directions);
+  for (Index a = 0; a < shown; ++a)
+    table.add(
+        {solved.scene.contact_name(a), std::isfinite((*margins)[a]) ? number_text((*margins)[a]) : "never"});
+  const ConstraintState state = solved.state_of_row(nearest);
+  return table.text() + fmt::format("in the norm of A⁻¹; the first to {} is {}.\n",
+                                    state == ConstraintState::opens ? "close" : "open",
+                                    solved.scene.contact_name(nearest));
+}
+
+}  // namespace
+
+std::string sensitivity_text(const SolvedScene& solved) {
+  if (!solved.sensitivity) return "";
+  return "\n" + derivatives_text(solved) + "\n" + margins_text(solved);
+}
+
+}  // namespace cli

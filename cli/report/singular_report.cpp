@@ -1,0 +1,134 @@
+#include "cli/report/singular_report.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/report/verdict_text.hpp"
+#include "mechanics/near_contact.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using mechanics::Warning;
+
+const char* name(Warning::Kind kind) {
+  switch (kind) {
+    case Warning::Kind::near_contact:
+      return "near-contact";
+    case Warning::Kind::singular:
+      return "singular";
+    case Warning::Kind::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+std::vector<Index> touching(const SolvedScene& solved) {
+  std::vector<Index> found;
+  for (std::size_t a = 0; a < solved.states.size(); ++a)
+    if (solved.states[a] == ConstraintState::touches) found.push_back(static_cast<Index>(a));
+  return found;
+}
+
+std::string names(const SolvedScene& solved, const std::vector<Index>& constraints) {
+  std::vector<std::string> chosen;
+  for (const Index a : constraints) chosen.push_back(solved.scene.constraints[static_cast<std::size_t>(a)]);
+  return listed(chosen);
+}
+
+/// The multiplier of an added row, or its weight in a contradiction; none without an answer.
+std::optional<double> multiplier(const SolvedScene& solved, std::size_t added) {
+  const auto row = static_cast<Index>(solved.scene.contacts.size() + added);
+  const convex::Vector& all =
+      solved.infeasible() ? solved.solution.primal.farkas : solved.solution.multipliers.least_norm;
+  return row < all.size() ? std::optional(all[row]) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Warning> contact_warnings(const SolvedScene& solved) {
+  std::vector<Warning> found;
+  const Scene& scene = solved.scene;
+  if (!scene.system || !solved.has_answer()) return found;
+  if (auto near = mechanics::near_contacts(*scene.system, scene.state, {scene.contacts, *scene.rates},
+                                           solved.solution.primal.q))
+    found.push_back(std::move(*near));
+  if (const std::vector<Index> only_touch = touching(solved); !only_touch.empty())
+    found.push_back({Warning::Kind::undecided, only_touch,
+                     names(solved, only_touch) +
+                         ": neither presses nor opens to second order, multiplier and d²f/dt² are 0; higher "
+                         "derivatives decide whether contact lasts, so look a moment later"});
+  return found;
+}
+
+void write_warnings(JsonWriter& json, const SolvedScene& solved) {
+  json.key("warnings").begin_array();
+  for (const Warning& warning : solved.warnings) {
+    json.begin_object().key("kind").value(name(warning.kind)).key("constraints").begin_array();
+    for (const Index a : warning.constraints)
+      json.value(solved.scene.constraints[static_cast<std::size_t>(a)]);
+    json.end_array().key("message").value(warning.message).end_object();
+  }
+  json.end_array();
+}
+
+void write_added_rows(JsonWriter& json, const SolvedScene& solved) {
+  const Scene& scene = solved.scene;
+  if (scene.added.empty()) return;
+  json.key("added_rows").begin_array();
+  for (std::size_t k = 0; k < scene.added.size(); ++k) {
+    json.begin_object().key("weights").begin_object();
+    for (const auto& [constraint, weight] : scene.added[k].weights)
+      json.key(scene.constraints[static_cast<std::size_t>(constraint)]).value(weight);
+    json.end_object().key("row").numbers(scene.coordinates, scene.added[k].row);
+    json.key("rhs").value(scene.added[k].rhs).key("multiplier");
+    if (const auto lambda = multiplier(solved, k))
+      json.value(*lambda).end_object();
+    else
+      json.null().end_object();
+  }
+  json.end_array();
+}
+
+std::string added_rows_text(const SolvedScene& solved) {
+  const Scene& scene = solved.scene;
+  std::string text;
+  for (std::size_t k = 0; k < scene.added.size(); ++k) {
+    std::vector<std::string> weighed;
+    for (const auto& [constraint, weight] : scene.added[k].weights)
+      weighed.push_back(fmt::format("{} of {}", number_text(weight),
+                                    scene.constraints[static_cast<std::size_t>(constraint)]));
+    std::vector<std::string> terms;
+    for (Index i = 0; i < scene.added[k].row.size(); ++i)
+      if (scene.added[k].row[i] != 0)
+        terms.push_back(fmt::format("{} {}''", number_text(scene.added[k].row[i]),
+                                    scene.coordinates[static_cast<std::size_t>(i)]));
+    text += fmt::format(
+        "Second derivatives do not tell the motion here (theory.md, B.8). Added row {}, from the third ones "
+        "({}): the sum of {} is {}; multiplier {}.\n",
+        k + 1, listed(weighed), listed(terms), number_text(scene.added[k].rhs),
+        number_text(multiplier(solved, k).value_or(std::numeric_limits<double>::quiet_NaN())));
+  }
+  return text;
+}
+
+std::string touching_text(const SolvedScene& solved) {
+  const std::vector<Index> only_touch = touching(solved);
+  if (only_touch.empty() || !solved.scene.system) return "";
+  return names(solved, only_touch) +
+         (only_touch.size() == 1 ? ": neither presses nor opens to second order; higher derivatives decide.\n"
+                                 : ": neither press nor open to second order; higher derivatives decide.\n");
+}
+
+std::vector<std::string> warning_lines(const SolvedScene& solved) {
+  std::vector<std::string> lines;
+  for (const Warning& warning : solved.warnings)
+    lines.push_back(std::string(name(warning.kind)) + ": " + warning.message);
+  return lines;
+}
+
+}  // namespace cli

@@ -1,0 +1,85 @@
+#include "cli/report/solve_report.hpp"
+
+#include <cmath>
+
+#include "mechanics/evaluation_error.hpp"
+
+namespace cli {
+
+std::optional<double> count_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
+  convex::Solution& primal = solution.primal;
+  const bool has_answer =
+      primal.status == convex::Status::solved || primal.status == convex::Status::inaccurate;
+  if (!scene.written || !scene.added.empty() || !has_answer || solution.as_written) return std::nullopt;
+  const double as_evaluated = primal.error_bound;
+  const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem, primal,
+                                                   scene.solve.accuracy);
+  mechanics::count_evaluation_error(primal, error, scene.solve.accuracy);
+  return as_evaluated;
+}
+
+SolvedScene solved_scene(const Scene& scene, const mechanics::GaussSolution& solution, double seconds) {
+  using convex::Index;
+  SolvedScene solved{scene, solution, {}, {}, seconds};
+  if (!solved.has_answer()) return solved;
+  const std::size_t count = scene.constraints.size();
+  solved.states.assign(count, ConstraintState::inactive);
+  for (Index a : scene.contacts) solved.states[static_cast<std::size_t>(a)] = ConstraintState::opens;
+  const auto set_state = [&](const std::vector<Index>& rows, ConstraintState state) {
+    for (const Index row : rows)
+      if (row < static_cast<Index>(scene.contacts.size()))
+        solved.states[static_cast<std::size_t>(scene.contacts[static_cast<std::size_t>(row)])] = state;
+  };
+  set_state(solution.multipliers.tight, ConstraintState::persists);
+  set_state(solution.touching, ConstraintState::touches);
+  // Over K, d²f/dt² is the slack of the solution, more accurate than a new evaluation.
+  solved.second_rates = scene.system ? scene.system->second_rates(scene.state, solution.primal.q)
+                                     : convex::Vector(convex::Vector::Zero(static_cast<Index>(count)));
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    solved.second_rates[scene.contacts[k]] = solution.primal.slack[static_cast<Index>(k)];
+  return solved;
+}
+
+const char* name(ConstraintState state) {
+  switch (state) {
+    case ConstraintState::persists:
+      return "persists";
+    case ConstraintState::touches:
+      return "touches";
+    case ConstraintState::opens:
+      return "opens";
+    case ConstraintState::inactive:
+      return "inactive";
+  }
+  return "";
+}
+
+bool SolvedScene::is_weighed(std::size_t constraint) const {
+  for (const mechanics::AddedRow& row : scene.added)
+    for (const auto& [weighed, weight] : row.weights)
+      if (weighed == static_cast<convex::Index>(constraint)) return true;
+  return false;
+}
+
+bool SolvedScene::multipliers_are_unique() const {
+  const convex::Multipliers& multipliers = solution.multipliers;
+  if (multipliers.unique || scene.added.empty() || !multipliers.ranges) return multipliers.unique;
+  for (std::size_t row = 0; row < multipliers.ranges->size(); ++row) {
+    const convex::Interval range = (*multipliers.ranges)[row];
+    constexpr double rounding = 1e-9;
+    const bool is_given =
+        row >= scene.contacts.size() || !is_weighed(static_cast<std::size_t>(scene.contacts[row]));
+    if (is_given &&
+        !(range.high - range.low <= rounding * std::max(std::abs(range.low), std::abs(range.high))))
+      return false;
+  }
+  return true;
+}
+
+ConstraintState SolvedScene::state_of_row(convex::Index row) const {
+  const auto k = static_cast<std::size_t>(row);
+  return k < scene.contacts.size() ? states[static_cast<std::size_t>(scene.contacts[k])]
+                                   : ConstraintState::persists;
+}
+
+}  // namespace cli

@@ -1,0 +1,215 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/report/model_report.hpp"
+#include "cli/report/sensitivity_text.hpp"
+#include "cli/report/singular_report.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/report/verdict_text.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+
+constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
+
+std::string cut(std::size_t total, const char* what) {
+  return total > shown_rows ? fmt::format("  … and {} more {}; --json gives all\n", total - shown_rows, what)
+                            : "";
+}
+
+std::string constraint_table(const SolvedScene& solved) {
+  if (solved.states.empty()) return "";
+  const convex::Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
+  const bool is_system = solved.scene.rates.has_value();
+  TextTable table(is_system
+                      ? std::vector<std::string>{"constraint", "state", "f", "df/dt", "d²f/dt²", "lambda"}
+                      : std::vector<std::string>{"constraint", "state", "u·q''- s", "lambda"});
+  for (std::size_t a = 0; a < std::min(solved.states.size(), shown_rows); ++a) {
+    const Index i = static_cast<Index>(a);
+    std::vector<std::string> row{solved.scene.constraints[a] + (solved.scene.two_sided[a] ? " (=)" : ""),
+                                 name(solved.states[a])};
+    if (is_system) {
+      row.push_back(number_text(solved.scene.rates->f[i]));
+      row.push_back(number_text(solved.scene.rates->df[i]));
+    }
+    row.push_back(number_text(solved.second_rates[i]));
+    row.push_back(solved.is_weighed(a) ? "-" : number_text(lambda[i]));
+    table.add(std::move(row));
+  }
+  return table.text() + cut(solved.states.size(), "constraints") + "\n";
+}
+
+std::string coordinate_table(const SolvedScene& solved) {
+  TextTable table({"coordinate", "acceleration", "reaction"});
+  const std::size_t n = solved.scene.coordinates.size();
+  for (std::size_t i = 0; i < std::min(n, shown_rows); ++i)
+    table.add({solved.scene.coordinates[i], number_text(solved.solution.primal.q[static_cast<Index>(i)]),
+               number_text(solved.solution.reaction[static_cast<Index>(i)])});
+  return table.text() + cut(n, "coordinates") + "\n";
+}
+
+std::string uniqueness_text(const SolvedScene& solved) {
+  const convex::Multipliers& multipliers = solved.solution.multipliers;
+  if (solved.multipliers_are_unique()) return "";
+  std::string text =
+      "The multipliers are not unique (the acceleration and the reaction are); shown are those of least "
+      "norm.\n";
+  if (!multipliers.ranges) return text;
+  std::vector<std::string> parts;
+  for (Index row : multipliers.tight) {
+    const auto k = static_cast<std::size_t>(row);
+    if (k < solved.scene.contacts.size() &&
+        solved.is_weighed(static_cast<std::size_t>(solved.scene.contacts[k])))
+      continue;
+    const convex::Interval range = (*multipliers.ranges)[static_cast<std::size_t>(row)];
+    parts.push_back(fmt::format("{} in [{}, {}]", solved.scene.contact_name(row), number_text(range.low),
+                                number_text(range.high)));
+  }
+  return text + "Each may be anywhere in its range: " + listed(parts) + ".\n";
+}
+
+bool is_proved(const std::optional<convex::Certificate>& certificate) {
+  return certificate && certificate->level != convex::ProofLevel::none;
+}
+
+std::string constraints_text(const SolvedScene& solved, const std::vector<Index>& chosen) {
+  std::vector<std::string> names;
+  for (const Index a : chosen) names.push_back(solved.scene.constraints[static_cast<std::size_t>(a)]);
+  return listed(names);
+}
+
+/// Constraints that the tolerance took for contacts and the text does not, or the other way round.
+std::string refuted_text(const SolvedScene& solved) {
+  std::vector<Index> open, closed;
+  for (const Index a : solved.text->refuted)
+    (solved.text->contacts[static_cast<std::size_t>(a)] == mechanics::ContactVerdict::touches ? closed : open)
+        .push_back(a);
+  std::string text;
+  if (!open.empty())
+    text += fmt::format(
+        "From the text: as written, {} {} not touch (f > 0, or df/dt > 0), though within "
+        "contact_tolerance {} counted as touching",
+        constraints_text(solved, open), open.size() == 1 ? "does" : "do", open.size() == 1 ? "it" : "they");
+  if (!closed.empty())
+    text += fmt::format("{}as written, {} {}, though f or df/dt as evaluated is beyond contact_tolerance",
+                        text.empty() ? "From the text: " : "; ", constraints_text(solved, closed),
+                        closed.size() == 1 ? "touches" : "touch");
+  return text;
+}
+
+/// What the text of a mechanism proves of the contacts, and of the answer.
+std::string from_text_text(const SolvedScene& solved) {
+  if (solved.text == nullptr) return "";
+  const mechanics::TextProof& proof = *solved.text;
+  constexpr const char* remedy =
+      "; give the state exactly, as an expression or a fraction, or set contact_tolerance";
+  std::string text;
+  if (proof.contacts_hold)
+    text = "From the text: the contacts of K are proved";
+  else if (!proof.violated.empty())
+    text = fmt::format("From the text: as written, {} {} not hold, by less than contact_tolerance{}",
+                       constraints_text(solved, proof.violated), proof.violated.size() == 1 ? "does" : "do",
+                       remedy);
+  else if (!proof.refuted.empty())
+    text = refuted_text(solved) + (is_proved(solved.certificate) ? ", which makes no difference" : remedy);
+  else
+    text = fmt::format(
+        "From the text: contact is not decided for {}, no rule known here shows f and df/dt to be 0{}",
+        constraints_text(solved, proof.open),
+        is_proved(solved.certificate)
+            ? ", which makes no difference"
+            : "; write the state or the constraint so that they cancel term by term");
+  if (proof.error_bound && is_proved(solved.certificate) && !solved.infeasible())
+    text +=
+        fmt::format("; the acceleration is that of the mechanism as written to {:.1e}", *proof.error_bound);
+  else if (!is_proved(solved.certificate))
+    text += proof.contacts_hold ? "; no bound on the acceleration is proved from there"
+                                : ". Nothing is proved of the mechanism as written";
+  if (!proof.dependent.empty())
+    text += fmt::format(
+        ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does "
+        "not "
+        "tell: {} counted as dependent and consistent",
+        constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
+        proof.dependent.size() == 1 ? "it is" : "they are");
+  return text + ".\n";
+}
+
+const char* proof_text(const std::optional<convex::Certificate>& certificate) {
+  if (!certificate) return "";
+  switch (certificate->level) {
+    case convex::ProofLevel::exact:
+      return ", proved in fractions";
+    case convex::ProofLevel::enclosure:
+      return ", proved with bounds on every rounding";
+    case convex::ProofLevel::none:
+      return "; NOT proved";
+  }
+  return "";
+}
+
+std::string accuracy_text(const SolvedScene& solved) {
+  const convex::Solution& primal = solved.solution.primal;
+  std::string text;
+  constexpr double agreement = 1e-9;
+  if (solved.solution.from_dual) {
+    const double difference = solved.solution.from_dual->difference;
+    text += fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) {} {:.1e}{}.\n",
+                        difference <= agreement ? "agrees to" : "DIFFERS by", difference,
+                        difference <= agreement ? "" : ": one of the two routes is inaccurate here");
+  }
+  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
+  const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
+  std::string accuracy =
+      fmt::format("relative error of the acceleration at most {}{:.1e}{}",
+                  is_proved(solved.certificate) ? "" : "about ", relative, proof_text(solved.certificate));
+  if (solved.as_evaluated)
+    accuracy += fmt::format(" for the mechanism as written, {:.1e} for A, z, U, s as evaluated",
+                            scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
+  else if (solved.solution.as_written && solved.scene.written)
+    accuracy += " for the mechanism as written";
+  else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
+    accuracy += ", for A, z, U, s as evaluated";
+  text +=
+      primal.status == convex::Status::solved
+          ? fmt::format("Solved by {}{}: {}.\n", primal.method, primal.polished ? ", polished" : "", accuracy)
+          : fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
+                        accuracy);
+  return text;
+}
+
+std::string infeasible_text(const SolvedScene& solved) {
+  const convex::Vector& w = solved.solution.primal.farkas;
+  std::vector<std::string> parts;
+  double sum = 0;
+  for (Index row = 0; row < w.size(); ++row) {
+    if (w[row] == 0) continue;
+    parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
+    sum += w[row] * solved.scene.problem.s[row];
+  }
+  return fmt::format(
+      "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
+      "left reads 0 >= {} (Farkas).{}\n",
+      listed(parts), number_text(sum),
+      !is_proved(solved.certificate)                           ? ""
+      : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
+                                                               : " Proved with bounds on every rounding.");
+}
+
+}  // namespace
+
+std::string solve_text(const SolvedScene& solved) {
+  const std::string text = heading(solved.scene.title, solved.scene.file);
+  if (solved.infeasible()) return text + infeasible_text(solved) + from_text_text(solved);
+  if (!solved.has_answer())
+    return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",
+                              solved.solution.primal.method);
+  return text + constraint_table(solved) + coordinate_table(solved) + added_rows_text(solved) +
+         touching_text(solved) + uniqueness_text(solved) + hypothesis_text(solved) + model_text(solved) +
+         accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
+}
+
+}  // namespace cli
