@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "convex/dense/padded_triangle.hpp"
+#include "convex/dense/triangular_solve.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
-#include "convex/padded_triangle.hpp"
 #include "convex/sparse_gram.hpp"
-#include "convex/triangular_solve.hpp"
 
 namespace convex {
 namespace {

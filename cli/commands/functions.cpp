@@ -15,7 +15,7 @@ namespace {
 /// What `moreau functions` is told.
 struct FunctionsOptions : Printing {
   std::optional<std::string> function;  ///< the one to tell about
-  bool markdown = false;  ///< docs/functions.md
+  bool markdown = false;                ///< docs/functions.md
 };
 
 /// The entries that are asked for: all, or the one that is named.

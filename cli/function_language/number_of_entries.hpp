@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 
 namespace cli {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 
 namespace cli {
 

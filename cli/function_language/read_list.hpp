@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/function_language/cursor.hpp"
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 
 namespace cli {
 

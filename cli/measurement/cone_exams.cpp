@@ -11,8 +11,8 @@
 #include "cli/measurement/vector_exam.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/cones/cone_operations.hpp"
-#include "convex/functions/node.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/node.hpp"
 
 namespace cli {
 namespace {

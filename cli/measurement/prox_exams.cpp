@@ -10,11 +10,11 @@
 #include "cli/measurement/vector_exam.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/metric_difference.hpp"
-#include "convex/decomposition.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 

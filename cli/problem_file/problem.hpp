@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "convex/cones/exact_metric.hpp"
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
 #include "mechanics/lagrangian_text.hpp"
 

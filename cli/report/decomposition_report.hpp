@@ -4,7 +4,7 @@
 
 #include "cli/problem_file/problem.hpp"
 #include "cli/report/answer.hpp"
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 
 namespace cli {
 

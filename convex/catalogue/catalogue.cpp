@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/nearest_name.hpp"
 
 namespace convex {

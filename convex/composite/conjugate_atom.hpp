@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 
 namespace convex {
 

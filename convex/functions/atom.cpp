@@ -3,7 +3,7 @@
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/functions/closed_form.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
 namespace convex {

@@ -2,8 +2,8 @@
 
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/parameter.hpp"
 
 namespace convex {
 namespace {

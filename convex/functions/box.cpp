@@ -1,14 +1,14 @@
 #include <cmath>
 #include <string>
 
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/piecewise_sum.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
-#include "convex/kernels/separable.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 #include "convex/piecewise/elementary.hpp"
+#include "convex/prox_formulas/separable.hpp"
 
 namespace convex {
 namespace {
@@ -26,7 +26,8 @@ Set equal_bounds(Call set, Call support, double lower, double upper) {
       {.call = indicator_call(set),
        .conjugate_call = std::move(support),
        .pieces = {piecewise::indicator(lower, upper)},
-       .prox = [lower, upper](const Vector& z, const Vector&) { return kernels::proj_box(z, lower, upper); },
+       .prox = [lower, upper](const Vector& z,
+                              const Vector&) { return prox_formulas::proj_box(z, lower, upper); },
        .form =
            [lower, upper](Index n) {
              return linear_quadratic::box(Vector::Constant(n, lower), Vector::Constant(n, upper));
@@ -53,7 +54,8 @@ Set box(const Vector& lower, const Vector& upper) {
       .conjugate_call = support_call(set),
       .pieces = {},
       .dimension = lower.size(),
-      .prox = [lower, upper](const Vector& z, const Vector&) { return kernels::proj_box(z, lower, upper); },
+      .prox = [lower, upper](const Vector& z,
+                             const Vector&) { return prox_formulas::proj_box(z, lower, upper); },
       .form = [lower, upper](Index) { return linear_quadratic::box(lower, upper); }};
   for (Index i = 0; i < lower.size(); ++i) parts.pieces.push_back(piecewise::indicator(lower[i], upper[i]));
   return {piecewise_sum(std::move(parts)), set};

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "convex/functions/facts.hpp"
-#include "convex/functions/prox.hpp"
+#include "convex/gamma0/facts.hpp"
+#include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
 namespace convex {

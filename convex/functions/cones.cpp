@@ -4,13 +4,13 @@
 #include <string>
 
 #include "convex/functions/convex_set.hpp"
-#include "convex/functions/parameter.hpp"
-#include "convex/kernels/exponential_cone.hpp"
-#include "convex/kernels/isotonic.hpp"
-#include "convex/kernels/power_cone.hpp"
-#include "convex/kernels/second_order_cone.hpp"
-#include "convex/kernels/spectral.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/linear_quadratic/sets.hpp"
+#include "convex/prox_formulas/exponential_cone.hpp"
+#include "convex/prox_formulas/isotonic.hpp"
+#include "convex/prox_formulas/power_cone.hpp"
+#include "convex/prox_formulas/second_order_cone.hpp"
+#include "convex/prox_formulas/spectral.hpp"
 
 namespace convex {
 namespace {
@@ -52,24 +52,25 @@ void require_exponent(const char* cone, double alpha) {
 
 Set second_order_cone() {
   const Call call{"second_order_cone"};
-  return set_of(plain_cone(call, mirrored(call), 0, kernels::proj_second_order_cone,
-                           kernels::proj_second_order_polar, kernels::proj_second_order_cone_jacobian));
+  return set_of(plain_cone(call, mirrored(call), 0, prox_formulas::proj_second_order_cone,
+                           prox_formulas::proj_second_order_polar,
+                           prox_formulas::proj_second_order_cone_jacobian));
 }
 
 Set rotated_second_order_cone() {
   const Call call{"rotated_second_order_cone"};
-  Cone K = plain_cone(call, mirrored(call), 0, kernels::proj_rotated_cone, kernels::proj_rotated_polar,
-                      kernels::proj_rotated_cone_jacobian);
+  Cone K = plain_cone(call, mirrored(call), 0, prox_formulas::proj_rotated_cone,
+                      prox_formulas::proj_rotated_polar, prox_formulas::proj_rotated_cone_jacobian);
   K.require_size = require_two;
   return set_of(std::move(K));
 }
 
 Set psd_cone() {
   const Call call{"psd_cone"};
-  Cone K = plain_cone(call, support_call(call), 0, kernels::proj_psd_cone, kernels::proj_psd_polar,
-                      [](const Vector& z) {
-                        const Index n = kernels::order_of_stacked(z);
-                        return kernels::psd_projection(z.reshaped(n, n)).jacobian();
+  Cone K = plain_cone(call, support_call(call), 0, prox_formulas::proj_psd_cone,
+                      prox_formulas::proj_psd_polar, [](const Vector& z) {
+                        const Index n = prox_formulas::order_of_stacked(z);
+                        return prox_formulas::psd_projection(z.reshaped(n, n)).jacobian();
                       });
   K.require_size = [](Index n, const std::string& name) { require_square(name, n); };
   return set_of(std::move(K));
@@ -77,51 +78,54 @@ Set psd_cone() {
 
 Set exponential_cone() {
   return set_of(plain_cone({"exponential_cone"}, mirrored({"dual_exponential_cone"}), 3,
-                           kernels::proj_exponential_cone, kernels::proj_exponential_polar,
-                           kernels::proj_exponential_cone_jacobian));
+                           prox_formulas::proj_exponential_cone, prox_formulas::proj_exponential_polar,
+                           prox_formulas::proj_exponential_cone_jacobian));
 }
 
 Set dual_exponential_cone() {
-  return set_of(dual_cone({"dual_exponential_cone"}, {"exponential_cone"}, kernels::proj_exponential_cone,
-                          kernels::proj_exponential_polar, kernels::proj_exponential_cone_jacobian));
+  return set_of(dual_cone({"dual_exponential_cone"}, {"exponential_cone"},
+                          prox_formulas::proj_exponential_cone, prox_formulas::proj_exponential_polar,
+                          prox_formulas::proj_exponential_cone_jacobian));
 }
 
 Set power_cone(double alpha) {
   require_exponent("power_cone", alpha);
   return set_of(plain_cone(
       {"power_cone", {argument("alpha", alpha)}}, mirrored({"dual_power_cone", {argument("alpha", alpha)}}),
-      3, [alpha](const Vector& z) { return kernels::proj_power_cone(z, alpha); },
-      [alpha](const Vector& z) { return kernels::proj_power_polar(z, alpha); },
-      [alpha](const Vector& z) { return kernels::proj_power_cone_jacobian(z, alpha); }));
+      3, [alpha](const Vector& z) { return prox_formulas::proj_power_cone(z, alpha); },
+      [alpha](const Vector& z) { return prox_formulas::proj_power_polar(z, alpha); },
+      [alpha](const Vector& z) { return prox_formulas::proj_power_cone_jacobian(z, alpha); }));
 }
 
 Set dual_power_cone(double alpha) {
   require_exponent("dual_power_cone", alpha);
   return set_of(dual_cone(
       {"dual_power_cone", {argument("alpha", alpha)}}, {"power_cone", {argument("alpha", alpha)}},
-      [alpha](const Vector& z) { return kernels::proj_power_cone(z, alpha); },
-      [alpha](const Vector& z) { return kernels::proj_power_polar(z, alpha); },
-      [alpha](const Vector& z) { return kernels::proj_power_cone_jacobian(z, alpha); }));
+      [alpha](const Vector& z) { return prox_formulas::proj_power_cone(z, alpha); },
+      [alpha](const Vector& z) { return prox_formulas::proj_power_polar(z, alpha); },
+      [alpha](const Vector& z) { return prox_formulas::proj_power_cone_jacobian(z, alpha); }));
 }
 
 Set monotone_cone() {
   const Call call{"monotone_cone"};
-  return set_of(Cone{
-      .call = call,
-      .polar_call = support_call(call),
-      .project = [](const Vector& z, const Vector& d) { return kernels::proj_monotone(z, d).x; },
-      .jacobian = [](const Vector& z,
-                     const Vector& d) { return kernels::blocks_jacobian(kernels::proj_monotone(z, d), d); },
-      .project_polar =
-          [](const Vector& z, const Vector& d) {
-            const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
-            const kernels::Blocks runs = kernels::proj_monotone(force, inverse);
-            return kernels::blocks_covector(runs, force, inverse, Vector::Zero(z.size()));
-          },
-      .form = linear_quadratic::monotone_cone,
-      .any_diagonal = true,
-      .route = SplitRoute::support_prox_from_projection,  // its runs are those of the projection
-      .make_conjugate = kernels::keep_normal_to_monotone});
+  return set_of(
+      Cone{.call = call,
+           .polar_call = support_call(call),
+           .project = [](const Vector& z, const Vector& d) { return prox_formulas::proj_monotone(z, d).x; },
+           .jacobian =
+               [](const Vector& z, const Vector& d) {
+                 return prox_formulas::blocks_jacobian(prox_formulas::proj_monotone(z, d), d);
+               },
+           .project_polar =
+               [](const Vector& z, const Vector& d) {
+                 const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
+                 const prox_formulas::Blocks runs = prox_formulas::proj_monotone(force, inverse);
+                 return prox_formulas::blocks_covector(runs, force, inverse, Vector::Zero(z.size()));
+               },
+           .form = linear_quadratic::monotone_cone,
+           .any_diagonal = true,
+           .route = SplitRoute::support_prox_from_projection,  // its runs are those of the projection
+           .make_conjugate = prox_formulas::keep_normal_to_monotone});
 }
 
 }  // namespace convex

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
-#include "convex/kernels/relative_entropy.hpp"
+#include "convex/prox_formulas/relative_entropy.hpp"
 
 namespace convex {
 namespace {
@@ -45,7 +45,9 @@ struct Entropy : OnHalfLine, AnySize {
   Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return x_log_x(x); }
   double slope(double x, Index) const { return x > 0 ? std::log(x) + 1 : -infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_entropy(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_entropy(z, d);
+  }
 };
 
 /// e^(x - 1).
@@ -56,7 +58,9 @@ struct EntropyConjugate : OnLine, AnySize {
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return std::exp(x - 1); }
   double slope(double x, Index) const { return std::exp(x - 1); }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_entropy_conjugate(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_entropy_conjugate(z, d);
+  }
 };
 
 struct Exponential : OnLine, AnySize {
@@ -66,7 +70,9 @@ struct Exponential : OnLine, AnySize {
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return std::exp(x); }
   double slope(double x, Index) const { return std::exp(x); }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_exponential(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_exponential(z, d);
+  }
 };
 
 /// x log x - x.
@@ -77,8 +83,8 @@ struct ExponentialConjugate : OnHalfLine, AnySize {
   Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return x_log_x(x) - x; }
   double slope(double x, Index) const { return x > 0 ? std::log(x) : -infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const {
-    return kernels::prox_exponential_conjugate(z, d);
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_exponential_conjugate(z, d);
   }
 };
 
@@ -105,8 +111,8 @@ struct KullbackLeibler : OnHalfLine {
     if (x == 0) return -infinity;
     return std::abs(x - r) < 0.5 * r ? std::log1p((x - r) / r) : std::log(x) - std::log(r);
   }
-  kernels::ScalarProx prox(double z, double d, Index i) const {
-    return kernels::prox_kullback_leibler(z, d, reference[i]);
+  prox_formulas::ScalarProx prox(double z, double d, Index i) const {
+    return prox_formulas::prox_kullback_leibler(z, d, reference[i]);
   }
 
  private:
@@ -127,8 +133,8 @@ struct Expm1 : OnLine {
   Ends slopes(Index i) const { return {.low = 0, .high = weight[i] > 0 ? infinity : 0}; }
   double value(double x, Index i) const { return weight[i] == 0 ? 0 : weight[i] * std::expm1(x); }
   double slope(double x, Index i) const { return weight[i] == 0 ? 0 : weight[i] * std::exp(x); }
-  kernels::ScalarProx prox(double z, double d, Index i) const {
-    return kernels::prox_kullback_leibler_conjugate(z, d, weight[i]);
+  prox_formulas::ScalarProx prox(double z, double d, Index i) const {
+    return prox_formulas::prox_kullback_leibler_conjugate(z, d, weight[i]);
   }
 };
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "convex/composite/work_limit.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/operations/operations.hpp"
 
 namespace convex {

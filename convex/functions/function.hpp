@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "convex/functions/call.hpp"
-#include "convex/functions/facts.hpp"
-#include "convex/functions/prox.hpp"
+#include "convex/gamma0/call.hpp"
+#include "convex/gamma0/facts.hpp"
+#include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
 namespace convex {

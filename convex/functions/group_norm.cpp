@@ -3,9 +3,9 @@
 
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
-#include "convex/kernels/norm2.hpp"
+#include "convex/gamma0/parameter.hpp"
+#include "convex/prox_formulas/norm2.hpp"
 
 namespace convex {
 namespace {
@@ -32,7 +32,7 @@ class GroupBall : public ConvexSet {
   Vector project(const Vector& z, const Vector&) const override {
     Vector x(z.size());
     each(z.size(), [&](Index first, Index size) {
-      x.segment(first, size) = kernels::proj_ball2(z.segment(first, size), radius_);
+      x.segment(first, size) = prox_formulas::proj_ball2(z.segment(first, size), radius_);
     });
     return x;
   }
@@ -40,19 +40,19 @@ class GroupBall : public ConvexSet {
     Matrix J = Matrix::Zero(z.size(), z.size());
     each(z.size(), [&](Index first, Index size) {
       J.block(first, first, size, size) =
-          kernels::proj_ball2_jacobian(z.segment(first, size), radius_, Vector::Zero(size));
+          prox_formulas::proj_ball2_jacobian(z.segment(first, size), radius_, Vector::Zero(size));
     });
     return J;
   }
   double support(const Vector& v) const override {
     double sum = 0;
-    each(v.size(), [&](Index first, Index size) { sum += kernels::length(v.segment(first, size)); });
+    each(v.size(), [&](Index first, Index size) { sum += prox_formulas::length(v.segment(first, size)); });
     return radius_ * sum;
   }
   std::optional<Vector> maximiser(const Vector& v) const override {
     Vector x = Vector::Zero(v.size());
     each(v.size(), [&](Index first, Index size) {
-      const double length = kernels::length(v.segment(first, size));
+      const double length = prox_formulas::length(v.segment(first, size));
       if (length > 0) x.segment(first, size) = radius_ * (v.segment(first, size) / length);
     });
     return x;
@@ -60,7 +60,7 @@ class GroupBall : public ConvexSet {
   Vector support_prox(const Vector& z, const Vector& d) const override {
     Vector x(z.size());
     each(z.size(), [&](Index first, Index size) {
-      x.segment(first, size) = kernels::prox_norm2(z.segment(first, size), radius_ / d[0]);
+      x.segment(first, size) = prox_formulas::prox_norm2(z.segment(first, size), radius_ / d[0]);
     });
     return x;
   }

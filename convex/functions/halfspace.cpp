@@ -3,8 +3,8 @@
 
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/convex_set.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 

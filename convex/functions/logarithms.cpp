@@ -4,8 +4,8 @@
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
 #include "convex/infinity.hpp"
-#include "convex/kernels/log_barrier.hpp"
-#include "convex/kernels/logistic.hpp"
+#include "convex/prox_formulas/log_barrier.hpp"
+#include "convex/prox_formulas/logistic.hpp"
 
 namespace convex {
 namespace {
@@ -21,7 +21,9 @@ struct LogBarrier {
   Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x > 0 ? -std::log(x) : infinity; }
   double slope(double x, Index) const { return x > 0 ? -1 / x : -infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_log_barrier(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_log_barrier(z, d);
+  }
 };
 
 /// -1 - log(-x) = -log(-ex).
@@ -38,8 +40,8 @@ struct LogBarrierConjugate {
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x < 0 ? -1 - std::log(-x) : infinity; }
   double slope(double x, Index) const { return x < 0 ? -1 / x : infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const {
-    return kernels::prox_log_barrier_conjugate(z, d);
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_log_barrier_conjugate(z, d);
   }
 };
 
@@ -56,7 +58,9 @@ struct Logistic {
   double slope(double x, Index) const {
     return x > 0 ? 1 / (1 + std::exp(-x)) : std::exp(x) / (1 + std::exp(x));
   }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_logistic(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_logistic(z, d);
+  }
 };
 
 struct BinaryEntropy {
@@ -78,7 +82,9 @@ struct BinaryEntropy {
     if (x >= 1) return infinity;
     return std::log(x) - std::log1p(-x);
   }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_binary_entropy(z, d); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_binary_entropy(z, d);
+  }
 };
 
 Function LogBarrier::conjugate() const { return scalar_sum(LogBarrierConjugate{}); }

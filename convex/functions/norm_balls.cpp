@@ -5,13 +5,13 @@
 
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
-#include "convex/kernels/capped_simplex.hpp"
-#include "convex/kernels/simplex.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/sets.hpp"
+#include "convex/prox_formulas/capped_simplex.hpp"
+#include "convex/prox_formulas/simplex.hpp"
 
 namespace convex {
 namespace {
@@ -35,10 +35,10 @@ class Ball1 : public Polytope {
   Call support_call() const override { return {"norm_inf", {argument("weight", radius_)}}; }
   double scale() const override { return radius_; }
   Vector project(const Vector& z, const Vector& d) const override {
-    return equal(d) ? kernels::proj_ball1(z, radius_) : kernels::proj_ball1(z, radius_, d);
+    return equal(d) ? prox_formulas::proj_ball1(z, radius_) : prox_formulas::proj_ball1(z, radius_, d);
   }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
-    return kernels::proj_ball1_jacobian(z, radius_, d);
+    return prox_formulas::proj_ball1_jacobian(z, radius_, d);
   }
   double support(const Vector& v) const override { return radius_ * v.lpNorm<Eigen::Infinity>(); }
   std::optional<Vector> maximiser(const Vector& v) const override {
@@ -48,7 +48,8 @@ class Ball1 : public Polytope {
     return x;
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return equal(d) ? kernels::prox_norm_inf(z, radius_ / d[0]) : kernels::prox_norm_inf(z, radius_, d);
+    return equal(d) ? prox_formulas::prox_norm_inf(z, radius_ / d[0])
+                    : prox_formulas::prox_norm_inf(z, radius_, d);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     return linear_quadratic::ball1(n, radius_);
@@ -69,10 +70,10 @@ class Simplex : public Polytope {
   Call support_call() const override { return total_ == 1 ? Call{"max"} : ConvexSet::support_call(); }
   double scale() const override { return total_; }
   Vector project(const Vector& z, const Vector& d) const override {
-    return equal(d) ? kernels::proj_simplex(z, total_) : kernels::proj_simplex(z, total_, d);
+    return equal(d) ? prox_formulas::proj_simplex(z, total_) : prox_formulas::proj_simplex(z, total_, d);
   }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
-    return kernels::proj_simplex_jacobian(z, total_, d);
+    return prox_formulas::proj_simplex_jacobian(z, total_, d);
   }
   double support(const Vector& v) const override { return total_ * v.maxCoeff(); }
   std::optional<Vector> maximiser(const Vector& v) const override {
@@ -83,7 +84,7 @@ class Simplex : public Polytope {
     return x;
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return equal(d) ? kernels::prox_max(z, total_ / d[0]) : kernels::prox_max(z, total_, d);
+    return equal(d) ? prox_formulas::prox_max(z, total_ / d[0]) : prox_formulas::prox_max(z, total_, d);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     return linear_quadratic::simplex(n, total_);
@@ -114,11 +115,11 @@ class CappedSimplex : public Polytope {
   }
   double scale() const override { return total_; }
   Vector project(const Vector& z, const Vector& d) const override {
-    return equal(d) ? kernels::proj_capped_simplex(z, cap_, total_)
-                    : kernels::proj_capped_simplex(z, cap_, total_, d);
+    return equal(d) ? prox_formulas::proj_capped_simplex(z, cap_, total_)
+                    : prox_formulas::proj_capped_simplex(z, cap_, total_, d);
   }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override {
-    return kernels::proj_capped_simplex_jacobian(z, cap_, total_, d);
+    return prox_formulas::proj_capped_simplex_jacobian(z, cap_, total_, d);
   }
   double support(const Vector& v) const override { return maximiser(v)->dot(v); }
   /// The largest entries filled up to cap, the last one with the rest.
@@ -137,7 +138,8 @@ class CappedSimplex : public Polytope {
   Vector support_prox(const Vector& z, const Vector& d) const override {
     // cap times the sum of the total/cap largest entries.
     const double k = std::min(total_ / cap_, static_cast<double>(z.size()));
-    return equal(d) ? kernels::prox_sum_largest(z, k, cap_ / d[0]) : kernels::prox_sum_largest(z, k, cap_, d);
+    return equal(d) ? prox_formulas::prox_sum_largest(z, k, cap_ / d[0])
+                    : prox_formulas::prox_sum_largest(z, k, cap_, d);
   }
   std::optional<LinearQuadratic> indicator_form(Index n) const override {
     LinearQuadraticBuilder form(n, 0);

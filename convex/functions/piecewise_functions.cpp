@@ -1,13 +1,13 @@
 #include "convex/functions/piecewise_functions.hpp"
 
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/piecewise_sum.hpp"
-#include "convex/kernels/separable.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 #include "convex/piecewise/algebra.hpp"
 #include "convex/piecewise/elementary.hpp"
 #include "convex/piecewise/pieces.hpp"
+#include "convex/prox_formulas/separable.hpp"
 
 namespace convex {
 namespace {
@@ -63,7 +63,7 @@ Function norm1(double weight) {
        .conjugate_call = indicator_call({"ball_inf", {argument("radius", weight)}}),
        .pieces = {piecewise::absolute(weight)},
        .prox = [weight](const Vector& z,
-                        const Vector& d) { return kernels::prox_norm1(z, weight / d.array()); },
+                        const Vector& d) { return prox_formulas::prox_norm1(z, weight / d.array()); },
        .form = [weight](Index n) { return linear_quadratic::norm1(n, weight); },
        .conjugate_form = [weight](Index n) { return ball_inf(n, weight); }});
 }
@@ -78,7 +78,7 @@ Function norm1(const Vector& weight) {
                      .pieces = {},
                      .dimension = weight.size(),
                      .prox = [weight](const Vector& z, const Vector& d) {
-                       return kernels::prox_norm1(z, weight.cwiseQuotient(d));
+                       return prox_formulas::prox_norm1(z, weight.cwiseQuotient(d));
                      }};
   for (double one : weight) parts.pieces.push_back(piecewise::absolute(one));
   return piecewise_sum(std::move(parts));
@@ -99,21 +99,21 @@ Function huber(double mu) {
   require_positive("huber", "mu", mu);
   return unnamed_conjugate(
       {"huber", {argument("mu", mu)}}, piecewise::huber(mu),
-      [mu](const Vector& z, const Vector& d) { return kernels::prox_huber(z, mu, d.cwiseInverse()); },
+      [mu](const Vector& z, const Vector& d) { return prox_formulas::prox_huber(z, mu, d.cwiseInverse()); },
       [mu](Index n) { return linear_quadratic::huber(n, mu); });
 }
 
 Function hinge() {
   return unnamed_conjugate(
       {"hinge"}, piecewise::hinge(),
-      [](const Vector& z, const Vector& d) { return kernels::prox_hinge(z, d.cwiseInverse()); },
+      [](const Vector& z, const Vector& d) { return prox_formulas::prox_hinge(z, d.cwiseInverse()); },
       linear_quadratic::hinge);
 }
 
 Function squared_hinge() {
   return unnamed_conjugate(
       {"squared_hinge"}, piecewise::squared_hinge(2),
-      [](const Vector& z, const Vector& d) { return kernels::prox_squared_hinge(z, 2 / d.array()); },
+      [](const Vector& z, const Vector& d) { return prox_formulas::prox_squared_hinge(z, 2 / d.array()); },
       linear_quadratic::squared_hinge);
 }
 
@@ -123,7 +123,7 @@ Function elastic_net(double l1, double l2) {
   return unnamed_conjugate(
       {"elastic_net", {argument("l1", l1), argument("l2", l2)}}, piecewise::elastic_net(l1, l2),
       [l1, l2](const Vector& z, const Vector& d) {
-        return kernels::prox_elastic_net(z, l1 / d.array(), l2 / d.array());
+        return prox_formulas::prox_elastic_net(z, l1 / d.array(), l2 / d.array());
       },
       [l1, l2](Index n) { return linear_quadratic::elastic_net(n, l1, l2); });
 }

@@ -1,11 +1,11 @@
 #include <cmath>
 
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
-#include "convex/kernels/power.hpp"
+#include "convex/prox_formulas/power.hpp"
 
 namespace convex {
 namespace {
@@ -26,7 +26,9 @@ struct Power : AnySize {
   Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return std::pow(std::abs(x), p); }
   double slope(double x, Index) const { return std::copysign(p * std::pow(std::abs(x), p - 1), x); }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power(z, d, p); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_power(z, d, p);
+  }
 };
 
 /// (p - 1) |x/p|^(p/(p-1)).
@@ -45,7 +47,9 @@ struct PowerConjugate : AnySize {
   Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return (p - 1) * std::pow(std::abs(x) / p, q()); }
   double slope(double x, Index) const { return std::copysign(std::pow(std::abs(x) / p, 1 / (p - 1)), x); }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_power_conjugate(z, d, p); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_power_conjugate(z, d, p);
+  }
 };
 
 struct InversePower : AnySize {
@@ -59,7 +63,9 @@ struct InversePower : AnySize {
   Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x > 0 ? std::pow(x, -q) : infinity; }
   double slope(double x, Index) const { return x > 0 ? -q * std::pow(x, -q - 1) : -infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const { return kernels::prox_inverse_power(z, d, q); }
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_inverse_power(z, d, q);
+  }
 };
 
 /// -(1 + q) (-x/q)^(q/(1+q)) on x <= 0.
@@ -79,8 +85,8 @@ struct InversePowerConjugate : AnySize {
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x > 0 ? infinity : -(1 + q) * std::pow(-x / q, r()); }
   double slope(double x, Index) const { return x < 0 ? std::pow(-x / q, -1 / (1 + q)) : infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const {
-    return kernels::prox_inverse_power_conjugate(z, d, q);
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    return prox_formulas::prox_inverse_power_conjugate(z, d, q);
   }
 };
 
@@ -98,8 +104,9 @@ struct NegativePower : AnySize {
   Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x < 0 ? infinity : -std::pow(x, r); }
   double slope(double x, Index) const { return x > 0 ? -r * std::pow(x, r - 1) : -infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const {
-    const kernels::ScalarProx mirrored = kernels::prox_inverse_power_conjugate(-z, factor() * d, q());
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    const prox_formulas::ScalarProx mirrored =
+        prox_formulas::prox_inverse_power_conjugate(-z, factor() * d, q());
     return {-mirrored.x, mirrored.slope};
   }
 };
@@ -122,8 +129,8 @@ struct NegativePowerConjugate : AnySize {
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x < 0 ? factor() * std::pow(-x, -q()) : infinity; }
   double slope(double x, Index) const { return x < 0 ? factor() * q() * std::pow(-x, -q() - 1) : infinity; }
-  kernels::ScalarProx prox(double z, double d, Index) const {
-    const kernels::ScalarProx mirrored = kernels::prox_inverse_power(-z, d / factor(), q());
+  prox_formulas::ScalarProx prox(double z, double d, Index) const {
+    const prox_formulas::ScalarProx mirrored = prox_formulas::prox_inverse_power(-z, d / factor(), q());
     return {-mirrored.x, mirrored.slope};
   }
 };

@@ -5,7 +5,7 @@
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/functions/closed_form.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"

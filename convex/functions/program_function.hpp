@@ -1,7 +1,7 @@
 #pragma once
 
 #include "convex/composite/graph_form.hpp"
-#include "convex/functions/facts.hpp"
+#include "convex/gamma0/facts.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
 namespace convex {

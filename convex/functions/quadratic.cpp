@@ -6,8 +6,8 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/functions/closed_form.hpp"
-#include "convex/functions/node.hpp"
-#include "convex/functions/parameter.hpp"
+#include "convex/gamma0/node.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/functions.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/functions/node.hpp"
-#include "convex/kernels/scalar_prox.hpp"
+#include "convex/gamma0/node.hpp"
+#include "convex/prox_formulas/scalar_prox.hpp"
 
 namespace convex {
 
@@ -22,7 +22,7 @@ struct Ends {
 ///   bool finite() const;                            f_i is finite everywhere
 ///   double value(double x, Index i) const;          +inf outside the domain
 ///   double slope(double x, Index i) const;          f_i'(x); -inf left of the domain, +inf right of it
-///   kernels::ScalarProx prox(double z, double d, Index i) const;
+///   prox_formulas::ScalarProx prox(double z, double d, Index i) const;
 ///   Ends ends(Index i) const;                       the points that count as inside up to the tolerance
 ///   Ends domain(Index i) const;                     the closure of the domain
 ///   Ends slopes(Index i) const;                     the closure of the slopes, the conjugate's domain

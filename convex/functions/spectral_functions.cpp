@@ -3,13 +3,13 @@
 
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
-#include "convex/kernels/nuclear_norm.hpp"
-#include "convex/kernels/spectral.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
+#include "convex/prox_formulas/nuclear_norm.hpp"
+#include "convex/prox_formulas/spectral.hpp"
 
 namespace convex {
 namespace {
@@ -33,24 +33,24 @@ class SpectralBall : public ConvexSet {
   bool bounded() const override { return true; }
   double scale() const override { return radius_; }
   Vector project(const Vector& z, const Vector&) const override {
-    return stacked(kernels::proj_spectral_ball(unstacked(z, rows_), radius_));
+    return stacked(prox_formulas::proj_spectral_ball(unstacked(z, rows_), radius_));
   }
   Matrix project_jacobian(const Vector& z, const Vector&) const override {
     return Matrix::Identity(z.size(), z.size()) -
-           kernels::nuclear_norm_prox(unstacked(z, rows_), radius_).jacobian();
+           prox_formulas::nuclear_norm_prox(unstacked(z, rows_), radius_).jacobian();
   }
   double support(const Vector& v) const override {
-    return radius_ * kernels::nuclear_norm_prox(unstacked(v, rows_), 0).sigma.sum();
+    return radius_ * prox_formulas::nuclear_norm_prox(unstacked(v, rows_), 0).sigma.sum();
   }
   /// U Vᵀ over the positive singular values.
   std::optional<Vector> maximiser(const Vector& v) const override {
-    const kernels::NuclearNormProx parts = kernels::nuclear_norm_prox(unstacked(v, rows_), 0);
+    const prox_formulas::NuclearNormProx parts = prox_formulas::nuclear_norm_prox(unstacked(v, rows_), 0);
     const double negligible = parts.sigma.maxCoeff() * static_cast<double>(v.size()) * unit_roundoff;
     const Index rank = (parts.sigma.array() > negligible).count();
     return stacked(radius_ * parts.U.leftCols(rank) * parts.V.leftCols(rank).transpose());
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return kernels::prox_nuclear_norm(z, radius_ / d[0], rows_);
+    return prox_formulas::prox_nuclear_norm(z, radius_ / d[0], rows_);
   }
 
  private:
@@ -75,7 +75,7 @@ struct Parts {
 };
 
 Parts parts_of(const Vector& x) {
-  const Index n = kernels::order_of_stacked(x);
+  const Index n = prox_formulas::order_of_stacked(x);
   const Matrix X = unstacked(x, n);
   return {0.5 * (X + X.transpose()), 0.5 * (X - X.transpose()).norm()};
 }
@@ -120,14 +120,14 @@ class NegLogDet : public LogDeterminant {
     return stacked(-linear_algebra::Cholesky(S).inverse());
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
-    return kernels::prox_log_det(z, 1 / d[0]);
+    return prox_formulas::prox_log_det(z, 1 / d[0]);
   }
   /// The multiplier is D(z - x), whose skew part is free.
   double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
     return inverse_miss(parts_of(x).symmetric, parts_of(v).symmetric, d[0]);
   }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
-    return kernels::log_det_prox(unstacked(z, kernels::order_of_stacked(z)), 1 / d[0]).jacobian();
+    return prox_formulas::log_det_prox(unstacked(z, prox_formulas::order_of_stacked(z)), 1 / d[0]).jacobian();
   }
 };
 
@@ -149,9 +149,9 @@ class NegLogDetConjugate : public LogDeterminant {
   /// Eigenvalues ½(lambda - sqrt(lambda² + 4/d)), by the mirror image of the prox of -log det; the skew part
   /// is free.
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
-    const Index n = kernels::order_of_stacked(z);
+    const Index n = prox_formulas::order_of_stacked(z);
     const Matrix Z = unstacked(z, n);
-    return stacked(0.5 * (Z - Z.transpose())) - kernels::prox_log_det(-z, 1 / d[0]);
+    return stacked(0.5 * (Z - Z.transpose())) - prox_formulas::prox_log_det(-z, 1 / d[0]);
   }
   double subgradient_miss(const Vector& x, const Vector& v, const Vector& d) const override {
     const auto [V, skew] = parts_of(v);
@@ -159,9 +159,9 @@ class NegLogDetConjugate : public LogDeterminant {
   }
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
     const Vector inverse = d.cwiseInverse();
-    const Index n = kernels::order_of_stacked(z);
+    const Index n = prox_formulas::order_of_stacked(z);
     return Matrix::Identity(z.size(), z.size()) -
-           kernels::log_det_prox(unstacked(d.cwiseProduct(z), n), 1 / inverse[0]).jacobian();
+           prox_formulas::log_det_prox(unstacked(d.cwiseProduct(z), n), 1 / inverse[0]).jacobian();
   }
 };
 

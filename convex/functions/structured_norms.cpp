@@ -5,13 +5,13 @@
 #include "convex/double_double.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
-#include "convex/functions/parameter.hpp"
 #include "convex/functions/sets.hpp"
-#include "convex/kernels/isotonic.hpp"
-#include "convex/kernels/norm2.hpp"
-#include "convex/kernels/running_sums.hpp"
-#include "convex/kernels/total_variation.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/linear_quadratic/functions.hpp"
+#include "convex/prox_formulas/isotonic.hpp"
+#include "convex/prox_formulas/norm2.hpp"
+#include "convex/prox_formulas/running_sums.hpp"
+#include "convex/prox_formulas/total_variation.hpp"
 
 namespace convex {
 namespace {
@@ -60,7 +60,7 @@ class BoundedPartialSums : public DualBall {
   /// D(z - u) for u the prox of the support function; each run of it passes the bound on to its neighbours.
   Vector project(const Vector& z, const Vector& d) const override {
     const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
-    kernels::Blocks runs = kernels::prox_total_variation(force, bound_, inverse);
+    prox_formulas::Blocks runs = prox_formulas::prox_total_variation(force, bound_, inverse);
     std::erase_if(runs.first, [&](Index i) { return i > 0 && runs.x[i] == runs.x[i - 1]; });
     Vector sums = Vector::Zero(z.size());
     for (std::size_t k = 1; k < runs.first.size(); ++k) {
@@ -69,22 +69,22 @@ class BoundedPartialSums : public DualBall {
       sums[run - 1] -= passed;
       sums[run] += passed;
     }
-    return kernels::blocks_covector(runs, force, inverse, sums);
+    return prox_formulas::blocks_covector(runs, force, inverse, sums);
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return kernels::prox_total_variation(z, bound_, d).x;
+    return prox_formulas::prox_total_variation(z, bound_, d).x;
   }
   SplitRoute split_route() const override { return SplitRoute::projection_from_support_prox; }
   /// Running sums of s within the bound, and at it with the sign of its step where u has one.
   void make_conjugate(Vector& s, Vector& u) const override {
-    kernels::keep_running_sums(s, [&](Index i, double sum) {
+    prox_formulas::keep_running_sums(s, [&](Index i, double sum) {
       if (i + 1 == s.size()) return 0.0;
       if (u[i + 1] == u[i]) return std::clamp(sum, -bound_, bound_);
       return u[i + 1] > u[i] ? -bound_ : bound_;
     });
   }
   Matrix norm_jacobian(const Vector& z, const Vector& d) const override {
-    return kernels::blocks_jacobian(kernels::prox_total_variation(z, bound_, d), d);
+    return prox_formulas::blocks_jacobian(prox_formulas::prox_total_variation(z, bound_, d), d);
   }
   std::optional<LinearQuadratic> support_form(Index n) const override {
     return linear_quadratic::total_variation(n, bound_);
@@ -152,7 +152,7 @@ class SignedPermutahedron : public DualBall {
     return x;
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
-    return kernels::prox_sorted_norm1(z, weights_ / d[0]);
+    return prox_formulas::prox_sorted_norm1(z, weights_ / d[0]);
   }
   /// With |z| in decreasing order a point is in the set when its running sums are at most those of the
   /// weights. The nearest one has its sums at this bound where the least concave majorant of the sums of

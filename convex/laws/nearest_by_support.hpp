@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "convex/functions/prox.hpp"
+#include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
 namespace convex {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/functions/prox.hpp"
+#include "convex/gamma0/prox.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/metric.hpp"
 

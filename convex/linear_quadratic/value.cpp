@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/functions/facts.hpp"
+#include "convex/gamma0/facts.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/minimise.hpp"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/interval.hpp"
 #include "convex/operations/parts.hpp"
 

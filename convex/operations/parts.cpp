@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 
 namespace convex {
 

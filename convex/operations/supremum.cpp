@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/sum.hpp"

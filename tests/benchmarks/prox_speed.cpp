@@ -12,28 +12,28 @@
 #include <string>
 #include <vector>
 
-#include "convex/kernels/capped_simplex.hpp"
-#include "convex/kernels/exponential_cone.hpp"
-#include "convex/kernels/isotonic.hpp"
-#include "convex/kernels/log_barrier.hpp"
-#include "convex/kernels/logistic.hpp"
-#include "convex/kernels/norm2.hpp"
-#include "convex/kernels/nuclear_norm.hpp"
-#include "convex/kernels/power.hpp"
-#include "convex/kernels/power_cone.hpp"
-#include "convex/kernels/relative_entropy.hpp"
-#include "convex/kernels/second_order_cone.hpp"
-#include "convex/kernels/separable.hpp"
-#include "convex/kernels/simplex.hpp"
-#include "convex/kernels/spectral.hpp"
-#include "convex/kernels/total_variation.hpp"
+#include "convex/prox_formulas/capped_simplex.hpp"
+#include "convex/prox_formulas/exponential_cone.hpp"
+#include "convex/prox_formulas/isotonic.hpp"
+#include "convex/prox_formulas/log_barrier.hpp"
+#include "convex/prox_formulas/logistic.hpp"
+#include "convex/prox_formulas/norm2.hpp"
+#include "convex/prox_formulas/nuclear_norm.hpp"
+#include "convex/prox_formulas/power.hpp"
+#include "convex/prox_formulas/power_cone.hpp"
+#include "convex/prox_formulas/relative_entropy.hpp"
+#include "convex/prox_formulas/second_order_cone.hpp"
+#include "convex/prox_formulas/separable.hpp"
+#include "convex/prox_formulas/simplex.hpp"
+#include "convex/prox_formulas/spectral.hpp"
+#include "convex/prox_formulas/total_variation.hpp"
 
 namespace {
 
 using convex::Index;
 using convex::Matrix;
 using convex::Vector;
-namespace k = convex::kernels;
+namespace k = convex::prox_formulas;
 
 struct Kernel {
   std::string name;

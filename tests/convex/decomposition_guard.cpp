@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/decomposition.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/functions/decomposition.hpp"
+#include "convex/gamma0/node.hpp"
 
 using namespace convex;
 

@@ -1,4 +1,4 @@
-#include "convex/dense_kernels.hpp"
+#include "convex/dense/dense_kernels.hpp"
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>

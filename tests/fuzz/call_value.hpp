@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 
 namespace fuzz {
 

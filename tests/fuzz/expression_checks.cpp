@@ -7,7 +7,7 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "tests/fuzz/call_value.hpp"
 
 namespace fuzz {

@@ -4,7 +4,7 @@
 
 #include "cli/problem_file/problem.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "mechanics/contacts.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"

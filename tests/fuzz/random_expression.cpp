@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "convex/functions/call.hpp"
+#include "convex/gamma0/call.hpp"
 
 namespace fuzz {
 namespace {

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "convex/functions/separable_functions.hpp"
 
 using namespace convex;

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "cli/resolved_scene.hpp"
 #include "cli/report/solve_report.hpp"
+#include "cli/resolved_scene.hpp"
 
 using nlohmann::json;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/triangular_solve.hpp"
+#include "convex/dense/triangular_solve.hpp"
 #include "convex/vector.hpp"
 
 namespace convex {

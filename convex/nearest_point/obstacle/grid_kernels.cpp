@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "convex/double_double.hpp"
-#include "convex/kernels/clones.hpp"
+#include "convex/prox_formulas/clones.hpp"
 
 namespace convex::grid_kernels {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <new>
 
-#include "convex/dense_kernels.hpp"
+#include "convex/dense/dense_kernels.hpp"
 
 namespace convex {
 

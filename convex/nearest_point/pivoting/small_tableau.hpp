@@ -1,7 +1,7 @@
 #pragma once
 
 #include <span>
-#include "convex/dense_kernels.hpp"
+#include "convex/dense/dense_kernels.hpp"
 
 #include "convex/double_double.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "convex/dense/pack_kernels.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
-#include "convex/pack_kernels.hpp"
 
 namespace convex {
 

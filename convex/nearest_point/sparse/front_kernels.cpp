@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "convex/kernels/clones.hpp"
+#include "convex/prox_formulas/clones.hpp"
 
 namespace convex {
 namespace {

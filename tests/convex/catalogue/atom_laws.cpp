@@ -6,7 +6,7 @@
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 
 using convex::Call;
 using convex::Function;

@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include "convex/functions/prox.hpp"
+#include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
 /// Proxes from their optimality conditions, in 50 digits.

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 
 /// Atoms for tests of the engine, each written from its definition.
 namespace samples {

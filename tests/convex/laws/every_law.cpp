@@ -6,7 +6,7 @@
 
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "convex/laws/laws.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 

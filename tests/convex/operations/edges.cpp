@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "convex/operations/supremum.hpp"
 #include "tests/convex/operations/samples.hpp"
 

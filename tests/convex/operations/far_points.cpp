@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 /// Points far above what is left of them, in metrics that couple their entries: doubles of the larger part

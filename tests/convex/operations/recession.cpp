@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "convex/functions/node.hpp"
+#include "convex/gamma0/node.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 using convex::Function;

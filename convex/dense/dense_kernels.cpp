@@ -1,0 +1,110 @@
+#include "convex/dense/dense_kernels.hpp"
+
+#include <cmath>
+
+#include "convex/dense/pack_kernels.hpp"
+
+namespace convex {
+
+// Each step waits for the one before: put into vectors, as the compiler would, it waits for their entries
+// too.
+[[gnu::optimize("no-tree-slp-vectorize"), gnu::noinline]] void factor_block(Index width, double* C) {
+#pragma GCC unroll 8
+  for (int c = 0; c < 8; ++c) {
+    if (c >= width) break;
+    const double pivot = C[9 * c], inverse = 1 / pivot, root = std::sqrt(std::max(pivot, 0.0)), r = 1 / root;
+    double part[8];
+#pragma GCC unroll 8
+    for (int i = c + 1; i < 8; ++i) part[i] = C[8 * c + i] * inverse;
+#pragma GCC unroll 8
+    for (int d = c + 1; d < 8; ++d)
+#pragma GCC unroll 8
+      for (int i = d; i < 8; ++i) C[8 * d + i] -= C[8 * c + i] * part[d];
+    C[9 * c] = root;
+#pragma GCC unroll 8
+    for (int i = c + 1; i < 8; ++i) C[8 * c + i] *= r;
+  }
+}
+
+namespace {
+
+/// One table of kernels: functions for one processor family, with their target attribute if any.
+#define MOREAU_TABLE(name, target, W, fused)                                                                \
+  struct name {                                                                                             \
+    using K = Kernels<W, fused>;                                                                            \
+    target static void factor(Index n, Index ld, double* T, double* r) { K::factor(n, ld, T, r); }          \
+    target static void invert_blocks(Index n, Index ld, const double* T, double* r) {                       \
+      K::invert_blocks(n, ld, T, r);                                                                        \
+    }                                                                                                       \
+    target static void forward(Index n, Index ld, const double* T, const double* r, double* x) {            \
+      K::forward(n, ld, T, r, x);                                                                           \
+    }                                                                                                       \
+    target static void backward(Index n, Index ld, const double* T, const double* r, double* x) {           \
+      K::backward(n, ld, T, r, x);                                                                          \
+    }                                                                                                       \
+    target static void forward_pack(Index n, Index ld, const double* T, const double* r, double* X) {       \
+      K::forward_pack(n, ld, T, r, X);                                                                      \
+    }                                                                                                       \
+    target static void gram(Index n, const double* X, const double* Y, double* G, Index stride) {           \
+      K::gram(n, X, Y, G, stride);                                                                          \
+    }                                                                                                       \
+    target static void dots(Index n, const double* X, const double* y, double* d) { K::dots(n, X, y, d); }  \
+    target static void combine(Index n, Index count, const double* X, const double* y, double* w) {         \
+      K::combine(n, count, X, y, w);                                                                        \
+    }                                                                                                       \
+    target static void add_multiple(Index n, double c, const double* x, double* y) {                        \
+      K::add_multiple(n, c, x, y);                                                                          \
+    }                                                                                                       \
+    target static double dot(Index n, const double* x, const double* y) { return K::dot(n, x, y); }         \
+    target static void slacks(Index m, Index n, const double* U, const double* x, const double* s,          \
+                              double* d) {                                                                  \
+      K::slacks(m, n, U, x, s, d);                                                                          \
+    }                                                                                                       \
+    target static void squares(Index m, Index n, const double* U, const double* x, double* d) {             \
+      K::squares(m, n, U, x, d);                                                                            \
+    }                                                                                                       \
+    target static void stationarity(Index n, const double* A, const double* q, Index m, const double* U,    \
+                                    Index count, const Index* rows, const double* lambda, const double* z,  \
+                                    double* r) {                                                            \
+      K::stationarity(n, A, q, m, U, count, rows, lambda, z, r);                                            \
+    }                                                                                                       \
+    target static void residual(Index n, const double* A, const double* q, Index m, const double* U,        \
+                                Index count, const Index* rows, const double* lambda, const double* z,      \
+                                double* r) {                                                                \
+      K::residual(n, A, q, m, U, count, rows, lambda, z, r);                                                \
+    }                                                                                                       \
+    target static void precise_slacks(Index n, const double* X, const double* q, const double* s,           \
+                                      double* d) {                                                          \
+      K::precise_slacks(n, X, q, s, d);                                                                     \
+    }                                                                                                       \
+    static constexpr DenseKernels table{factor, invert_blocks, forward,      backward,     forward_pack,    \
+                                        gram,   dots,          combine,      add_multiple, dot,             \
+                                        slacks, squares,       stationarity, residual,     precise_slacks}; \
+  };
+
+MOREAU_TABLE(Portable, , 2, false)
+#if defined(__x86_64__) && defined(__GNUC__)
+MOREAU_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
+MOREAU_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
+
+const DenseKernels* const tables[] = {&Portable::table, &Wide::table, &Widest::table};
+
+std::size_t usable() {
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return 1;
+  return __builtin_cpu_supports("avx512f") ? 3 : 2;
+}
+#else
+const DenseKernels* const tables[] = {&Portable::table};
+std::size_t usable() { return 1; }
+#endif
+
+constinit const DenseKernels* chosen = &Portable::table;  // until the choice is made, as the program starts
+[[maybe_unused]] const bool made = (chosen = tables[usable() - 1], true);
+
+}  // namespace
+
+const DenseKernels& dense_kernels() { return *chosen; }
+
+std::span<const DenseKernels* const> all_dense_kernels() { return {tables, usable()}; }
+
+}  // namespace convex

@@ -1,0 +1,179 @@
+#pragma once
+
+#include "convex/dense/triangle_kernels.hpp"
+
+namespace convex {
+
+/// The kernels of `DenseKernels`, to be compiled for a processor family each.
+template <int W, bool Fused>
+struct Kernels : TriangleKernels<W, Fused> {
+  using P = Packs<W, Fused>;
+  using Pack = typename P::Pack;
+
+  MOREAU_INLINE void gram(Index n, const double* X, const double* Y, double* into, Index stride) {
+    constexpr Index together = W == 8 ? 8 : 4;
+    for (Index first = 0; first < 8; first += together) {
+      Pack sum[together] = {};
+      for (Index i = 0; i < n; ++i) {
+        const Pack x = P::load(X + 8 * i);
+        for (Index l = 0; l < together; ++l) P::add_product(sum[l], x, Y[8 * i + first + l]);
+      }
+      for (Index l = 0; l < together; ++l) P::store(into + (first + l) * stride, sum[l]);
+    }
+  }
+
+  MOREAU_INLINE void dots(Index n, const double* X, const double* y, double* into) {
+    Pack even{}, odd{};
+    Index i = 0;
+    for (; i + 2 <= n; i += 2) {
+      P::add_product(even, P::load(X + 8 * i), y[i]);
+      P::add_product(odd, P::load(X + 8 * i + 8), y[i + 1]);
+    }
+    if (i < n) P::add_product(even, P::load(X + 8 * i), y[i]);
+    P::store(into, P::plus(even, odd));
+  }
+
+  MOREAU_INLINE void combine(Index n, Index count, const double* X, const double* y, double* w) {
+    for (Index i = 0; i < n; ++i) {
+      Pack sum{};
+      for (Index k = 0; k < count; ++k)
+        P::add_products(sum, P::load(X + 8 * (k * n + i)), P::load(y + 8 * k));
+      w[i] += P::total(sum);
+    }
+  }
+
+  MOREAU_INLINE void add_multiple(Index n, double c, const double* x, double* y) {
+    for (Index i = 0; i < n; i += 8) {
+      Pack sum = P::load(y + i);
+      P::add_product(sum, P::load(x + i), c);
+      P::store(y + i, sum);
+    }
+  }
+
+  MOREAU_INLINE double dot(Index n, const double* x, const double* y) {
+    Pack sum{};
+    for (Index i = 0; i < n; i += 8) P::add_products(sum, P::load(x + i), P::load(y + i));
+    return P::total(sum);
+  }
+
+  /// Σ of products of packs along `count` rows of U, from which nothing may be read beyond `end`; factors are
+  /// 0 where rows have ended.
+  template <int count, class Factor>
+  MOREAU_INLINE void along(Index n, const double* U, const double* end, Factor factor, double* into) {
+    Pack sum[count] = {};
+    Index i = 0;
+    for (; i + 8 <= n; i += 8)
+      for (int r = 0; r < count; ++r) {
+        const Pack u = P::load(U + r * n + i);
+        P::add_products(sum[r], factor(i, u), u);
+      }
+    if (i < n)
+      for (int r = 0; r < count; ++r) {
+        const Pack u = P::load_before(U + r * n + i, end);
+        P::add_products(sum[r], factor(i, u), u);
+      }
+    for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
+  }
+
+  /// into_a := Σ_i factor(i, u_ai) u_ai, row by row, for so few entries that a pack would be mostly empty.
+  template <int n, class Factor>
+  MOREAU_INLINE void along_few(Index m, const double* U, Factor factor, double* into) {
+    for (Index a = 0; a < m; ++a, U += n) {
+      double sum = factor(0, U[0]) * U[0];
+#pragma GCC unroll 4
+      for (int i = 1; i < n; ++i) sum += factor(i, U[i]) * U[i];
+      into[a] = sum;
+    }
+  }
+  template <class Factor>
+  MOREAU_INLINE bool along_few(Index m, Index n, const double* U, Factor factor, double* into) {
+    switch (n) {
+      case 1:
+        along_few<1>(m, U, factor, into);
+        return true;
+      case 2:
+        along_few<2>(m, U, factor, into);
+        return true;
+      case 3:
+        along_few<3>(m, U, factor, into);
+        return true;
+      case 4:
+        along_few<4>(m, U, factor, into);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  MOREAU_INLINE void slacks(Index m, Index n, const double* U, const double* x, const double* s,
+                            double* into) {
+    if (along_few(
+            m, n, U, [x](int i, double) __attribute__((always_inline)) { return x[i]; }, into)) {
+      for (Index a = 0; a < m; ++a) into[a] -= s[a];
+      return;
+    }
+    const double* const end = U + m * n;
+    const auto factor = [x](Index i, const Pack&) __attribute__((always_inline)) { return P::load(x + i); };
+    Index a = 0;
+    for (; a + 4 <= m; a += 4, U += 4 * n) along<4>(n, U, end, factor, into + a);
+    for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
+    for (a = 0; a < m; ++a) into[a] -= s[a];
+  }
+
+  MOREAU_INLINE void squares(Index m, Index n, const double* U, const double* weight, double* into) {
+    if (along_few(
+            m, n, U, [weight](int i, double u) __attribute__((always_inline)) { return u * weight[i]; },
+            into))
+      return;
+    const double* const end = U + m * n;
+    const auto factor = [weight](Index i, const Pack& u) __attribute__((always_inline)) {
+      return P::times(u, P::load(weight + i));
+    };
+    Index a = 0;
+    for (; a + 4 <= m; a += 4, U += 4 * n) along<4>(n, U, end, factor, into + a);
+    for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
+  }
+
+  MOREAU_INLINE void stationarity(Index n, const double* A, const double* q, Index m, const double* U,
+                                  Index count, const Index* rows, const double* lambda, const double* z,
+                                  double* into) {
+    Index i = 0;
+    for (; i + 8 <= n; i += 8) {
+      Pack hi = P::load(z + i), lo{};
+      for (Index k = 0; k < count; ++k) P::add_precisely(hi, lo, P::load(U + rows[k] * n + i), lambda[k]);
+      for (Index j = 0; j < n; ++j) P::add_precisely(hi, lo, P::load(A + j * n + i), -q[j]);
+      P::store(into + i, P::plus(hi, lo));
+    }
+    if (i == n) return;
+    const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
+    Pack hi = P::load(z + i), lo{};
+    for (Index k = 0; k < count; ++k)
+      P::add_precisely(hi, lo, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
+    for (Index j = 0; j < n; ++j) P::add_precisely(hi, lo, P::load_before(A + j * n + i, end_of_A), -q[j]);
+    P::store(into + i, P::plus(hi, lo));
+    for (i = n; i < padded(n); ++i) into[i] = 0;
+  }
+
+  MOREAU_INLINE void residual(Index n, const double* A, const double* q, Index m, const double* U,
+                              Index count, const Index* rows, const double* lambda, const double* z,
+                              double* into) {
+    const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
+    for (Index i = 0; i < n; i += 8) {
+      Pack force = P::load(z + i), inertia{};
+      for (Index k = 0; k < count; ++k)
+        P::add_product(force, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
+      for (Index j = 0; j < n; ++j) P::add_product(inertia, P::load_before(A + j * n + i, end_of_A), q[j]);
+      P::store(into + i, P::minus(force, inertia));
+    }
+    for (Index i = n; i < padded(n); ++i) into[i] = 0;
+  }
+
+  MOREAU_INLINE void precise_slacks(Index n, const double* X, const double* q, const double* s,
+                                    double* into) {
+    Pack hi = P::times(P::load(s), -1), lo{};
+    for (Index i = 0; i < n; ++i) P::add_precisely(hi, lo, P::load(X + 8 * i), q[i]);
+    P::store(into, P::plus(hi, lo));
+  }
+};
+
+}  // namespace convex

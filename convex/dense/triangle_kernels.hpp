@@ -1,0 +1,140 @@
+#pragma once
+
+#include "convex/dense/packs.hpp"
+
+namespace convex {
+
+/// The Cholesky factor of the lower triangle of C, 8×8 by columns, its first `width` columns.
+void factor_block(Index width, double* C);
+
+alignas(64) inline constexpr double unit_block[64] = {
+    1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0,
+    0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1};
+
+/// The kernels of `DenseKernels` on triangles, by blocks of eight. The inverse of each 8×8 block on the
+/// diagonal makes a solve with it a product, whose terms do not wait for each other.
+template <int W, bool Fused>
+struct TriangleKernels : Packs<W, Fused> {
+  using P = Packs<W, Fused>;
+  using Pack = typename P::Pack;
+
+  /// Takes from four columns, from j on, of a pack of rows what the `before` columns before contribute.
+  MOREAU_INLINE void subtract_before(Index before, Index ld, const double* T, Index j, Index row,
+                                     Pack (&column)[4]) {
+    const double *l = T + row, *across = T + j;
+    for (Index p = 0; p < before; ++p, l += ld, across += ld) {
+      const Pack x = P::load(l);
+      for (int c = 0; c < 4; ++c) P::subtract_product(column[c], x, across[c]);
+    }
+  }
+
+  /// inverse: the inverse of a lower triangle L, at T by columns, the unit matrix from `width` on; then its
+  /// transpose.
+  MOREAU_INLINE void invert_block(Index width, Index ld, const double* T, double* inverse) {
+    Pack row[8];  // of the inverse
+#pragma GCC unroll 8
+    for (int r = 0; r < 8; ++r) {
+      if (r >= width) break;
+      row[r] = P::load(unit_block + 8 * r);
+#pragma GCC unroll 8
+      for (int c = 0; c < r; ++c) P::subtract_product(row[r], row[c], T[c * ld + r]);
+      row[r] = P::times(row[r], 1 / T[r * (ld + 1)]);
+    }
+    for (int k = 0; k < 8; ++k) P::store(inverse + 8 * k, P::load(unit_block + 8 * k));
+#pragma GCC unroll 8
+    for (int r = 0; r < 8; ++r)
+      P::store(inverse + 64 + 8 * r, r < width ? row[r] : P::load(unit_block + 8 * r));
+    for (int r = 0; r < width; ++r) {
+      for (int c = 0; c <= r; ++c) inverse[8 * c + r] = inverse[64 + 8 * r + c];
+    }
+  }
+
+  MOREAU_INLINE void factor(Index n, Index ld, double* T, double* inverse) {
+    for (Index j = 0; j < n; j += 8, inverse += 128) {
+      const Index columns = n - j < 8 ? n - j : 8;
+      for (Index row = j; row < n; row += 8) {
+        double B[64];  // eight columns of the pack of rows
+        for (int half = 0; half < 8; half += 4) {
+          Pack column[4];
+          for (int c = 0; c < 4; ++c) column[c] = P::load(T + (j + half + c) * ld + row);
+          subtract_before(j, ld, T, j + half, row, column);
+          for (int c = 0; c < 4; ++c) P::store(B + 8 * (half + c), column[c]);
+        }
+        if (row == j) {
+          factor_block(columns, B);
+          for (int c = 0; c < columns; ++c)
+            for (int i = c; i < columns; ++i)
+              T[(j + c) * ld + j + i] = T[(j + i) * ld + j + c] = B[8 * c + i];
+          invert_block(columns, ld, T + j * (ld + 1), inverse);
+          continue;
+        }
+        for (int half = 0; half < 8; half += 4) {  // B L⁻ᵀ
+          Pack column[4] = {};
+          for (int d = 0; d < half + 4; ++d) {
+            const Pack x = P::load(B + 8 * d);
+            for (int c = 0; c < 4; ++c) P::add_product(column[c], x, inverse[8 * d + half + c]);
+          }
+          for (int c = 0; c < 4; ++c) {
+            double X[8];
+            P::store(X, column[c]);
+            P::store(T + (j + half + c) * ld + row, column[c]);
+            for (int i = 0; i < 8; ++i) T[(row + i) * ld + j + half + c] = X[i];
+          }
+        }
+      }
+    }
+  }
+
+  MOREAU_INLINE void invert_blocks(Index n, Index ld, const double* T, double* inverse) {
+    for (Index j = 0; j < n; j += 8)
+      invert_block(n - j < 8 ? n - j : 8, ld, T + j * (ld + 1), inverse + 16 * j);
+  }
+
+  MOREAU_INLINE void forward(Index n, Index ld, const double* T, const double* inverse, double* x) {
+    for (Index j = 0; j < n; j += 8, T += 8 * ld) {
+      P::store(x + j, P::block_times(inverse + 16 * j, x + j));
+      for (Index row = j + 8; row < n; row += 8) {
+        Pack sum = P::load(x + row);
+        for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + c * ld + row), x[j + c]);
+        P::store(x + row, sum);
+      }
+    }
+  }
+
+  MOREAU_INLINE void backward(Index n, Index ld, const double* T, const double* inverse, double* x) {
+    for (Index j = (n - 1) / 8 * 8; j >= 0; j -= 8) {
+      P::store(x + j, P::block_times(inverse + 16 * j + 64, x + j));
+      for (Index row = 0; row < j; row += 8) {
+        Pack sum = P::load(x + row);
+        for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + (j + c) * ld + row), x[j + c]);
+        P::store(x + row, sum);
+      }
+    }
+  }
+
+  MOREAU_INLINE void forward_pack(Index n, Index ld, const double* T, const double* inverse, double* X) {
+    const auto reciprocal = [&](Index i) { return inverse[i / 8 * 128 + i % 8 * 9]; };
+    Index i = 0;
+    for (; i + 4 <= n; i += 4) {
+      Pack sum[4];
+      const double* row = T + i * ld;
+      for (int r = 0; r < 4; ++r) sum[r] = P::load(X + 8 * (i + r));
+      for (Index j = 0; j < i; ++j) {
+        const Pack x = P::load(X + 8 * j);
+        for (int r = 0; r < 4; ++r) P::subtract_product(sum[r], x, row[r * ld + j]);
+      }
+      for (int r = 0; r < 4; ++r) {
+        for (int c = 0; c < r; ++c) P::subtract_product(sum[r], sum[c], row[r * ld + i + c]);
+        sum[r] = P::times(sum[r], reciprocal(i + r));
+        P::store(X + 8 * (i + r), sum[r]);
+      }
+    }
+    for (; i < n; ++i) {
+      Pack sum = P::load(X + 8 * i);
+      for (Index j = 0; j < i; ++j) P::subtract_product(sum, P::load(X + 8 * j), T[i * ld + j]);
+      P::store(X + 8 * i, P::times(sum, reciprocal(i)));
+    }
+  }
+};
+
+}  // namespace convex
