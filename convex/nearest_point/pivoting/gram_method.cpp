@@ -39,6 +39,13 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
       found.solution = std::move(solution);
       return found;
     }
+    if (const std::optional<Vector> weights = small.contradiction()) {
+      solution = infeasible_answer(problem, *weights, small.scale(), small.steps());
+      if (solution.status == Status::infeasible) {
+        found.solution = std::move(solution);
+        return found;
+      }
+    }
     found.rows = small.one_sided_rows_held();
   }
   thread_local Arena arena;

@@ -15,18 +15,6 @@ namespace {
 /// doubles.
 constexpr double near = 1e-8;
 
-/// Multipliers and slacks up to so many times the largest wrong one may change.
-constexpr double room_for_change = 256;
-
-/// Corrections are cheap here: they are made until what is left lies so far below the scale.
-constexpr double plenty = 0x1p-76;
-
-/// Corrections beyond what is enough, for entries that are close to 0.
-constexpr int most_more = 3;
-
-/// Corrections before pivoting has lost its way.
-constexpr int most_passes = 12;
-
 }  // namespace
 
 GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
@@ -37,7 +25,7 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((9 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 11) * padded(k) + 4 * padded(places)) / 8 +
+  arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 14) * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   z_ = arena.take_filled(n_, 0.0);
   w_free_ = arena.take<double>(n_);
@@ -48,11 +36,15 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
   dw_ = arena.take<double>(n_);
   dq_ = arena.take<double>(n_);
   inverse_diagonal_ = arena.take_filled(n_, 0.0);
+  unit_ = arena.take<double>(n_);
   row_scale_ = arena.take<double>(m_);
   slack_ = arena.take<double>(m_);
   load_ = arena.take<double>(k);
   rows_ = arena.take<Index>(k);
   lambda_ = arena.take<double>(k);
+  change_ = arena.take<double>(k);
+  length_ = arena.take<double>(k);
+  pull_ = arena.take<double>(k);
   y_ = arena.take_filled(places, 0.0);
   held_slack_ = arena.take<double>(places);
   total_ = arena.take_filled(places, 0.0);
@@ -65,7 +57,10 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
   dual_ = arena.take<double>(n_ * padded(k));
   products_ = arena.take<double>(8 * padded(k));
   const double* diagonal = problem_.A.diagonal().data();
-  for (Index i = 0; i < n_; ++i) inverse_diagonal_[i] = 1 / diagonal[i];
+  for (Index i = 0; i < n_; ++i) {
+    inverse_diagonal_[i] = 1 / diagonal[i];
+    unit_[i] = std::sqrt(inverse_diagonal_[i]);
+  }
   kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
   for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
   edge_.emplace(problem, row_scale_);
@@ -76,52 +71,33 @@ void GramSolve::whiten_force() {
   for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
   copy_packs(ld_, z_, w_free_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
-  scale_ = force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
+  known_.scale = force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
 }
 
 bool GramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
   whiten_force();
-  return set_->settle(guess) && finish(accuracy, solution);
+  return set_->settle(guess) && finish_settled(accuracy, solution);
 }
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   whiten_force();
-  return set_->settle_again() && finish(accuracy, solution);
+  return set_->settle_again() && finish_settled(accuracy, solution);
 }
 
-/// The rows held are right as far as doubles tell. Their point is corrected in twice the working precision.
-/// What multipliers and slacks are wrong then, by rounding, is the scale of a problem of the same kind, for
-/// those that are that small: pivoting goes on there, on the same Gram matrix, until nothing is wrong.
-bool GramSolve::finish(const Accuracy& accuracy, Solution& solution) {
+bool GramSolve::finish_settled(const Accuracy& accuracy, Solution& solution) {
   take_point();
-  if (!accuracy.refine && answer_of_doubles(accuracy, solution)) return true;
-  double small = 0;
-  int more = most_more;
-  for (int pass = 0; pass < most_passes; ++pass) {
-    if (!correct(pass == 0, small)) return false;
-    small = 0;
-    if (!(remaining_ <= plenty * scale_)) continue;
-    wrong_ = 0;
-    if (!take_noise_for_zero(more > 0)) {
-      more -= 1;
-      continue;
-    }
-    const Slacks slacks = measure_slacks();
-    if (slacks == Slacks::doubtful) return false;
-    if (wrong_ > 0) {
-      small = room_for_change * wrong_;
-      continue;
-    }
-    if (std::all_of(q_, q_ + n_, [](double x) { return x == 0; })) acceleration_norm_ = 0;
-    const double enough_for_all = accuracy.tolerance * std::max(1.0, acceleration_norm_);
-    if (!(bound_ <= enough_for_all) && is_exact_vertex()) bound_ = 0;
-    write(solution);
-    solution.residuals = residuals_of_active();
-    solution.error_bound = bound_ + moved_;
-    solution.status = solution.error_bound <= enough_for_all ? Status::solved : Status::inaccurate;
-    return true;
-  }
-  return false;
+  return (!accuracy.refine && answer_of_doubles(accuracy, solution)) || finish(*this, accuracy, solution);
+}
+
+bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
+  if (std::all_of(q_, q_ + n_, [](double x) { return x == 0; })) acceleration_norm_ = 0;
+  const double enough_for_all = accuracy.tolerance * std::max(1.0, acceleration_norm_);
+  if (!(known_.bound <= enough_for_all) && is_exact_vertex()) known_.bound = 0;
+  write_point(solution);
+  solution.residuals = residuals_of_active();
+  solution.error_bound = known_.bound + moved_;
+  solution.status = solution.error_bound <= enough_for_all ? Status::solved : Status::inaccurate;
+  return true;
 }
 
 /// Whether as many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
@@ -139,49 +115,52 @@ void GramSolve::take_point() {
   copy_packs(set_->rows().count(), set_->lambda(), total_);
   list_rows_held();
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  scale_ = std::max(acceleration_norm_, force_norm_);
+  known_.scale = std::max(acceleration_norm_, force_norm_);
 }
 
 void GramSolve::list_rows_held() {
   for (Index j = 0; j < set_->size(); ++j) {
     rows_[j] = set_->row(j);
     lambda_[j] = total_[set_->place(j)];
+    length_[j] = std::sqrt(set_->rows().square(set_->place(j)));
+    pull_[j] = set_->is_two_sided(rows_[j]) ? 0 : length_[j];
   }
   inverse_norm_ = set_->inverse_norm();
   gram_condition_ = set_->condition(load_);
-  condition_ = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
 }
 
 /// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing
 /// of the equations does not do.
 bool GramSolve::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
   fill_packs(ld_, 0, q_low_);
-  remaining_ = rounding_ = silenced_ = 0;
+  known_.remaining = known_.rounding = known_.silenced = 0;
   for (Index j = 0; j < set_->size(); ++j)
     if (!set_->is_two_sided(rows_[j]) &&
-        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * scale_))
+        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * known_.scale))
       return false;
   if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
   for (Index a = 0; a < m_; ++a)
     if (!set_->holds(a) &&
-        !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * std::max(magnitude_, scale_))))
+        !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * std::max(magnitude_, known_.scale))))
       return false;
+  const double condition = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
   double missing = 0;
   for (Index j = 0; j < set_->size(); ++j)
     missing += held_slack_[set_->place(j)] * held_slack_[set_->place(j)];
   solution.residuals = residuals_of_active();
-  bound_ = bound_of_doubles(n_, set_->size(), solution.residuals.stationarity * scale_,
-                            inverse_norm_ * std::sqrt(missing), condition_ * (scale_ + magnitude_));
-  write(solution);
+  known_.bound =
+      bound_of_doubles(n_, set_->size(), solution.residuals.stationarity * known_.scale,
+                       inverse_norm_ * std::sqrt(missing), condition * (known_.scale + magnitude_));
+  write_point(solution);
   solution.status = Status::solved;
-  return bound_ <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+  return known_.bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
 }
 
 bool GramSolve::touches_rows() const {
   return std::any_of(touched_, touched_ + touched_count_, [&](Index a) { return !(slack_[a] > 0); });
 }
 
-void GramSolve::write(Solution& solution) const {
+void GramSolve::write_point(Solution& solution) const {
   solution.method = "active-set";
   solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
   solution.model.islands.clear();
@@ -193,8 +172,8 @@ void GramSolve::write(Solution& solution) const {
   solution.basis.assign(rows_, rows_ + set_->size());
   solution.acceleration_norm = acceleration_norm_;
   solution.force_norm = force_norm_;
-  solution.rounding = rounding_;
-  solution.error_bound = bound_;
+  solution.rounding = known_.rounding;
+  solution.error_bound = known_.bound;
 }
 
 /// `residuals`, to which only the rows held and touched matter; measured in doubles.
@@ -205,7 +184,7 @@ Residuals GramSolve::residuals_of_active() {
   const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
   double most = 0;
   for (Index j = 0; j < set_->size(); ++j) most = std::max(most, std::abs(lambda_[j]));
-  HeldResiduals held(stationarity, acceleration_norm_, scale_, most);
+  HeldResiduals held(stationarity, acceleration_norm_, known_.scale, most);
   for (Index j = 0; j < set_->size(); ++j)
     held.add(problem_.s[rows_[j]], std::sqrt(set_->rows().square(set_->place(j))), lambda_[j],
              held_slack_[set_->place(j)], set_->is_two_sided(rows_[j]));

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/pivoting/corrections.hpp"
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/nearest_point/solution.hpp"
 
@@ -20,30 +21,28 @@ class GramSolve {
   /// False when something is in doubt; the solution is then not to be used.
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
   const GramPivoting& set() const { return *set_; }
-  double scale() const { return scale_; }  ///< max(||q||_A, ||z||_(A⁻¹))
+  double scale() const { return known_.scale; }  ///< max(||q||_A, ||z||_(A⁻¹))
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
 
  private:
-  /// What is missing in a point may show this many times as large in a slack: ||u_a||_(D⁻¹), D the diagonal
-  /// of A, stands for the row's length, and what is missing is an estimate.
-  static constexpr double margin = 16;
-
-  enum class Slacks { kept, violated, doubtful };
+  template <class Engine>
+  friend bool finish(Engine&, const Accuracy&, Solution&);
 
   void whiten_force();
-  bool finish(const Accuracy& accuracy, Solution& solution);
+  bool finish_settled(const Accuracy& accuracy, Solution& solution);
+  Corrections& corrections() { return known_; }
   bool is_exact_vertex() const;
   void take_point();
   void list_rows_held();
   bool correct(bool is_first, double small);
-  double floor_of_residuals() const;
   bool take_noise_for_zero(bool more);
   void residual(bool is_first);
   void rest_loads(bool is_first, bool with_outside);
   bool answer_of_doubles(const Accuracy& accuracy, Solution& solution);
   bool touches_rows() const;
-  void write(Solution& solution) const;
+  bool write(const Accuracy& accuracy, Solution& solution);
+  void write_point(Solution& solution) const;
   Slacks measure_slacks();
   Slacks look_at_violated(Index count);
   void set_slacks_of_doubles();
@@ -65,19 +64,16 @@ class GramSolve {
   const DenseFactor A_;
   const Index n_, m_, ld_;
   std::optional<GramPivoting> set_;
-  double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *row_scale_, *slack_;
-  double *load_, *lambda_;                    // of the rows held, rows_
+  double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *unit_, *row_scale_, *slack_;
+  double *load_, *lambda_, *change_, *length_, *pull_;  // of the rows held, rows_
   double *y_, *total_, *rest_, *held_slack_;  // at places; total_: all multipliers, y_: their last change
   double *touched_slack_, *pack_, *dual_, *products_;  // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   std::optional<SlackOnEdge> edge_;
-  double force_norm_ = 0, acceleration_norm_ = 0, scale_ = 0, first_ = 0, remaining_ = 0, likely_ = 0;
-  double inverse_norm_ = 0, gram_condition_ = 0, condition_ = 0, magnitude_ = 0, rounding_ = 0, bound_ = 0;
-  double silenced_ = 0;  ///< at least ||·||_A of what cancelled and was taken for 0
-  double wrong_ = 0;     ///< the largest wrong multiplier, times its length, or slack, over it
-  double moved_ = 0;     ///< how far rows that the point touches may move the answer
+  Corrections known_;
+  double force_norm_ = 0, acceleration_norm_ = 0, inverse_norm_ = 0, gram_condition_ = 0, magnitude_ = 0;
+  double moved_ = 0;  ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
-  bool is_fresh_ = true;  ///< the last correction was the first of these rows
 };
 
 }  // namespace convex

@@ -6,12 +6,6 @@
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 
 namespace convex {
-namespace {
-
-/// Slower corrections are left to an orthogonal factor.
-constexpr double slowest_contraction = 0x1p-6;
-
-}  // namespace
 
 /// One correction of q and lambda with residuals in twice the working precision, in which rows change sides
 /// whose multipliers (times lengths) and slacks (over them) are `small`. False when it does not settle or
@@ -40,23 +34,12 @@ bool GramSolve::correct(bool is_first, double small) {
   kernels_.add_multiple(ld_, 1, dw_, w_);
   kernels_.add_multiple(before, 1, y_, total_);
   list_rows_held();
-  const double previous = first_;
-  first_ = std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed;
+  for (Index j = 0; j < set_->size(); ++j) change_[j] = y_[set_->place(j)];
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  scale_ = std::max(acceleration_norm_, force_norm_);
-  is_fresh_ = is_first || has_changed;
-  const double seen = is_fresh_                                       ? (scale_ > 0 ? first_ / scale_ : 0)
-                      : first_ > at_rounding * scale_ && previous > 0 ? first_ / previous
-                                                                      : 0;
-  const double usual = std::max(seen, usual_contraction(problem_.A.factor_condition(), gram_condition_));
-  // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
-  // with the same rows shows by how much.
-  const double contraction =
-      is_fresh_ ? std::max(seen, expected_contraction(problem_.A.factor_condition(), gram_condition_, true))
-                : usual;
-  if (!(contraction <= slowest_contraction)) return false;
-  remaining_ = first_ * contraction / (1 - contraction) + floor_of_residuals();
-  likely_ = std::min(remaining_, first_ * usual);
+  if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed,
+                   problem_.A.factor_condition(), gram_condition_, 0,
+                   std::max(acceleration_norm_, force_norm_)))
+    return false;
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
   for (Index i = 0; i < n_; ++i) {
@@ -95,52 +78,12 @@ void GramSolve::rest_loads(bool is_first, bool with_outside) {
   }
 }
 
-/// What the rounding of residuals in twice the working precision leaves.
-double GramSolve::floor_of_residuals() const {
-  return 4 * unit_roundoff * unit_roundoff * condition_ * scale_;
-}
-
-/// Takes what cancels for 0; or false, if `more`, when another correction may tell some of it from 0.
-/// `wrong_` becomes the size of a negative multiplier, if there is one.
 bool GramSolve::take_noise_for_zero(bool more) {
-  const double usual = usual_contraction(problem_.A.factor_condition(), gram_condition_);
-  const double missing = 4 * likely_ * problem_.A.factor_condition();
-  // The second correction of an entry is more than what is missing in it.
-  const auto noise_of = [&](double unit, double floor, double step) {
-    return is_fresh_ ? std::max(missing * unit, cancelled * std::abs(step))
-                     : std::max(floor * unit, 2 * std::abs(step));
-  };
-  const double floor = at_rounding * scale_, floor_of_multipliers = floor_of_residuals();
-  for (Index i = 0; i < n_ && more; ++i)
-    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), floor, dq_[i]) &&
-        !(std::abs(q_[i]) <=
-          std::max(16 * usual * std::abs(dq_[i]), floor * std::sqrt(inverse_diagonal_[i]))))
-      return false;
-  double rounded = 0, silenced = 0, let_pull = 0;
-  for (Index i = 0; i < n_; ++i) {
-    if (std::abs(q_[i]) <= noise_of(std::sqrt(inverse_diagonal_[i]), floor, dq_[i])) {
-      silenced += problem_.A.diagonal()[i] * q_[i] * q_[i];
-      q_[i] = q_low_[i] = 0;
-    }
-    rounded += problem_.A.diagonal()[i] * q_low_[i] * q_low_[i];
-  }
-  for (Index j = 0; j < set_->size(); ++j) {
-    const Index place = set_->place(j);
-    // Rows may be told in units far apart: each multiplier is measured by the length of its own.
-    const double unit = std::sqrt(gram_condition_ / set_->rows().square(place));
-    const double pull = -lambda_[j] * std::sqrt(set_->rows().square(place));
-    const bool may_be_wrong = pull > 0 && !set_->is_two_sided(rows_[j]);
-    if (std::abs(lambda_[j]) <= noise_of(unit, floor_of_multipliers, y_[place])) {
-      lambda_[j] = total_[place] = 0;
-      if (may_be_wrong) let_pull += pull;
-    } else if (may_be_wrong) {
-      wrong_ = std::max(wrong_, pull);
-    }
-  }
-  rounding_ = std::sqrt(static_cast<double>(n_) * rounded);
-  silenced_ = std::sqrt(static_cast<double>(n_) * silenced);
-  bound_ = 2 * remaining_ + silenced_ + rounding_ + let_pull;
-  return true;
+  const bool told = known_.take_noise_for_zero({n_, q_, q_low_, dq_, problem_.A.diagonal().data(), unit_,
+                                                set_->size(), lambda_, change_, length_, pull_},
+                                               more);
+  for (Index j = 0; j < set_->size(); ++j) total_[set_->place(j)] = lambda_[j];
+  return told;
 }
 
 }  // namespace convex

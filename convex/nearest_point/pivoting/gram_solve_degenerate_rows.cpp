@@ -39,32 +39,31 @@ void GramSolve::set_slacks_of_doubles() {
 }
 
 /// Slacks at the refined point. Rows violated have been looked at then.
-GramSolve::Slacks GramSolve::measure_slacks() {
+Slacks GramSolve::measure_slacks() {
   set_slacks_of_doubles();
   const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
-  const double unsure_point = margin * (remaining_ + silenced_);
   Index violated = 0;
   touched_count_ = 0;
   for (Index a = 0; a < m_; ++a) {
     if (set_->holds(a)) continue;
-    const double unsure =
-        rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) + row_scale_[a] * unsure_point;
+    const double unsure = rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) +
+                          known_.missing_slack(row_scale_[a]);
     if (slack_[a] > unsure) continue;
     if (slack_[a] < -unsure) {
       close_[violated++] = a;
-      wrong_ = std::max(wrong_, -slack_[a] / row_scale_[a]);
+      known_.wrong = std::max(known_.wrong, -slack_[a] / row_scale_[a]);
     } else {
       touched_[touched_count_++] = a;
     }
   }
   moved_ = 0;
   if (violated > 0) return look_at_violated(violated);
-  if (wrong_ > 0) return Slacks::kept;
+  if (known_.wrong > 0) return Slacks::kept;
   return touched_count_ == 0 ? Slacks::kept : decide_degenerate_rows();
 }
 
 /// Looks at the first `count` rows of close_, for the next correction to take them in.
-GramSolve::Slacks GramSolve::look_at_violated(Index count) {
+Slacks GramSolve::look_at_violated(Index count) {
   Index fresh = 0;
   for (Index k = 0; k < count; ++k)
     if (set_->rows().place(close_[k]) < 0) fresh_[fresh++] = close_[k];
@@ -77,7 +76,7 @@ GramSolve::Slacks GramSolve::look_at_violated(Index count) {
 /// they do. Where a motion e along the rows held raises all others that p touches, p + t e keeps all rows for
 /// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
 /// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
-GramSolve::Slacks GramSolve::decide_degenerate_rows() {
+Slacks GramSolve::decide_degenerate_rows() {
   if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
     for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k] = (*slacks)[k];
     return Slacks::kept;
@@ -126,7 +125,7 @@ Index GramSolve::measure_touched_slacks() {
       const double sum = rest[k] + low[k], rounding = slack_noise(a);
       if (!(sum >= -rounding)) {
         close_[violated++] = a;
-        wrong_ = std::max(wrong_, -sum / row_scale_[a]);
+        known_.wrong = std::max(known_.wrong, -sum / row_scale_[a]);
       }
       touched_slack_[first + k] = rest[k];
       slack_[a] = std::abs(sum) <= rounding ? 0 : sum;
@@ -136,8 +135,8 @@ Index GramSolve::measure_touched_slacks() {
 }
 
 double GramSolve::slack_noise(Index a) const {
-  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * scale_) +
-         margin * row_scale_[a] * (remaining_ + silenced_);
+  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
+         known_.missing_slack(row_scale_[a]);
 }
 
 /// The slacks of the rows touched where q is, without rounding, the point of the rows held and keeps them.
@@ -269,7 +268,7 @@ double GramSolve::violation_of_touched_rows(double known) {
     std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
     kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
     const double length = std::sqrt(kernels_.dot(ld_, dw_, dw_)), size = s + length * acceleration_norm_;
-    known = std::max(known, violation / (size > 0 ? size : length * scale_));
+    known = std::max(known, violation / (size > 0 ? size : length * known_.scale));
   }
   return known;
 }

@@ -13,6 +13,12 @@ namespace {
 /// A row outside with a smaller slack than this part of its terms is close enough to matter.
 constexpr double near = 1e-8;
 
+/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
+constexpr double silence = 0x1p-95;
+
+/// A coefficient of a row in terms of others is 0 when its part is below this part of the row.
+constexpr double coefficient_noise = 1e-9;
+
 /// Sweeps add up their rounding: after so many a row, all is swept anew.
 constexpr Index sweeps_kept = 16;
 
@@ -27,9 +33,12 @@ bool one_pack(const SmallTableau& t) { return t.ld == 8 && t.stride == 8; }
       return one_pack(t) ? One::begin_again(t) : Four::begin_again(t);                                       \
     }                                                                                                        \
     target static bool settle(SmallTableau& t) { return one_pack(t) ? One::settle(t) : Four::settle(t); }    \
-    target static void correct(SmallTableau& t) { return one_pack(t) ? One::correct(t) : Four::correct(t); } \
+    target static bool correct(SmallTableau& t) { return one_pack(t) ? One::correct(t) : Four::correct(t); } \
+    target static void measure_precisely(SmallTableau& t) {                                                  \
+      return one_pack(t) ? One::measure_precisely(t) : Four::measure_precisely(t);                           \
+    }                                                                                                        \
     target static void measure(SmallTableau& t) { return one_pack(t) ? One::measure(t) : Four::measure(t); } \
-    static constexpr SmallKernels table{begin, begin_again, settle, correct, measure};                       \
+    static constexpr SmallKernels table{begin, begin_again, settle, correct, measure_precisely, measure};    \
   };
 
 MOREAU_SMALL_TABLE(Portable, , 2, false)
@@ -62,8 +71,9 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
   scene.inverse = factor.inverse;
   scene.A = problem.A.dense_gram().data();
   scene.U = problem.U.dense().data();
-  const double* const diagonal = problem.A.diagonal().data();
-  for (Index i = 0; i < scene.n; ++i) scene.inverse_diagonal[i] = 1 / diagonal[i];
+  const auto diagonal = problem.A.diagonal().array();
+  Eigen::Map<Eigen::ArrayXd>(scene.inverse_diagonal, scene.n) = diagonal.inverse();
+  Eigen::Map<Eigen::ArrayXd>(scene.unit, scene.n) = diagonal.sqrt().inverse();
 }
 
 void SmallGramSolve::take_force() {
@@ -97,6 +107,21 @@ bool SmallGramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   return settled && answer(accuracy, solution);
 }
 
+std::optional<Vector> SmallGramSolve::contradiction() const {
+  const SmallTableau& t = scene_;
+  if (t.dependent < 0) return std::nullopt;
+  const double* const coefficients = t.swept + t.dependent * t.stride;
+  Vector weights = Vector::Zero(t.m);
+  weights[t.dependent] = 1;
+  for (Index a = 0; a < t.m; ++a) {
+    const double part = coefficients[a] * t.row_scale[a] * t.inverse_scale[t.dependent];
+    if (!t.held[a] || std::abs(part) <= coefficient_noise) continue;
+    if (part > 0 && !t.two_sided[a]) return std::nullopt;
+    weights[a] = -coefficients[a];
+  }
+  return weights;
+}
+
 std::vector<Index> SmallGramSolve::one_sided_rows_held() const {
   std::vector<Index> rows;
   for (Index a = 0; a < scene_.m; ++a)
@@ -104,125 +129,169 @@ std::vector<Index> SmallGramSolve::one_sided_rows_held() const {
   return rows;
 }
 
-/// False when one correction does not do.
-bool SmallGramSolve::correct() {
-  small_kernels().correct(scene_);
-  contraction_ =
-      std::max(scale_ > 0 ? scene_.first / scale_ : 0,
-               expected_contraction(scene_.factor_condition,
-                                    std::max(scene_.gram_condition, scene_.growth * scene_.growth), true));
-  remaining_ = scene_.first * contraction_ / (1 - contraction_) +
-               4 * unit_roundoff * unit_roundoff * condition_ * scale_;
-  return contraction_ <= largest_contraction && remaining_ <= enough * scale_;
+/// Weak are multipliers (times lengths) and slacks (over them) that are `small`.
+void SmallGramSolve::mark_weak(double small) {
+  SmallTableau& t = scene_;
+  t.any_weak = false;
+  zeroed_ = 0;
+  if (!(small > 0)) return;
+  t.any_weak = true;
+  for (Index a = 0; a < t.m; ++a) {
+    const double length = std::sqrt(t.square[a]);
+    t.is_weak[a] =
+        !t.two_sided[a] && !(t.held[a] ? t.lambda[a] * length > small : t.slack[a] > t.row_scale[a] * small);
+    if (!t.is_weak[a] || !t.held[a]) continue;
+    zeroed_ += std::abs(t.lambda[a]) * length;
+    t.lambda[a] = 0;
+  }
+  for (Index k = 0; k < t.size; ++k) t.held_lambda[k] = t.lambda[t.rows[k]];
 }
 
-/// Takes the correction in, and what cancels for 0; false when an entry is so small that more corrections
-/// would tell it, or a multiplier turns out negative.
-bool SmallGramSolve::round() {
+bool SmallGramSolve::correct(bool is_first, double small) {
   SmallTableau& t = scene_;
-  const double usual = usual_contraction(t.factor_condition, t.gram_condition);
-  const double missing = 4 * std::min(remaining_, t.first * usual) * t.factor_condition;
-  const double* const diagonal = problem_.A.diagonal().data();
-  double rounded = 0, silenced = 0, let_pull = 0;
-  Index small = 0;
-  for (Index i = 0; i < t.n; ++i) {
-    const DoubleDouble sum = two_sum(t.q[i], t.dq[i]);
-    const double size = std::abs(sum.hi), step = std::abs(t.dq[i]);
-    const bool is_zero = size <= 16 * usual * step;
-    small += !is_zero && size <= std::max(cancelled * step, missing * std::sqrt(t.inverse_diagonal[i]));
-    if (is_zero) silenced += diagonal[i] * sum.hi * sum.hi;
-    t.q[i] = is_zero ? 0 : sum.hi;
-    t.q_low[i] = is_zero ? 0 : sum.lo;
-    rounded += diagonal[i] * t.q_low[i] * t.q_low[i];
-  }
-  if (small > 0) return false;
+  if (is_first) fill_packs(t.ld, 0, t.q_low);
+  mark_weak(small);
+  t.is_first = is_first;
+  const Index steps = t.steps;
+  if (!small_kernels().correct(t)) return false;
   for (Index k = 0; k < t.size; ++k) {
-    const double step = t.correction[k], sum = t.held_lambda[k] + step;
-    const double unit = std::sqrt(t.gram_condition / t.square[t.rows[k]]);
-    const bool is_zero = std::abs(sum) <= std::max(missing * unit, cancelled * std::abs(step));
-    t.held_lambda[k] = is_zero ? 0 : sum;
-    if (is_zero && sum < 0 && !t.two_sided[t.rows[k]]) let_pull -= sum * std::sqrt(t.square[t.rows[k]]);
-    if (t.held_lambda[k] < 0 && !t.two_sided[t.rows[k]]) return false;
+    t.length[k] = std::sqrt(t.square[t.rows[k]]);
+    t.pull[k] = t.two_sided[t.rows[k]] ? 0 : t.length[k];
   }
-  rounding_ = std::sqrt(static_cast<double>(t.n) * rounded);
-  silenced_ = std::sqrt(static_cast<double>(t.n) * silenced);
-  bound_ = 2 * remaining_ + silenced_ + rounding_ + let_pull;
+  // An inverse loses as much again as a factor: where it is small, it is the difference of large entries.
+  const double grown = std::max(t.gram_condition, t.growth), inverse_error = unit_roundoff * grown * grown;
+  if (!known_.note(t.first + zeroed_, is_first || small > 0 || t.steps > steps, t.factor_condition,
+                   t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.force_norm)))
+    return false;
+  for (Index i = 0; i < t.n; ++i) {
+    const DoubleDouble sum = two_sum(t.q[i], t.q_low[i] + t.dq[i]);
+    t.q[i] = sum.hi;
+    t.q_low[i] = sum.lo;
+  }
   return true;
+}
+
+bool SmallGramSolve::take_noise_for_zero(bool more) {
+  SmallTableau& t = scene_;
+  const bool told = known_.take_noise_for_zero({t.n, t.q, t.q_low, t.dq, problem_.A.diagonal().data(), t.unit,
+                                                t.size, t.held_lambda, t.correction, t.length, t.pull},
+                                               more);
+  for (Index k = 0; k < t.size; ++k) t.lambda[t.rows[k]] = t.held_lambda[k];
+  return told;
+}
+
+void SmallGramSolve::find_magnitude() {
+  double square = 0;
+  for (Index i = 0; i < scene_.n; ++i) square += problem_.A.diagonal()[i] * scene_.q[i] * scene_.q[i];
+  magnitude_ = std::sqrt(square);
 }
 
 /// Whether no row outside is close, of ||q||_A or that size if it is larger.
 bool SmallGramSolve::is_clear(double size) {
   const SmallTableau& t = scene_;
-  magnitude_ = 0;
-  for (Index i = 0; i < t.n; ++i) magnitude_ += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
-  magnitude_ = std::sqrt(magnitude_);
+  find_magnitude();
   Index close = 0;
-  const double unsure = 16 * (remaining_ + silenced_);
   for (Index a = 0; a < t.m; ++a)
     close += !t.held[a] &&
              !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * std::max(size, magnitude_)) +
-                                t.row_scale[a] * unsure);
+                                known_.missing_slack(t.row_scale[a]));
   return close == 0;
 }
 
-/// Whether rows outside are clear of their edge by more than rounding, or the doubles q are, without
-/// rounding, the point of the rows held and keep those that they touch.
-bool SmallGramSolve::keeps_rows_outside() {
-  if (is_clear(0)) return true;
+Slacks SmallGramSolve::measure_slacks() {
   SmallTableau& t = scene_;
+  small_kernels().measure(t);
+  find_magnitude();
   const double rounding = 2 * static_cast<double>(t.n) * unit_roundoff;
-  const double unsure_point = 16 * (remaining_ + silenced_);
-  std::vector<Index> touched;
+  touched_.clear();
   for (Index a = 0; a < t.m; ++a) {
     if (t.held[a]) continue;
-    const double unsure =
-        rounding * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) + t.row_scale[a] * unsure_point;
+    const double unsure = rounding * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) +
+                          known_.missing_slack(t.row_scale[a]);
     if (t.slack[a] > unsure) continue;
-    if (t.slack[a] < -unsure) return false;
-    touched.push_back(a);
+    if (t.slack[a] < -unsure)
+      known_.wrong = std::max(known_.wrong, -t.slack[a] / t.row_scale[a]);
+    else
+      touched_.push_back(a);
   }
-  if (touched.empty()) return true;
-  if (problem_.radii) return false;
-  const std::optional<Vector> slacks = slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
-                                                      std::vector<Index>(t.rows, t.rows + t.size), touched);
-  if (!slacks) return false;
-  for (std::size_t k = 0; k < touched.size(); ++k) t.slack[touched[k]] = (*slacks)[static_cast<Index>(k)];
-  return true;
+  if (!std::isfinite(known_.wrong)) return Slacks::doubtful;  // 0 >= s > 0
+  if (known_.wrong > 0) return Slacks::violated;
+  return touched_.empty() ? Slacks::kept : decide_degenerate_rows();
+}
+
+/// As in `GramSolve`, but for the way up, which is left to it.
+Slacks SmallGramSolve::decide_degenerate_rows() {
+  SmallTableau& t = scene_;
+  if (problem_.radii) return Slacks::doubtful;
+  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
+    for (std::size_t k = 0; k < touched_.size(); ++k) t.slack[touched_[k]] = (*slacks)[static_cast<Index>(k)];
+    return Slacks::kept;
+  }
+  alignas(64) double in_doubles[SmallTableau::most];
+  copy_packs(t.stride, t.slack, in_doubles);
+  small_kernels().measure_precisely(t);
+  for (Index a = 0; a < t.m; ++a)
+    if (t.held[a]) t.slack[a] = in_doubles[a];
+  for (Index a : touched_) {
+    const double noise = silence * (std::abs(t.level[a]) + t.row_scale[a] * known_.scale) +
+                         known_.missing_slack(t.row_scale[a]);
+    if (t.slack[a] > noise) continue;
+    if (t.slack[a] < -noise) {
+      known_.wrong = std::max(known_.wrong, -t.slack[a] / t.row_scale[a]);
+      continue;
+    }
+    // Swept, the column of a row outside has its coefficients over the rows held.
+    double coefficients[SmallTableau::most];
+    for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[a * t.stride + t.rows[k]];
+    if (!edge_) edge_.emplace(problem_, t.row_scale);
+    const std::optional<int> sign = edge_->sign(a, t.rows, t.size, coefficients);
+    if (!sign || *sign < 0) return Slacks::doubtful;
+    t.slack[a] = 0;
+  }
+  return known_.wrong > 0 ? Slacks::violated : Slacks::kept;
+}
+
+std::optional<Vector> SmallGramSolve::slacks_of_touched_rows_if_kept() const {
+  const SmallTableau& t = scene_;
+  return slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
+                        std::vector<Index>(t.rows, t.rows + t.size), touched_);
 }
 
 /// Whether the answer in doubles is within so much, no row close to tipping over.
 bool SmallGramSolve::doubles_do(double close) {
   const SmallTableau& t = scene_;
   small_kernels().measure(scene_);
-  remaining_ = silenced_ = 0;
+  known_ = Corrections();
+  known_.scale = std::max(t.acceleration_norm, t.force_norm);
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.rows[k];
-    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near * scale_);
+    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near * known_.scale);
     missing += t.slack[a] * t.slack[a];
   }
-  if (weak > 0 || !is_clear(scale_)) return false;
-  rounding_ = 0;
-  bound_ = bound_of_doubles(t.n, t.size, t.stationarity, t.inverse_norm * std::sqrt(missing),
-                            condition_ * (scale_ + magnitude_));
-  return bound_ <= close;
+  if (weak > 0 || !is_clear(known_.scale)) return false;
+  const double condition = t.factor_condition * (1 + std::sqrt(t.gram_condition));
+  known_.bound = bound_of_doubles(t.n, t.size, t.stationarity, t.inverse_norm * std::sqrt(missing),
+                                  condition * (known_.scale + magnitude_));
+  return known_.bound <= close;
 }
 
 bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
   SmallTableau& t = scene_;
   t.factor_condition = problem_.A.factor_condition();
-  condition_ = t.factor_condition * (1 + std::sqrt(t.gram_condition));
-  scale_ = std::max(t.acceleration_norm, t.force_norm);
-  double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
-  if (accuracy.refine || !doubles_do(close)) {
-    if (!correct() || !round()) return false;
-    small_kernels().measure(t);
-    if (!keeps_rows_outside()) return false;
-    if (std::all_of(t.q, t.q + t.n, [](double x) { return x == 0; })) {
-      t.acceleration_norm = 0;
-      close = accuracy.tolerance;
-    }
+  const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
+  return !accuracy.refine && doubles_do(close) ? write(accuracy, solution)
+                                               : finish(*this, accuracy, solution);
+}
+
+bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
+  SmallTableau& t = scene_;
+  if (std::all_of(t.q, t.q + t.n, [](double x) { return x == 0; })) t.acceleration_norm = 0;
+  const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
+  if (!(known_.bound <= close) && t.size == t.n && !problem_.radii) {
+    touched_.clear();
+    if (slacks_of_touched_rows_if_kept()) known_.bound = 0;
   }
   solution.residuals = residuals();
   solution.method = "active-set";
@@ -230,18 +299,15 @@ bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
   solution.model.islands.clear();
   solution.steps = t.steps;
   solution.q = Eigen::Map<const Vector>(t.q, t.n);
-  solution.lambda.setZero(t.m);
+  solution.lambda = Eigen::Map<const Vector>(t.lambda, t.m);
   solution.slack = Eigen::Map<const Vector>(t.slack, t.m);
-  for (Index k = 0; k < t.size; ++k) {
-    solution.lambda[t.rows[k]] = t.held_lambda[k];
-    solution.slack[t.rows[k]] = 0;
-  }
+  for (Index k = 0; k < t.size; ++k) solution.slack[t.rows[k]] = 0;
   solution.basis.assign(t.rows, t.rows + t.size);
   solution.acceleration_norm = t.acceleration_norm;
   solution.force_norm = t.force_norm;
-  solution.rounding = rounding_;
-  solution.error_bound = bound_;
-  solution.status = bound_ <= close ? Status::solved : Status::inaccurate;
+  solution.rounding = known_.rounding;
+  solution.error_bound = known_.bound;
+  solution.status = known_.bound <= close ? Status::solved : Status::inaccurate;
   return true;
 }
 
@@ -250,7 +316,7 @@ Residuals SmallGramSolve::residuals() const {
   const SmallTableau& t = scene_;
   double most = 0;
   for (Index k = 0; k < t.size; ++k) most = std::max(most, std::abs(t.held_lambda[k]));
-  HeldResiduals held(t.stationarity, t.acceleration_norm, scale_, most);
+  HeldResiduals held(t.stationarity, t.acceleration_norm, known_.scale, most);
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.rows[k];
     held.add(t.level[a], std::sqrt(t.square[a]), t.held_lambda[k], t.slack[a], t.two_sided[a]);

@@ -2,6 +2,10 @@
 
 #include <memory>
 
+#include <optional>
+
+#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/pivoting/corrections.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
@@ -10,8 +14,8 @@ namespace convex {
 
 /// `GramSolve` where coordinates and rows are few: the Gram matrix of all whitened rows is swept at the rows
 /// held, so that one pivot gives all multipliers and slacks (principal pivoting: Keller 1973; the sweep:
-/// Beaton 1964). The row that is violated most comes in, the multiplier that is most negative goes out; then
-/// one correction. Where that leaves a doubt, the rows held are handed on.
+/// Beaton 1964). The row that is violated most comes in, the multiplier that is most negative goes out. Where
+/// corrections leave a doubt, the rows held are handed on.
 class SmallGramSolve {
  public:
   static bool fits(const NearestPointProblem&);
@@ -26,22 +30,39 @@ class SmallGramSolve {
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
   std::vector<Index> one_sided_rows_held() const;
+  /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be
+  /// proved.
+  std::optional<Vector> contradiction() const;
+  double scale() const { return scene_.force_norm; }
+  Index steps() const { return scene_.steps; }
 
  private:
+  template <class Engine>
+  friend bool finish(Engine&, const Accuracy&, Solution&);
+
   void take_force();
   bool answer(const Accuracy& accuracy, Solution& solution);
-  bool correct();
-  bool round();
+  Corrections& corrections() { return known_; }
+  bool correct(bool is_first, double small);
+  void mark_weak(double small);
+  bool take_noise_for_zero(bool more);
+  Slacks measure_slacks();
+  Slacks decide_degenerate_rows();
+  std::optional<Vector> slacks_of_touched_rows_if_kept() const;
+  void find_magnitude();
   bool is_clear(double size);
-  bool keeps_rows_outside();
   bool doubles_do(double close);
+  bool write(const Accuracy& accuracy, Solution& solution);
   Residuals residuals() const;
 
   const NearestPointProblem& problem_;
   SmallTableau& scene_;
   Index sweeps_ = 0;
-  double scale_ = 0, condition_ = 0, contraction_ = 0, magnitude_ = 0, remaining_ = 0, silenced_ = 0,
-         rounding_ = 0, bound_ = 0;
+  Corrections known_;
+  std::optional<SlackOnEdge> edge_;
+  std::vector<Index> touched_;
+  double zeroed_ = 0;  ///< the multipliers of weak rows, times their lengths
+  double magnitude_ = 0;
 };
 
 }  // namespace convex

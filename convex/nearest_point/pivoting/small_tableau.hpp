@@ -25,17 +25,24 @@ struct SmallTableau {
   alignas(64) double b[most];
   alignas(64) double load[most];   ///< s_a - v_a·w_free
   alignas(64) double level[most],  ///< s_a
-      square[most], row_scale[most], inverse_scale[most], inverse_diagonal[most];
+      square[most], row_scale[most], inverse_scale[most], inverse_diagonal[most], unit[most];
   /// Per row, by its state: `leave` and `stay` make a number that is not negative of a multiplier that asks
   /// to leave, `enter` a positive one of a violated row; share: 1 for a row held.
   alignas(64) double leave[most], stay[most], enter[most], share[most];
   alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
-  alignas(64) double lambda[most], slack[most], held_slack[most], held_lambda[most], correction[most];
-  Index rows[most], size = 0;  ///< rows held, and how many
+  alignas(64) double slack[most];
+  alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
+  alignas(64) double lambda[most];                                       ///< of all rows, 0 outside
+  double held_lambda[most], correction[most], length[most], pull[most];  ///< of the rows held
+  bool is_weak[most];                                                    ///< may change sides in a correction
+  Index rows[most], size = 0;                                            ///< rows held, and how many
   bool held[most], two_sided[most];
 
   Index steps = 0;
   double force_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
+  Index dependent = -1;  ///< the violated row that is nearly dependent on those held, if pivoting met one
+  bool is_first = true;  ///< the next correction is; q_low is 0 then
+  bool any_weak = false;
   double gram_condition =
       0;              ///< of the Gram matrix of the rows held, each divided by its length; an estimate
   double growth = 1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
@@ -49,8 +56,11 @@ struct SmallKernels {
   bool (*begin_again)(SmallTableau&);
   /// Pivots until no row is violated and no multiplier negative; then q, w, lambda.
   bool (*settle)(SmallTableau&);
-  /// One correction with residuals in twice the working precision: dq, `correction` of held_lambda, `first`.
-  void (*correct)(SmallTableau&);
+  /// One correction with residuals in twice the working precision, in which weak rows may change sides: dq,
+  /// `correction` of held_lambda, `first`.
+  bool (*correct)(SmallTableau&);
+  /// slack: Uq - s in twice the working precision.
+  void (*measure_precisely)(SmallTableau&);
   /// slack = Uq - s, and what is missing of the equations of motion, in doubles.
   void (*measure)(SmallTableau&);
 };

@@ -11,6 +11,9 @@ namespace convex {
 /// dependent, and left to `GramSolve`.
 inline constexpr double nearly_dependent = 1e-6;
 
+/// So little of it is rounding: it depends on them as far as doubles tell, and may contradict them.
+inline constexpr double dependent = 1e-13;
+
 /// `SmallKernels`, to be compiled for a processor family each. Packs: one when n and m are at most 8, so that
 /// loops over packs vanish; 4 otherwise.
 template <int W, bool Fused, int packs>
@@ -86,7 +89,10 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     const Index step = stride(t);
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
-    if (!t.held[k] && !(pivot > nearly_dependent * t.square[k])) return false;
+    if (!t.held[k] && !(pivot > nearly_dependent * t.square[k])) {
+      if (!(pivot > dependent * t.square[k])) t.dependent = k;
+      return false;
+    }
     const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
     t.growth = growth > t.growth ? growth : t.growth;
     alignas(64) double part[SmallTableau::most];
@@ -135,17 +141,22 @@ struct SmallTableauSteps : Kernels<W, Fused> {
 
   MOREAU_INLINE bool begin_again(SmallTableau& t) {
     whiten_force(t);
-    for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
+    sweep_load(t, t.load);
+    return true;
+  }
+
+  /// b := the load as the sweeps have changed it.
+  MOREAU_INLINE void sweep_load(SmallTableau& t, const double* load) {
+    for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(load + r));
     for (Index a = 0; a < t.m; ++a)
       if (t.held[a]) t.b[a] = 0;
     for (Index a = 0; a < t.m; ++a)
       if (t.held[a])
         for (Index r = 0; r < stride(t); r += 8) {
           Pack b = P::load(t.b + r);
-          P::subtract_product(b, P::load(t.swept + a * stride(t) + r), t.load[a]);
+          P::subtract_product(b, P::load(t.swept + a * stride(t) + r), load[a]);
           P::store(t.b + r, b);
         }
-    return true;
   }
 
   /// The place of the largest of `count` entries of x, the first if there are several.
@@ -163,9 +174,18 @@ struct SmallTableauSteps : Kernels<W, Fused> {
   }
 
   MOREAU_INLINE bool settle(SmallTableau& t) {
-    constexpr double violation = 1e-12;  // as in `GramPivoting`
-    const Index patience = 4 * t.m + 8;
     t.steps = 0;
+    t.dependent = -1;
+    if (!pivot(t, t.load, t.force_norm)) return false;
+    find_point(t);
+    return true;
+  }
+
+  /// Sweeps until no multiplier b that may leave is negative and no row that may enter is violated. norm:
+  /// ||·|| of the whitened force that the load is of.
+  MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
+    constexpr double violation = 1e-12;  // as in `GramPivoting`
+    const Index patience = t.steps + 4 * t.m + 8;
     for (;; ++t.steps) {
       alignas(64) double out[SmallTableau::most], in[SmallTableau::most];
       Pack energy{};
@@ -173,18 +193,17 @@ struct SmallTableauSteps : Kernels<W, Fused> {
         const Pack b = P::load(t.b + r), enter = P::times(b, P::load(t.enter + r));
         P::store(in + r, enter);
         P::store(out + r, P::minus(P::times(b, P::load(t.leave + r)), P::load(t.stay + r)));
-        P::add_products(energy, P::times(b, P::load(t.share + r)), P::load(t.load + r));
+        P::add_products(energy, P::times(b, P::load(t.share + r)), P::load(load + r));
       }
       Index a = largest(out, stride(t));
       if (!(out[a] >= 0)) {
         a = largest(in, stride(t));
-        if (!(in[a] > violation * t.force_norm)) break;
-        const double scale = violation * (t.force_norm + std::sqrt(std::abs(P::total(energy))));
+        if (!(in[a] > violation * norm)) break;
+        const double scale = violation * (norm + std::sqrt(std::abs(P::total(energy))));
         if (!(in[a] > scale)) break;
       }
       if (t.steps == patience || !sweep(t, a)) return false;
     }
-    find_point(t);
     return true;
   }
 
@@ -199,18 +218,25 @@ struct SmallTableauSteps : Kernels<W, Fused> {
       }
   }
 
-  MOREAU_INLINE void find_point(SmallTableau& t) {
+  /// Lists the rows held, and takes what b adds to their multipliers into these.
+  MOREAU_INLINE void list_rows_held(SmallTableau& t) {
     t.size = 0;
     double squares = 0;
     t.gram_condition = 0;
     for (Index a = 0; a < t.m; ++a) {
       if (!t.held[a]) continue;
-      t.held_lambda[t.size] = t.b[a];
+      t.correction[t.size] = t.b[a];
+      t.held_lambda[t.size] = t.lambda[a] += t.b[a];
       t.rows[t.size++] = a;
       squares -= t.swept[a * (stride(t) + 1)];
       t.gram_condition -= t.swept[a * (stride(t) + 1)] * t.square[a];
     }
     t.inverse_norm = std::sqrt(squares);
+  }
+
+  MOREAU_INLINE void find_point(SmallTableau& t) {
+    for (Index r = 0; r < stride(t); r += 8) P::store(t.lambda + r, Pack{});
+    list_rows_held(t);
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w + i, P::load(t.z + i)); });
     add_rows(t, t.held_lambda, t.w);
@@ -223,27 +249,48 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     K::backward(t.n, ld(t), t.T, t.inverse, t.q);
   }
 
-  MOREAU_INLINE void correct(SmallTableau& t) {
+  /// Rows that are not weak stay on their side; `free_all` takes that back.
+  MOREAU_INLINE void keep_all_but_weak(SmallTableau& t) {
+    for (Index a = 0; a < t.m; ++a)
+      if (!t.is_weak[a]) {
+        t.leave[a] = t.enter[a] = 0;
+        t.stay[a] = 1;
+      }
+  }
+  MOREAU_INLINE void free_all(SmallTableau& t) {
+    for (Index a = 0; a < t.m; ++a) set_state(t, a, t.held[a]);
+  }
+
+  /// Multipliers of weak rows count as 0 here: what they are is found anew.
+  MOREAU_INLINE bool correct(SmallTableau& t) {
     K::stationarity(t.n, t.A, t.q, t.m, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
+    if (!t.is_first) {
+      each(
+          ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
+      K::residual(t.n, t.A, t.q_low, t.m, t.U, 0, t.rows, t.held_lambda, t.dq, t.r);
+    }
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
     K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
-    alignas(64) double missing[SmallTableau::most], step[SmallTableau::most];
     for (Index r = 0; r < stride(t); r += 8) {
-      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, missing + r);
+      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.rest + r);
       alignas(64) double moved[8];
       K::dots(t.n, t.whitened + r * t.n, t.dq, moved);
-      P::store(missing + r, P::plus(P::load(missing + r), P::load(moved)));
-      P::store(step + r, Pack{});
-    }
-    // -G_SS⁻¹ times what is missing
-    for (Index k = 0; k < t.size; ++k)
-      for (Index r = 0; r < stride(t); r += 8) {
-        Pack sum = P::load(step + r);
-        P::add_product(sum, P::load(t.swept + t.rows[k] * stride(t) + r), missing[t.rows[k]]);
-        P::store(step + r, sum);
+      Pack missing = P::plus(P::load(t.rest + r), P::load(moved));
+      if (!t.is_first) {
+        K::dots(t.n, t.raw + r * t.n, t.q_low, moved);
+        missing = P::plus(missing, P::load(moved));
       }
-    for (Index k = 0; k < t.size; ++k) t.correction[k] = step[t.rows[k]];
+      P::store(t.rest + r, P::times(missing, -1));
+    }
+    sweep_load(t, t.rest);
+    if (t.any_weak) {
+      keep_all_but_weak(t);
+      const bool settled = pivot(t, t.rest, std::sqrt(K::dot(ld(t), t.dq, t.dq)));
+      free_all(t);
+      if (!settled) return false;
+    }
+    list_rows_held(t);
     add_rows(t, t.correction, t.r);
     for (Index i = t.n; i < ld(t); ++i) t.r[i] = 0;
     each(
@@ -251,6 +298,16 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
     t.first = std::sqrt(K::dot(ld(t), t.dq, t.dq));
     K::backward(t.n, ld(t), t.T, t.inverse, t.dq);
+    return true;
+  }
+
+  MOREAU_INLINE void measure_precisely(SmallTableau& t) {
+    for (Index r = 0; r < stride(t); r += 8) {
+      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.slack + r);
+      alignas(64) double low[8];
+      K::dots(t.n, t.raw + r * t.n, t.q_low, low);
+      P::store(t.slack + r, P::plus(P::load(t.slack + r), P::load(low)));
+    }
   }
 
   MOREAU_INLINE void measure(SmallTableau& t) {

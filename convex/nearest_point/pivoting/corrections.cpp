@@ -1,0 +1,83 @@
+#include "convex/nearest_point/pivoting/corrections.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace convex {
+namespace {
+
+/// Slower corrections are left to an orthogonal factor.
+constexpr double slowest_contraction = 0x1p-6;
+
+}  // namespace
+
+bool Corrections::note(double step, bool is_fresh, double factor_condition, double gram_condition,
+                       double inverse_error, double the_scale) {
+  const double previous = step_;
+  step_ = step;
+  scale = the_scale;
+  is_fresh_ = is_fresh;
+  factor_condition_ = factor_condition;
+  gram_condition_ = gram_condition;
+  const double seen = is_fresh                                     ? (scale > 0 ? step / scale : 0)
+                      : step > at_rounding * scale && previous > 0 ? step / previous
+                                                                   : 0;
+  const double usual = std::max(seen, usual_contraction(factor_condition, gram_condition));
+  // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
+  // with the same rows shows by how much.
+  const double contraction = std::max(
+      inverse_error,
+      is_fresh ? std::max(seen, expected_contraction(factor_condition, gram_condition, true)) : usual);
+  if (!(contraction <= slowest_contraction)) return false;
+  remaining = step * contraction / (1 - contraction) + floor_of_residuals();
+  likely_ = std::min(remaining, step * usual);
+  return true;
+}
+
+/// What the rounding of residuals in twice the working precision leaves.
+double Corrections::floor_of_residuals() const {
+  return 4 * unit_roundoff * unit_roundoff * factor_condition_ * (1 + std::sqrt(gram_condition_)) * scale;
+}
+
+bool Corrections::take_noise_for_zero(const Point& point, bool more) {
+  const double usual = usual_contraction(factor_condition_, gram_condition_);
+  const double missing = 4 * likely_ * factor_condition_;
+  // An entry is noise up to the larger of `of_unit` units and this part of its step; the second correction of
+  // an entry is more than what is missing in it.
+  const double floor = at_rounding * scale, of_unit = is_fresh_ ? missing : floor,
+               of_multiplier = is_fresh_ ? missing : floor_of_residuals(),
+               of_step = is_fresh_ ? cancelled : 2;
+  Index unclear = 0;
+  double rounded = 0, zeroed = 0, let_pull = 0;
+  for (Index i = 0; i < point.n && more; ++i) {
+    const double unit = point.unit[i], size = std::abs(point.q[i]), step = std::abs(point.dq[i]);
+    unclear += size <= std::max(of_unit * unit, of_step * step) &&
+               !(size <= std::max(16 * usual * step, floor * unit));
+  }
+  if (unclear > 0) return false;
+  for (Index i = 0; i < point.n; ++i) {
+    const double q = point.q[i], low = point.q_low[i], weight = point.diagonal[i];
+    const bool is_noise = std::abs(q) <= std::max(of_unit * point.unit[i], of_step * std::abs(point.dq[i]));
+    zeroed += is_noise ? weight * q * q : 0;
+    rounded += is_noise ? 0 : weight * low * low;
+    point.q[i] = is_noise ? 0 : q;
+    point.q_low[i] = is_noise ? 0 : low;
+  }
+  const double rows = std::sqrt(gram_condition_);
+  for (Index j = 0; j < point.k; ++j) {
+    // Rows may be told in units far apart: each multiplier is measured by the length of its own.
+    const double unit = rows / point.length[j], lambda = point.lambda[j], pull = -lambda * point.pull[j];
+    if (std::abs(lambda) <= std::max(of_multiplier * unit, of_step * std::abs(point.change[j]))) {
+      point.lambda[j] = 0;
+      let_pull += std::max(0.0, pull);
+    } else {
+      wrong = std::max(wrong, pull);
+    }
+  }
+  rounding = std::sqrt(static_cast<double>(point.n) * rounded);
+  silenced = std::sqrt(static_cast<double>(point.n) * zeroed);
+  bound = 2 * remaining + silenced + rounding + let_pull;
+  return true;
+}
+
+}  // namespace convex
