@@ -88,15 +88,21 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     if (std::optional<Solution> found = solve_obstacle(problem, accuracy)) return *std::move(found);
     if (std::optional<Solution> found = solve_bordered_chain(problem, accuracy)) return *std::move(found);
   }
+  std::vector<Index> likely = guess;
   if (is_large_and_sparse(problem)) {
-    Solution found = sparse_active_set(problem, accuracy, guess);
+    // What it leaves open the dense method decides, which sees more before it needs fractions.
+    Accuracy own = accuracy;
+    if (problem.dimension() <= affordable_size) own.limit = 0;
+    Solution found = sparse_active_set(problem, own, guess);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
     if (problem.dimension() > affordable_size) {
+      if (!found.undecided.empty()) return found;
       Solution other = proximal_point(problem, accuracy);
       return other.status == Status::solved || found.status == Status::gave_up ? other : found;
     }
+    if (!found.basis.empty()) likely = found.basis;
   }
-  Solution found = active_set(problem, accuracy, guess);
+  Solution found = active_set(problem, accuracy, likely);
   if (!found.model.islands.empty()) return found;  // fractions said what they did
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
   found.model.islands = {{found.method, problem.dimension(), problem.rows(), 0,

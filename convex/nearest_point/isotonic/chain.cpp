@@ -25,10 +25,9 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
       sparse_residuals(problem, found.q, found.lambda, found.slack,
                        {found.acceleration_norm, found.force_norm, found.residuals.stationarity},
                        level ? std::max(floor, Index{0}) : 0, level ? floor + 1 : m);
-  // Sums of n terms in twice the precision.
-  found.error_bound = found.rounding + 8 * unit_roundoff * unit_roundoff * static_cast<double>(n) * scale;
+  found.error_bound = found.rounding + rounding_of_pools(chain, scale);
   const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
-  found.status = close ? Status::solved : Status::inaccurate;
+  found.status = close && found.undecided.empty() ? Status::solved : Status::inaccurate;
   found.method = "chain";
   found.basis.resize(static_cast<std::size_t>(m) + 1);
   std::size_t loaded = 0;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+
+#include "convex/nearest_point/isotonic/exact_rise.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
 namespace convex {
 namespace {
 
-/// Multipliers and slacks below this part of the largest terms they were made of are 0.
+/// Multipliers below this part of the largest terms they were made of are 0.
 constexpr double silence = 0x1p-90;
 /// Members looked at together, what a member does alone by loops that vectorise; and sums kept side by side.
 constexpr Index width = 128, lanes = 4;
@@ -108,9 +112,7 @@ double slack_between(double factor, DoubleDouble low, DoubleDouble high, double 
   reach.lo -= factor * low.lo;
   reach.add(exact_product(factor, high.hi));
   reach.lo += factor * high.lo;
-  const DoubleDouble rest = add(reach.tidy(), {-s, 0});
-  const double terms = std::abs(s) + std::abs(rest.hi);
-  return std::abs(rest.value()) <= silence * terms ? 0 : std::max(0.0, rest.value());
+  return std::max(0.0, add(reach.tidy(), {-s, 0}).value());
 }
 
 template <class Order>
@@ -140,6 +142,7 @@ class Placement {
     found_.force_norm = root_of_sum(squares_.z);
     found_.rounding = root_of_sum(squares_.lost);
     found_.residuals.stationarity = root_of_sum(squares_.unbalanced);
+    decide_touching();
     return true;
   }
 
@@ -218,7 +221,6 @@ class Placement {
     std::fill_n(block_.goes_on.begin(), block_.count, 1.0);
     std::size_t p = 0;
     begun_ = known;
-    ends_ = 0;
     for (Index k = first; k < end;) {
       if (k == pools_[placed_]) {
         const DoubleDouble mean{mean_hi_[p], mean_lo_[p]};
@@ -229,10 +231,7 @@ class Placement {
         ++placed_;
       }
       const Index over = pools_[placed_], last = std::min<Index>(end, over);
-      if (over <= end && (placed_ >= lifted_ || over == chain_.n)) {
-        block_.goes_on[at(over - 1 - first)] = 0;
-        ++ends_;
-      }
+      if (over <= end && (placed_ >= lifted_ || over == chain_.n)) block_.goes_on[at(over - 1 - first)] = 0;
       if (chain_.offset.empty())
         for (; k < last; k += lanes)  // by lanes: pools are short; what is too much the next pool replaces
           for (Index lane = 0; lane < lanes; ++lane) {
@@ -253,7 +252,7 @@ class Placement {
   bool push() {
     RunningSum push = push_;
     double largest = largest_;
-    int wrong = 0, idle = 0;
+    int wrong = 0;
     for (std::size_t j = 0; j < at(block_.count); ++j) {
       push.add(DoubleDouble{block_.left_hi[j], block_.left_lo[j]});
       largest = std::max({largest, std::abs(push.hi), block_.inertia[j]});
@@ -263,11 +262,8 @@ class Placement {
       largest = goes_on ? largest : 0;
       const double pushed = push.value(), quiet = silence * largest;
       wrong |= pushed < -quiet;
-      idle += !(pushed > quiet);
       block_.pushed[j] = pushed > quiet ? pushed : 0;
     }
-    idle_before_ = idle_;
-    idle_ = idle > ends_;
     push_ = push;
     largest_ = largest;
     return wrong == 0;
@@ -288,12 +284,35 @@ class Placement {
                                    {block_.x_hi[j + 1], block_.x_lo[j + 1]}, chain_.s[row]);
     };
     for (Index j = order_.row(first) < 0 ? 1 : 0; j < count; ++j) slack[order_.row(first + j)] = 0;
-    if (idle_ || idle_before_)
-      for (Index k = first; k < first + count; ++k) measure(k);
-    else  // within pools all rows carry something
-      for (std::size_t p = begun_; p < placed_; ++p) measure(pools_[p]);
+    // Members of a pool move together, and so do pools on the floor.
+    for (std::size_t p = std::max(begun_, lifted_); p < placed_; ++p) measure(pools_[p]);
     for (Shifted* numbers : {&block_.x_hi, &block_.x_lo, &block_.load_hi, &block_.load_lo})
       (*numbers)[0] = (*numbers)[at(count)];
+  }
+
+  /// Which slacks between pools are 0, without rounding where that could hide it.
+  void decide_touching() {
+    constexpr double safety = 64;
+    const double scale = std::max(found_.acceleration_norm, found_.force_norm);
+    const double sums = safety * rounding_of_pools(chain_, scale);
+    const StringMembers members = [&](Index k) {
+      const Index row = order_.row(k), i = order_.coordinate(k);
+      return row < 0 ? StringMember{chain_.mass[i], chain_.force[i], 1, 0}
+                     : StringMember{chain_.mass[i], chain_.force[i], order_.factor(k), chain_.s[row]};
+    };
+    for (std::size_t p = lifted_; p + 1 < pools_.size(); ++p) {
+      const Index k = pools_[p], row = order_.row(k);
+      if (row < 0 || found_.lambda[row] > 0) continue;
+      double& slack = found_.slack[row];
+      double mass = chain_.mass[order_.coordinate(k)];
+      if (k > 0) mass = std::min(mass, chain_.mass[order_.coordinate(k - 1)]);
+      if (slack * slack * mass > sums * sums * order_.factor(k) * order_.factor(k)) continue;
+      const std::optional<int> up = p == lifted_ && order_.row(0) >= 0
+                                        ? rise_over_floor(members, 0, k, pools_[p + 1])
+                                        : rise(members, pools_[p - 1], k, pools_[p + 1]);
+      if (!up) found_.undecided = open_question::touched;
+      slack = up && *up <= 0 ? 0 : std::max(slack, std::numeric_limits<double>::denorm_min());
+    }
   }
 
   const Chain<Order>& chain_;
@@ -307,8 +326,6 @@ class Placement {
   RunningSum push_;  // what the rows below push up with
   double largest_ = 0;
   std::size_t lifted_ = 0, placed_ = 0, begun_ = 0;
-  int ends_ = 0;
-  bool idle_ = false, idle_before_ = false;  // rows within pools that carry nothing, here and a block before
 };
 
 }  // namespace
@@ -318,6 +335,14 @@ bool place_pools(const Chain<Order>& chain, const std::vector<int>& first, bool 
   return Placement<Order>(chain, first, found).run(careful);
 }
 
+template <class Order>
+double rounding_of_pools(const Chain<Order>& chain, double scale) {
+  const double farthest = chain.farthest_offset * std::sqrt(chain.total_mass);
+  return 8 * unit_roundoff * unit_roundoff * static_cast<double>(chain.n) * (scale + farthest);
+}
+
+template double rounding_of_pools(const Chain<InOrder>&, double);
+template double rounding_of_pools(const Chain<Listed>&, double);
 template bool place_pools(const Chain<InOrder>&, const std::vector<int>&, bool, Solution&);
 template bool place_pools(const Chain<Listed>&, const std::vector<int>&, bool, Solution&);
 

@@ -121,7 +121,12 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
   if (level) return;
   offset.resize(static_cast<std::size_t>(n));
   DoubleDouble sum{};
-  for (Index k = 1; k < n; ++k) offset[static_cast<std::size_t>(k)] = sum = add(sum, bound(k));
+  total_mass = mass[order.coordinate(0)];
+  for (Index k = 1; k < n; ++k) {
+    offset[static_cast<std::size_t>(k)] = sum = add(sum, bound(k));
+    farthest_offset = std::max(farthest_offset, std::abs(sum.hi));
+    total_mass += mass[order.coordinate(k)];
+  }
 }
 
 template <class Order>

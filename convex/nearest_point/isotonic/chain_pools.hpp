@@ -59,7 +59,8 @@ struct Chain {
   Index n;
   const double *mass, *force, *s;
   Order order;
-  std::vector<DoubleDouble> offset;  ///< of a member over the first; empty when all are 0
+  std::vector<DoubleDouble> offset;            ///< of a member over the first; empty when all are 0
+  double farthest_offset = 0, total_mass = 0;  ///< |offset| at most, and Σ m, where there are offsets
 };
 
 /// The first members of the pools, by sums in doubles: right but for rounding. Then n.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/isotonic/chain_pools.hpp"
+#include "convex/nearest_point/isotonic/exact_rise.hpp"
 
 namespace convex {
 namespace {
@@ -48,6 +49,8 @@ void Pooling::find_offsets() {
   for (std::size_t t = 0; t + 1 < strings_.first.size(); ++t)
     for (int k = strings_.first[t] + 1; k < strings_.first[t + 1]; ++k)
       offset_[at(k)] = add(offset_[at(k - 1)], bound(strings_.row[at(k)]));
+  for (const DoubleDouble& offset : offset_)
+    farthest_offset_ = std::max(farthest_offset_, std::abs(offset.hi));
 }
 
 Pooling::Pool Pooling::member(int k, const Vector& force) const {
@@ -227,6 +230,41 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
     }
   }
   return true;
+}
+
+double Pooling::farthest_offset() const { return farthest_offset_ * std::sqrt(mass_.sum()); }
+
+std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& force,
+                                       const Vector& rest) const {
+  const auto begins_after = [](int place, const Pool& pool) { return place < pool.begin; };
+  const auto pool = std::upper_bound(pools_.begin(), pools_.end(), k, begins_after) - 1;
+  if (pool->begin != k) return 0;
+  const Index first = *(std::upper_bound(strings_.first.begin(), strings_.first.end(), k) - 1);
+  const bool has_floor = floor_of(static_cast<int>(first)) >= 0;
+  const auto feels_z_alone = [&](const Pool& members) {
+    for (int j = members.begin; j < members.end; ++j) {
+      const int i = strings_.coordinate[at(j)];
+      if (force[i] != z[i] || rest[i] != 0) return false;
+    }
+    return true;
+  };
+  const StringMembers member = [&](Index j) {
+    const int i = strings_.coordinate[at(j)], row = strings_.row[at(j)];
+    return row < 0 ? StringMember{mass_[i], z[i], 1, 0} : StringMember{mass_[i], z[i], factor(row), s_[row]};
+  };
+  if (!feels_z_alone(*pool)) return std::nullopt;
+  if (k == first) return rise_over_floor(member, first, k, pool->end);
+  const Pool& below = *(pool - 1);
+  if (!feels_z_alone(below)) return std::nullopt;
+  if (has_floor) {
+    const auto stands = rise_over_floor(member, first, below.begin, below.end);
+    if (!stands) return stands;
+    if (*stands <= 0) {
+      const auto up = rise_over_floor(member, first, k, pool->end);
+      return up ? std::optional(std::max(0, *up)) : up;
+    }
+  }
+  return rise(member, below.begin, k, pool->end);
 }
 
 }  // namespace convex

@@ -31,6 +31,12 @@ class Pooling {
   const std::vector<Pool>& pools() const { return pools_; }
   /// Whether a pool stands on the floor of its string.
   bool is_lifted(std::size_t pool) const;
+  /// The length in the norm of A of all members moved by the largest sum of bounds below one: what pairs
+  /// round is a part of it.
+  double farthest_offset() const;
+  /// The sign of the slack of the row below place k among the strings, without rounding, at the pools found;
+  /// none where a force besides z acts on them, or fractions take too long.
+  std::optional<int> rise_below(int k, const Vector& z, const Vector& force, const Vector& rest) const;
   /// After `refine`: n.
   const DoubleDoubleVector& q() const { return q_; }
   /// After `refine`: m, 0 on border rows.
@@ -58,7 +64,8 @@ class Pooling {
   const SparseRows& U_;
   const Vector& s_;
   const Strings& strings_;
-  std::vector<DoubleDouble> offset_;     ///< of a member over the first of its string; empty when all are 0
+  std::vector<DoubleDouble> offset_;  ///< of a member over the first of its string; empty when all are 0
+  double farthest_offset_ = 0;
   std::vector<double> floor_;            ///< the bound of a string's floor, -inf for none
   std::vector<std::size_t> first_pool_;  ///< of each string, and their number
   std::vector<Pool> parts_;              ///< pools of what stays between the border's coordinates, and those

@@ -153,7 +153,8 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   for (std::vector<float>* field : {&x_, &p_, &Ap_}) field->assign(static_cast<std::size_t>(size), 0);
   for (Index k = 0; k < size; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    grid.r[i] = grid.free[i] * static_cast<float>(right[k] / unit);
+    // Beside tiny forces on the free points those that are not may be beyond all floats.
+    grid.r[i] = grid.free[i] > 0 ? static_cast<float>(right[k] / unit) : 0;
   }
   const double energy_unit = unit * unit / finest_.c;
   double energy = 0, previous = 0, step = 0;

@@ -5,12 +5,15 @@
 #include <cmath>
 
 #include "convex/nearest_point/isotonic/peeling.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
+#include "convex/nearest_point/sparse/dependent_rows.hpp"
+#include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/interior_point_start.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
 
@@ -39,8 +42,13 @@ constexpr int most_single = 20;
 /// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
 constexpr double data_roundings = 16;
 
-/// A multiplier or slack computed in twice the precision is 0 below this part of its terms.
-constexpr double silence = 0x1p-90;
+/// A slack computed in twice the precision may be off by this part of its terms: whether it is 0 is then
+/// decided without rounding.
+constexpr double rounding_of_slacks = 0x1p-96;
+
+/// Of the word operations that fractions may take, what eliminations modulo a prime may: their numbers are in
+/// lists.
+constexpr double part_for_lists = 0.1;
 
 class SparseActiveSet {
  public:
@@ -110,6 +118,7 @@ class SparseActiveSet {
       const Vector weight = j < 0 ? central_weights(scaled_, rows_, delta, point_)
                                   : even_weights(problem_.rows(), rows_, delta);
       delta_ = 1 / std::max(1.0, weight.maxCoeff());
+      weight_ = weight;
       if (!refine_rows(problem_, scaled_, system_, rows_, weight, silence_, point_)) return false;
       if (point_.converged || point_.wrong_signs) return true;
       if (j >= 0) delta *= smaller;
@@ -129,7 +138,14 @@ class SparseActiveSet {
         if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);
       if (!refine()) return false;
       const bool refined = point_.converged;
-      const Index wrong = judge();
+      Index wrong = judge();
+      if (wrong == 0 && refined && (has_weak_ || !touched_.empty())) {
+        point_.to_the_end = true;
+        const bool ended = refine();
+        point_.to_the_end = false;
+        if (!ended || !point_.converged) return false;
+        wrong = judge();
+      }
       if (wrong == 0) return refined;
       if (wrong > bearable) return false;
       // Rows that contradict each other by rounding have no right signs.
@@ -170,9 +186,14 @@ class SparseActiveSet {
     const double left = 4 * point_.remaining();
     const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
     slack_ = Vector::Zero(problem_.rows());
+    touched_.clear();
+    has_weak_ = false;
     for (Index a : rows_) {
       const double lambda = point_.lambda.hi[a] / scaled_.multiplier[a];
-      if (std::abs(lambda) <= 4 * point_.last_lambda[a] + left) point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+      if (std::abs(lambda) <= 4 * point_.last_lambda[a] + left) {
+        point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
+        has_weak_ = has_weak_ || one_sided(a);
+      }
       if (one_sided(a) && point_.lambda.hi[a] < 0) {
         active_[static_cast<std::size_t>(a)] = false;
         point_.lambda.hi[a] = point_.lambda.lo[a] = 0;
@@ -185,8 +206,11 @@ class SparseActiveSet {
       if (held[static_cast<std::size_t>(a)]) continue;
       slack_[a] = slack(problem_, a, point_.q).value();
       const double over = slack_[a] / scaled_.bound[a];
-      if (std::abs(over) <= left + std::max(silence, 2 * silence_) * (size + std::abs(scaled_.s[a])))
+      if (std::abs(over) <=
+          left + std::max(rounding_of_slacks, 2 * silence_) * (size + std::abs(scaled_.s[a]))) {
         slack_[a] = 0;
+        touched_.push_back(a);
+      }
       if (slack_[a] < 0) {
         active_[static_cast<std::size_t>(a)] = true;
         count(a, -over, std::abs(scaled_.s[a]) + problem_.U.absolute_dot(a, terms) / scaled_.bound[a]);
@@ -194,6 +218,46 @@ class SparseActiveSet {
     }
     std::sort(wrong_.begin(), wrong_.end());
     return wrong;
+  }
+
+  /// Whether the rows held hold firmly and those touched have a slack of 0: what is open where that cannot be
+  /// told, else nothing. What depends on what, and with which bound, is decided without rounding.
+  std::string_view open() {
+    double delta = delta_;
+    std::vector<Index> tight = rows_, besides = touched_;
+    tight.insert(tight.end(), touched_.begin(), touched_.end());
+    std::sort(tight.begin(), tight.end());
+    if (!touched_.empty() && !hold(tight, delta)) return open_question::conditioning;
+    const Vector slowest = slowest_residual(scaled_, system_, tight, weight_);
+    if (problem_.radii)
+      return is_held_firmly(slowest) || is_zero_within(problem_, scaled_, slowest)
+                 ? std::string_view()
+                 : open_question::dependence;
+    if (!is_held_firmly(slowest)) {
+      const double most = accuracy_.limit * part_for_lists * most_word_operations;
+      const auto found = row_dependences(problem_.U, problem_.s, rows_, touched_, most);
+      if (!found) return open_question::dependence;
+      if (!found->consistent) return open_question::contradiction;
+      if (!found->off_edge.empty()) return open_question::touched;
+      if (found->independent.size() == tight.size() || !hold(found->independent, delta) ||
+          !is_held_firmly(slowest_residual(scaled_, system_, found->independent, weight_)))
+        return open_question::dependence;
+      std::erase_if(besides, [&](Index a) {
+        return std::binary_search(found->implied.begin(), found->implied.end(), a);
+      });
+    }
+    if (besides.empty()) return {};
+    if (!point_.q.lo.isZero(0)) return open_question::touched;
+    const auto slacks = slacks_if_kept(problem_, point_.q.hi, rows_, besides);
+    if (!slacks) return open_question::touched;
+    slack_(besides) = *slacks;
+    return {};
+  }
+
+  /// Factors with even weights on these rows.
+  bool hold(const std::vector<Index>& rows, double delta) {
+    weight_ = even_weights(problem_.rows(), rows, delta);
+    return system_.factor(weight_);
   }
 
   double size_of_q() const { return point_.q.hi.cwiseQuotient(scaled_.coordinate).cwiseAbs().maxCoeff(); }
@@ -235,6 +299,12 @@ class SparseActiveSet {
     solution.status = close ? Status::solved : Status::inaccurate;
     // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
     if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
+    if (solution.undecided.empty()) solution.undecided = open();
+    if (!solution.undecided.empty()) {
+      solution.status = Status::inaccurate;
+      solution.basis = rows_;
+    }
+    solution.slack = slack_;
     solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
                                static_cast<double>(system_.factorisations()) * system_.flops(),
                                system_.nonzeros()}};
@@ -289,10 +359,10 @@ class SparseActiveSet {
   RowSystem system_;
   SparsePoint point_;
   std::vector<bool> active_;
-  std::vector<Index> rows_, wrong_;
-  Vector slack_;
+  std::vector<Index> rows_, wrong_, touched_;
+  Vector slack_, weight_;
   Index steps_ = 0, serious_ = 0;
-  bool central_ = false;
+  bool central_ = false, has_weak_ = false;  ///< a one-sided row held whose multiplier counts as 0
   double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
 };
 

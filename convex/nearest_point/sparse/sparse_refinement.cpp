@@ -117,7 +117,8 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
     // Rows that contradict each other leave q alone and let their multipliers grow for ever.
     point.rest = count > 0 ? r2.cwiseAbs().maxCoeff() : 0;
     const bool held = point.rest <= held_to * scale;
-    if (k > 0 && held && (point.last <= floor || point.remaining() <= enough * scale)) {
+    if (k > 0 && held &&
+        (point.last <= floor || (!point.to_the_end && point.remaining() <= enough * scale))) {
       point.converged = true;
       break;
     }

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "convex/constraint_rows.hpp"
+
+namespace convex {
+
+/// Which of some rows depend on others, and whether their bounds agree with that: for rows `held`, whose
+/// equations u_a·q = s_a hold, and rows `touched` besides.
+struct RowDependences {
+  std::vector<Index> independent;  ///< a basis of all of them, of rows held where that can be; increasing
+  std::vector<Index> implied;      ///< touched rows whose slack is 0 wherever the rows held hold; increasing
+  bool consistent = true;          ///< the equations of the rows held do not contradict each other
+  /// Touched rows that depend on those held and have another slack, the same wherever these hold; increasing.
+  std::vector<Index> off_edge;
+};
+
+/// Elimination of the doubles as they stand, row by row in an order of the coordinates that keeps rows short
+/// (George and Heath 1980), modulo a prime p near 2^62: rows independent there are so over the rationals; a
+/// number that is 0 there is 0 unless p divides it. None when it takes more multiplications than `most`.
+std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vector& s,
+                                              const std::vector<Index>& held,
+                                              const std::vector<Index>& touched, double most);
+
+}  // namespace convex

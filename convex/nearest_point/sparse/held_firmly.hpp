@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/nearest_point/sparse/row_system.hpp"
+
+namespace convex {
+
+/// What corrections leave of residuals of rows R that no correction sees: powers of (I + S D)⁻¹, S =
+/// U_R A⁻¹U_Rᵀ in scaled units and D the weights, applied to numbers without a pattern. It vanishes unless a
+/// combination of the rows is 0 or nearly so: the power method for the least eigenvalue of S, to be trusted
+/// as a random start is (Dixon 1983). system: factored with these weights. m, 0 outside R.
+Vector slowest_residual(const BalancedProblem&, const RowSystem&, const std::vector<Index>& rows,
+                        const Vector& weight);
+
+/// Whether it vanished: each correction of the rows leaves but a small part, so that what is left of their
+/// equations tells how far the point is from where they hold.
+bool is_held_firmly(const Vector& slowest);
+
+/// Whether Σ y_a u_a is 0 to the radii of the rows: some rows within them depend on each other so.
+bool is_zero_within(const NearestPointProblem&, const BalancedProblem&, const Vector& y);
+
+}  // namespace convex
