@@ -9,6 +9,7 @@
 #include "cli/each_file.hpp"
 #include "cli/report/cone_report.hpp"
 #include "cli/report/decomposition_report.hpp"
+#include "cli/report/liquid_report.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/report/solve_progress.hpp"
 #include "cli/resolved_scene.hpp"
@@ -22,6 +23,7 @@ struct SolveOptions : FileOptions, SceneOptions {
   bool null_space = false;          ///< of the multipliers, in JSON
   bool certify = false;             ///< a proved error bound, or that there is no solution
   std::optional<std::string> plot;  ///< a picture to write
+  LiquidRequest liquid;
 };
 
 Answer solve_scene(Scene scene, const SolveOptions& options) {
@@ -56,9 +58,24 @@ Answer solve_scene(Scene scene, const SolveOptions& options) {
   return {exit, options.json ? solve_json(solved) + "\n" : solve_text(solved), warning_lines(solved)};
 }
 
+Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, const std::string& file,
+                         const SolveOptions& options) {
+  require_liquid_settings(problem.solve, options);
+  LiquidRequest request = options.liquid;
+  request.tolerance = options.tolerance ? options.tolerance : problem.solve.tolerance;
+  request.certify = options.certify;
+  request.plot = options.plot;
+  const SolvedLiquid solved = solve_liquid_text(liquid.text, request);
+  return {solved.exit(), options.json ? liquid_json(solved, file) + "\n"
+                                      : heading(problem.title, file) + liquid_text(solved)};
+}
+
 Answer solve_file(const std::string& file, const SolveOptions& options) {
   if (options.plot) require_drawable(*options.plot);
   Problem problem = read_problem_file(file);
+  if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content))
+    return solve_liquid_file(*liquid, problem, file, options);
+  require_no_liquid_request(options.liquid);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options, options.certify);
     const SplitPoint split = split_point(*decomposition, problem.solve, options);
@@ -101,9 +118,24 @@ void add_solve(CLI::App& program, Work& chosen) {
                    "with --json: derivatives by forces and bounds, and margins of the contacts");
   command.add_flag("--certify", options->certify, "a proved error bound; exit 3 without proof");
   command
-      .add_option("--plot", options->plot,
-                  "the decomposition drawn, for two coordinates: F.svg or F.png (by gnuplot)")
+      .add_option(
+          "--plot", options->plot,
+          "the decomposition drawn, for two coordinates; of a liquid the pressure and the cavity: F.svg "
+          "or F.png (by gnuplot)")
       ->type_name("FILE");
+  command
+      .add_option("--onset", options->liquid.onset,
+                  "of a liquid: the value of a parameter at which cavitation begins")
+      ->type_name("NAME");
+  command
+      .add_option("--probe", options->liquid.probes, "of a liquid: p and d(div u)/dt there: \"x=0.3, y=0\"")
+      ->type_name("POINT")
+      ->allow_extra_args(false);
+  command
+      .add_option("--data", options->liquid.data,
+                  "of a liquid: a table of the coordinates, p, growth, cavity (0 or 1)")
+      ->type_name("F.csv");
+  command.add_option("--vtk", options->liquid.vtk, "of a liquid: the same for ParaView")->type_name("F.vti");
 }
 
 }  // namespace cli

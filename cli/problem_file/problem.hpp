@@ -10,6 +10,7 @@
 #include "convex/gamma0/call.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
 #include "mechanics/lagrangian_text.hpp"
+#include "mechanics/liquid/liquid_text.hpp"
 
 namespace cli {
 
@@ -53,6 +54,11 @@ struct ConeProblem {
   convex::ExactMetric W;
 };
 
+/// `[liquid]`: an incompressible liquid at an instant.
+struct LiquidProblem {
+  mechanics::liquid::LiquidText text;
+};
+
 /// `[solve]`: what a file says about how to solve it.
 struct SolveSettings {
   std::optional<std::string> method;
@@ -80,7 +86,7 @@ struct SimulateSettings {
 /// A problem file as plain data.
 struct Problem {
   std::string title;
-  std::variant<SystemProblem, ProjectionProblem, DecompositionProblem, ConeProblem> content;
+  std::variant<SystemProblem, ProjectionProblem, DecompositionProblem, ConeProblem, LiquidProblem> content;
   SolveSettings solve;
   SimulateSettings simulate;
 };

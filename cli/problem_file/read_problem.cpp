@@ -12,7 +12,7 @@ namespace {
 
 using convex::InvalidInput;
 
-constexpr std::array kinds{"system", "projection", "decomposition", "cone"};
+constexpr std::array kinds{"system", "projection", "decomposition", "cone", "liquid"};
 
 /// The one table that says what the file is about.
 const TomlEntry& content_table(const TomlValue& document) {
@@ -27,7 +27,7 @@ const TomlEntry& content_table(const TomlValue& document) {
   if (found == nullptr)
     throw InvalidInput(
         "no problem here; give a table [system] (a mechanism), [projection] (numbers), [decomposition] (a "
-        "convex function) or [cone] (a polyhedral cone)",
+        "convex function), [cone] (a polyhedral cone) or [liquid] (the inception of cavitation)",
         convex::Place{1, 1});
   return *found;
 }
@@ -38,7 +38,8 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   const auto kept = std::make_shared<const TomlValue>(parse_toml(text));
   const TomlValue& document = *kept;
   require_known_keys(
-      document, "", {"title", "system", "state", "projection", "decomposition", "cone", "solve", "simulate"});
+      document, "",
+      {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve", "simulate"});
   Problem problem;
   if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
   if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
@@ -61,6 +62,8 @@ Problem read_problem(const std::string& text, const std::string& directory) {
     problem.content = std::move(projection);
   } else if (content.key == "decomposition") {
     problem.content = read_decomposition(content.value, directory);
+  } else if (content.key == "liquid") {
+    problem.content = read_liquid(content.value);
   } else {
     problem.content = read_cone(content.value, directory);
   }

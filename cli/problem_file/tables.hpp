@@ -17,6 +17,9 @@ DecompositionProblem read_decomposition(const TomlValue& table, const std::strin
 /// `[cone]`; a matrix file of the metric is looked for in `directory`.
 ConeProblem read_cone(const TomlValue& table, const std::string& directory);
 
+/// `[liquid]` with its parameters.
+LiquidProblem read_liquid(const TomlValue& table);
+
 /// `[solve]`.
 SolveSettings read_solve_settings(const TomlValue& table);
 

@@ -1,0 +1,224 @@
+#include "cli/report/liquid_report.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "cli/report/json_writer.hpp"
+#include "cli/report/liquid_files.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/report/verdict_text.hpp"
+#include "mechanics/liquid/liquid_language.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using mechanics::liquid::LiquidScene;
+using mechanics::liquid::LiquidSolution;
+using mechanics::liquid::LiquidText;
+using mechanics::liquid::Point;
+using Status = LiquidSolution::Status;
+
+const char* status_name(Status status) {
+  return status == Status::solved ? "solved" : status == Status::inaccurate ? "inaccurate" : "infeasible";
+}
+
+/// "x=0.3, y=0", values in numbers and parameters.
+Point probe_point(const LiquidText& text, const std::string& probe) {
+  mechanics::liquid::LiquidLanguage language(text.coordinates, text.parameters);
+  const std::vector<std::string>& names = language.coordinates();
+  Point x{};
+  std::vector<bool> given(names.size());
+  const auto fail = [&](const std::string& message) {
+    std::string example;
+    for (const std::string& name : names) example += (example.empty() ? "" : ", ") + name + "=0";
+    throw InvalidInput("--probe \"" + probe + "\": " + message + "; write \"" + example + "\"");
+  };
+  std::size_t begin = 0;
+  while (begin <= probe.size()) {
+    const std::size_t end = std::min(probe.find(',', begin), probe.size());
+    const std::string piece = probe.substr(begin, end - begin);
+    const std::size_t equal = piece.find('=');
+    if (equal == std::string::npos) fail("no coordinate with a value");
+    const std::size_t first = piece.find_first_not_of(' '), last = piece.find_last_not_of(' ', equal - 1);
+    const std::string name = first < equal ? piece.substr(first, last - first + 1) : "";
+    const auto known = std::find(names.begin(), names.end(), name);
+    if (known == names.end()) fail("\"" + name + "\" is no coordinate");
+    const auto i = static_cast<std::size_t>(known - names.begin());
+    x[i] = language.number({piece.substr(equal + 1), {}}, "--probe");
+    given[i] = true;
+    begin = end + 1;
+  }
+  if (std::find(given.begin(), given.end(), false) != given.end()) fail("a coordinate is missing");
+  return x;
+}
+
+void write_point(JsonWriter& json, const std::vector<std::string>& names, const Point& x) {
+  json.begin_object();
+  for (std::size_t i = 0; i < names.size(); ++i) json.key(names[i]).value(x[i]);
+  json.end_object();
+}
+
+void write_files(const SolvedLiquid& solved, const LiquidRequest& request) {
+  if (!request.data && !request.vtk) return;
+  if (solved.solution.status == Status::infeasible) return;
+  const auto sample =
+      mechanics::liquid::sample(solved.scene, solved.solution, mechanics::liquid::sample_cells(solved.scene));
+  if (request.data) write_liquid_table(*request.data, solved.scene.coordinates, sample);
+  if (request.vtk) write_liquid_image(*request.vtk, sample);
+}
+
+std::string cavity_text(const SolvedLiquid& solved) {
+  const LiquidSolution& found = solved.solution;
+  std::string text;
+  if (found.cavity_measure > 0) {
+    text = fmt::format("Cavitation begins: p = 0 and the liquid parts in {:.4g} % of the domain (measure {})",
+                       100 * found.cavity_measure / found.volume, number_text(found.cavity_measure));
+    for (std::size_t i = 0; i < solved.scene.coordinates.size(); ++i)
+      text +=
+          fmt::format("{} {} <= {} <= {}", i == 0 ? ", in" : ",", number_text(found.cavity_extent->first[i]),
+                      solved.scene.coordinates[i], number_text(found.cavity_extent->second[i]));
+    text += ".\n";
+  }
+  if (!found.parted_walls.empty())
+    text += fmt::format("The liquid parts from {}.\n", listed(found.parted_walls));
+  return text.empty() ? "No cavitation: the liquid keeps together and follows its walls.\n" : text;
+}
+
+}  // namespace
+
+Exit SolvedLiquid::exit() const {
+  if (solution.status == Status::infeasible) return Exit::no_solution;
+  return solution.status == Status::solved && level != "none" ? Exit::solved : Exit::inaccurate;
+}
+
+void require_liquid_settings(const SolveSettings& settings, const AccuracyOptions& options) {
+  const std::string method = options.method.value_or(settings.method.value_or("auto"));
+  if (method != "auto")
+    throw InvalidInput(
+        "method \"" + method +
+            "\" does not apply to a liquid, which is solved on lines and grids; leave the method out",
+        options.method ? std::nullopt : std::optional(settings.method_place));
+  if (settings.contact_tolerance || !settings.contact_tolerances.empty())
+    throw InvalidInput("solve.contact_tolerance: goes with [system] only; take it out",
+                       settings.contact_tolerance_place);
+}
+
+void require_no_liquid_request(const LiquidRequest& request) {
+  const char* option = !request.probes.empty() ? "--probe"
+                       : request.onset         ? "--onset"
+                       : request.data          ? "--data"
+                       : request.vtk           ? "--vtk"
+                                               : nullptr;
+  if (option != nullptr)
+    throw InvalidInput(std::string(option) +
+                       ": it asks about a liquid, and the file has no [liquid]; take it out");
+}
+
+SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& request) {
+  const auto start = std::chrono::steady_clock::now();
+  SolvedLiquid solved;
+  solved.scene = mechanics::liquid::read_scene(text);
+  std::vector<Point> points;
+  for (const std::string& probe : request.probes) points.push_back(probe_point(text, probe));
+  const mechanics::liquid::LiquidAccuracy accuracy{request.tolerance};
+  if (request.onset) mechanics::liquid::parameter_value(text, *request.onset);
+  solved.solution = mechanics::liquid::solve_liquid(solved.scene, accuracy);
+  if (solved.solution.status != Status::infeasible)
+    for (const Point& x : points)
+      solved.probes.push_back(mechanics::liquid::probe(solved.scene, solved.solution, x));
+  if (request.onset) {
+    solved.onset_of = request.onset;
+    solved.onset = mechanics::liquid::find_onset(text, *request.onset, accuracy);
+  }
+  if (request.certify) solved.level = "none";
+  solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  write_files(solved, request);
+  return solved;
+}
+
+std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
+  const LiquidSolution& found = solved.solution;
+  const std::vector<std::string>& names = solved.scene.coordinates;
+  JsonWriter json;
+  json.begin_object().key("file").value(file).key("kind").value("liquid");
+  json.key("status").value(status_name(found.status)).key("method").value(found.method);
+  json.key("unknowns").value(found.unknowns);
+  if (found.status == Status::infeasible) {
+    json.key("surplus").value(found.surplus);
+    return json.key("seconds").value(solved.seconds).end_object().text();
+  }
+  json.key("cavity").begin_object().key("measure").value(found.cavity_measure);
+  json.key("fraction").value(found.cavity_measure / found.volume).key("extent");
+  if (found.cavity_extent) {
+    json.begin_object();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      json.key(names[i]).begin_array().value(found.cavity_extent->first[i]);
+      json.value(found.cavity_extent->second[i]).end_array();
+    }
+    json.end_object();
+  } else {
+    json.null();
+  }
+  json.end_object();
+  json.key("pressure").begin_object().key("max").value(found.largest).key("at");
+  write_point(json, names, found.largest_at);
+  json.end_object().key("parted_walls").begin_array();
+  for (const std::string& wall : found.parted_walls) json.value(wall);
+  json.end_array().key("onset");
+  if (solved.onset)
+    json.begin_object()
+        .key(*solved.onset_of)
+        .value(solved.onset->value)
+        .end_object()
+        .key("onset_error")
+        .value(solved.onset->error);
+  else
+    json.null();
+  json.key("certificate").begin_object().key("level").value(solved.level);
+  json.key("error_bound").value(found.error_bound).end_object().key("probes").begin_array();
+  for (const mechanics::liquid::LiquidProbe& probe : solved.probes) {
+    json.begin_object().key("at");
+    write_point(json, names, probe.at);
+    json.key("p").value(probe.p).key("growth").value(probe.growth).end_object();
+  }
+  return json.end_array().key("seconds").value(solved.seconds).end_object().text();
+}
+
+std::string liquid_text(const SolvedLiquid& solved) {
+  const LiquidSolution& found = solved.solution;
+  const std::vector<std::string>& names = solved.scene.coordinates;
+  if (found.status == Status::infeasible)
+    return fmt::format(
+        "No motion: without a free surface, the walls and the velocity squeeze the liquid.\nThe loads, the "
+        "integral "
+        "of h and of rho (F.n - acceleration) over the walls, sum up to {} > 0.\n",
+        number_text(found.surplus));
+  std::string text = cavity_text(solved);
+  text += fmt::format("Largest pressure {} at {}.\n", number_text(found.largest),
+                      mechanics::liquid::point_text(names, found.largest_at));
+  if (solved.onset_of && solved.onset)
+    text += fmt::format("Cavitation begins at {} = {:.10g} (to {:.1e}).\n", *solved.onset_of,
+                        solved.onset->value, solved.onset->error);
+  else if (solved.onset_of)
+    text += fmt::format("No value of {} was found at which cavitation begins.\n", *solved.onset_of);
+  if (!solved.probes.empty()) {
+    std::vector<std::string> head = names;
+    head.insert(head.end(), {"p", "d(div u)/dt"});
+    TextTable table(head);
+    for (const mechanics::liquid::LiquidProbe& probe : solved.probes) {
+      std::vector<std::string> row;
+      for (std::size_t i = 0; i < names.size(); ++i) row.push_back(number_text(probe.at[i]));
+      row.insert(row.end(), {number_text(probe.p), number_text(probe.growth)});
+      table.add(std::move(row));
+    }
+    text += "\n" + table.text() + "\n";
+  }
+  if (solved.level == "none") text += "Not proved: the bound below is an estimate.\n";
+  if (found.status == Status::inaccurate) text += "The accuracy asked for was not met.\n";
+  return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,
+                            found.error_bound);
+}
+
+}  // namespace cli

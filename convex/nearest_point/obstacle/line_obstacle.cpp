@@ -1,0 +1,353 @@
+#include "convex/nearest_point/obstacle/line_obstacle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/obstacle/line_quadrature.hpp"
+
+namespace convex {
+namespace {
+
+constexpr Index first_cells = 128;
+/// Cells are halved down to this part of the line; edges of p > 0 are known as well.
+constexpr double shortest_part = 0x1p-44;
+/// What a sum of terms of this absolute size may be off.
+constexpr double rounding = 16 * unit_roundoff;
+constexpr int most_rounds = 400;
+
+using Kind = LineEnd::Kind;
+
+/// The cells, the loads in them, and the active set.
+class LineCells {
+ public:
+  LineCells(const LineObstacle& problem, bool one_sided)
+      : problem_(problem), w_{problem.power}, one_sided_(one_sided) {
+    shortest_ = (problem.high - problem.low) * shortest_part;
+    r.push_back(problem.low);
+    double absolute = 0;
+    for (Index k = 0; k < first_cells; ++k) {
+      const double b = problem.low + (problem.high - problem.low) * static_cast<double>(k + 1) / first_cells;
+      absolute += cell_load(problem.h, w_, r.back(), b).absolute_moment;
+      r.push_back(b);
+    }
+    resolved_ = 0x1p-50 * absolute / first_cells;
+    std::vector<double> coarse;
+    coarse.swap(r);
+    r.push_back(coarse.front());
+    for (std::size_t k = 0; k + 1 < coarse.size(); ++k) add(coarse[k], coarse[k + 1]);
+    zero.assign(r.size(), false);
+    flux.assign(r.size(), 0);
+    p.assign(r.size(), 0);
+  }
+
+  std::vector<double> r, p, flux;
+  std::vector<CellLoad> cells;
+  std::vector<bool> zero;  // p = 0 by the obstacle
+
+  std::size_t first() const { return problem_.at_low.kind == Kind::centre ? 1 : 0; }
+  std::size_t last() const { return r.size() - 1; }
+  double w(std::size_t node) const { return w_(r[node]); }
+  double resistance(std::size_t cell) const { return w_.resistance(r[cell], r[cell + 1]); }
+  double end_flux(const LineEnd& end, std::size_t node) const { return end.value * w(node); }
+
+  /// The sum of the loads, for lines without a given value, and its rounding.
+  std::pair<double, double> surplus() const {
+    double sum = 0, absolute = 0;
+    for (const CellLoad& cell : cells) {
+      sum += cell.load;
+      absolute += cell.absolute;
+    }
+    for (const auto& [end, node] : {std::pair{problem_.at_low, std::size_t{0}}, {problem_.at_high, last()}})
+      if (end.kind == Kind::flux) {
+        sum += end_flux(end, node);
+        absolute += std::abs(end_flux(end, node));
+      }
+    return {sum, rounding * absolute};
+  }
+
+  /// p between the nodes where it is known: it is known at both, or the flux is at one.
+  void solve_run(std::size_t from, std::size_t to) {
+    const bool known_low = is_known(from), known_high = is_known(to);
+    double resistance_sum = 0, fall = 0, load = 0, absolute = 0;  // of p from `from` with flux 0
+    for (std::size_t k = from; k < to; ++k) {
+      const double R = resistance(k);
+      fall += load * R + cells[k].moment;
+      absolute += std::abs(load) * R + cells[k].absolute_moment;
+      load += cells[k].load;
+      resistance_sum += R;
+    }
+    const double left = known_low ? known_value(from) : 0, right = known_high ? known_value(to) : 0;
+    double K = 0, start = left;
+    if (known_low && known_high) {
+      K = (right - left + fall) / resistance_sum;
+    } else if (known_high) {
+      K = low_flux(from);
+      start = right - K * resistance_sum + fall;
+    } else if (known_low) {
+      K = end_flux(problem_.at_high, to) + load;
+    } else {
+      K = low_flux(from);
+    }
+    rounding_ = std::max(
+        rounding_, rounding * (std::abs(left) + std::abs(right) + absolute + std::abs(K) * resistance_sum));
+    p[from] = start;
+    for (std::size_t k = from; k < to; ++k) {
+      flux[k] = K;
+      slack_[k] = rounding * ((std::abs(left) + std::abs(right) + absolute) / resistance_sum + std::abs(K));
+      p[k + 1] = p[k] + K * resistance(k) - cells[k].moment;
+      K -= cells[k].load;
+    }
+    if (!known_high) return;
+    p[to] = right;  // near this end p is summed from it, so that it is exact where it is small
+    for (std::size_t k = to; k-- > (from + to) / 2 + 1;)
+      p[k] = p[k + 1] - flux[k] * resistance(k) + cells[k].moment;
+  }
+
+  /// p with the present active set.
+  void solve() {
+    rounding_ = 0;
+    slack_.assign(r.size(), 0);
+    std::size_t from = first();
+    for (std::size_t to = from + 1; to <= last(); ++to)
+      if (to == last() || is_known(to)) {
+        solve_run(from, to);
+        from = to;
+      }
+  }
+
+  /// Primal-dual active sets; ends after finitely many steps, for the equations have an M-matrix.
+  void solve_obstacle() {
+    for (std::size_t step = 0; step < 10 * r.size(); ++step) {
+      solve();
+      if (!one_sided_) return;
+      bool changed = false;
+      for (std::size_t k = first(); k <= last(); ++k) {
+        if (is_value_end(k)) continue;
+        const bool was = zero[k];
+        if (was ? push(k) < -push_slack(k) : p[k] < 0) {
+          zero[k] = !was;
+          changed = true;
+        }
+      }
+      if (!changed) return;
+    }
+  }
+
+  /// What the obstacle adds at a node.
+  double push(std::size_t k) const { return flux_below(k) - flux_above(k); }
+  double push_slack(std::size_t k) const {
+    return (k > 0 ? slack_[k - 1] : 0) + slack_[k] +
+           rounding * (std::abs(flux_below(k)) + std::abs(flux_above(k)));
+  }
+
+  /// Halves the cells where p turns from 0, is below 0 between nodes, or is 0 although h > 0. False when none
+  /// is left that could be halved.
+  bool refine() {
+    std::vector<bool> halve(cells.size(), false);
+    const auto mark = [&](std::size_t cell) {
+      if (r[cell + 1] - r[cell] > shortest_) halve[cell] = true;
+    };
+    for (std::size_t k = first(); k < cells.size(); ++k) {
+      const bool low = is_zero(k), high = is_zero(k + 1);
+      if (low != high) {
+        mark(k);
+        const std::size_t node = low ? k : k + 1;
+        if (low && node > 0) mark(node - 1);
+        if (high && node < cells.size()) mark(node);
+      } else {
+        const GaussLegendre& rule = gauss_legendre();
+        for (double x : rule.point) {
+          const double at = r[k] + (r[k + 1] - r[k]) * (0.5 + 0.5 * x);
+          if (low ? problem_.h(at) > 0 && cells[k].load < -rounding * cells[k].absolute
+                  : value(k, at) < -rounding_)
+            mark(k);
+        }
+      }
+    }
+    if (first() == 1 && !is_zero(1) && value(0, 0) < -rounding_) mark(0);
+    if (std::none_of(halve.begin(), halve.end(), [](bool b) { return b; })) return false;
+    std::vector<double> old_r;
+    std::vector<CellLoad> old_cells;
+    std::vector<bool> old_zero;
+    old_r.swap(r);
+    old_cells.swap(cells);
+    old_zero.swap(zero);
+    r.push_back(old_r.front());
+    zero.push_back(old_zero.front());
+    for (std::size_t k = 0; k < old_cells.size(); ++k) {
+      if (halve[k]) {
+        const double middle = 0.5 * (old_r[k] + old_r[k + 1]);
+        put(old_r[k], middle);
+        put(middle, old_r[k + 1]);
+        zero.push_back(old_zero[k] && old_zero[k + 1]);
+      } else {
+        cells.push_back(old_cells[k]);
+        r.push_back(old_r[k + 1]);
+      }
+      zero.push_back(old_zero[k + 1]);
+    }
+    p.assign(r.size(), 0);
+    flux.assign(r.size(), 0);
+    return true;
+  }
+
+  /// p in a cell, which may be that of the centre.
+  double value(std::size_t cell, double at) const { return line_value(problem_, r, p, flux, cell, at); }
+  static double line_value(const LineObstacle& problem, const std::vector<double>& r,
+                           const std::vector<double>& p, const std::vector<double>& flux, std::size_t cell,
+                           double at) {
+    const LineWeight w{problem.power};
+    if (cell == 0 && problem.at_low.kind == Kind::centre) {
+      const double inside = at > 0 ? cell_load(problem.h, w, 0, at).load * w.resistance(at, r[1]) : 0;
+      return p[1] + inside + cell_load(problem.h, w, at, r[1]).moment;
+    }
+    return p[cell] + flux[cell] * w.resistance(r[cell], at) - cell_load(problem.h, w, r[cell], at).moment;
+  }
+
+  bool is_zero(std::size_t k) const { return zero[k] || (is_value_end(k) && !(known_value(k) > 0)); }
+  bool is_known(std::size_t k) const { return is_value_end(k) || zero[k]; }
+  bool is_value_end(std::size_t k) const {
+    return (k == 0 && problem_.at_low.kind == Kind::value) ||
+           (k == last() && problem_.at_high.kind == Kind::value);
+  }
+  double known_value(std::size_t k) const {
+    if (zero[k] && !is_value_end(k)) return 0;
+    return k == 0 ? problem_.at_low.value : problem_.at_high.value;
+  }
+  double known_error() const { return rounding_ + unresolved_; }
+
+ private:
+  double low_flux(std::size_t node) const {
+    return node == 1 && first() == 1 ? -cells[0].load : -end_flux(problem_.at_low, node);
+  }
+  double flux_below(std::size_t k) const {
+    if (k == first()) return low_flux(k);
+    return flux[k - 1] - cells[k - 1].load;
+  }
+  double flux_above(std::size_t k) const { return k == last() ? end_flux(problem_.at_high, k) : flux[k]; }
+
+  void put(double a, double b) {
+    cells.push_back(cell_load(problem_.h, w_, a, b));
+    r.push_back(b);
+  }
+  /// [a, b], in parts on which the rule is exact to rounding.
+  void add(double a, double b) {
+    const CellLoad whole = cell_load(problem_.h, w_, a, b);
+    const double middle = 0.5 * (a + b);
+    const CellLoad low = cell_load(problem_.h, w_, a, middle), high = cell_load(problem_.h, w_, middle, b);
+    const double R = w_.resistance(middle, b);
+    const double load = low.load + high.load, moment = low.load * R + low.moment + high.moment;
+    const bool is_exact =
+        std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment &&
+        std::abs(whole.load - load) * (b - a) <= (resolved_ + rounding * whole.absolute * (b - a)) * w_(b);
+    if (is_exact || b - a <= shortest_) {
+      cells.push_back(whole);
+      r.push_back(b);
+      unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);
+      return;
+    }
+    add(a, middle);
+    add(middle, b);
+  }
+
+  const LineObstacle& problem_;
+  LineWeight w_;
+  bool one_sided_;
+  double shortest_ = 0, resolved_ = 0, rounding_ = 0, unresolved_ = 0;
+  std::vector<double> slack_;
+};
+
+}  // namespace
+
+LineSolution solve_line(const LineObstacle& problem, bool one_sided) {
+  LineSolution found;
+  found.problem_ = problem;
+  LineCells cells(problem, one_sided);
+  const bool unfixed = problem.at_low.kind != Kind::value && problem.at_high.kind != Kind::value;
+  bool balanced = false;
+  if (unfixed) {
+    const auto [surplus, slack] = cells.surplus();
+    found.surplus = std::abs(surplus) <= slack ? 0 : surplus;
+    if (found.surplus > 0) {
+      found.status = LineSolution::Status::infeasible;
+      return found;
+    }
+    balanced = found.surplus == 0 || !one_sided;
+    if (!balanced) cells.zero.assign(cells.r.size(), true);
+  }
+  if (balanced) {
+    cells.solve();
+    double least = cells.p[cells.first()];
+    for (std::size_t k = cells.first(); k < cells.r.size(); ++k) least = std::min(least, cells.p[k]);
+    for (double& p : cells.p) p -= least;
+  } else {
+    for (int round = 0; round < most_rounds; ++round) {
+      cells.solve_obstacle();
+      if (!one_sided || !cells.refine()) break;
+    }
+  }
+  found.low_parts =
+      problem.at_low.kind == Kind::flux && cells.zero.front() && cells.push(0) > cells.push_slack(0);
+  found.high_parts = problem.at_high.kind == Kind::flux && cells.zero.back() &&
+                     cells.push(cells.last()) > cells.push_slack(cells.last());
+  found.error_bound = cells.known_error();
+  found.nodes = static_cast<Index>(cells.r.size());
+  found.held_.resize(cells.r.size());
+  for (std::size_t k = 0; k < cells.r.size(); ++k) found.held_[k] = cells.is_zero(k);
+  if (cells.first() == 1) found.held_[0] = found.held_[1];
+  found.r_ = std::move(cells.r);
+  found.p_ = std::move(cells.p);
+  found.flux_ = std::move(cells.flux);
+  if (balanced) {
+    const double least = found.least().value;
+    for (double& p : found.p_) p -= least;
+  }
+  return found;
+}
+
+double LineSolution::p(double at) const {
+  const auto above = std::upper_bound(r_.begin() + 1, r_.end() - 1, at);
+  const auto cell = static_cast<std::size_t>(above - r_.begin()) - 1;
+  if (held_[cell] && held_[cell + 1]) return 0;
+  return LineCells::line_value(problem_, r_, p_, flux_, cell, at);
+}
+
+std::vector<LinePiece> LineSolution::pieces() const {
+  std::vector<LinePiece> found;
+  for (std::size_t k = 0; k + 1 < r_.size(); ++k) {
+    const bool positive =
+        !(held_[k] && held_[k + 1]) || !(cell_load(problem_.h, {problem_.power}, r_[k], r_[k + 1]).load < 0);
+    if (found.empty() || found.back().positive != positive)
+      found.push_back({r_[k], r_[k + 1], positive});
+    else
+      found.back().high = r_[k + 1];
+  }
+  return found;
+}
+
+LineSolution::Extreme LineSolution::extreme(double sign) const {
+  const bool centre = problem_.at_low.kind == Kind::centre;
+  Extreme best{centre ? LineCells::line_value(problem_, r_, p_, flux_, 0, 0) : p_[0], r_[0]};
+  const auto offer = [&](double value, double at) {
+    if (sign * value > sign * best.value) best = {value, at};
+  };
+  const LineWeight w{problem_.power};
+  for (std::size_t k = centre ? 1 : 0; k < r_.size(); ++k) {
+    offer(p_[k], r_[k]);
+    if (k + 1 == r_.size() || (held_[k] && held_[k + 1])) continue;
+    const double end = flux_[k] - cell_load(problem_.h, w, r_[k], r_[k + 1]).load;
+    if (!(sign * flux_[k] > 0 && sign * end < 0)) continue;
+    double a = r_[k], b = r_[k + 1];  // the flux turns its sign between
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (a + b);
+      (sign * (flux_[k] - cell_load(problem_.h, w, r_[k], middle).load) > 0 ? a : b) = middle;
+    }
+    offer(LineCells::line_value(problem_, r_, p_, flux_, k, a), a);
+  }
+  return best;
+}
+
+LineSolution::Extreme LineSolution::largest() const { return extreme(1); }
+LineSolution::Extreme LineSolution::least() const { return extreme(-1); }
+
+}  // namespace convex

@@ -1,0 +1,48 @@
+#include "mechanics/liquid/field.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace mechanics::liquid {
+
+std::string point_text(const std::vector<std::string>& names, const Point& x) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.6g", x[i]);
+    text += (i == 0 ? "(" : ", ") + names[i] + " = " + number;
+  }
+  return text + ")";
+}
+
+Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<std::string> coordinates,
+             std::string what, convex::Place place)
+    : coordinates_(std::move(coordinates)),
+      what_(std::move(what)),
+      place_(place),
+      is_constant_(tape.is_constant(node)) {
+  if (is_constant_)
+    constant_ = tape.constant(node);
+  else
+    program_ = expression::Program(tape, coordinates_.size(), {{node}});
+}
+
+double Field::raw(const Point& x) const {
+  if (is_constant_) return constant_;
+  const auto n = static_cast<Index>(coordinates_.size());
+  State state{0, Vector::Map(x.data(), n), Vector::Zero(n)};
+  bool is_finite = true;
+  const expression::Values values = program_.values(state, 0, is_finite);
+  return values[program_.roots(0).front()];
+}
+
+double Field::operator()(const Point& x) const {
+  const double value = raw(x);
+  if (!std::isfinite(value))
+    throw convex::InvalidInput(what_ + ": not a finite number at " + point_text(coordinates_, x) +
+                                   "; give an expression that is finite where the liquid is",
+                               place_);
+  return value;
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mechanics/expression/program.hpp"
+
+namespace mechanics::liquid {
+
+/// A point of space; in fewer than three dimensions the rest is 0.
+using Point = std::array<double, 3>;
+
+/// "(x = 0.5, y = 0)" of the first coordinates, for a message.
+std::string point_text(const std::vector<std::string>& names, const Point&);
+
+/// An expression in the coordinates, ready to be evaluated.
+class Field {
+ public:
+  Field() = default;
+  Field(const expression::Tape&, expression::NodeId, std::vector<std::string> coordinates, std::string what,
+        convex::Place);
+
+  /// Throws InvalidInput with the point when the value is not finite.
+  double operator()(const Point&) const;
+  /// The same, NaN or infinite where it is not finite.
+  double raw(const Point&) const;
+  bool is_constant() const { return is_constant_; }
+
+ private:
+  expression::Program program_;
+  std::vector<std::string> coordinates_;
+  std::string what_;
+  convex::Place place_;
+  bool is_constant_ = true;
+  double constant_ = 0;
+};
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,117 @@
+#include "mechanics/liquid/inequality_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/invalid_input.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+constexpr double far = 1e9, near = 1e-9;
+
+double level_or_outside(const Domain& domain, const Point& x) {
+  try {
+    return domain.level(x);
+  } catch (const convex::InvalidInput&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
+
+/// Steps along axes and diagonals that double after a success and halve after a failure.
+Point lowest(const Domain& domain, Point x, double step) {
+  double level = level_or_outside(domain, x);
+  while (step > near && !(level < 0)) {
+    bool better = false;
+    for (int code = 0; code < 27 && !better; ++code) {
+      Point y = x;
+      int rest = code;
+      for (std::size_t i = 0; i < domain.dimension; ++i, rest /= 3) y[i] += step * (rest % 3 - 1);
+      if (const double there = level_or_outside(domain, y); there < level) {
+        level = there;
+        x = y;
+        better = true;
+      }
+    }
+    step *= better ? 2 : 0.5;
+    if (step > far) break;
+  }
+  return x;
+}
+
+/// Calls found(x) for points of a grid of n cells a side.
+template <class Found>
+void for_grid(const Domain& domain, const Point& low, const Point& high, int n, Found found) {
+  const auto axis = [&](std::size_t i) { return i < domain.dimension ? n : 0; };
+  for (int a = 0; a <= axis(0); ++a)
+    for (int b = 0; b <= axis(1); ++b)
+      for (int c = 0; c <= axis(2); ++c) {
+        const std::array<int, 3> k{a, b, c};
+        Point x{};
+        for (std::size_t i = 0; i < domain.dimension; ++i) x[i] = low[i] + (high[i] - low[i]) * k[i] / n;
+        if (level_or_outside(domain, x) <= 0) found(x);
+      }
+}
+
+}  // namespace
+
+void find_box(Domain& domain, convex::Place place) {
+  const std::size_t d = domain.dimension;
+  Point inside{};
+  bool is_found = false;
+  for (const double step : {1.0, 1e-3, 1e3, 1e6})
+    for (const double start : {0.0, 0.37, -0.41, 5.3, -7.1}) {
+      if (is_found) break;
+      Point x{};
+      for (std::size_t i = 0; i < d; ++i) x[i] = start * (1 + 0.11 * static_cast<double>(i));
+      x = lowest(domain, x, step);
+      is_found = level_or_outside(domain, x) < 0;
+      if (is_found) inside = x;
+    }
+  if (!is_found)
+    throw convex::InvalidInput(
+        "domain: no point fulfils the inequalities, it is empty; where there is one, give "
+        "a box around it, low = [...] and high = [...]",
+        place);
+  const int n = d == 1 ? 400 : d == 2 ? 80 : 24;
+  // The box grows until no side of it, nor a box of twice its size, meets more of the domain.
+  double size = 1e-3;
+  for (;; size *= 2) {
+    if (size > far)
+      throw convex::InvalidInput("domain: it does not end; add inequalities that bound it", place);
+    Point low{}, high{};
+    for (std::size_t i = 0; i < d; ++i) {
+      low[i] = inside[i] - 4 * size;
+      high[i] = inside[i] + 4 * size;
+    }
+    bool beyond = false;
+    for_grid(domain, low, high, n, [&](const Point& x) {
+      for (std::size_t i = 0; i < d; ++i) beyond = beyond || std::abs(x[i] - inside[i]) > size;
+    });
+    if (!beyond) break;
+  }
+  Point low{}, high{};
+  for (std::size_t i = 0; i < d; ++i) {
+    low[i] = inside[i] - size;
+    high[i] = inside[i] + size;
+  }
+  for (int round = 0; round < 8; ++round) {
+    Point least = inside, largest = inside, cell{};
+    for (std::size_t i = 0; i < d; ++i) cell[i] = (high[i] - low[i]) / n;
+    for_grid(domain, low, high, n, [&](const Point& x) {
+      for (std::size_t i = 0; i < d; ++i) {
+        least[i] = std::min(least[i], x[i]);
+        largest[i] = std::max(largest[i], x[i]);
+      }
+    });
+    for (std::size_t i = 0; i < d; ++i) {
+      low[i] = std::max(low[i], least[i] - cell[i]);
+      high[i] = std::min(high[i], largest[i] + cell[i]);
+    }
+  }
+  domain.low = low;
+  domain.high = high;
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,279 @@
+#include "mechanics/liquid/line_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "convex/invalid_input.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+using convex::InvalidInput;
+using convex::LineEnd;
+using convex::LineSolution;
+
+/// Directions, the same in every run.
+class Directions {
+ public:
+  explicit Directions(std::size_t dimension) : dimension_(dimension) {}
+  Point next() {
+    std::normal_distribution<double> normal;
+    Point n{};
+    double square = 0;
+    for (std::size_t i = 0; i < dimension_; ++i) {
+      n[i] = normal(random_);
+      square += n[i] * n[i];
+    }
+    for (double& entry : n) entry /= std::sqrt(square);
+    return n;
+  }
+  double part() { return std::uniform_real_distribution<double>(0.02, 1)(random_); }
+
+ private:
+  std::size_t dimension_;
+  std::mt19937_64 random_{1966};
+};
+
+Point moved(const Point& from, const Point& n, double by) {
+  return {from[0] + by * n[0], from[1] + by * n[1], from[2] + by * n[2]};
+}
+
+/// Whether the values of f(x, n) at points x = centre + r n of one r are the same to rounding.
+template <class Function>
+bool same_in_all_directions(Function f, const LineScene& line, std::size_t dimension, bool at_low,
+                            bool at_high) {
+  constexpr int trials = 24;
+  constexpr double rounding = 1e-11;
+  Directions directions(dimension);
+  double scale = 0, difference = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const double low = line.problem.low, high = line.problem.high;
+    const double r = at_low ? low : at_high ? high : low + directions.part() * (high - low);
+    const Point n = directions.next(), m = directions.next();
+    const double a = f(moved(line.centre, n, r), n), b = f(moved(line.centre, m, r), m);
+    scale = std::max({scale, std::abs(a), std::abs(b)});
+    difference = std::max(difference, std::abs(a - b));
+    if (!std::isfinite(a + b)) return false;
+  }
+  return difference <= rounding * scale;
+}
+
+bool is_radial(const Field& field, const LineScene& line, std::size_t dimension) {
+  return field.is_constant() ||
+         same_in_all_directions([&](const Point& x, const Point&) { return field.raw(x); }, line, dimension,
+                                false, false);
+}
+
+/// The radii between which the level of an inequality domain is below 0 along an axis, if it is one interval.
+bool find_radii(const Domain& domain, LineScene& line) {
+  constexpr int samples = 4000;
+  const double end = 0.5 * domain.longest();
+  const auto level = [&](double r) { return domain.level(line.at(r)); };
+  std::vector<double> ends;
+  bool inside = level(0) < 0;
+  if (inside) ends.push_back(0);
+  for (int k = 0; k < samples; ++k) {
+    double a = end * k / samples, b = end * (k + 1) / samples;
+    if ((level(b) < 0) == inside) continue;
+    for (int halving = 0; halving < 80; ++halving) {
+      const double middle = 0.5 * (a + b);
+      ((level(middle) < 0) == inside ? a : b) = middle;
+    }
+    inside = !inside;
+    ends.push_back(inside ? b : a);
+  }
+  if (ends.size() != 2) return false;
+  line.problem.low = ends[0];
+  line.problem.high = ends[1];
+  return true;
+}
+
+bool find_shell(const LiquidScene& scene, LineScene& line) {
+  const Domain& domain = scene.domain;
+  if (domain.shape == Domain::Shape::ball) {
+    line.centre = domain.centre;
+    line.problem.high = domain.radius;
+    return true;
+  }
+  if (domain.shape != Domain::Shape::inequalities) return false;
+  for (std::size_t i = 0; i < scene.dimension(); ++i) {
+    line.centre[i] = 0.5 * (domain.low[i] + domain.high[i]);
+    // The box is found to a part of its size; what is centred nearly at 0 is centred there.
+    if (std::abs(line.centre[i]) < 0.02 * domain.longest()) line.centre[i] = 0;
+  }
+  line.problem.high = 0.5 * domain.longest();
+  for (const Field* field : domain.condition->fields())
+    if (!is_radial(*field, line, scene.dimension())) return false;
+  return find_radii(domain, line);
+}
+
+LineEnd line_end(const LiquidScene& scene, const BoundaryPart& part, const Point& x, const Point& n) {
+  if (part.is_free) return {LineEnd::Kind::value, scene.free_pressure(part, x)};
+  return {LineEnd::Kind::flux, scene.wall_flux(part, x, n)};
+}
+
+/// Fills in what holds at a sphere, if it is one thing.
+bool find_sphere(const LiquidScene& scene, LineScene& line, bool is_low) {
+  const std::size_t d = scene.dimension();
+  const double r = is_low ? line.problem.low : line.problem.high, side = is_low ? -1 : 1;
+  const Point n{1, 0, 0}, x = moved(line.centre, n, r);
+  for (const BoundaryPart& part : scene.parts) {
+    for (const Field* field : part.where.fields())
+      if (!is_radial(*field, line, d)) return false;
+    if (part.where.holds(x, scene.domain.reach())) break;
+  }
+  const BoundaryPart& part = scene.boundary_part(x);
+  const auto value = [&](const Point& y, const Point& m) {
+    const Point outward{side * m[0], side * m[1], side * m[2]};
+    return part.is_free ? part.value.raw(y) : scene.wall_flux(part, y, outward);
+  };
+  if (!same_in_all_directions(value, line, d, is_low, !is_low)) return false;
+  (is_low ? line.low : line.high) = &part;
+  (is_low ? line.problem.at_low : line.problem.at_high) = line_end(scene, part, x, {side, 0, 0});
+  return true;
+}
+
+bool find_radial(const LiquidScene& scene, LineScene& line) {
+  line.radial = true;
+  line.problem.power = static_cast<int>(scene.dimension()) - 1;
+  if (!find_shell(scene, line) || !is_radial(scene.h, line, scene.dimension())) return false;
+  if (line.problem.low > 0) {
+    if (!find_sphere(scene, line, true)) return false;
+  } else {
+    line.problem.at_low.kind = LineEnd::Kind::centre;
+  }
+  return find_sphere(scene, line, false);
+}
+
+LineScene interval(const LiquidScene& scene) {
+  const Domain& domain = scene.domain;
+  LineScene line;
+  line.problem.low = domain.low[0];
+  line.problem.high = domain.high[0];
+  if (domain.shape == Domain::Shape::ball) {
+    line.problem.low = domain.centre[0] - domain.radius;
+    line.problem.high = domain.centre[0] + domain.radius;
+  }
+  if (domain.shape == Domain::Shape::inequalities) {
+    constexpr int samples = 4096;
+    std::vector<double> ends;
+    double before = domain.low[0];
+    bool inside = domain.level({before, 0, 0}) <= 0;
+    if (inside) ends.push_back(before);
+    for (int k = 1; k <= samples; ++k) {
+      const double x = domain.low[0] + (domain.high[0] - domain.low[0]) * k / samples;
+      const bool now = domain.level({x, 0, 0}) <= 0;
+      if (now != inside)
+        ends.push_back(now ? domain.crossing({x, 0, 0}, {before, 0, 0})[0]
+                           : domain.crossing({before, 0, 0}, {x, 0, 0})[0]);
+      inside = now;
+      before = x;
+    }
+    if (inside) ends.push_back(before);
+    if (ends.size() > 2)
+      throw InvalidInput("domain: it is not connected; give one interval, and the others files of their own");
+    if (ends.size() < 2) throw InvalidInput("domain: it is empty between low and high; give one that is not");
+    line.problem.low = ends[0];
+    line.problem.high = ends[1];
+  }
+  const Point low{line.problem.low, 0, 0}, high{line.problem.high, 0, 0};
+  line.low = &scene.boundary_part(low);
+  line.high = &scene.boundary_part(high);
+  line.problem.at_low = line_end(scene, *line.low, low, {-1, 0, 0});
+  line.problem.at_high = line_end(scene, *line.high, high, {1, 0, 0});
+  return line;
+}
+
+double content(const LineScene& line, std::size_t dimension, double low, double high) {
+  using std::numbers::pi;
+  if (dimension == 1 || !line.radial) return high - low;
+  return dimension == 2 ? pi * (high - low) * (high + low)
+                        : 4 * pi / 3 * (high * high * high - low * low * low);
+}
+
+/// The cavity's measure and extent.
+void measure(LiquidSolution& found, const LineScene& line, const LineSolution& solution, std::size_t d) {
+  bool is_first = true;
+  double low = 0, high = 0;
+  for (const convex::LinePiece& piece : solution.pieces()) {
+    if (piece.positive) continue;
+    found.cavity_measure += content(line, d, piece.low, piece.high);
+    if (is_first) low = piece.low;
+    high = piece.high;
+    is_first = false;
+  }
+  if (is_first) return;
+  found.cavity_extent.emplace();
+  for (std::size_t i = 0; i < d; ++i) {
+    found.cavity_extent->first[i] = line.radial ? line.centre[i] - high : low;
+    found.cavity_extent->second[i] = line.radial ? line.centre[i] + high : high;
+  }
+}
+
+}  // namespace
+
+Point LineScene::at(double r) const { return radial ? moved(centre, {1, 0, 0}, r) : Point{r, 0, 0}; }
+
+double LineScene::variable(const Point& x) const {
+  const double r = radial ? std::hypot(x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]) : x[0];
+  return std::clamp(r, problem.low, problem.high);
+}
+
+std::optional<LineScene> as_line(const LiquidScene& scene) {
+  LineScene line;
+  if (scene.dimension() == 1) {
+    line = interval(scene);
+  } else if (!find_radial(scene, line)) {
+    if (scene.radial)
+      throw InvalidInput(
+          "symmetry = \"radial\": the scene is not; the domain must be a disc, ball or shell, and h, the "
+          "parts and "
+          "what they give the same in all directions; take symmetry out");
+    return std::nullopt;
+  }
+  line.problem.h = [&scene, line](double r) { return scene.h(line.at(r)); };
+  return line;
+}
+
+LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line) {
+  const std::size_t d = scene.dimension();
+  LiquidSolution found;
+  found.method = line.radial ? "radial" : "line";
+  found.volume = content(line, d, line.problem.low, line.problem.high);
+  const LineSolution solution = convex::solve_line(line.problem);
+  found.unknowns = solution.nodes;
+  found.cells = solution.nodes - 1;
+  found.surplus = solution.surplus;
+  if (solution.status == LineSolution::Status::infeasible) {
+    found.status = LiquidSolution::Status::infeasible;
+    found.unknowns = 1;
+    return found;
+  }
+  measure(found, line, solution, d);
+  const LineSolution::Extreme largest = solution.largest();
+  found.largest = largest.value;
+  found.largest_at = line.at(largest.at);
+  if (solution.low_parts) found.parted_walls.push_back(line.low->name);
+  if (solution.high_parts && !(solution.low_parts && line.low == line.high))
+    found.parted_walls.push_back(line.high->name);
+  found.error_bound = solution.error_bound;
+  found.p = [line, solution](const Point& x) { return solution.p(line.variable(x)); };
+  found.in_cavity = [line, pieces = solution.pieces()](const Point& x) {
+    const double r = line.variable(x);
+    return std::any_of(pieces.begin(), pieces.end(), [&](const convex::LinePiece& piece) {
+      return !piece.positive && piece.low <= r && r <= piece.high;
+    });
+  };
+  return found;
+}
+
+double least_line_pressure(const LineScene& line) {
+  const LineSolution solution = convex::solve_line(line.problem, false);
+  if (line.problem.at_low.kind != LineEnd::Kind::value && line.problem.at_high.kind != LineEnd::Kind::value)
+    return solution.surplus;
+  return solution.least().value;
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/nearest_point/obstacle/line_obstacle.hpp"
+#include "mechanics/liquid/liquid_solution.hpp"
+
+namespace mechanics::liquid {
+
+/// A scene that one variable describes: the coordinate, or the distance from a centre.
+struct LineScene {
+  convex::LineObstacle problem;
+  bool radial = false;
+  Point centre{};
+  const BoundaryPart *low = nullptr, *high = nullptr;  ///< what holds at the ends; null at a centre
+
+  /// The point at a value of the variable.
+  Point at(double r) const;
+  double variable(const Point&) const;
+};
+
+/// None when the scene is neither of one dimension nor radial. It is radial when its domain is a ball or a
+/// shell, and h, the conditions of the parts and what they give are the same in all directions: which the
+/// text's analytic expressions are when they are at random points, to rounding. Said radial and not so:
+/// InvalidInput. The LineScene refers to the scene.
+std::optional<LineScene> as_line(const LiquidScene&);
+
+LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&);
+
+/// The least value of the pressure without the obstacle, below 0 if and only if cavitation has begun; where
+/// no pressure is given, minus what the walls lack.
+double least_line_pressure(const LineScene&);
+
+}  // namespace mechanics::liquid

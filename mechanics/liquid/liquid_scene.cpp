@@ -1,0 +1,139 @@
+#include "mechanics/liquid/liquid_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "convex/invalid_input.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+using convex::InvalidInput;
+using expression::no_node;
+using expression::NodeId;
+
+/// The parts of the boundary in the order in which they are tried.
+std::vector<BoundaryPart> read_parts(LiquidLanguage& language, const LiquidText& text) {
+  std::vector<BoundaryPart> parts;
+  for (const bool is_free : {true, false})
+    for (const PartText& part : is_free ? text.free : text.walls) {
+      const std::string what = (is_free ? "free." : "walls.") + part.name.text;
+      parts.push_back({part.name.text, is_free, Condition(language, part.where, what + ".where"),
+                       language.field(part.value, what + (is_free ? ".pressure" : ".acceleration")),
+                       part.name.begin});
+    }
+  return parts;
+}
+
+}  // namespace
+
+const BoundaryPart* LiquidScene::part_at(const Point& x) const {
+  const auto found = std::find_if(parts.begin(), parts.end(), [&](const BoundaryPart& part) {
+    return part.where.holds(x, domain.reach());
+  });
+  return found == parts.end() ? nullptr : &*found;
+}
+
+const BoundaryPart& LiquidScene::boundary_part(const Point& x) const {
+  if (const BoundaryPart* part = part_at(x)) return *part;
+  throw InvalidInput("the boundary point " + point_text(coordinates, x) +
+                     " lies in no part of free or walls; add a part that claims it, such as rest = { where = "
+                     "\"true\", … }");
+}
+
+double LiquidScene::free_pressure(const BoundaryPart& part, const Point& x) const {
+  const double pressure = part.value(x);
+  if (pressure < 0) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.6g", pressure);
+    throw InvalidInput(
+        "free." + part.name + ".pressure: " + number + " at " + point_text(coordinates, x) +
+            " is below 0, a tension that a liquid which parts does not bear; give a pressure >= 0",
+        part.place);
+  }
+  return pressure;
+}
+
+double LiquidScene::wall_flux(const BoundaryPart& part, const Point& x, const Point& n) const {
+  double along = 0;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (n[i] != 0) along += n[i] * force[i](x);
+  return density * (along - part.value(x));
+}
+
+bool LiquidScene::has_free_part() const {
+  return std::any_of(parts.begin(), parts.end(), [](const BoundaryPart& part) { return part.is_free; });
+}
+
+void LiquidScene::require_no_divergence(const Point& x) const {
+  double divergence = 0, size = 0;
+  for (const Field& stretch : stretching) {
+    const double rate = stretch(x);
+    divergence += rate;
+    size += std::abs(rate);
+  }
+  // What expressions of some hundred operations round.
+  constexpr double rounding = 1e-12;
+  if (std::abs(divergence) <= rounding * size) return;
+  char number[32];
+  std::snprintf(number, sizeof number, "%.6g", divergence);
+  throw InvalidInput("velocity: its divergence is " + std::string(number) + " at " +
+                     point_text(coordinates, x) +
+                     ", where the liquid has no cavity; give a velocity whose divergence is 0 there");
+}
+
+LiquidScene read_scene(const LiquidText& text) {
+  LiquidLanguage language(text.coordinates, text.parameters);
+  LiquidScene scene;
+  const std::size_t d = text.coordinates.size();
+  scene.coordinates = language.coordinates();
+  scene.domain = read_domain(language, text);
+  scene.density = language.number(text.density, "density");
+  if (!(scene.density > 0))
+    throw InvalidInput("density: it is not above 0; give a density > 0", text.density.begin);
+  std::vector<std::vector<NodeId>> gradient;  // ∂u_i/∂x_j
+  for (std::size_t i = 0; i < d; ++i)
+    gradient.push_back(text.velocity.empty()
+                           ? std::vector<NodeId>(d, no_node)
+                           : language.gradient(language.node(text.velocity[i], "velocity")));
+  NodeId trace = no_node, divergence = no_node;
+  for (std::size_t i = 0; i < d; ++i) {
+    for (std::size_t j = 0; j < d; ++j)
+      trace = language.sum(trace, language.product(gradient[i][j], gradient[j][i]));
+    scene.stretching.push_back(language.field(gradient[i][i], "velocity", text.domain.begin));
+    if (text.force.empty()) continue;
+    const NodeId force = language.node(text.force[i], "force");
+    scene.force.push_back(language.field(force, "force", text.force[i].begin));
+    divergence = language.sum(divergence, language.gradient(force)[i]);
+  }
+  const NodeId source = language.difference(trace, divergence);
+  if (source != no_node)
+    scene.h = language.field(language.product(language.node(text.density, "density"), source),
+                             "rho (tr((grad u)^2) - div F)",
+                             text.force.empty() ? text.velocity.front().begin : text.force.front().begin);
+  scene.parts = read_parts(language, text);
+  scene.cells = text.cells;
+  if (text.symmetry) {
+    if (text.symmetry->text != "radial")
+      throw InvalidInput(
+          "symmetry: \"" + text.symmetry->text + "\" is unknown; write \"radial\" or leave it out",
+          text.symmetry->begin);
+    scene.radial = true;
+  }
+  return scene;
+}
+
+LiquidText with_parameter(LiquidText text, const std::string& name, double value) {
+  char number[40];
+  std::snprintf(number, sizeof number, "%.17g", value);
+  for (NamedText& parameter : text.parameters)
+    if (parameter.name.text == name) parameter.value.text = number;
+  return text;
+}
+
+double parameter_value(const LiquidText& text, const std::string& name) {
+  return LiquidLanguage(text.coordinates, text.parameters).parameter(name);
+}
+
+}  // namespace mechanics::liquid

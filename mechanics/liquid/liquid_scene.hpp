@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/liquid/domain.hpp"
+
+namespace mechanics::liquid {
+
+/// A part of the boundary. Free: the pressure there. A wall: the acceleration, along the outward normal, of a
+/// liquid particle that stays on it.
+struct BoundaryPart {
+  std::string name;
+  bool is_free = true;
+  Condition where;
+  Field value;
+  convex::Place place;
+};
+
+/// An incompressible liquid at an instant. Its acceleration Γ has ρΓ = ρF - ∇p; it can part but not overlap,
+/// div Γ >= tr((∇u)²); p >= 0, and p = 0 where the inequality is strict. So p is the least p >= 0 with
+///   -Δp >= h := ρ (tr((∇u)²) - div F) inside,  p = p0 on free parts,  ∂p/∂n >= ρ (F·n - a) on walls.
+struct LiquidScene {
+  std::vector<std::string> coordinates;
+  Domain domain;
+  double density = 1;
+  Field h;                          ///< derived from the text of u and F
+  std::vector<Field> force;         ///< F
+  std::vector<Field> stretching;    ///< ∂u_i/∂x_i, whose sum is div u
+  std::vector<BoundaryPart> parts;  ///< free parts, then walls, each in the order of the file
+  std::optional<long> cells;
+  bool radial = false;  ///< said to be
+
+  std::size_t dimension() const { return coordinates.size(); }
+  /// The first part that the point fits.
+  const BoundaryPart* part_at(const Point&) const;
+  /// The same for a point of the boundary, which must fit one.
+  const BoundaryPart& boundary_part(const Point&) const;
+  /// p0 of a free part; below 0 it is refused.
+  double free_pressure(const BoundaryPart&, const Point&) const;
+  /// ρ (F·n - a), which ∂p/∂n is at least.
+  double wall_flux(const BoundaryPart&, const Point&, const Point& n) const;
+  bool has_free_part() const;
+  /// Throws InvalidInput where div u is not 0 beyond rounding.
+  void require_no_divergence(const Point&) const;
+  /// What d(div u)/dt is where p = 0: -h/ρ.
+  double growth(const Point& x) const { return -h(x) / density; }
+};
+
+/// Throws InvalidInput with the place.
+LiquidScene read_scene(const LiquidText&);
+
+/// The same text with another value of a parameter.
+LiquidText with_parameter(LiquidText, const std::string& name, double value);
+
+/// The value of a parameter in the text.
+double parameter_value(const LiquidText&, const std::string& name);
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanics/liquid/liquid_scene.hpp"
+
+namespace mechanics::liquid {
+
+/// The pressure of a liquid and what follows from it.
+struct LiquidSolution {
+  enum class Status {
+    solved,
+    inaccurate,  ///< the error asked for is not met
+    infeasible   ///< without a free surface, walls and h squeeze the liquid
+  };
+  Status status = Status::solved;
+  std::string method;  ///< "line", "radial" or "grid"
+  convex::Index unknowns = 0, cells = 0;
+  double surplus = 0;  ///< ∫ h + ∫ ρ (F·n - a) where there is no free part; infeasible above 0
+  double volume = 0;   ///< of the domain
+  double cavity_measure = 0;
+  std::optional<std::pair<Point, Point>> cavity_extent;
+  double largest = 0;  ///< p, over the closed domain
+  Point largest_at{};
+  std::vector<std::string> parted_walls;
+  double error_bound = 0;                 ///< of |p - p*| in the largest norm, the discretisation included
+  std::function<double(const Point&)> p;  ///< in the closed domain
+  std::function<bool(const Point&)> in_cavity;  ///< p = 0 and the liquid parts
+};
+
+/// `tolerance`: of max p, 1e-3 by default, and none where the file says how many cells.
+struct LiquidAccuracy {
+  std::optional<double> tolerance;
+  double part() const { return tolerance.value_or(1e-3); }
+};
+
+/// The least pressure. A scene in one dimension, or radial, by ordinary differential equations; others on
+/// grids. Throws InvalidInput for a velocity with divergence in the liquid, a negative pressure given, a
+/// boundary point without a part.
+LiquidSolution solve_liquid(const LiquidScene&, const LiquidAccuracy& = {});
+
+/// p at a point as it is probed: with d(div u)/dt, 0 outside of the cavity. Throws InvalidInput for a point
+/// outside of the domain.
+struct LiquidProbe {
+  Point at{};
+  double p = 0, growth = 0;
+};
+LiquidProbe probe(const LiquidScene&, const LiquidSolution&, const Point&);
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,78 @@
+#include "mechanics/liquid/polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mechanics::liquid {
+namespace {
+
+double cross(const Vertex& a, const Vertex& b, const Vertex& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool sides_meet(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex& d) {
+  const double u = cross(a, b, c), v = cross(a, b, d), s = cross(c, d, a), t = cross(c, d, b);
+  return ((u > 0 && v < 0) || (u < 0 && v > 0)) && ((s > 0 && t < 0) || (s < 0 && t > 0));
+}
+
+}  // namespace
+
+double polygon_area(const std::vector<Vertex>& v) {
+  double twice = 0;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
+    twice += (a[0] - v[0][0]) * (b[1] - v[0][1]) - (b[0] - v[0][0]) * (a[1] - v[0][1]);
+  }
+  return twice / 2;
+}
+
+std::string arrange(std::vector<Vertex>& v) {
+  v.erase(std::unique(v.begin(), v.end()), v.end());
+  if (v.size() > 1 && v.front() == v.back()) v.pop_back();
+  if (v.size() < 3) return "fewer than three different ones; give them in order";
+  const double area = polygon_area(v);
+  if (area == 0) return "the polygon is empty, its area is 0; give vertices in order";
+  if (area < 0) std::reverse(v.begin(), v.end());
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (std::size_t j = i + 1; j < v.size(); ++j)
+      if (sides_meet(v[i], v[(i + 1) % v.size()], v[j], v[(j + 1) % v.size()]))
+        return "two sides cross; give them in order";
+  return "";
+}
+
+double polygon_level(const std::vector<Vertex>& v, const Vertex& x) {
+  double nearest = std::numeric_limits<double>::infinity();
+  bool inside = false;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
+    const double ex = b[0] - a[0], ey = b[1] - a[1], wx = x[0] - a[0], wy = x[1] - a[1];
+    const double part = std::clamp((wx * ex + wy * ey) / (ex * ex + ey * ey), 0.0, 1.0);
+    nearest = std::min(nearest, std::hypot(wx - part * ex, wy - part * ey));
+    if ((a[1] > x[1]) != (b[1] > x[1]) && (cross(a, b, x) > 0) == (b[1] > a[1])) inside = !inside;
+  }
+  return inside ? -nearest : nearest;
+}
+
+std::vector<Vertex> clipped(std::vector<Vertex> v, const Vertex& low, const Vertex& high) {
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const double limit = side < 0 ? low[axis] : high[axis];
+      std::vector<Vertex> kept;
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
+        const double f = side * (a[axis] - limit), g = side * (b[axis] - limit);
+        if (f <= 0) kept.push_back(a);
+        if ((f < 0 && g > 0) || (f > 0 && g < 0)) {
+          Vertex cut;
+          cut[axis] = limit;
+          cut[1 - axis] = a[1 - axis] + f / (f - g) * (b[1 - axis] - a[1 - axis]);
+          kept.push_back(cut);
+        }
+      }
+      v.swap(kept);
+    }
+  return v;
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace mechanics::liquid {
+
+using Vertex = std::array<double, 2>;
+
+/// Turns the vertices counterclockwise and takes out repeated ones. "", or what is wrong with the polygon.
+std::string arrange(std::vector<Vertex>&);
+
+/// Half of the sum of cross products: the area, positive counterclockwise.
+double polygon_area(const std::vector<Vertex>&);
+
+/// The signed distance from the boundary, below 0 inside.
+double polygon_level(const std::vector<Vertex>&, const Vertex&);
+
+/// What of the polygon lies in the box low..high (Sutherland and Hodgman 1974; edges that only join pieces
+/// run along the box and bound no area).
+std::vector<Vertex> clipped(std::vector<Vertex>, const Vertex& low, const Vertex& high);
+
+}  // namespace mechanics::liquid

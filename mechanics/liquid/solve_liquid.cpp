@@ -1,0 +1,41 @@
+#include <algorithm>
+
+#include "convex/invalid_input.hpp"
+#include "mechanics/liquid/line_scene.hpp"
+#include "mechanics/liquid/liquid_solution.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+/// Asks for div u = 0 where the liquid is, at points all over a scene of one variable.
+void require_no_divergence(const LiquidScene& scene, const LineScene& line, const LiquidSolution& found) {
+  constexpr int points = 200;
+  const Point direction = scene.dimension() == 3 ? Point{0.48, 0.6, 0.64} : Point{0.6, 0.8, 0};
+  for (int k = 0; k < points; ++k) {
+    const double r = line.problem.low + (line.problem.high - line.problem.low) * (k + 0.5) / points;
+    Point x = line.at(r);
+    if (line.radial)
+      for (std::size_t i = 0; i < scene.dimension(); ++i) x[i] = line.centre[i] + r * direction[i];
+    if (!found.in_cavity(x)) scene.require_no_divergence(x);
+  }
+}
+
+}  // namespace
+
+LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy&) {
+  const std::optional<LineScene> line = as_line(scene);
+  if (!line) throw convex::InvalidInput("the scene has more than one variable");
+  LiquidSolution found = solve_line_scene(scene, *line);
+  if (found.status != LiquidSolution::Status::infeasible) require_no_divergence(scene, *line, found);
+  return found;
+}
+
+LiquidProbe probe(const LiquidScene& scene, const LiquidSolution& found, const Point& x) {
+  if (scene.domain.level(x) > scene.domain.reach())
+    throw convex::InvalidInput("--probe: " + point_text(scene.coordinates, x) +
+                               " lies outside of the domain; give a point inside or on its boundary");
+  const bool in_cavity = found.in_cavity(x);
+  return {x, in_cavity ? 0 : found.p(x), in_cavity ? scene.growth(x) : 0};
+}
+
+}  // namespace mechanics::liquid
