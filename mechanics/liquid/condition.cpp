@@ -163,4 +163,12 @@ std::vector<const Field*> Condition::fields() const {
   return found;
 }
 
+std::vector<std::function<double(const Point&)>> Condition::sheets() const {
+  if (kind_ != Kind::all) return {[self = *this](const Point& x) { return self.level(x); }};
+  std::vector<std::function<double(const Point&)>> found;
+  for (const Condition& part : parts_)
+    for (auto& sheet : part.sheets()) found.push_back(std::move(sheet));
+  return found;
+}
+
 }  // namespace mechanics::liquid

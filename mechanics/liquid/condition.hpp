@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mechanics/liquid/liquid_language.hpp"
@@ -21,6 +22,8 @@ class Condition {
   double level(const Point&) const;
   /// The differences of the sides of all relations.
   std::vector<const Field*> fields() const;
+  /// Of relations that all must hold: the level of each; of others the level of the whole.
+  std::vector<std::function<double(const Point&)>> sheets() const;
   bool is_always() const { return kind_ == Kind::always; }
 
  private:

@@ -135,6 +135,46 @@ double Domain::longest() const {
   return longest;
 }
 
+Point Domain::foot(const Point& x) const {
+  Point y = x;
+  if (shape == Shape::box) {
+    std::size_t nearest = 0;
+    double distance = std::numeric_limits<double>::infinity(), side = 0;
+    bool is_outside = false;
+    for (std::size_t i = 0; i < dimension; ++i) {
+      if (x[i] < low[i] || x[i] > high[i]) is_outside = true;
+      y[i] = std::clamp(x[i], low[i], high[i]);
+      for (const double end : {low[i], high[i]})
+        if (std::abs(x[i] - end) < distance) {
+          distance = std::abs(x[i] - end);
+          nearest = i;
+          side = end;
+        }
+    }
+    if (!is_outside) y[nearest] = side;
+    return y;
+  }
+  if (shape == Shape::polygon) {
+    const Vertex foot = polygon_foot(vertices, {x[0], x[1]});
+    return {foot[0], foot[1], 0};
+  }
+  for (int step = 0; step < 20; ++step) {
+    const double value = level(y), width = 1e-6 * longest();
+    Point slope{};
+    double square = 0;
+    for (std::size_t i = 0; i < dimension; ++i) {
+      Point a = y, b = y;
+      a[i] -= width;
+      b[i] += width;
+      slope[i] = (level(b) - level(a)) / (2 * width);
+      square += slope[i] * slope[i];
+    }
+    if (!(square > 0) || std::abs(value) <= 1e-13 * longest() * std::sqrt(square)) break;
+    for (std::size_t i = 0; i < dimension; ++i) y[i] -= value * slope[i] / square;
+  }
+  return y;
+}
+
 Point Domain::outward(const Point& x) const {
   const double step = 1e-6 * longest();
   Point n{};
@@ -198,6 +238,7 @@ Domain read_domain(LiquidLanguage& language, const LiquidText& text) {
     domain.condition.emplace(
         language, Text{written.substr(open + 1, close - open - 1), text.domain.at(open + 1)}, "domain");
     domain.level = [condition = *domain.condition](const Point& x) { return condition.level(x); };
+    domain.sheets = domain.condition->sheets();
     if (!text.low.empty() || !text.high.empty()) {
       for (const auto& [from, to, key] :
            {std::tuple{&text.low, &domain.low, "low"}, {&text.high, &domain.high, "high"}}) {

@@ -25,6 +25,11 @@ struct Domain {
   double longest() const;
   /// To what a point of the boundary is known.
   double reach() const { return 1e-11 * longest(); }
+  /// Of inequalities that all hold: the level of each; else empty.
+  std::vector<std::function<double(const Point&)>> sheets;
+
+  /// The point of the boundary nearest to one near it; for inequalities, where Newton's steps lead.
+  Point foot(const Point&) const;
   Point outward(const Point&) const;  ///< the unit normal of `level` there
   /// The point of the segment from `inside` to `outside` where the level is 0.
   Point crossing(const Point& inside, const Point& outside) const;

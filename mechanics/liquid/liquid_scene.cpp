@@ -66,6 +66,10 @@ bool LiquidScene::has_free_part() const {
   return std::any_of(parts.begin(), parts.end(), [](const BoundaryPart& part) { return part.is_free; });
 }
 
+bool LiquidScene::has_wall() const {
+  return std::any_of(parts.begin(), parts.end(), [](const BoundaryPart& part) { return !part.is_free; });
+}
+
 void LiquidScene::require_no_divergence(const Point& x) const {
   double divergence = 0, size = 0;
   for (const Field& stretch : stretching) {

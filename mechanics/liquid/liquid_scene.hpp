@@ -42,6 +42,7 @@ struct LiquidScene {
   /// ρ (F·n - a), which ∂p/∂n is at least.
   double wall_flux(const BoundaryPart&, const Point&, const Point& n) const;
   bool has_free_part() const;
+  bool has_wall() const;
   /// Throws InvalidInput where div u is not 0 beyond rounding.
   void require_no_divergence(const Point&) const;
   /// What d(div u)/dt is where p = 0: -h/ρ.

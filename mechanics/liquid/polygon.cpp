@@ -54,25 +54,20 @@ double polygon_level(const std::vector<Vertex>& v, const Vertex& x) {
   return inside ? -nearest : nearest;
 }
 
-std::vector<Vertex> clipped(std::vector<Vertex> v, const Vertex& low, const Vertex& high) {
-  for (std::size_t axis = 0; axis < 2; ++axis)
-    for (const double side : {-1.0, 1.0}) {
-      const double limit = side < 0 ? low[axis] : high[axis];
-      std::vector<Vertex> kept;
-      for (std::size_t k = 0; k < v.size(); ++k) {
-        const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
-        const double f = side * (a[axis] - limit), g = side * (b[axis] - limit);
-        if (f <= 0) kept.push_back(a);
-        if ((f < 0 && g > 0) || (f > 0 && g < 0)) {
-          Vertex cut;
-          cut[axis] = limit;
-          cut[1 - axis] = a[1 - axis] + f / (f - g) * (b[1 - axis] - a[1 - axis]);
-          kept.push_back(cut);
-        }
-      }
-      v.swap(kept);
+Vertex polygon_foot(const std::vector<Vertex>& v, const Vertex& x) {
+  Vertex best = v[0];
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
+    const double ex = b[0] - a[0], ey = b[1] - a[1];
+    const double part = std::clamp(((x[0] - a[0]) * ex + (x[1] - a[1]) * ey) / (ex * ex + ey * ey), 0.0, 1.0);
+    const Vertex foot{a[0] + part * ex, a[1] + part * ey};
+    if (const double distance = std::hypot(x[0] - foot[0], x[1] - foot[1]); distance < nearest) {
+      nearest = distance;
+      best = foot;
     }
-  return v;
+  }
+  return best;
 }
 
 }  // namespace mechanics::liquid

@@ -17,8 +17,7 @@ double polygon_area(const std::vector<Vertex>&);
 /// The signed distance from the boundary, below 0 inside.
 double polygon_level(const std::vector<Vertex>&, const Vertex&);
 
-/// What of the polygon lies in the box low..high (Sutherland and Hodgman 1974; edges that only join pieces
-/// run along the box and bound no area).
-std::vector<Vertex> clipped(std::vector<Vertex>, const Vertex& low, const Vertex& high);
+/// The point of the boundary nearest to x.
+Vertex polygon_foot(const std::vector<Vertex>&, const Vertex& x);
 
 }  // namespace mechanics::liquid

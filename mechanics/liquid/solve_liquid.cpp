@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "convex/invalid_input.hpp"
+#include "mechanics/liquid/grid_scene.hpp"
 #include "mechanics/liquid/line_scene.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 
@@ -22,9 +23,9 @@ void require_no_divergence(const LiquidScene& scene, const LineScene& line, cons
 
 }  // namespace
 
-LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy&) {
+LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
   const std::optional<LineScene> line = as_line(scene);
-  if (!line) throw convex::InvalidInput("the scene has more than one variable");
+  if (!line) return solve_grid_scene(scene, accuracy);
   LiquidSolution found = solve_line_scene(scene, *line);
   if (found.status != LiquidSolution::Status::infeasible) require_no_divergence(scene, *line, found);
   return found;

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "convex/nearest_point/complementarity_grid/cut_grid.hpp"
+
+namespace convex {
+
+/// Conjugate gradients on the free unknowns of the finest of some grids, each made of the even points of the
+/// one before, with a V-cycle as preconditioner (Brandt 1977; truncated to free sets as by Kornhuber 1994):
+/// each grid has its own equations of the same problem; a red-black sweep before and, in reverse, after;
+/// linear interpolation, over what is known around a point (beyond a wall nothing is), and its transpose.
+class CutMultigrid {
+ public:
+  /// `grids`: finest first; they must outlive this.
+  explicit CutMultigrid(std::vector<const CutGrid*> grids);
+
+  /// held: 1 on unknowns of the finest grid kept as they are; taut: by pendant, whether y = 0. On coarser
+  /// grids a point is held when the fine one at its place is, a pendant taut when one of a neighbour is.
+  void set_free(const std::vector<std::uint8_t>& held, const std::vector<std::uint8_t>& taut);
+  /// The residual of q on the free points, 0 elsewhere; its largest entry over the diagonal's root.
+  double residual(const std::vector<double>& q, std::vector<double>& r) const;
+  /// q += the correction for the residual r, to `part` of its energy norm. Steps taken.
+  Index correct(std::vector<double>& q, std::vector<double>& r, double part);
+  /// Σ links (q_i - q_j) + pull q_i - load_i, without pendants: what pushes a held point.
+  double push(const std::vector<double>& q, Index point) const;
+  static void interpolate(const CutGrid& coarse, const std::vector<double>& from, const CutGrid& fine,
+                          std::vector<double>& to);
+
+ private:
+  struct Level {
+    const CutGrid* grid;
+    std::vector<double> diagonal, inverse, u, r, scale;
+    std::vector<std::uint8_t> free;
+  };
+  static void sweep(Level&, bool red);
+  static void apply(const Level&, const std::vector<double>& u, std::vector<double>& out);
+  static std::vector<double> interpolation_scale(const CutGrid& fine, const CutGrid& coarse);
+  void restrict_residual(Level& fine, Level& coarse);
+  void cycle(std::size_t level);
+  std::vector<Level> levels_;
+  std::vector<double> load_, p_, Ap_, z_;
+};
+
+}  // namespace convex

@@ -1,0 +1,413 @@
+#include "mechanics/liquid/cut_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/liquid/simplex_cut.hpp"
+#include "mechanics/liquid/wall_level.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+using convex::CutGrid;
+using convex::CutPoint;
+using convex::Index;
+
+constexpr double unknown_pressure = std::numeric_limits<double>::quiet_NaN();
+/// Links of a node at the boundary are cut no shorter than this part of a step.
+constexpr double shortest_link = 1e-6;
+/// A cell beyond a wall that is open to the liquid by less of a face gives what it has to a neighbour.
+constexpr double least_opening = 1e-5;
+
+std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+
+enum class Side : std::uint8_t { inside, on, outside };
+
+class Cutting {
+ public:
+  Cutting(const LiquidScene& scene, const std::array<Index, 3>& cells)
+      : scene_(scene), domain_(scene.domain), d_(scene.dimension()), wall_level_(scene) {
+    std::array<Index, 3> points{1, 1, 1};
+    for (std::size_t i = 0; i < d_; ++i) points[i] = cells[i] + 1;
+    made_.grid = CutGrid(d_, points);
+    made_.low = domain_.low;
+    for (std::size_t i = 0; i < d_; ++i)
+      made_.step[i] = (domain_.high[i] - domain_.low[i]) / static_cast<double>(cells[i]);
+    const auto n = at(grid().size());
+    made_.volume.assign(n, 0);
+    made_.given.assign(n, unknown_pressure);
+    made_.h.assign(n, 0);
+    side_.assign(n, Side::outside);
+    diagonal_ = 0;
+    for (std::size_t i = 0; i < d_; ++i) diagonal_ = std::hypot(diagonal_, made_.step[i]);
+  }
+
+  CutCells cut() {
+    find_sides();
+    for_points([&](Index k) {
+      if (side_[at(k)] == Side::inside) grid().kind[at(k)] = CutPoint::bounded;
+      if (side_[at(k)] == Side::on) settle_boundary_point(k);
+    });
+    find_walls();
+    for_points([&](Index k) {
+      if (grid().is_unknown(k)) join(k);
+    });
+    give_up_closed_cells();
+    for_points([&](Index k) {
+      if (grid().is_unknown(k)) load(k);
+    });
+    return std::move(made_);
+  }
+
+ private:
+  CutGrid& grid() { return made_.grid; }
+
+  template <class Work>
+  void for_points(Work work) {
+    const auto& n = grid().points;
+    for (Index c = 0; c < n[2]; ++c)
+      for (Index b = 0; b < n[1]; ++b)
+        for (Index a = 0; a < n[0]; ++a) work(grid().at(a, b, c));
+  }
+
+  bool is_on_grid(Index k, std::size_t axis, int by) const {
+    const Index i = made_.place(k)[axis] + by;
+    return i >= 0 && i < made_.grid.points[axis];
+  }
+
+  void find_sides() {
+    for_points([&](Index k) {
+      const double level = domain_.level(made_.at(k));
+      side_[at(k)] = std::abs(level) <= domain_.reach() ? Side::on : level < 0 ? Side::inside : Side::outside;
+    });
+  }
+
+  /// The part of a boundary point; where parts meet at a point that none of them claims, a neighbour's.
+  const BoundaryPart& part(const Point& x) const {
+    if (const BoundaryPart* found = scene_.part_at(x)) return *found;
+    for (std::size_t i = 0; i < d_; ++i)
+      for (const double by : {-1e-6, 1e-6}) {
+        Point near = x;
+        near[i] += by * domain_.longest();
+        if (std::abs(domain_.level(near)) > domain_.reach()) continue;
+        if (const BoundaryPart* found = scene_.part_at(near)) return *found;
+      }
+    return scene_.boundary_part(x);
+  }
+  std::size_t number(const BoundaryPart& part) const {
+    return static_cast<std::size_t>(&part - scene_.parts.data());
+  }
+
+  void settle_boundary_point(Index k) {
+    const Point x = made_.at(k);
+    const BoundaryPart& found = part(x);
+    if (!found.is_free) {
+      grid().kind[at(k)] = CutPoint::bounded;
+      return;
+    }
+    grid().kind[at(k)] = CutPoint::fixed;
+    made_.given[at(k)] = scene_.free_pressure(found, x);
+    made_.pressures.push_back({k, x, made_.given[at(k)]});
+  }
+
+  bool is_near_boundary(Index k) const {
+    if (side_[at(k)] == Side::on) return true;
+    const auto place = made_.place(k);
+    std::array<Index, 3> by{};
+    const auto reach = [&](std::size_t axis) { return axis < d_ ? Index{1} : Index{0}; };
+    for (by[2] = -reach(2); by[2] <= reach(2); ++by[2])
+      for (by[1] = -reach(1); by[1] <= reach(1); ++by[1])
+        for (by[0] = -reach(0); by[0] <= reach(0); ++by[0]) {
+          bool on_grid = true;
+          for (std::size_t i = 0; i < d_; ++i) {
+            const Index there = place[i] + by[i];
+            on_grid = on_grid && there >= 0 && there < made_.grid.points[i];
+          }
+          if (!on_grid) continue;
+          if (side_[at(made_.grid.at(place[0] + by[0], place[1] + by[1], place[2] + by[2]))] != side_[at(k)])
+            return true;
+        }
+    return false;
+  }
+
+  double face_area(std::size_t axis) const {
+    double area = 1;
+    for (std::size_t i = 0; i < d_; ++i)
+      if (i != axis) area *= made_.step[i];
+    return area;
+  }
+  double cell_volume() const { return face_area(3); }
+
+  /// The parts of the faces that are open, low and high by axis, of the cells near walls; volumes; pieces.
+  void find_walls() {
+    open_.assign(at(grid().size()), -1);
+    for_points([&](Index k) {
+      if (side_[at(k)] != Side::outside) made_.volume[at(k)] = cell_volume();
+    });
+    if (!scene_.has_wall()) return;
+    for_points([&](Index k) {
+      if (!is_near_boundary(k) || grid().kind[at(k)] == CutPoint::fixed) return;
+      domain_.shape == Domain::Shape::box ? cut_box_cell(k) : cut_cell(k);
+    });
+  }
+
+  struct Opening {
+    std::array<double, 3> low{1, 1, 1}, high{1, 1, 1};
+  };
+
+  void keep(Index k, const Opening& opening) {
+    open_[at(k)] = static_cast<std::ptrdiff_t>(openings_.size());
+    openings_.push_back(opening);
+  }
+
+  /// Nodes lie on the sides of a box: cells there are halves, quarters or eighths.
+  void cut_box_cell(Index k) {
+    const auto place = made_.place(k);
+    Opening opening;
+    double part_of_volume = 1;
+    std::array<int, 3> end{};  // which side of the box the node is on
+    for (std::size_t i = 0; i < d_; ++i) {
+      end[i] = place[i] == 0 ? -1 : place[i] == grid().points[i] - 1 ? 1 : 0;
+      if (end[i] == 0) continue;
+      part_of_volume *= 0.5;
+      (end[i] < 0 ? opening.low : opening.high)[i] = 0;
+      for (std::size_t j = 0; j < d_; ++j)
+        if (j != i) {
+          opening.low[j] *= 0.5;
+          opening.high[j] *= 0.5;
+        }
+    }
+    made_.volume[at(k)] *= part_of_volume;
+    for (std::size_t i = 0; i < d_; ++i) {
+      if (end[i] == 0) continue;
+      Point middle = made_.at(k), normal{};
+      normal[i] = end[i];
+      double area = face_area(i);
+      for (std::size_t j = 0; j < d_; ++j)
+        if (j != i && end[j] != 0) {
+          area *= 0.5;
+          middle[j] -= 0.25 * end[j] * made_.step[j];
+        }
+      const BoundaryPart& found = part(middle);
+      if (!found.is_free) add_piece(k, found, area, middle, normal);
+    }
+    keep(k, opening);
+  }
+
+  void cut_cell(Index k) {
+    CellLevels cell;
+    cell.dimension = d_;
+    const Point x = made_.at(k);
+    for (std::size_t i = 0; i < d_; ++i) {
+      cell.step[i] = made_.step[i];
+      cell.low[i] = x[i] - 0.5 * made_.step[i];
+    }
+    if (!wall_level_.fill(cell)) return;
+    Opening opening;
+    bool is_open = false;
+    for (std::size_t i = 0; i < d_; ++i) {
+      opening.low[i] = cell.face_fraction(i, false);
+      opening.high[i] = cell.face_fraction(i, true);
+      is_open = is_open || opening.low[i] > 0 || opening.high[i] > 0;
+    }
+    keep(k, opening);
+    if (side_[at(k)] == Side::outside) {
+      // Beyond free parts nothing is; beyond a wall the rest of its cell is.
+      if (!is_open || !wall_level_.is_beyond_wall(x)) return;
+      grid().kind[at(k)] = CutPoint::free;
+    }
+    made_.volume[at(k)] = cell.fraction() * cell_volume();
+    for (const SurfacePiece& piece : cell.surface()) {
+      const BoundaryPart* found = wall_level_.wall_at(piece.at);
+      if (found != nullptr) add_piece(k, *found, piece.area, piece.at, piece.normal);
+    }
+  }
+
+  void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal) {
+    WallPiece piece{k, -1, number(wall), area, area * scene_.wall_flux(wall, middle, normal), middle};
+    made_.walls.push_back(piece);
+    normals_.push_back(normal);
+  }
+
+  double opening(Index k, std::size_t axis) const {  // of the face towards the next point
+    const Index next = k + made_.grid.stride(axis);
+    double part = 1;
+    if (open_[at(k)] >= 0)
+      part = openings_[at(open_[at(k)])].high[axis];
+    else if (open_[at(next)] >= 0)
+      part = openings_[at(open_[at(next)])].low[axis];
+    return part;
+  }
+
+  /// The links of an unknown to the next points, and what is given around it.
+  void join(Index k) {
+    for (std::size_t axis = 0; axis < d_; ++axis)
+      for (const int by : {-1, 1}) {
+        if (!is_on_grid(k, axis, by)) continue;
+        const Index other = k + by * grid().stride(axis);
+        const double face = face_area(axis) * opening(by > 0 ? k : other, axis);
+        const double weight = face / made_.step[axis];
+        if (!(weight > 0)) continue;
+        if (grid().is_unknown(other)) {
+          if (by > 0) grid().link[axis][at(k)] = weight;
+        } else if (side_[at(other)] == Side::on) {
+          give(k, weight, made_.given[at(other)]);
+        } else if (side_[at(k)] != Side::outside) {
+          join_cut(k, axis, other, weight);
+        }
+      }
+  }
+
+  void give(Index k, double weight, double pressure) {
+    grid().pull[at(k)] += weight;
+    grid().load[at(k)] += weight * pressure;
+  }
+
+  void join_cut(Index k, std::size_t axis, Index other, double weight) {
+    Point from = made_.at(k), to = made_.at(other);
+    if (side_[at(k)] == Side::on) {  // along a wall: just inside of it
+      const Point n = domain_.outward(from);
+      for (std::size_t i = 0; i < d_; ++i) {
+        from[i] -= 1e-4 * made_.step[axis] * n[i];
+        to[i] -= 1e-4 * made_.step[axis] * n[i];
+      }
+    }
+    const Point x = domain_.crossing(from, to);
+    const BoundaryPart& found = part(x);
+    if (!found.is_free) return;
+    const double length = std::abs(x[axis] - from[axis]) / made_.step[axis];
+    const double pressure = scene_.free_pressure(found, x);
+    give(k, weight / std::max(length, shortest_link), pressure);
+    made_.pressures.push_back({k, x, pressure});
+    if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
+  }
+
+  /// Cells beyond walls that nothing of the liquid's side reaches are taken out.
+  void give_up_closed_cells() {
+    std::vector<Index> closed;
+    for_points([&](Index k) {
+      if (grid().kind[at(k)] != CutPoint::free) return;
+      double widest = 0;
+      for (std::size_t axis = 0; axis < d_; ++axis)
+        for (const int by : {-1, 1}) {
+          const Index other = k + by * grid().stride(axis);
+          if (grid().kind[at(other)] == CutPoint::bounded)
+            widest = std::max(widest,
+                              grid().link[axis][at(by > 0 ? k : other)] * made_.step[axis] / face_area(axis));
+        }
+      if (widest < least_opening) closed.push_back(k);
+    });
+    for (const Index k : closed) {
+      grid().kind[at(k)] = CutPoint::beyond;
+      for (std::size_t axis = 0; axis < d_; ++axis) {
+        grid().link[axis][at(k)] = 0;
+        grid().link[axis][at(k - grid().stride(axis))] = 0;
+      }
+    }
+    std::vector<WallPiece> kept;
+    for (std::size_t a = 0; a < made_.walls.size(); ++a) {
+      WallPiece piece = made_.walls[a];
+      const Index behind = nearest_inside(piece, normals_[a]);
+      if (!grid().is_unknown(piece.point)) {
+        if (behind < 0) continue;
+        piece.point = behind;
+      }
+      hang(piece, normals_[a], behind);
+      kept.push_back(piece);
+    }
+    made_.walls.swap(kept);
+  }
+
+  double distance(Index k, const WallPiece& piece, const Point& normal) const {
+    const Point x = made_.at(k);
+    double along = 0;
+    for (std::size_t i = 0; i < d_; ++i) along += (piece.at[i] - x[i]) * normal[i];
+    return along;
+  }
+
+  /// The node inside, next to the piece's or itself, straight behind the wall; -1 where there is none.
+  Index nearest_inside(const WallPiece& piece, const Point& normal) const {
+    if (side_[at(piece.point)] != Side::outside) return piece.point;
+    Index best = -1;
+    double straightest = 0;
+    const auto place = made_.place(piece.point);
+    for (int code = 0; code < 27; ++code) {
+      const std::array<Index, 3> by{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
+      Index k = piece.point;
+      double along = 0, square = 0;
+      bool is_there = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (i >= d_) {
+          is_there = is_there && by[i] == 0;
+          continue;
+        }
+        const Index there = place[i] + by[i];
+        is_there = is_there && there >= 0 && there < made_.grid.points[i];
+        k += by[i] * made_.grid.stride(i);
+        const double step = static_cast<double>(by[i]) * made_.step[i];
+        along -= step * normal[i];
+        square += step * step;
+      }
+      if (!is_there || !(square > 0) || made_.grid.kind[at(k)] != CutPoint::bounded) continue;
+      if (along / std::sqrt(square) > straightest) {
+        straightest = along / std::sqrt(square);
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  /// The load of a piece, and its pendant where the node behind it is off the wall.
+  void hang(WallPiece& piece, const Point& normal, Index behind) {
+    grid().load[at(piece.point)] += piece.load;
+    if (behind < 0 || side_[at(behind)] == Side::on || !(piece.area > 0)) return;
+    const double away = std::max(distance(behind, piece, normal), 1e-3 * diagonal_);
+    piece.pendant = static_cast<std::ptrdiff_t>(grid().pendants.size());
+    grid().pendants.push_back({behind, piece.area / away, piece.load / piece.area * away});
+  }
+
+  void load(Index k) {
+    Point x = made_.at(k);
+    if (side_[at(k)] == Side::outside) x = domain_.foot(x);
+    const double h = scene_.h(x);
+    made_.h[at(k)] = h;
+    grid().load[at(k)] += h * made_.volume[at(k)];
+  }
+
+  const LiquidScene& scene_;
+  const Domain& domain_;
+  std::size_t d_;
+  WallLevel wall_level_;
+  CutCells made_;
+  std::vector<Side> side_;
+  std::vector<std::ptrdiff_t> open_;
+  std::vector<Opening> openings_;
+  std::vector<Point> normals_;
+  double diagonal_ = 0;
+};
+
+}  // namespace
+
+Point CutCells::at(Index k) const {
+  const auto i = place(k);
+  Point x{};
+  for (std::size_t axis = 0; axis < grid.dimension; ++axis)
+    x[axis] = low[axis] + step[axis] * static_cast<double>(i[axis]);
+  return x;
+}
+
+std::array<Index, 3> CutCells::place(Index k) const {
+  std::array<Index, 3> i{};
+  for (std::size_t axis = grid.dimension; axis-- > 0;) {
+    i[axis] = k / grid.stride(axis) - grid.frame(axis);
+    k %= grid.stride(axis);
+  }
+  return i;
+}
+
+CutCells cut_cells(const LiquidScene& scene, const std::array<Index, 3>& cells) {
+  return Cutting(scene, cells).cut();
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,229 @@
+#include "mechanics/liquid/grid_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "convex/invalid_input.hpp"
+#include "mechanics/liquid/cavity_edge.hpp"
+#include "mechanics/liquid/grid_pressure.hpp"
+#include "mechanics/liquid/polygon.hpp"
+#include "mechanics/liquid/simplex_cut.hpp"
+
+namespace mechanics::liquid {
+namespace {
+
+using convex::CutPoint;
+using convex::CutSolution;
+using convex::Index;
+
+std::size_t index_of(Index k) { return static_cast<std::size_t>(k); }
+
+/// The first grid tried, and the finest, by dimension.
+constexpr std::array<long, 3> first_cells{256, 128, 32}, most_cells{65536, 2048, 128};
+
+/// Calls work(k, point) for every node, framed index k.
+template <class Work>
+void for_nodes(const CutCells& cells, Work work) {
+  const auto& n = cells.grid.points;
+  for (Index c = 0; c < n[2]; ++c)
+    for (Index b = 0; b < n[1]; ++b)
+      for (Index a = 0; a < n[0]; ++a) work(cells.grid.at(a, b, c), std::array<Index, 3>{a, b, c});
+}
+
+/// The largest difference of two solutions at the nodes of the coarser grid.
+double difference(const CutCells& fine, const CutSolution& p, const CutCells& coarse, const CutSolution& q) {
+  double largest = 0;
+  for_nodes(coarse, [&](Index k, const std::array<Index, 3>& at) {
+    const Index there = fine.grid.at(2 * at[0], 2 * at[1], 2 * at[2]);
+    if (coarse.grid.kind[index_of(k)] != CutPoint::bounded ||
+        fine.grid.kind[index_of(there)] != CutPoint::bounded)
+      return;
+    largest = std::max(largest, std::abs(p.q[index_of(there)] - q.q[index_of(k)]));
+  });
+  return largest;
+}
+
+/// From the differences of three grids: their ratio tells the order, which tells what is left.
+double estimated_error(const GridLevels& levels, const std::vector<CutSolution>& found, double largest) {
+  constexpr double safety = 2, least_order = 0.5, best_order = 2, digits = 1e-9;
+  if (levels.count() < 2) return std::numeric_limits<double>::infinity();
+  const double last = difference(levels.level(0), found[0], levels.level(1), found[1]);
+  double order = 1;
+  if (levels.count() > 2) {
+    const double before = difference(levels.level(1), found[1], levels.level(2), found[2]);
+    if (last > 0) order = std::clamp(std::log2(before / last), least_order, best_order);
+  }
+  return safety * last / (std::exp2(order) - 1) + digits * largest;
+}
+
+double content(const LiquidScene& scene, const CutCells& cells) {
+  const Domain& domain = scene.domain;
+  using std::numbers::pi;
+  if (domain.shape == Domain::Shape::polygon) return polygon_area(domain.vertices);
+  if (domain.shape == Domain::Shape::ball)
+    return domain.dimension == 2 ? pi * domain.radius * domain.radius
+                                 : 4 * pi / 3 * std::pow(domain.radius, 3);
+  double sum = 0;
+  if (domain.shape == Domain::Shape::box) {
+    sum = 1;
+    for (std::size_t i = 0; i < domain.dimension; ++i) sum *= domain.high[i] - domain.low[i];
+    return sum;
+  }
+  double cell_volume = 1;
+  for (std::size_t i = 0; i < domain.dimension; ++i) cell_volume *= cells.step[i];
+  for_nodes(cells, [&](Index k, const std::array<Index, 3>&) {
+    CellLevels cell;
+    cell.dimension = domain.dimension;
+    const Point x = cells.at(k);
+    for (unsigned code = 0; code < 1U << domain.dimension; ++code) {
+      Point corner = x;
+      for (std::size_t i = 0; i < domain.dimension; ++i)
+        corner[i] += ((code >> i & 1U) != 0 ? 0.5 : -0.5) * cells.step[i];
+      cell.at[code] = domain.level(corner);
+    }
+    sum += cell_volume * cell.fraction();
+  });
+  return sum;
+}
+
+/// The largest p: over nodes, with the top of the parabolas through them, and what is given.
+void find_largest(LiquidSolution& solution, const CutCells& cells, const CutSolution& found) {
+  solution.largest = -1;
+  const auto offer = [&](double p, const Point& x) {
+    if (!(p > solution.largest)) return;
+    solution.largest = p;
+    solution.largest_at = x;
+  };
+  const auto& grid = cells.grid;
+  for (const GivenPressure& given : cells.pressures) offer(given.pressure, given.at);
+  for_nodes(cells, [&](Index k, const std::array<Index, 3>&) {
+    if (grid.kind[index_of(k)] != CutPoint::bounded) return;
+    Point x = cells.at(k);
+    double p = found.q[index_of(k)];
+    for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
+      const Index s = grid.stride(axis);
+      if (grid.kind[index_of(k - s)] != CutPoint::bounded || grid.kind[index_of(k + s)] != CutPoint::bounded)
+        continue;
+      const double low = found.q[index_of(k - s)], here = found.q[index_of(k)],
+                   high = found.q[index_of(k + s)];
+      const double bend = low - 2 * here + high, tilt = 0.5 * (high - low);
+      if (low > here || high > here || !(bend < 0)) continue;
+      p -= 0.5 * tilt * tilt / bend;
+      x[axis] -= tilt / bend * cells.step[axis];
+    }
+    offer(p, x);
+  });
+  for (const WallPiece& wall : cells.walls)
+    if (wall.pendant >= 0) {
+      const convex::Pendant& pendant = grid.pendants[index_of(wall.pendant)];
+      offer(found.q[index_of(pendant.point)] + pendant.shift, wall.at);
+    }
+}
+
+/// The walls that push less than they would have to be followed: p = 0 on them, strictly.
+std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& cells,
+                                      const CutSolution& found) {
+  double scale = 0;
+  for (const WallPiece& wall : cells.walls) scale = std::max(scale, std::abs(wall.load));
+  std::vector<bool> parts(scene.parts.size());
+  constexpr double digits = 1e-6;
+  for (const WallPiece& wall : cells.walls) {
+    if (!(wall.load < -digits * scale)) continue;
+    if (wall.pendant >= 0) {
+      const convex::Pendant& pendant = cells.grid.pendants[index_of(wall.pendant)];
+      const double y = found.q[index_of(pendant.point)] + pendant.shift;
+      if (-y * pendant.conductance > digits * scale) parts[wall.part] = true;
+      continue;
+    }
+    const std::size_t k = index_of(wall.point);
+    if (found.held[k] == 0 || cells.grid.kind[k] != CutPoint::bounded) continue;
+    const double by_cavity = std::max(0.0, -cells.h[k] * cells.volume[k]);
+    if (found.push[k] - by_cavity > digits * scale) parts[wall.part] = true;
+  }
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k]) names.push_back(scene.parts[k].name);
+  return names;
+}
+
+void require_no_divergence_in_liquid(const LiquidScene& scene, const CutCells& cells,
+                                     const CutSolution& found) {
+  if (std::all_of(scene.stretching.begin(), scene.stretching.end(),
+                  [](const Field& stretch) { return stretch.is_constant() && stretch.raw({}) == 0; }))
+    return;
+  for_nodes(cells, [&](Index k, const std::array<Index, 3>&) {
+    if (cells.grid.kind[index_of(k)] == CutPoint::bounded && found.held[index_of(k)] == 0)
+      scene.require_no_divergence(cells.at(k));
+  });
+}
+
+/// Whether the unknowns hang together by links.
+bool is_connected(const CutCells& cells) {
+  const convex::CutGrid& grid = cells.grid;
+  std::vector<bool> seen(index_of(grid.size()));
+  const auto is_there = [&](Index k) { return grid.is_unknown(k) || !std::isnan(cells.given[index_of(k)]); };
+  Index parts = 0;
+  for (Index first = 0; first < grid.size(); ++first) {
+    if (!is_there(first) || seen[index_of(first)]) continue;
+    if (++parts > 1) return false;
+    std::vector<Index> open{first};
+    seen[index_of(first)] = true;
+    while (!open.empty()) {
+      const Index k = open.back();
+      open.pop_back();
+      for (std::size_t axis = 0; axis < grid.dimension; ++axis)
+        for (const Index there : {k - grid.stride(axis), k + grid.stride(axis)})
+          if (is_there(there) && !seen[index_of(there)]) {
+            seen[index_of(there)] = true;
+            open.push_back(there);
+          }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
+  const std::size_t axis = scene.dimension() - 1;
+  LiquidSolution solution;
+  solution.method = "grid";
+  GridLevels levels(scene, scene.cells.value_or(first_cells[axis]));
+  if (levels.finest().grid.unknowns() == 0)
+    throw convex::InvalidInput("domain: the grid has no point inside; give more cells");
+  if (scene.domain.condition && !is_connected(levels.finest()))
+    throw convex::InvalidInput(
+        "domain: it is not connected; give one part of it, the others files of their own");
+  std::vector<CutSolution> found;
+  for (;; levels.refine()) {
+    found = levels.solve(true);
+    find_largest(solution, levels.finest(), found.front());
+    solution.error_bound = estimated_error(levels, found, solution.largest);
+    const bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
+    const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
+    if (!is_close && !is_last) continue;
+    if (!is_close && !(scene.cells && !accuracy.tolerance))
+      solution.status = LiquidSolution::Status::inaccurate;
+    break;
+  }
+  const CutCells& cells = levels.finest();
+  solution.unknowns = cells.grid.unknowns();
+  solution.cells = levels.cells();
+  if (!found.front().ended) solution.status = LiquidSolution::Status::inaccurate;
+  require_no_divergence_in_liquid(scene, cells, found.front());
+  solution.volume = content(scene, cells);
+  solution.parted_walls = parted_walls(scene, cells, found.front());
+  const auto pressure = std::make_shared<const GridPressure>(cells, found.front().q);
+  const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());
+  if (!edge->is_empty()) {
+    solution.cavity_measure = edge->measure();
+    if (solution.cavity_measure > 0) solution.cavity_extent = edge->extent();
+  }
+  solution.p = [pressure](const Point& x) { return (*pressure)(x); };
+  solution.in_cavity = [pressure, edge](const Point& x) { return edge->level(x) < 0; };
+  return solution;
+}
+
+}  // namespace mechanics::liquid

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "convex/nearest_point/complementarity_grid/cut_obstacle.hpp"
+#include "mechanics/liquid/cut_cells.hpp"
+#include "mechanics/liquid/liquid_solution.hpp"
+
+namespace mechanics::liquid {
+
+/// A scene on nested grids, each of twice as many cells a side as the next.
+class GridLevels {
+ public:
+  /// Of about so many cells along the longest side; exactly so many where that can be halved often enough.
+  GridLevels(const LiquidScene&, long cells);
+  /// Twice as many cells.
+  void refine();
+
+  /// Throws InvalidInput, with the memory it would take, for a grid that does not fit.
+  static void require_memory(const LiquidScene&, long cells);
+
+  std::vector<convex::CutSolution> solve(bool one_sided) const;
+  const CutCells& finest() const { return *levels_.front(); }
+  const CutCells& level(std::size_t l) const { return *levels_[l]; }
+  std::size_t count() const { return levels_.size(); }
+  long cells() const;
+
+ private:
+  std::array<convex::Index, 3> counts(std::size_t doublings) const;
+  const LiquidScene& scene_;
+  std::array<convex::Index, 3> coarsest_{1, 1, 1};
+  std::vector<std::unique_ptr<CutCells>> levels_;
+};
+
+LiquidSolution solve_grid_scene(const LiquidScene&, const LiquidAccuracy&);
+
+/// The least value of the pressure without the obstacle and how far it may be off.
+std::pair<double, double> least_grid_pressure(const LiquidScene&, long cells);
+
+}  // namespace mechanics::liquid
