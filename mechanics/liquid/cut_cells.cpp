@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/liquid/simplex_cut.hpp"
 #include "mechanics/liquid/wall_level.hpp"
 
 namespace mechanics::liquid {
@@ -196,32 +195,20 @@ class Cutting {
   }
 
   void cut_cell(Index k) {
-    CellLevels cell;
-    cell.dimension = d_;
-    const Point x = made_.at(k);
-    for (std::size_t i = 0; i < d_; ++i) {
-      cell.step[i] = made_.step[i];
-      cell.low[i] = x[i] - 0.5 * made_.step[i];
-    }
-    if (!wall_level_.fill(cell)) return;
-    Opening opening;
-    bool is_open = false;
-    for (std::size_t i = 0; i < d_; ++i) {
-      opening.low[i] = cell.face_fraction(i, false);
-      opening.high[i] = cell.face_fraction(i, true);
-      is_open = is_open || opening.low[i] > 0 || opening.high[i] > 0;
-    }
-    keep(k, opening);
+    Point low = made_.at(k);
+    const Point x = low;
+    for (std::size_t i = 0; i < d_; ++i) low[i] -= 0.5 * made_.step[i];
+    const std::optional<WallCut> cut = wall_level_.cut(low, made_.step);
+    if (!cut) return;
+    keep(k, {cut->low, cut->high});
     if (side_[at(k)] == Side::outside) {
       // Beyond free parts nothing is; beyond a wall the rest of its cell is.
-      if (!is_open || !wall_level_.is_beyond_wall(x)) return;
+      if (!(cut->fraction > 0) || !wall_level_.is_beyond_wall(x)) return;
       grid().kind[at(k)] = CutPoint::free;
     }
-    made_.volume[at(k)] = cell.fraction() * cell_volume();
-    for (const SurfacePiece& piece : cell.surface()) {
-      const BoundaryPart* found = wall_level_.wall_at(piece.at);
-      if (found != nullptr) add_piece(k, *found, piece.area, piece.at, piece.normal);
-    }
+    made_.volume[at(k)] = cut->fraction * cell_volume();
+    for (const WallCut::Piece& piece : cut->pieces)
+      add_piece(k, *piece.wall, piece.surface.area, piece.surface.at, piece.surface.normal);
   }
 
   void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal) {

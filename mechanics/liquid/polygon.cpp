@@ -54,6 +54,21 @@ double polygon_level(const std::vector<Vertex>& v, const Vertex& x) {
   return inside ? -nearest : nearest;
 }
 
+std::vector<Vertex> cut_off(const std::vector<Vertex>& v,
+                            const std::function<double(const Vertex&)>& excess) {
+  std::vector<Vertex> kept;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
+    const double f = excess(a), g = excess(b);
+    if (f <= 0) kept.push_back(a);
+    if ((f < 0 && g > 0) || (f > 0 && g < 0)) {
+      const double part = f / (f - g);
+      kept.push_back({a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])});
+    }
+  }
+  return kept;
+}
+
 Vertex polygon_foot(const std::vector<Vertex>& v, const Vertex& x) {
   Vertex best = v[0];
   double nearest = std::numeric_limits<double>::infinity();

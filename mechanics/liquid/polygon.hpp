@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ double polygon_area(const std::vector<Vertex>&);
 
 /// The signed distance from the boundary, below 0 inside.
 double polygon_level(const std::vector<Vertex>&, const Vertex&);
+
+/// What of the polygon lies where a linear excess is <= 0 (Sutherland and Hodgman 1974; edges that only
+/// join pieces run along the cut there and back, and bound no area).
+std::vector<Vertex> cut_off(const std::vector<Vertex>&, const std::function<double(const Vertex&)>& excess);
 
 /// The point of the boundary nearest to x.
 Vertex polygon_foot(const std::vector<Vertex>&, const Vertex& x);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/liquid/polygon.hpp"
+
 namespace mechanics::liquid {
 namespace {
 
@@ -60,15 +62,19 @@ const BoundaryPart* WallLevel::part_near(const Point& x) const {
   return scene_.part_at(foot);
 }
 
-bool WallLevel::fill(CellLevels& cell) const {
-  const std::size_t d = cell.dimension, corners = std::size_t{1} << d;
-  Point middle = cell.low;
+std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const {
+  if (scene_.domain.shape == Domain::Shape::polygon) return cut_polygon(low, step);
+  CellLevels cell;
+  cell.dimension = scene_.dimension();
+  cell.low = low;
+  cell.step = step;
+  Point middle = low;
   double reach = 0;
-  for (std::size_t i = 0; i < d; ++i) {
-    middle[i] += 0.5 * cell.step[i];
-    reach = std::hypot(reach, cell.step[i]);
+  for (std::size_t i = 0; i < cell.dimension; ++i) {
+    middle[i] += 0.5 * step[i];
+    reach = std::hypot(reach, step[i]);
   }
-  std::vector<const Sheet*> walls;
+  std::vector<Near> walls;
   bool any_free = false;
   for (const Sheet& sheet : sheets_) {
     const Point foot = sheet.nearest(middle);
@@ -76,16 +82,19 @@ bool WallLevel::fill(CellLevels& cell) const {
     if (scene_.domain.level(foot) > 1e-6 * reach) continue;  // off the domain: another sheet cuts it away
     const BoundaryPart* part = scene_.part_at(foot);
     if (part == nullptr) part = part_near(middle);
-    (part != nullptr && !part->is_free) ? walls.push_back(&sheet) : void(any_free = true);
+    if (part != nullptr && !part->is_free)
+      walls.push_back({&sheet, part});
+    else
+      any_free = true;
   }
-  if (walls.empty()) return false;
-  for (std::size_t code = 0; code < corners; ++code) {
-    Point x = cell.low;
-    for (std::size_t i = 0; i < d; ++i)
-      if ((code >> i & 1U) != 0) x[i] += cell.step[i];
+  if (walls.empty()) return std::nullopt;
+  for (std::size_t code = 0; code < std::size_t{1} << cell.dimension; ++code) {
+    Point x = low;
+    for (std::size_t i = 0; i < cell.dimension; ++i)
+      if ((code >> i & 1U) != 0) x[i] += step[i];
     double level = -std::numeric_limits<double>::infinity();
     if (any_free)
-      for (const Sheet* sheet : walls) level = std::max(level, sheet->level(x));
+      for (const Near& wall : walls) level = std::max(level, wall.sheet->level(x));
     else
       level = scene_.domain.level(x);
     if (sheets_.size() == 1 && level > 0) {  // one sheet, free and wall: beyond free parts it is open
@@ -94,17 +103,120 @@ bool WallLevel::fill(CellLevels& cell) const {
     }
     cell.at[code] = level == 0 ? -std::numeric_limits<double>::min() : level;
   }
-  return true;
+  WallCut made;
+  made.fraction = cell.fraction();
+  for (std::size_t i = 0; i < cell.dimension; ++i) {
+    made.low[i] = cell.face_fraction(i, false);
+    made.high[i] = cell.face_fraction(i, true);
+  }
+  for (const SurfacePiece& piece : cell.surface()) {
+    const Near* nearest = &walls.front();
+    for (const Near& wall : walls)
+      if (std::abs(wall.sheet->level(piece.at)) < std::abs(nearest->sheet->level(piece.at))) nearest = &wall;
+    const BoundaryPart* here = scene_.part_at(nearest->sheet->nearest(piece.at));
+    made.pieces.push_back({piece, here != nullptr && !here->is_free ? here : nearest->wall});
+  }
+  return made;
+}
+
+namespace {
+
+/// The part of the side a..b in the box, empty when low >= high.
+std::pair<double, double> part_in_box(const Vertex& a, const Vertex& b, const Vertex& low,
+                                      const Vertex& high) {
+  double first = 0, last = 1;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double along = b[i] - a[i];
+    if (along == 0) {
+      if (a[i] < low[i] || a[i] > high[i]) return {1, 0};
+      continue;
+    }
+    const double u = (low[i] - a[i]) / along, v = (high[i] - a[i]) / along;
+    first = std::max(first, std::min(u, v));
+    last = std::min(last, std::max(u, v));
+  }
+  return {first, last};
+}
+
+}  // namespace
+
+/// In a cell that free sides cross too, walls are the lines of their sides.
+std::optional<WallCut> WallLevel::cut_polygon(const Point& low, const Point& step) const {
+  const std::vector<Vertex>& v = scene_.domain.vertices;
+  const Vertex a{low[0], low[1]}, b{low[0] + step[0], low[1] + step[1]};
+  const double least = 1e-9 * std::min(step[0], step[1]);
+  struct Crossing {
+    Vertex from, to, normal;
+    const BoundaryPart* part;
+  };
+  std::vector<Crossing> walls;
+  bool any_free = false;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const Vertex &p = v[k], &q = v[(k + 1) % v.size()];
+    const auto [first, last] = part_in_box(p, q, a, b);
+    const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+    if (!((last - first) * length > least)) continue;
+    const auto at = [&](double part) {
+      return Vertex{p[0] + part * (q[0] - p[0]), p[1] + part * (q[1] - p[1])};
+    };
+    const Vertex middle = at(0.5 * (first + last));
+    const BoundaryPart& part = scene_.boundary_part({middle[0], middle[1], 0});
+    any_free = any_free || part.is_free;
+    if (!part.is_free)
+      walls.push_back({at(first), at(last), {(q[1] - p[1]) / length, (p[0] - q[0]) / length}, &part});
+  }
+  if (walls.empty()) return std::nullopt;
+  std::vector<Vertex> rest = any_free ? std::vector<Vertex>{a, {b[0], a[1]}, b, {a[0], b[1]}} : v;
+  if (any_free)
+    for (const Crossing& wall : walls)
+      rest = cut_off(rest, [&](const Vertex& x) {
+        const double excess = (x[0] - wall.from[0]) * wall.normal[0] + (x[1] - wall.from[1]) * wall.normal[1];
+        return std::abs(excess) < least ? 0 : excess;
+      });
+  else
+    for (std::size_t i = 0; i < 2; ++i) {
+      rest = cut_off(rest, [&](const Vertex& x) { return a[i] - x[i]; });
+      rest = cut_off(rest, [&](const Vertex& x) { return x[i] - b[i]; });
+    }
+  WallCut made;
+  made.fraction = rest.size() < 3 ? 0 : polygon_area(rest) / (step[0] * step[1]);
+  made.low = made.high = {0, 0, 0};
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    const Vertex &p = rest[k], &q = rest[(k + 1) % rest.size()];
+    const double dx = (q[0] - p[0]) / step[0], dy = (q[1] - p[1]) / step[1];
+    const auto on = [&](std::size_t i, double limit) {
+      return std::abs(p[i] - limit) < least && std::abs(q[i] - limit) < least;
+    };
+    if (on(0, a[0])) made.low[0] -= dy;
+    if (on(0, b[0])) made.high[0] += dy;
+    if (on(1, a[1])) made.low[1] += dx;
+    if (on(1, b[1])) made.high[1] -= dx;
+  }
+  for (const Crossing& wall : walls) {
+    Vertex from = wall.from, to = wall.to;
+    if (any_free) {  // what of the wall's line bounds the rest of the cell
+      for (std::size_t k = 0; k < rest.size(); ++k) {
+        const Vertex &p = rest[k], &q = rest[(k + 1) % rest.size()];
+        const auto off = [&](const Vertex& x) {
+          return std::abs((x[0] - wall.from[0]) * wall.normal[0] + (x[1] - wall.from[1]) * wall.normal[1]);
+        };
+        if (off(p) < least && off(q) < least && std::hypot(q[0] - p[0], q[1] - p[1]) > least) {
+          from = p;
+          to = q;
+        }
+      }
+    }
+    const double area = std::hypot(to[0] - from[0], to[1] - from[1]);
+    made.pieces.push_back(
+        {{area, {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0}, {wall.normal[0], wall.normal[1], 0}},
+         wall.part});
+  }
+  return made;
 }
 
 bool WallLevel::is_beyond_wall(const Point& x) const {
   const BoundaryPart* part = part_near(x);
   return part != nullptr && !part->is_free;
-}
-
-const BoundaryPart* WallLevel::wall_at(const Point& x) const {
-  const BoundaryPart* part = part_near(x);
-  return part != nullptr && !part->is_free ? part : nullptr;
 }
 
 }  // namespace mechanics::liquid

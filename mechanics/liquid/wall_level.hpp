@@ -1,20 +1,34 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
 #include "mechanics/liquid/liquid_scene.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
 
 namespace mechanics::liquid {
 
-/// The boundary as walls alone see it: below 0 inside and beyond free parts, above 0 beyond walls. Where
-/// walls meet free parts they are continued straight.
+/// What walls leave of a cell of a grid: its volume, the open parts of its faces, the pieces of walls in it.
+/// Free parts do not count: where walls meet them, they are continued straight.
+struct WallCut {
+  struct Piece {
+    SurfacePiece surface;
+    const BoundaryPart* wall = nullptr;
+  };
+  double fraction = 1;                                ///< of the cell's volume
+  std::array<double, 3> low{1, 1, 1}, high{1, 1, 1};  ///< open parts of the faces, by axis
+  std::vector<Piece> pieces;
+};
+
+/// Cuts cells at the walls of a scene: exactly at polygons, else as linear between corners.
 class WallLevel {
  public:
   explicit WallLevel(const LiquidScene&);
-  /// The values at the corners of the cell. False when no wall is near.
-  bool fill(CellLevels&) const;
+  /// None when no wall is near the cell low..low + step.
+  std::optional<WallCut> cut(const Point& low, const Point& step) const;
   bool is_beyond_wall(const Point&) const;
-  /// The wall at a point of its surface, null where it was continued beyond a free part.
-  const BoundaryPart* wall_at(const Point&) const;
 
  private:
   /// A smooth part of the boundary: its own level, and where on it a point is nearest to.
@@ -22,7 +36,12 @@ class WallLevel {
     std::function<double(const Point&)> level;
     std::function<Point(const Point&)> nearest;
   };
+  struct Near {
+    const Sheet* sheet;
+    const BoundaryPart* wall;
+  };
   const BoundaryPart* part_near(const Point&) const;
+  std::optional<WallCut> cut_polygon(const Point& low, const Point& step) const;
   const LiquidScene& scene_;
   std::vector<Sheet> sheets_;
 };
