@@ -19,13 +19,13 @@ mechanics::ImpactLaw impact_law(const SimulateSettings& settings) {
 
 }  // namespace
 
-void require_event_driven(const SimulateSettings& settings, const MotionChoice& options) {
-  const std::string method = options.method.value_or(settings.method.value_or("event-driven"));
-  const auto place = options.method ? std::nullopt : std::optional(settings.method_place);
-  if (method == "time-stepping")
-    throw InvalidInput("simulate.method: time-stepping is not available yet; take \"event-driven\"", place);
-  if (method != "event-driven")
-    throw InvalidInput("simulate.method: no method \"" + method + "\"; take \"event-driven\"", place);
+mechanics::MotionMethod motion_method(const SimulateSettings& settings, const MotionChoice& options) {
+  const std::string method = options.method.value_or(settings.method.value_or("auto"));
+  if (method == "time-stepping") return mechanics::MotionMethod::time_stepping;
+  if (method == "auto" || method == "event-driven") return mechanics::MotionMethod::event_driven;
+  throw InvalidInput(
+      "simulate.method: no method \"" + method + "\"; take \"event-driven\" or \"time-stepping\"",
+      options.method ? std::nullopt : std::optional(settings.method_place));
 }
 
 mechanics::MotionOptions motion_options(const Problem& problem, const mechanics::System& system,
@@ -33,9 +33,16 @@ mechanics::MotionOptions motion_options(const Problem& problem, const mechanics:
   const SimulateSettings& settings = problem.simulate;
   const std::vector<std::string> constraints = constraint_names(system);
   mechanics::MotionOptions chosen;
+  chosen.method = motion_method(settings, options);
+  chosen.step = settings.step.value_or(chosen.step);
   chosen.tolerance = options.tolerance.value_or(settings.tolerance.value_or(chosen.tolerance));
   chosen.step_limit = options.step_limit.value_or(chosen.step_limit);
   chosen.impact_law = impact_law(settings);
+  if (chosen.method == mechanics::MotionMethod::time_stepping &&
+      chosen.impact_law != mechanics::ImpactLaw::moreau)
+    throw InvalidInput("simulate.impact_law: time-stepping has Moreau's law alone, not " +
+                           *settings.impact_law + "; take method = \"event-driven\" for it",
+                       settings.impact_law_place);
   chosen.contact_tolerance = contact_tolerances(problem.solve, constraints);
   std::vector<NamedNumber> restitutions = std::get<SystemProblem>(problem.content).restitutions;
   // Those of [simulate] come later, and win.

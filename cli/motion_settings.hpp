@@ -6,8 +6,9 @@
 
 namespace cli {
 
-/// Throws InvalidInput when the file or the command line asks for another way than following each event.
-void require_event_driven(const SimulateSettings&, const MotionChoice&);
+/// The way that the file or the command line asks for; event-driven unless told. Throws InvalidInput for
+/// another name.
+mechanics::MotionMethod motion_method(const SimulateSettings&, const MotionChoice&);
 
 /// How to follow the motion of a [system]: [simulate], [solve] contact_tolerance, what looseness has of its
 /// own; options of the command line win.

@@ -111,7 +111,9 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const Problem problem = read_problem_file(file);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
-  require_event_driven(problem.simulate, options);
+  if (motion_method(problem.simulate, options) != mechanics::MotionMethod::event_driven)
+    throw InvalidInput("simulate.method: an orbit is followed from event to event; take \"event-driven\"",
+                       options.method ? std::nullopt : std::optional(problem.simulate.method_place));
   if (!options.period)
     throw InvalidInput("--period is missing; give the forcing's, --period \"2*pi/w\", or --period free");
   const auto start = std::chrono::steady_clock::now();

@@ -45,7 +45,6 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau simulate` takes a file with [system]");
   const SimulateSettings& settings = problem.simulate;
-  require_event_driven(settings, options);
   if (!options.until && !settings.until)
     throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
   const auto start = std::chrono::steady_clock::now();
@@ -121,7 +120,7 @@ void add_simulate(CLI::App& program, Work& chosen) {
   add_files(command, *options);
   command.add_option("--until", options->until, "the time at which the motion ends")->type_name("T");
   add_step_tolerance(command, *options);
-  command.add_option("--method", options->method, "event-driven, the default")->type_name("NAME");
+  command.add_option("--method", options->method, "event-driven, the default, or time-stepping")->type_name("NAME");
   command.add_option("--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy")
       ->type_name("F.csv");
   command.add_option("--events", options->events, "a line of JSON for each event")->type_name("F.jsonl");

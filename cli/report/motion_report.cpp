@@ -54,7 +54,7 @@ std::string motion_json(const FollowedMotion& followed) {
     for (const Index a : motion.excluding()) json.value(constraints[static_cast<std::size_t>(a)]);
     json.end_array();
   }
-  json.key("method").value("event-driven").key("t").value(state.t);
+  json.key("method").value(mechanics::name(motion.method())).key("t").value(state.t);
   json.key("position").numbers(coordinates, state.q).key("velocity").numbers(coordinates, state.v);
   const bool is_known = motion.acceleration().size() == state.q.size();
   json.key("acceleration");
@@ -66,6 +66,11 @@ std::string motion_json(const FollowedMotion& followed) {
   json.key("impacts").value(static_cast<Index>(record.impacts));
   json.key("steps").value(static_cast<Index>(record.steps));
   json.key("penetration").value(record.largest_penetration);
+  if (motion.method() == mechanics::MotionMethod::time_stepping)
+    json.key("corrected_penetration")
+        .value(record.corrected_penetration)
+        .key("correction_energy")
+        .value(record.correction_energy);
   json.key("impact_energy").value(record.impact_energy).key("ledger_energy").value(record.ledger_energy);
   json.key("remarks").begin_array();
   for (const mechanics::MotionRemark& remark : record.remarks)
@@ -117,6 +122,12 @@ std::string motion_text(const FollowedMotion& followed) {
                       record.most_penetrated < 0
                           ? ""
                           : " (" + constraints[static_cast<std::size_t>(record.most_penetrated)] + ")");
+  if (motion.method() == mechanics::MotionMethod::time_stepping)
+    text += fmt::format(
+        "In steps of one length: errors are of the order of the step. Positions were corrected by {} at "
+        "most; "
+        "T + V changed by {} with it.\n",
+        number_text(record.corrected_penetration), number_text(record.correction_energy));
   for (const mechanics::MotionRemark& remark : record.remarks)
     text += fmt::format("At t = {}: {}.\n", number_text(remark.t), remark.what);
   return text;

@@ -1,23 +1,23 @@
 #pragma once
 
-#include "mechanics/motion/accumulation.hpp"
-#include "mechanics/motion/expansion.hpp"
 #include "mechanics/motion/motion.hpp"
-#include "mechanics/motion/zero_search.hpp"
 
 namespace mechanics {
 
-/// The course of a motion: what `Motion` knows between two steps. A step ends at the first event of its arc;
-/// the event changes the velocity, and the right limit of the motion chooses the contacts of the next arc.
+/// The course of a motion: what `Motion` knows between two steps, whatever way it is followed.
 class Motion::Course {
  public:
-  Course(const LagrangianSystem& system, const State& state, MotionOptions options);
-  bool advance(double until);
+  Course(const LagrangianSystem& of, MotionOptions chosen);
+  virtual ~Course() = default;
+  Course(const Course&) = delete;
+  Course& operator=(const Course&) = delete;
+
+  virtual bool advance(double until) = 0;
 
   MotionOptions options;
   const LagrangianSystem& system;
   State state;
-  Arc done, next;  ///< the arc behind, and the one ahead of `state`
+  Arc done;  ///< the arc behind `state`
   std::vector<MotionEvent> events;
   MotionStatus status = MotionStatus::done;
   std::string why;
@@ -25,57 +25,18 @@ class Motion::Course {
   MotionRecord record;
   Vector acceleration, multipliers;
 
- private:
-  /// A contact that a decided accumulation has brought to rest already; told when its time has come.
-  struct Ending {
-    double t;
-    std::vector<Index> constraints;
-  };
-
+ protected:
   bool is_two_sided(Index a) const { return system.constraints()[static_cast<std::size_t>(a)].two_sided; }
   const std::string& constraint_name(Index a) const {
     return system.constraints()[static_cast<std::size_t>(a)].name;
   }
-  void begin(const State& at);
-  void take_step(double until);
-  std::vector<Zero> zeros_before(double end) const;
-  void watch();
-  double polished(const Zero& zero, double tau);
-  bool fits(double tau);
-  void move_time(double by);
-  void handle(const std::vector<Zero>& zeros);
-  void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
-               const std::vector<Index>& switches);
-  /// The contacts whose impacts come to an end so soon that they are at rest from now on.
-  std::vector<Index> accumulating(const std::vector<Index>& closing) const;
-  void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
-  std::vector<Index> find_branches();
-  /// A new arc from here. In question: contacts that may persist, and switches at 0.
-  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
-  std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
-                                                  const std::vector<Index>& switches);
-  bool is_consistent(const std::vector<Index>& switches);
-  void continue_arc();
-  void project();
-  void fill_next();
-  void look_for_penetration();
-  void tell_endings();
+  /// Whether a step can be taken; `events` are those of the step to come.
+  bool may_advance(double until);
   void stop(std::string reason);
   void remark(std::string what);
   void event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before);
-
-  Expansion expansion_;
-  std::string obstacle_;        // why a step could not be taken, if an expression said so
-  double low_ = 0;              // the time is state.t + low_
-  std::vector<Index> persist_;  // held on the next arc
-  std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
-  std::vector<bool> is_weak_;                                        // held without a multiplier
-  std::vector<double> elapsed_;                                      // since the last impact, by constraint
-  std::vector<ImpactHistory> history_;
-  std::vector<Ending> endings_;
-  std::vector<Watched> watched_;  // on the next arc
-  double step_ahead_ = 0;
-  long events_at_once_ = 0;
+  /// Takes note of f_a < 0, where the constraint has this scale.
+  void note_penetration(Index a, double f, double scale);
 };
 
 }  // namespace mechanics

@@ -1,6 +1,7 @@
 #include "mechanics/motion/motion.hpp"
 
-#include "mechanics/motion/course.hpp"
+#include "mechanics/motion/event_driven.hpp"
+#include "mechanics/motion/time_stepping.hpp"
 
 namespace mechanics {
 
@@ -20,8 +21,16 @@ const char* name(EventKind kind) {
   return "";
 }
 
-Motion::Motion(const LagrangianSystem& system, const State& state, MotionOptions options)
-    : course_(std::make_unique<Course>(system, state, std::move(options))) {}
+const char* name(MotionMethod method) {
+  return method == MotionMethod::event_driven ? "event-driven" : "time-stepping";
+}
+
+Motion::Motion(const LagrangianSystem& system, const State& state, MotionOptions options) {
+  if (options.method == MotionMethod::time_stepping)
+    course_ = std::make_unique<TimeStepping>(system, state, std::move(options));
+  else
+    course_ = std::make_unique<EventDriven>(system, state, std::move(options));
+}
 Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 
@@ -32,6 +41,7 @@ const State& Motion::state() const { return course_->state; }
 const Vector& Motion::acceleration() const { return course_->acceleration; }
 const Vector& Motion::multipliers() const { return course_->multipliers; }
 double Motion::energy() const { return course_->system.energy(course_->state); }
+MotionMethod Motion::method() const { return course_->options.method; }
 MotionStatus Motion::status() const { return course_->status; }
 const std::string& Motion::why() const { return course_->why; }
 const std::vector<Index>& Motion::excluding() const { return course_->excluding; }

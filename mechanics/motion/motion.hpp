@@ -12,12 +12,19 @@
 
 namespace mechanics {
 
+/// How a motion is followed: from event to event, or in steps of one length that do not look for events.
+enum class MotionMethod { event_driven, time_stepping };
+const char* name(MotionMethod);
+
 /// How to follow a motion.
 struct MotionOptions {
+  MotionMethod method = MotionMethod::event_driven;
   /// Estimated error of a step, relative to what the system moves in it. Loosen it for speed.
   double tolerance = 1e-10;
   Vector restitution;  ///< e_a, one a constraint, 0 <= e_a <= 1; empty: all 0
   ImpactLaw impact_law = ImpactLaw::moreau;
+  double step = 1e-3;        ///< of time-stepping
+  double theta = 0.5;        ///< of time-stepping: where in a step forces are taken, 1/2 to 1
   Vector contact_tolerance;  ///< of the state at the start, as of `contacts`; empty: the default
   long step_limit = 10'000'000;
 };
@@ -59,6 +66,8 @@ struct MotionRecord {
   Index most_penetrated = -1;      ///< its constraint
   double impact_energy = 0;        ///< Σ T+ - T- over the impacts, as T gives it
   double ledger_energy = 0;        ///< the same by Σ P_a ((1 - e_a)/2 f'_a(v-) - ∂f_a/∂t) + b·(v+ - v-)
+  double corrected_penetration = 0;  ///< time-stepping: the largest one that the position was corrected by
+  double correction_energy = 0;      ///< time-stepping: Σ change of T + V by these corrections
   std::vector<MotionRemark> remarks;
   std::optional<ImpactScene> first_impact;
 };
@@ -91,6 +100,7 @@ class Motion {
   const Vector& multipliers() const;
   double energy() const;
 
+  MotionMethod method() const;
   MotionStatus status() const;
   /// Why the motion was stopped, or which constraints exclude each other.
   const std::string& why() const;
@@ -99,6 +109,8 @@ class Motion {
 
  private:
   class Course;
+  class EventDriven;
+  class TimeStepping;
   std::unique_ptr<Course> course_;
 };
 

@@ -171,7 +171,9 @@ TEST_CASE("what cannot be simulated is refused with the place and what to do") {
   refused(ball("until = 1\nsamples = 1"), {}, {":11:11:", "samples"});
   refused(ball("until = 1\nsamples = 2.5"), {}, {":11:11:", "samples"});
   refused(ball("until = 1\nmethod = \"euler\""), {}, {":11:10:", "euler", "event-driven"});
-  refused(ball("until = 1\nmethod = \"time-stepping\""), {}, {":11:10:", "not available yet"});
+  refused(ball("until = 1\nmethod = \"time-stepping\"\nimpact_law = \"poisson\""), {},
+          {":12:14:", "poisson", "event-driven"});
+  refused(ball("until = 1\nmethod = \"time-stepping\"\nstep = 0"), {}, {":12:8:", "step"});
   refused(ball("until = 1\nimpact_law = \"newton\""), {}, {":11:14:", "newton", "moreau"});
   refused(ball("until = 1\nuntill = 2"), {}, {":11:1:", "untill", "until"});
   refused(ball("until = 1"), {"--output", "/no/such/folder/F.csv"}, {"cannot write"});

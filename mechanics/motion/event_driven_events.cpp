@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/motion/course.hpp"
+#include "mechanics/motion/event_driven.hpp"
 #include "mechanics/motion/impact.hpp"
 #include "mechanics/number_text.hpp"
 
@@ -35,7 +35,7 @@ bool contains(const std::vector<Index>& all, Index a) {
 }  // namespace
 
 /// What comes to 0 at the end of a step, all at once.
-void Motion::Course::handle(const std::vector<Zero>& zeros) {
+void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   std::vector<Index> closing, touching, switches, held;
   for (const Index a : persist_)
     if (!is_two_sided(a)) held.push_back(a);
@@ -63,15 +63,16 @@ void Motion::Course::handle(const std::vector<Zero>& zeros) {
 }
 
 /// Contacts that were held, are still at f = df/dt = 0, and persist no longer.
-void Motion::Course::release_event(const std::vector<Index>& held_before, const Vector& velocity_before) {
+void Motion::EventDriven::release_event(const std::vector<Index>& held_before,
+                                        const Vector& velocity_before) {
   std::vector<Index> released;
   for (const Index a : held_before)
     if (!contains(persist_, a) && zeros_of_f_[static_cast<std::size_t>(a)] > 1) released.push_back(a);
   if (!released.empty()) event(EventKind::release, released, velocity_before);
 }
 
-void Motion::Course::collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
-                             const std::vector<Index>& switches) {
+void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
+                                  const std::vector<Index>& switches) {
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) present.push_back(a);
@@ -155,7 +156,7 @@ void Motion::Course::collide(const std::vector<Index>& closing, const std::vecto
   if (status == MotionStatus::done) release_event(held, state.v);
 }
 
-std::vector<Index> Motion::Course::accumulating(const std::vector<Index>& closing) const {
+std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& closing) const {
   std::vector<Index> found;
   const auto is_near_its_end = [&](Index a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
@@ -179,7 +180,7 @@ std::vector<Index> Motion::Course::accumulating(const std::vector<Index>& closin
 }
 
 /// The branch of every switch by the sign of its argument; returns those whose argument is 0.
-std::vector<Index> Motion::Course::find_branches() {
+std::vector<Index> Motion::EventDriven::find_branches() {
   std::vector<Index> at_zero;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {  // an argument may contain the switches before it
     const double argument = expansion_.switch_argument(k)[0];
@@ -192,7 +193,7 @@ std::vector<Index> Motion::Course::find_branches() {
 }
 
 /// Whether each argument at 0 goes on with the sign of its branch: by the first derivative that is not 0.
-bool Motion::Course::is_consistent(const std::vector<Index>& switches) {
+bool Motion::EventDriven::is_consistent(const std::vector<Index>& switches) {
   for (const Index which : switches) {
     const auto k = static_cast<std::size_t>(which);
     const std::span<const double> c = expansion_.switch_argument(k);
@@ -207,8 +208,8 @@ bool Motion::Course::is_consistent(const std::vector<Index>& switches) {
 }
 
 /// The right limit on the branches that it itself takes: those across first, then all others.
-std::optional<ContactAnswer> Motion::Course::answer_on_branches(const std::vector<Index>& contacts,
-                                                                const std::vector<Index>& switches) {
+std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
+                                                                     const std::vector<Index>& switches) {
   ContactQuestion question{{}, contacts};
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) question.held.push_back(a);
@@ -229,7 +230,7 @@ std::optional<ContactAnswer> Motion::Course::answer_on_branches(const std::vecto
   return std::nullopt;
 }
 
-void Motion::Course::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
+void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);

@@ -1,0 +1,58 @@
+#include "convex/nearest_point/sparse/sparse_interior_point.hpp"
+
+#include <cmath>
+
+#include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/sparse/interior_point_start.hpp"
+
+namespace convex {
+namespace {
+
+constexpr std::string_view method_name = "sparse-interior-point";
+
+/// Means of multiplier times slack, scaled, one after the other as long as they are reached.
+constexpr double first_mean = 1e-8, last_mean = 1e-18, ever_smaller = 1e-2;
+
+}  // namespace
+
+Solution sparse_interior_point(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  validate(problem);
+  const BalancedProblem scaled = balanced_problem(problem);
+  RowSystem system(scaled);
+  InteriorPointStart start(scaled, system, problem.A.solve(problem.z).cwiseQuotient(scaled.coordinate));
+  Solution best;
+  best.method = method_name;
+  best.farkas = Vector::Zero(problem.rows());
+  for (double mean = first_mean; mean >= last_mean; mean *= ever_smaller) {
+    const InteriorPointStart::End end = start.approach(mean);
+    if (end == InteriorPointStart::End::unbounded || start.q().size() != problem.dimension()) break;
+    if (!start.q().allFinite() || !start.lambda().allFinite()) break;
+    Solution now;
+    now.method = method_name;
+    now.steps = start.steps();
+    now.q = start.q().cwiseProduct(scaled.coordinate);
+    now.lambda = start.lambda().cwiseProduct(scaled.multiplier);
+    for (Index a = 0; a < problem.rows(); ++a)
+      if (!start.looks_active(a)) now.lambda[a] = 0;
+    now.slack = problem.U.times(now.q) - problem.s;
+    now.acceleration_norm = problem.A.norm(now.q);
+    now.force_norm = problem.A.dual_norm(problem.z);
+    now.residuals = residuals(
+        problem, now.q, now.lambda,
+        KnownParts{Vector::Zero(problem.rows()), now.slack, {}, now.acceleration_norm, now.force_norm});
+    // ||q - q*||_A is at most the root of the duality gap, where the rows are kept.
+    const Residuals& r = now.residuals;
+    now.error_bound = (r.duality_gap + r.stationarity) * std::max(now.acceleration_norm, now.force_norm) +
+                      r.feasibility * now.acceleration_norm;
+    const bool is_better = best.q.size() == 0 || now.error_bound < best.error_bound;
+    if (!is_better) break;
+    const bool is_close = now.error_bound <= accuracy.tolerance * std::max(1.0, now.acceleration_norm);
+    now.status = is_close ? Status::solved : Status::inaccurate;
+    now.farkas = best.farkas;
+    best = std::move(now);
+    if (is_close || end == InteriorPointStart::End::stalled) break;
+  }
+  return best;
+}
+
+}  // namespace convex

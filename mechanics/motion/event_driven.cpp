@@ -1,0 +1,310 @@
+#include "mechanics/motion/event_driven.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/motion/impact.hpp"
+#include "mechanics/motion/step_length.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// Times within so many roundings of each other are one: several events at once.
+constexpr double roundings_of_time = 64;
+
+/// A step that misses the equations at its end by more than this many times its tolerance is taken again.
+constexpr double allowed_defect = 1e3;
+
+/// A multiplier below this part of the forces is none.
+constexpr double weakest_multiplier = 1e-12;
+
+/// So many events at one instant, for each constraint, have no end.
+constexpr long most_events_at_once = 50;
+
+/// Rows of contacts are held in full: so many numbers of them are the most that is tried.
+constexpr double most_numbers_of_rows = 2e7;
+
+}  // namespace
+
+Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
+    : Course(of, std::move(chosen)),
+      expansion_(of.model(), taylor_order(tolerance_of_step(options.tolerance))) {
+  const auto m = system.constraints().size();
+  zeros_of_f_.assign(m, 0);
+  zeros_of_lambda_.assign(m, 0);
+  zeros_of_switch_.assign(expansion_.switches(), 0);
+  is_weak_.assign(m, false);
+  elapsed_.assign(m, 0.0);
+  history_.resize(m);
+  begin(at);
+}
+
+void Motion::EventDriven::begin(const State& at) {
+  state = at;
+  const Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
+  done.t = state.t;
+  done.q = state.q;
+  expansion_.set(state);
+  const std::vector<Index> switches = find_branches();
+  std::vector<Index> touching;
+  for (const Index a : found.present)
+    if (!is_two_sided(a)) touching.push_back(a);
+  std::vector<Index> opening;  // f = 0 and df/dt > 0
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || found.rates.f[a] > options.contact_tolerance[a] * found.rates.f_scale[a]) continue;
+    zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+    if (found.rates.df[a] > options.contact_tolerance[a] * found.rates.df_scale[a]) opening.push_back(a);
+  }
+  const std::size_t asked = touching.size() + found.closing.size();
+  if (static_cast<double>(asked) * static_cast<double>(state.q.size()) > most_numbers_of_rows)
+    return stop("at t = " + number_text(state.t) + ": " + std::to_string(asked) + " contacts of " +
+                std::to_string(state.q.size()) +
+                " coordinates are too many to be followed event by event; take method = \"time-stepping\"");
+  if (!found.closing.empty()) {
+    opening.insert(opening.end(), touching.begin(), touching.end());
+    collide(found.closing, opening, switches);
+  } else {
+    begin_arc(touching, switches);
+  }
+}
+
+bool Motion::EventDriven::advance(double until) {
+  if (!may_advance(until)) return false;
+  const double before = state.t;
+  try {
+    take_step(until);
+  } catch (const convex::InvalidInput& error) {
+    stop("at t = " + number_text(state.t) + ": " + error.what());
+  }
+  events_at_once_ = state.t > before ? 0 : events_at_once_ + 1;
+  const auto m = static_cast<long>(system.constraints().size());
+  if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
+    stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant");
+  return status == MotionStatus::done || !events.empty() || state.t > before;
+}
+
+/// What comes to 0 on the next arc ends it: constraints that are free, multipliers, arguments of switches.
+void Motion::EventDriven::watch() {
+  watched_.clear();
+  const auto add = [&](Zero::Of of, Index which, std::span<const double> c, int zeros, double rounding) {
+    watched_.push_back({of, which, {c.begin() + zeros, c.end()}, rounding});
+  };
+  std::vector<bool> held(system.constraints().size());
+  for (const Index a : persist_) held[static_cast<std::size_t>(a)] = true;
+  const convex::Metric& A = expansion_.inertia();
+  const double force = std::max(A.norm(acceleration), expansion_.force_norm());
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (is_two_sided(a)) continue;
+    if (!held[k]) {
+      const double rounding = zeros_of_f_[k] > 0 ? 0 : 4 * epsilon * expansion_.position_scale(a);
+      add(Zero::Of::constraint, a, coefficients(next.f, a), zeros_of_f_[k], rounding);
+      continue;
+    }
+    // A contact without a multiplier has one from rounding: only what is more than that releases it.
+    const double least = weakest_multiplier * force / A.dual_norm(expansion_.row(a));
+    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], is_weak_[k] ? least : 0);
+    if (is_weak_[k]) watched_.back().c[0] += 10 * least;
+  }
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k], 0);
+    for (double& c : watched_.back().c) c *= expansion_.branch(k);
+  }
+}
+
+std::vector<Zero> Motion::EventDriven::zeros_before(double end) const {
+  return first_zeros(watched_, end, roundings_of_time * epsilon * (std::abs(state.t) + end));
+}
+
+/// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
+double Motion::EventDriven::polished(const Zero& zero, double tau) {
+  if (zero.is_touch || zero.of == Zero::Of::branch) return tau;
+  constexpr int most_corrections = 4;
+  const auto k = static_cast<std::size_t>(zero.which);
+  const std::span<const double> c =
+      coefficients(zero.of == Zero::Of::constraint ? next.f : next.lambda, zero.which);
+  for (int i = 0; i < most_corrections; ++i) {
+    expansion_.set(next.state(tau));
+    double value = 0;
+    if (zero.of == Zero::Of::constraint) {
+      value = expansion_.f(zero.which);
+    } else {
+      if (is_weak_[k]) return tau;
+      const HeldRows::Answer answer = expansion_.acceleration(expansion_.held_rows(persist_), persist_);
+      for (std::size_t a = 0; a < persist_.size(); ++a)
+        if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
+    }
+    const double correction = value / slope_at(c, tau);
+    if (!(std::abs(correction) < 0.5 * tau)) return tau;
+    tau -= correction;
+    if (std::abs(correction) <= epsilon * (tau + std::abs(next.t))) break;
+  }
+  return tau;
+}
+
+/// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
+/// does not converge, and an expression that is not analytic.
+bool Motion::EventDriven::fits(double tau) {
+  const State there = next.state(tau);
+  Vector q2;
+  try {
+    expansion_.set(there);
+    q2 = expansion_.acceleration(expansion_.held_rows(persist_), persist_).x;
+  } catch (const convex::InvalidInput& error) {
+    obstacle_ = error.what();
+    return false;
+  }
+  const convex::Metric& A = expansion_.inertia();
+  double moved = 0, power = tau;
+  for (Index k = 1; k < next.q.cols(); ++k, power *= tau)
+    moved = std::max(moved, A.norm(next.q.col(k)) * power);
+  const double defect = A.norm(q2 - next.acceleration(tau)) * tau * tau;
+  const double rounding = 1e4 * epsilon * (moved + (A.norm(q2) + expansion_.force_norm()) * tau * tau);
+  const double orders = static_cast<double>(next.q.cols());
+  return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
+}
+
+void Motion::EventDriven::move_time(double by) {
+  const double sum = state.t + by, part = sum - state.t;
+  low_ += (state.t - (sum - part)) + (by - part);
+  state.t = sum + low_;
+  low_ -= state.t - sum;
+}
+
+void Motion::EventDriven::take_step(double until) {
+  double end = std::min(step_ahead_, until - state.t);
+  bool is_last = end == until - state.t;
+  const Ending* ending = endings_.empty() ? nullptr : &endings_.front();
+  if (ending != nullptr && ending->t - state.t < end) {
+    end = std::max(0.0, ending->t - state.t);
+    is_last = false;
+  }
+  std::vector<Zero> zeros;
+  double tau = end;
+  obstacle_.clear();
+  for (int halvings = 0;; ++halvings) {
+    if (halvings > 0 && !(state.t + end > state.t))
+      return stop("at t = " + number_text(state.t) + ": " +
+                  (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
+                  "; the motion ends here, or the expressions have to be written otherwise");
+    zeros = zeros_before(end);
+    tau = end;
+    for (Zero& zero : zeros) {
+      zero.at = polished(zero, zero.at);
+      tau = std::min(tau, zero.at);
+    }
+    if (tau <= 0 || fits(tau)) break;
+    end = 0.5 * tau;
+    is_last = false;
+  }
+  const double together = roundings_of_time * epsilon * (std::abs(state.t) + tau);
+  std::erase_if(zeros, [&](const Zero& zero) { return zero.at > tau + together; });
+  ++record.steps;
+  done = next;
+  done.length = tau;
+  state.q = done.position(tau);
+  state.v = done.velocity(tau);
+  if (is_last && zeros.empty()) {
+    state.t = until;
+    low_ = 0;
+  } else {
+    move_time(tau);
+  }
+  for (double& elapsed : elapsed_) elapsed += tau;
+  expansion_.set(state);
+  look_for_penetration();
+  if (zeros.empty())
+    continue_arc();
+  else
+    handle(zeros);
+  tell_endings();
+}
+
+void Motion::EventDriven::look_for_penetration() {
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const double f = is_two_sided(a) ? -std::abs(expansion_.f(a)) : expansion_.f(a);
+    if (f < 0) note_penetration(a, f, std::max(1.0, expansion_.position_scale(a)));
+  }
+}
+
+void Motion::EventDriven::tell_endings() {
+  while (!endings_.empty() && endings_.front().t <= state.t) {
+    const double now = state.t;
+    state.t = endings_.front().t;
+    event(EventKind::accumulation, endings_.front().constraints, state.v);
+    state.t = now;
+    endings_.erase(endings_.begin());
+  }
+}
+
+void Motion::EventDriven::continue_arc() {
+  project();
+  if (status != MotionStatus::done) return;
+  std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
+  std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
+  std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
+  expansion_.expand({persist_, {}});
+  fill_next();
+}
+
+/// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
+void Motion::EventDriven::project() {
+  if (persist_.empty()) return;
+  constexpr int most_corrections = 12;
+  constexpr double smallest = 4 * epsilon, largest = 1e-6;
+  const auto rows = static_cast<Index>(persist_.size());
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_corrections; ++i) {
+    const HeldRows held = expansion_.held_rows(persist_);
+    Vector f(rows), rate(rows);
+    for (Index a = 0; a < rows; ++a) {
+      f[a] = expansion_.f(persist_[static_cast<std::size_t>(a)]);
+      rate[a] = expansion_.rate(persist_[static_cast<std::size_t>(a)]);
+    }
+    const Vector dq = held.least_change(-f), dv = held.least_change(-rate);
+    const convex::Metric& A = expansion_.inertia();
+    const double by_q = A.norm(dq), by_v = A.norm(dv);
+    const double q = A.norm(state.q), v = A.norm(state.v);
+    const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
+    const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
+    if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;
+    last = size;
+    state.q += dq;
+    state.v += dv;
+    expansion_.set(state);
+  }
+  if (last < largest) return;
+  stop("at t = " + number_text(state.t) +
+       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state");
+}
+
+void Motion::EventDriven::fill_next() {
+  const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
+  next.t = state.t;
+  next.q.resize(n, last + 1);
+  next.lambda.resize(m, last - 1);
+  next.f.resize(m, last + 1);
+  const auto copy = [](convex::RowMatrix& to, Index row, std::span<const double> c) {
+    std::copy(c.begin(), c.end(), to.data() + row * to.cols());
+  };
+  for (Index i = 0; i < n; ++i) copy(next.q, i, expansion_.position(i));
+  for (Index a = 0; a < m; ++a) {
+    copy(next.lambda, a, expansion_.multiplier(a));
+    copy(next.f, a, expansion_.constraint(a));
+  }
+  next.persist = persist_;
+  acceleration = 2 * next.q.col(2);
+  multipliers = next.lambda.col(0);
+  const double tolerance = tolerance_of_step(options.tolerance);
+  step_ahead_ = step_length(next, expansion_.inertia(), tolerance);
+  watch();
+  for (const Watched& one : watched_)
+    if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
+      step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
+}
+
+}  // namespace mechanics

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "mechanics/motion/accumulation.hpp"
+#include "mechanics/motion/course.hpp"
+#include "mechanics/motion/expansion.hpp"
+#include "mechanics/motion/zero_search.hpp"
+
+namespace mechanics {
+
+/// A motion followed from event to event. A step ends at the first event of its arc; the event changes the
+/// velocity, and the right limit of the motion chooses the contacts of the next arc.
+class Motion::EventDriven final : public Motion::Course {
+ public:
+  EventDriven(const LagrangianSystem& system, const State& state, MotionOptions options);
+  bool advance(double until) override;
+
+ private:
+  /// A contact that a decided accumulation has brought to rest already; told when its time has come.
+  struct Ending {
+    double t;
+    std::vector<Index> constraints;
+  };
+
+  void begin(const State& at);
+  void take_step(double until);
+  std::vector<Zero> zeros_before(double end) const;
+  void watch();
+  double polished(const Zero& zero, double tau);
+  bool fits(double tau);
+  void move_time(double by);
+  void handle(const std::vector<Zero>& zeros);
+  void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
+               const std::vector<Index>& switches);
+  /// The contacts whose impacts come to an end so soon that they are at rest from now on.
+  std::vector<Index> accumulating(const std::vector<Index>& closing) const;
+  void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
+  std::vector<Index> find_branches();
+  /// A new arc from here. In question: contacts that may persist, and switches at 0.
+  void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
+                                                  const std::vector<Index>& switches);
+  bool is_consistent(const std::vector<Index>& switches);
+  void continue_arc();
+  void project();
+  void fill_next();
+  void look_for_penetration();
+  void tell_endings();
+  Arc next;  ///< the one ahead of `state`
+  Expansion expansion_;
+  std::string obstacle_;        // why a step could not be taken, if an expression said so
+  double low_ = 0;              // the time is state.t + low_
+  std::vector<Index> persist_;  // held on the next arc
+  std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
+  std::vector<bool> is_weak_;                                        // held without a multiplier
+  std::vector<double> elapsed_;                                      // since the last impact, by constraint
+  std::vector<ImpactHistory> history_;
+  std::vector<Ending> endings_;
+  std::vector<Watched> watched_;  // on the next arc
+  double step_ahead_ = 0;
+  long events_at_once_ = 0;
+};
+
+}  // namespace mechanics

@@ -1,0 +1,271 @@
+#include "mechanics/motion/time_stepping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/sparse/sparse_active_set.hpp"
+#include "convex/nearest_point/sparse/sparse_interior_point.hpp"
+#include "mechanics/contacts.hpp"
+#include "mechanics/gauss_problem.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics {
+namespace {
+
+/// The velocity of a step is found by iteration until it changes by less than this part: what is left then is
+/// smaller by another factor h L, L the rate at which forces change, and far below the error of the scheme.
+constexpr double settled_part = 1e-10;
+constexpr int most_iterations = 100;
+
+/// Numbers of rows are rounded about so many times.
+constexpr double roundings_of_step_rows = 16;
+
+/// A contact whose rate after a step is below this part of its terms stays.
+constexpr double resting_part = 1e-9;
+
+/// From here on the dense active set, to which the default turns where the sparse one gives up, is too slow
+/// for a step.
+constexpr Index fewest_for_sparse_method = 300;
+
+bool same(const convex::SparseMatrix& a, const convex::SparseMatrix& b) {
+  return a.rows() == b.rows() && a.nonZeros() == b.nonZeros() &&
+         std::equal(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1, b.outerIndexPtr()) &&
+         std::equal(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros(), b.innerIndexPtr()) &&
+         std::equal(a.valuePtr(), a.valuePtr() + a.nonZeros(), b.valuePtr());
+}
+
+bool same(const convex::ConstraintRows& a, const convex::ConstraintRows& b) {
+  if (a.count() != b.count() || a.is_sparse() != b.is_sparse()) return false;
+  if (!a.is_sparse()) return a.dense() == b.dense();
+  const convex::SparseRows &x = a.sparse(), &y = b.sparse();
+  return x.nonZeros() == y.nonZeros() &&
+         std::equal(x.outerIndexPtr(), x.outerIndexPtr() + x.outerSize() + 1, y.outerIndexPtr()) &&
+         std::equal(x.innerIndexPtr(), x.innerIndexPtr() + x.nonZeros(), y.innerIndexPtr()) &&
+         std::equal(x.valuePtr(), x.valuePtr() + x.nonZeros(), y.valuePtr());
+}
+
+}  // namespace
+
+Motion::TimeStepping::TimeStepping(const LagrangianSystem& of, const State& at, MotionOptions chosen)
+    : Course(of, std::move(chosen)), origin_(at.t), rests_(of.constraints().size()) {
+  if (!(options.theta >= 0.5 && options.theta <= 1))
+    throw convex::InvalidInput("theta: " + number_text(options.theta) + " is not from 1/2 to 1");
+  if (options.impact_law != ImpactLaw::moreau)
+    throw convex::InvalidInput(std::string("impact_law: time-stepping has Moreau's law alone, not ") +
+                               name(options.impact_law) + "; take method = \"event-driven\" for it");
+  state = at;
+  const mechanics::Contacts found =
+      mechanics::contacts(system, state, options.contact_tolerance, Impending::allowed);
+  for (const Index a : found.present) rests_[static_cast<std::size_t>(a)] = true;
+  done.t = state.t;
+  done.q = state.q;
+  multipliers = Vector::Zero(static_cast<Index>(system.constraints().size()));
+}
+
+bool Motion::TimeStepping::advance(double until) {
+  if (!may_advance(until)) return false;
+  const double before = state.t;
+  double end = origin_ + static_cast<double>(count_ + 1) * options.step;
+  // What is left of the last step may be a rounding of it.
+  constexpr double least_part = 1e-6;
+  if (end > until - least_part * options.step) {
+    end = until;
+    origin_ = until;
+    count_ = -1;
+  }
+  try {
+    take_step(end - before, end);
+  } catch (const convex::InvalidInput& error) {
+    stop("at t = " + number_text(state.t) + ": " + error.what());
+  }
+  ++count_;
+  return status == MotionStatus::done || state.t > before;
+}
+
+std::vector<Index> Motion::TimeStepping::closed(const State& ahead) const {
+  const ConstraintRates rates = system.constraint_rates(ahead);
+  std::vector<Index> found;
+  for (Index a = 0; a < rates.f.size(); ++a)
+    if (is_two_sided(a) || rests_[static_cast<std::size_t>(a)] ||
+        rates.f[a] <= options.contact_tolerance[a] * rates.f_scale[a])
+      found.push_back(a);
+  return found;
+}
+
+void Motion::TimeStepping::find_inertia(const State& at) {
+  Inertia inertia = system.inertia(at);
+  inertia.A.makeCompressed();
+  z_ = std::move(inertia.z);
+  if (A_ && same(gram_, inertia.A)) return;
+  velocities_.problem.reset();
+  positions_.problem.reset();
+  tangents_.problem.reset();
+  A_ = kinetic_metric(inertia.A, system.coordinates());
+  gram_ = std::move(inertia.A);
+}
+
+Motion::TimeStepping::Contacts Motion::TimeStepping::contacts_at(const State& middle,
+                                                                 const std::vector<Index>& constraints,
+                                                                 double h) const {
+  Contacts found;
+  found.constraints = constraints;
+  ContactRows rows = system.contact_rows(middle, constraints);
+  const Vector free = A_->solve(z_), pull = rows.U * free - rows.s, along = rows.U * middle.v,
+               before = rows.U * state.v;
+  const ConstraintRates rates = system.constraint_rates(middle);
+  const auto m = static_cast<Index>(constraints.size());
+  found.drift.resize(m);
+  found.restitution = Vector::Zero(m);
+  found.closes_fast.resize(constraints.size());
+  for (Index k = 0; k < m; ++k) {
+    const Index a = constraints[static_cast<std::size_t>(k)];
+    found.drift[k] = rates.df[a] - along[k];
+    if (is_two_sided(a)) found.two_sided.push_back(k);
+    if (is_two_sided(a) || rests_[static_cast<std::size_t>(a)]) {
+      found.restitution[k] = (1 - options.theta) / options.theta;
+      continue;
+    }
+    // What the forces of one step alone bring together is rest, not a row of impacts.
+    const double closing = -(before[k] + found.drift[k]);
+    if (!(closing > h * std::max(0.0, -pull[k]))) continue;
+    found.closes_fast[static_cast<std::size_t>(k)] = true;
+    found.restitution[k] = options.restitution[a];
+  }
+  found.before = before + found.drift;
+  found.U = rows_to_solve(std::move(rows.U));
+  return found;
+}
+
+const convex::Solution& Motion::TimeStepping::solve(Repeated& repeated, const std::vector<Index>& constraints,
+                                                    const std::vector<Index>& two_sided,
+                                                    const convex::ConstraintRows& U, const Vector& z,
+                                                    const Vector& s) {
+  convex::NearestPointProblem problem{*A_, z, U, s, two_sided};
+  if (repeated.problem && repeated.problem->z == z && repeated.problem->s == s &&
+      repeated.problem->two_sided == two_sided && same(repeated.problem->U, U))
+    return repeated.solution;
+  problem.radii = convex::rounding_radii(problem, roundings_of_step_rows);
+  std::vector<Index> guess;
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    if (std::binary_search(repeated.pushing.begin(), repeated.pushing.end(), constraints[k]))
+      guess.push_back(static_cast<Index>(k));
+  const bool large = z.size() >= fewest_for_sparse_method && problem.rows() > 0;
+  convex::Accuracy accuracy;
+  accuracy.limit = 0;  // a step is not worth fractions
+  repeated.solution = large && U.is_sparse() ? convex::sparse_active_set(problem, accuracy, guess)
+                                             : convex::automatic(problem, accuracy, guess);
+  if (large && repeated.solution.q.size() != z.size() &&
+      repeated.solution.status != convex::Status::infeasible)
+    repeated.solution = convex::sparse_interior_point(problem, accuracy);
+  repeated.pushing.clear();
+  if (repeated.solution.lambda.size() == problem.rows())
+    for (std::size_t k = 0; k < constraints.size(); ++k)
+      if (repeated.solution.lambda[static_cast<Index>(k)] != 0) repeated.pushing.push_back(constraints[k]);
+  repeated.problem = std::move(problem);
+  return repeated.solution;
+}
+
+bool Motion::TimeStepping::find_velocity(double h, double end) {
+  const double theta = options.theta, t = (1 - theta) * state.t + theta * end;
+  const std::vector<Index> constraints = closed({t, state.q + theta * h * state.v, state.v});
+  velocity_ = state.v;
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_iterations; ++i) {
+    const Vector along = (1 - theta) * state.v + theta * velocity_;
+    const State middle{t, state.q + theta * h * along, along};
+    find_inertia(middle);
+    now_ = contacts_at(middle, constraints, h);
+    const Vector z = A_->multiply(state.v) + h * z_;
+    const Vector s = -(now_.drift + now_.restitution.cwiseProduct(now_.before));
+    const convex::Solution& solution = solve(velocities_, now_.constraints, now_.two_sided, now_.U, z, s);
+    if (solution.status == convex::Status::infeasible) {
+      status = MotionStatus::infeasible;
+      for (std::size_t k = 0; k < constraints.size(); ++k)
+        if (solution.farkas[static_cast<Index>(k)] != 0) excluding.push_back(constraints[k]);
+      why = "after t = " + number_text(state.t) + ": no velocity satisfies all contacts";
+      return false;
+    }
+    if (solution.q.size() != velocity_.size()) {
+      stop("after t = " + number_text(state.t) + ": no velocity is found that satisfies the contacts");
+      return false;
+    }
+    const double change = A_->norm(solution.q - velocity_);
+    const double size = A_->norm(state.v) + A_->norm(solution.q);
+    velocity_ = solution.q;
+    impulse_ = solution.lambda;
+    if (change <= settled_part * size) return true;
+    constexpr int soonest = 8;  // it should have become smaller by then
+    if (i > soonest && change >= last) break;
+    last = change;
+  }
+  stop("at t = " + number_text(state.t) + ": forces change too much in a step of " + number_text(h) +
+       "; take a shorter one, [simulate] step");
+  return false;
+}
+
+void Motion::TimeStepping::take_step(double h, double end) {
+  if (!find_velocity(h, end)) return;
+  const State before = state;
+  state.t = end;
+  state.v = velocity_;
+  state.q = before.q + h * ((1 - options.theta) * before.v + options.theta * velocity_);
+  ++record.steps;
+  tell_events(h, before.v);
+  note_pushing();
+  correct_position();
+  for (MotionEvent& event : events) event.velocity_after = state.v;
+  acceleration = (state.v - before.v) / h;
+  const auto m = static_cast<Index>(system.constraints().size());
+  multipliers = Vector::Zero(m);
+  for (std::size_t k = 0; k < now_.constraints.size(); ++k)
+    multipliers[now_.constraints[k]] = impulse_[static_cast<Index>(k)] / h;
+  // A parabola with the mean acceleration, from one position to the other.
+  done.t = before.t;
+  done.length = h;
+  done.q.resize(before.q.size(), 3);
+  done.q.col(0) = before.q;
+  done.q.col(1) = (state.q - before.q) / h - 0.5 * h * acceleration;
+  done.q.col(2) = 0.5 * acceleration;
+  done.lambda = multipliers;
+  done.persist = now_.constraints;
+}
+
+void Motion::TimeStepping::tell_events(double h, const Vector& velocity_before) {
+  const Vector after = now_.U.times(velocity_) + now_.drift;
+  const Vector length = now_.U.lengths(A_->diagonal().cwiseInverse());
+  const double speed = A_->norm(velocity_before) + A_->norm(velocity_);
+  const Vector mean = 0.5 * (now_.before + after);
+  std::vector<Index> hit, met, left;
+  std::vector<bool> rests(rests_.size());
+  double work = 0;
+  for (std::size_t k = 0; k < now_.constraints.size(); ++k) {
+    const Index a = now_.constraints[k], at = static_cast<Index>(k);
+    work += impulse_[at] * (mean[at] - now_.drift[at]);
+    if (is_two_sided(a)) continue;
+    const auto i = static_cast<std::size_t>(a);
+    const double slack = after[at] + now_.restitution[at] * now_.before[at];
+    rests[i] = (rests_[i] || now_.restitution[at] == 0) &&
+               slack <= resting_part * (length[at] * speed + std::abs(now_.drift[at]));
+    const bool is_hit = !rests_[i] && impulse_[at] > 0 && now_.closes_fast[k];
+    if (is_hit)
+      hit.push_back(a);
+    else if (rests[i] && !rests_[i])
+      met.push_back(a);
+  }
+  for (std::size_t i = 0; i < rests.size(); ++i)
+    if (rests_[i] && !rests[i] && !is_two_sided(static_cast<Index>(i))) left.push_back(static_cast<Index>(i));
+  rests_ = std::move(rests);
+  if (!hit.empty()) {
+    event(EventKind::impact, hit, velocity_before);
+    const Vector change = velocity_ - velocity_before, middle = 0.5 * (velocity_ + velocity_before);
+    record.impact_energy += middle.dot(A_->multiply(change) - h * z_);
+    record.ledger_energy += work;
+  }
+  if (!met.empty()) event(EventKind::contact, met, velocity_before);
+  if (!left.empty() && !is_first_) event(EventKind::release, left, velocity_before);
+  is_first_ = false;
+}
+
+}  // namespace mechanics

@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+
+namespace {
+
+MotionOptions stepping(const SystemText& text, double h, double e = 0) {
+  MotionOptions options = restitution(text, e);
+  options.method = MotionMethod::time_stepping;
+  options.step = h;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("without contacts the error of a step falls with its square") {
+  const SystemText text{{"a"}, "a'^2/2", "-9.81*cos(a)", {}, {}, {}, {}};
+  const double period = 2.139137600558689;  // 4 K(sin(1/2)) / sqrt(9.81)
+  double last = 0;
+  for (const double parts : {200.0, 400.0, 800.0}) {
+    const Followed found = followed(text, state({1}, {0}), period, stepping(text, period / parts));
+    const double error = std::hypot(found.end().q[0] - 1, found.end().v[0]);
+    if (last > 0) CHECK(last / error == doctest::Approx(4).epsilon(0.02));
+    last = error;
+  }
+}
+
+TEST_CASE("with impacts the error of a step falls with the step itself") {
+  const double g = 9.81, e = 0.8, until = 1.1;
+  const double first = std::sqrt(2 / g), up = e * std::sqrt(2 * g), since = until - first;
+  REQUIRE(since < 2 * up / g);
+  double last = 0;
+  for (const double h : {1e-3, 1e-4, 1e-5}) {
+    const Followed found = followed(ball(), state({1}, {0}), until, stepping(ball(), h, e));
+    const double error = std::abs(found.end().q[0] - (up * since - g * since * since / 2)) +
+                         std::abs(found.end().v[0] - (up - g * since));
+    CHECK(error <= 2 * (1 + e) * g * h);
+    if (last > 0) CHECK(error < 0.4 * last);
+    last = error;
+    const auto impacts = found.of(EventKind::impact);
+    REQUIRE(impacts.size() == 1);
+    CHECK(std::abs(impacts[0].t - first) <= 2 * h);
+    CHECK(impacts[0].velocity_after[0] ==
+          doctest::Approx(-e * impacts[0].velocity_before[0]).epsilon(2 * g * h));
+  }
+}
+
+TEST_CASE("a ball that bounces without loss keeps its energy over a hundred impacts, whatever the step") {
+  for (const double h : {1e-2, 1e-3}) {
+    const Followed found = followed(ball(), state({1}, {0}), 90, stepping(ball(), h, 1));
+    CHECK(found.of(EventKind::impact).size() > 95);
+    CHECK(found.motion.energy() == doctest::Approx(2 * 9.81).epsilon(1e-10));
+    CHECK(found.motion.record().largest_penetration <= 1e-14);
+    CHECK(found.motion.record().correction_energy == doctest::Approx(0).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("after infinitely many impacts the ball rests with lambda = mg") {
+  const Followed found = followed(ball(), state({1}, {0}), 10, stepping(ball(), 1e-3, 0.9));
+  CHECK(found.end().v[0] == 0);
+  CHECK(std::abs(found.end().q[0]) <= 1e-15);
+  CHECK(found.motion.multipliers()[0] == doctest::Approx(2 * 9.81).epsilon(1e-12));
+  // The end of the impacts in closed form: 8.5789….
+  REQUIRE(!found.of(EventKind::contact).empty());
+  CHECK(found.of(EventKind::contact)[0].t == doctest::Approx(8.578949178728887).epsilon(0.02));
+}
+
+TEST_CASE("contacts that move on a curve stay closed, and are left when they push no more") {
+  // A particle slides off a cylinder at cos a = 2/3 (from rest at the top).
+  const SystemText text{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {}, {{"cylinder", "x^2 + y^2 >= 1"}}};
+  const double a = 0.1;
+  const State start = state({std::sin(a), std::cos(a)}, {0, 0});
+  double last = 0;
+  for (const double h : {2e-3, 1e-3, 5e-4}) {
+    auto made = system(text);
+    Motion motion(*made, start, stepping(text, h));
+    double height = 0;
+    while (height == 0 && motion.advance(3))
+      for (const MotionEvent& event : motion.events())
+        if (event.kind == EventKind::release) height = motion.state().q[1];
+    CHECK(motion.record().largest_penetration <= 1e-9);
+    const double error = std::abs(height - 2 * std::cos(a) / 3);
+    CHECK(error <= 4 * h);
+    if (last > 0) CHECK(error <= 0.8 * last);
+    last = error;
+  }
+}
+
+TEST_CASE("two-sided constraints hold, and the energy with them") {
+  const SystemText text{{"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y", {}, {}, {}, {{"rod", "x^2 + y^2 = 1"}}};
+  const Followed found = followed(text, state({1, 0}, {0, 0}), 10, stepping(text, 1e-3));
+  CHECK(std::abs(found.end().q.norm() - 1) <= 1e-9);
+  CHECK(std::abs(found.motion.energy()) <= 1e-4);
+}
+
+TEST_CASE("a wall that moves carries a body with it") {
+  const SystemText text{{"x"}, "x'^2/2", "", {}, {}, {}, {{"wall", "x >= t^2/2"}}};
+  const Followed found = followed(text, state({0}, {0}), 2, stepping(text, 1e-3));
+  CHECK(found.end().q[0] == doctest::Approx(2).epsilon(1e-9));
+  CHECK(found.end().v[0] == doctest::Approx(2).epsilon(1e-3));
+  CHECK(found.motion.multipliers()[0] == doctest::Approx(1).epsilon(1e-6));
+}
+
+TEST_CASE("balls that rest in a column do so at once, and cost nothing while they rest") {
+  const SystemText text{{"a", "b", "c"},
+                        "(a'^2 + 2*b'^2 + 3*c'^2)/2",
+                        "9.81*(a + 2*b + 3*c)",
+                        {},
+                        {},
+                        {},
+                        {{"floor", "a >= 0"}, {"first", "b >= a + 1"}, {"second", "c >= b + 1"}}};
+  const Followed found = followed(text, state({0, 1, 2}, {0, 0, 0}), 1, stepping(text, 1e-2, 0.5));
+  CHECK(found.events.empty());
+  CHECK(found.end().v.norm() == 0);
+  CHECK((found.motion.multipliers() - Eigen::Vector3d(6, 5, 3) * 9.81).norm() <= 1e-12);
+}
+
+TEST_CASE("forces that a step cannot follow end the motion with the step to take") {
+  const SystemText text{{"x"}, "x'^2/2", "1e8*x^2/2", {}, {}, {}, {}};
+  const Followed stiff = followed(text, state({1}, {0}), 1, stepping(text, 1e-2));
+  CHECK(stiff.motion.status() == MotionStatus::stopped);
+  CHECK(stiff.motion.why().find("take a shorter") != std::string::npos);
+  const Followed fine = followed(text, state({1}, {0}), 1e-3, stepping(text, 1e-6));
+  CHECK(fine.motion.status() == MotionStatus::done);
+  CHECK(fine.end().q[0] == doctest::Approx(std::cos(10.0)).epsilon(1e-3));
+}
+
+TEST_CASE("time-stepping refuses laws of impact that it does not have, and steps that are none") {
+  MotionOptions options = stepping(ball(), 1e-3);
+  options.impact_law = ImpactLaw::poisson;
+  CHECK_THROWS_AS(followed(ball(), state({1}, {0}), 1, options), convex::InvalidInput);
+  CHECK_THROWS_AS(followed(ball(), state({1}, {0}), 1, stepping(ball(), 0)), convex::InvalidInput);
+  CHECK_THROWS_AS(followed(ball(), state({1}, {0}), 1, stepping(ball(), -1)), convex::InvalidInput);
+}
