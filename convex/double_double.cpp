@@ -1,4 +1,5 @@
 #include "convex/double_double.hpp"
+#include "convex/processor.hpp"
 
 #include <array>
 #include <cmath>
@@ -64,7 +65,7 @@ template <class Product>
                                                    const double* y_lo) {
   return dot_with<FusedProduct>(n, x, y_hi, y_lo);
 }
-const bool has_fused = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+const bool has_fused = processor() != Processor::any;
 #endif
 
 }  // namespace

@@ -5,12 +5,10 @@
 
 #include "convex/double_double.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
-
-/// An excess below this part of the diagonal is rounding about 0.
-constexpr double silence = 0x1p-90;
 
 [[noreturn]] void refuse_indefinite() {
   throw InvalidInput(
@@ -30,7 +28,7 @@ Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot) {
       if (it.row() == j) diagonal[j] = it.value();
       sum.add(it.row() == j ? it.value() : -std::abs(it.value()));
     }
-    excess[j] = std::abs(sum.value()) <= silence * diagonal[j] ? 0 : sum.value();
+    excess[j] = std::abs(sum.value()) <= zero_of_long_sums * diagonal[j] ? 0 : sum.value();
     if (excess[j] < 0) return {};
     const bool grounded = excess[j] > 2 * least_pivot * diagonal[j];
     resistance[j] = grounded ? 1 / excess[j] : -1;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/dense/pack_kernels.hpp"
+#include "convex/processor.hpp"
 
 namespace convex {
 
@@ -83,28 +84,24 @@ namespace {
   };
 
 MOREAU_TABLE(Portable, , 2, false)
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef MOREAU_HAS_FAMILIES
 MOREAU_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
 MOREAU_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
 
 const DenseKernels* const tables[] = {&Portable::table, &Wide::table, &Widest::table};
-
-std::size_t usable() {
-  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return 1;
-  return __builtin_cpu_supports("avx512f") ? 3 : 2;
-}
 #else
 const DenseKernels* const tables[] = {&Portable::table};
-std::size_t usable() { return 1; }
 #endif
 
 constinit const DenseKernels* chosen = &Portable::table;  // until the choice is made, as the program starts
-[[maybe_unused]] const bool made = (chosen = tables[usable() - 1], true);
+[[maybe_unused]] const bool made = (chosen = tables[static_cast<std::size_t>(processor())], true);
 
 }  // namespace
 
 const DenseKernels& dense_kernels() { return *chosen; }
 
-std::span<const DenseKernels* const> all_dense_kernels() { return {tables, usable()}; }
+std::span<const DenseKernels* const> all_dense_kernels() {
+  return {tables, static_cast<std::size_t>(processor()) + 1};
+}
 
 }  // namespace convex

@@ -12,10 +12,10 @@ struct RepeatedProblem::State {
   NearestPointProblem problem;
   Accuracy accuracy;
   Arena arena;
-  std::optional<GramSolve> way;
-  std::unique_ptr<SmallTableau> scene;
-  std::optional<SmallGramSolve> small_way;
-  bool settled = false, small_settled = false;  // each way ended with rows to begin from
+  std::optional<GramSolve> gram;
+  std::unique_ptr<SmallTableau> tableau;
+  std::optional<SmallGramSolve> small_gram;
+  bool settled = false, small_settled = false;  // each ended with rows to begin from
   Solution solution;
 };
 
@@ -42,19 +42,19 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
     if (SmallGramSolve::fits(state.problem)) {
       if (!state.small_settled) {
-        if (!state.scene) state.scene = std::make_unique<SmallTableau>();
-        state.small_way.emplace(state.problem, *state.scene);
-        state.small_settled = state.small_way->solve({}, state.accuracy, state.solution);
+        if (!state.tableau) state.tableau = std::make_unique<SmallTableau>();
+        state.small_gram.emplace(state.problem, *state.tableau);
+        state.small_settled = state.small_gram->solve({}, state.accuracy, state.solution);
       } else {
-        state.small_settled = state.small_way->solve_again(state.accuracy, state.solution);
+        state.small_settled = state.small_gram->solve_again(state.accuracy, state.solution);
       }
       if (state.small_settled && state.solution.status == Status::solved) return state.solution;
     }
-    if (state.settled && state.way->solve_again(state.accuracy, state.solution) &&
+    if (state.settled && state.gram->solve_again(state.accuracy, state.solution) &&
         state.solution.status == Status::solved)
       return state.solution;
-    state.way.emplace(state.problem, state.arena);
-    state.settled = state.way->solve({}, state.accuracy, state.solution);
+    state.gram.emplace(state.problem, state.arena);
+    state.settled = state.gram->solve({}, state.accuracy, state.solution);
     if (state.settled && state.solution.status == Status::solved) return state.solution;
   }
   state.solution = active_set(state.problem, state.accuracy, state.solution.basis);

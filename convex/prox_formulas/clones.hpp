@@ -3,18 +3,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "convex/processor.hpp"
 #include "convex/vector.hpp"
-
-/// Loops so marked are compiled for several generations of x86-64 and the best is chosen when the program
-/// starts, so that one binary runs anywhere at the machine's speed. Features are named, not processors: a
-/// named processor would match no newer one. Entry by entry the results are the same bit by bit, for products
-/// and sums are not contracted.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define MOREAU_CLONES [[gnu::target_clones("avx512f", "avx2", "default")]]
-#else
-#define MOREAU_CLONES
-#endif
 
 namespace convex::prox_formulas {
 

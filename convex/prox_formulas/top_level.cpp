@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "convex/double_double.hpp"
+#include "convex/processor.hpp"
 #include "convex/prox_formulas/clones.hpp"
 
 namespace convex::prox_formulas {
@@ -106,7 +107,7 @@ template <bool absolute>
 
 template <bool absolute>
 Kept filtered(Index n, const double* z, double top, double bound, double* kept) {
-  static const bool wide = __builtin_cpu_supports("avx512f");
+  static const bool wide = processor() == Processor::avx512;
   return (wide ? filter_wide<absolute> : filter<absolute>)(n, z, top, bound, kept);
 }
 #else

@@ -7,16 +7,13 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view method = "active-set";
-
-/// A combination of rows that is not exactly 0 excludes motions up to some size only: up to this many times
-/// the free one.
-constexpr double farthest = 1e3;
 
 /// Rounding q to doubles leaves `lo` behind: ||lo||_A² <= n Σ a_ii lo_i².
 double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
@@ -76,7 +73,7 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
   solution.steps = steps;
   solution.status = Status::infeasible;
   if (problem.radii) {
-    if (!proves_infeasibility(problem, weights, farthest * scale)) solution.status = Status::gave_up;
+    if (!proves_infeasibility(problem, weights, farthest_motion * scale)) solution.status = Status::gave_up;
   } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem, weights)) {
     solution.farkas = std::move(proof->farkas);
     return solution;

@@ -4,12 +4,10 @@
 
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
-
-/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
-constexpr double silence = 0x1p-95;
 
 /// How far the violation of a row that is taken for 0 may leave the point from the edge of that row and W.
 double moved_edge(WorkingSet& set, Index a, double violation, WorkingSet::Split& split) {
@@ -33,7 +31,7 @@ Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_sc
     } else if (std::abs(rest[a]) <=
                plain_rounding * (s + problem.U.absolute_dot(a, q_size)) + 2 * length * left) {
       rest[a] = slack(problem, a, point.q).value();
-      if (std::abs(rest[a]) > silence * (s + length * set.scale()) + 2 * length * left) continue;
+      if (std::abs(rest[a]) > zero_of_pairs * (s + length * set.scale()) + 2 * length * left) continue;
       if (rest[a] < 0 && problem.radii) point.silenced += 2 * moved_edge(set, a, -rest[a], split);
       rest[a] = 0;
     }

@@ -6,12 +6,11 @@
 
 #include "convex/nearest_point/isotonic/exact_rise.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
 
-/// Multipliers below this part of the largest terms they were made of are 0.
-constexpr double silence = 0x1p-90;
 /// Members looked at together, what a member does alone by loops that vectorise; and sums kept side by side.
 constexpr Index width = 128, lanes = 4;
 
@@ -260,7 +259,7 @@ class Placement {
       push.hi = goes_on ? push.hi : 0;
       push.lo = goes_on ? push.lo : 0;
       largest = goes_on ? largest : 0;
-      const double pushed = push.value(), quiet = silence * largest;
+      const double pushed = push.value(), quiet = zero_of_long_sums * largest;
       wrong |= pushed < -quiet;
       block_.pushed[j] = pushed > quiet ? pushed : 0;
     }

@@ -5,14 +5,12 @@
 
 #include "convex/nearest_point/isotonic/chain_pools.hpp"
 #include "convex/nearest_point/isotonic/exact_rise.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-/// A multiplier below this part of the largest sum it was made of is 0.
-constexpr double silence = 0x1p-90;
 
 }  // namespace
 
@@ -221,8 +219,8 @@ bool Pooling::place_string(const Vector& force, const Vector& rest, bool careful
       const int above = strings_.row[at(k + 1)];
       const bool loaded = k + 1 < pool.end || p + 1 < lifted;
       const double pushed = push.value();
-      if (loaded && pushed < -silence * largest && !careful) return false;
-      lambda_[above] = loaded && pushed > silence * largest ? pushed / factor(above) : 0;
+      if (loaded && pushed < -zero_of_long_sums * largest && !careful) return false;
+      lambda_[above] = loaded && pushed > zero_of_long_sums * largest ? pushed / factor(above) : 0;
     }
     if (p + 1 >= lifted) {
       push = {};

@@ -11,12 +11,10 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
-
-/// As in the active-set method: weights must exclude motions of up to so many times the scale of the problem.
-constexpr double farthest = 1e3;
 
 /// Up to so many numbers, a factor is dense.
 constexpr double most_dense_numbers = 4e6;
@@ -106,9 +104,10 @@ class Judge {
   std::optional<Solution> infeasible(const Vector& weights) {
     if (weights.size() != problem_.rows() || problem_.rows() == 0 || !weights.allFinite())
       return std::nullopt;
-    double reach = farthest * force_norm_;  // or the size that the rows speak of
+    double reach = farthest_motion * force_norm_;  // or the size that the rows speak of
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (row_scale_[a] > 0) reach = std::max(reach, farthest * std::abs(problem_.s[a]) / row_scale_[a]);
+      if (row_scale_[a] > 0)
+        reach = std::max(reach, farthest_motion * std::abs(problem_.s[a]) / row_scale_[a]);
     Vector proof = signed_right(weights);
     if (!(proof.cwiseAbs().maxCoeff() > 0)) return std::nullopt;
     if (is_dense_size(problem_)) {

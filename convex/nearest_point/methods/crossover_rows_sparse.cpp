@@ -4,6 +4,7 @@
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -14,9 +15,6 @@ constexpr int most_deltas = 3;
 
 /// Times that rows of a wrong sign change sides, all at once.
 constexpr int most_exchanges = 3;
-
-/// A slack computed in twice the precision is 0 below this part of its terms.
-constexpr double silence = 0x1p-90;
 
 class SparsePolish {
  public:
@@ -76,7 +74,8 @@ class SparsePolish {
         continue;
       }
       slack_[a] = slack(problem_, a, point_.q).value();
-      if (std::abs(slack_[a]) <= scaled_.bound[a] * (left + silence * (size + std::abs(scaled_.s[a]))))
+      if (std::abs(slack_[a]) <=
+          scaled_.bound[a] * (left + zero_of_long_sums * (size + std::abs(scaled_.s[a]))))
         slack_[a] = 0;
       if (!(slack_[a] < 0)) continue;
       active[i] = true;

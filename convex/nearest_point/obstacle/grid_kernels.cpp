@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "convex/double_double.hpp"
-#include "convex/prox_formulas/clones.hpp"
+#include "convex/processor.hpp"
 
 namespace convex::grid_kernels {
 namespace {

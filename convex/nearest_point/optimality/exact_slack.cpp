@@ -7,6 +7,7 @@
 #include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/exact/grid_sum.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -15,8 +16,8 @@ namespace {
 constexpr double most_steps = 0x1p36, most_terms = 0x1p16;
 
 /// Coefficients of an exact sum are fractions with a denominator up to this; doubles tell them apart from
-/// others by `close`, and from 0 by `noise`. That is a guess: the sum itself is made without rounding.
-constexpr double largest_denominator = 4096, close = 1e-9, noise = 1e-9;
+/// others by `close`. That is a guess: the sum itself is made without rounding.
+constexpr double largest_denominator = 4096, close = 1e-9;
 
 /// The nearest whole number, of |x| < 2^51; a call of the library's function takes longer.
 double nearest_whole(double x) {
@@ -114,7 +115,7 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
   double whole = 1;
   terms_.clear();
   for (Index k = 0; k < count; ++k) {
-    if (!(std::abs(coefficients[k]) * row_scale_[held[k]] > noise * row_scale_[p])) continue;
+    if (!(std::abs(coefficients[k]) * row_scale_[held[k]] > zero_coefficient * row_scale_[p])) continue;
     whole *= denominator(coefficients[k] * whole);
     if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
     terms_.emplace_back(held[k], coefficients[k]);

@@ -4,6 +4,7 @@
 
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 
@@ -67,7 +68,6 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
 
   const DoubleDoubleVector point(q);
   // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
-  constexpr double near = 1e-8;
   const Vector magnitude = q.cwiseAbs();
   std::vector<Index> matter, unknown, loaded;
   for (Index a = 0; a < m; ++a) {
@@ -75,8 +75,8 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
     if (lambda[a] != 0) loaded.push_back(a);
     if (rest[a] > 0 && !is_two_sided && lambda[a] == 0) {
       const double s = std::abs(problem.s[a]);
-      if (known.magnitude.size() > 0 && rest[a] > near * (s + known.magnitude[a])) continue;
-      if (rest[a] > near * (s + problem.U.absolute_dot(a, magnitude))) continue;
+      if (known.magnitude.size() > 0 && rest[a] > near_zero * (s + known.magnitude[a])) continue;
+      if (rest[a] > near_zero * (s + problem.U.absolute_dot(a, magnitude))) continue;
     }
     rest[a] = slack(problem, a, point).value();
     if (lambda[a] == 0 && rest[a] >= 0 && !is_two_sided) continue;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/double_double.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -74,7 +75,6 @@ Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, 
 
 Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
                            const Vector& slack, const KnownNorms& known, Index first, Index end) {
-  constexpr double near = 1e-8;  // as in `residuals`
   const SparseRows& U = problem.U.sparse();
   const Vector& d = problem.A.diagonal();
   const double stationarity = known.unbalanced, q_norm = known.q, scale = std::max(q_norm, known.force);
@@ -89,7 +89,7 @@ Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, 
     const StoredRow row = stored_row(U, a);
     const double size = std::abs(problem.s[a]);
     double rest = slack[a];
-    if (rest > 0 && !two_sided && !loaded && rest > near * (size + terms(row, q))) continue;
+    if (rest > 0 && !two_sided && !loaded && rest > near_zero * (size + terms(row, q))) continue;
     rest = precise_slack(row, q, problem.s[a]);
     if ((!loaded && rest >= 0 && !two_sided) || !(std::abs(rest) > 0)) continue;
     double square = 0;

@@ -33,8 +33,8 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
     return solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
   Solution solution;
   if (SmallGramSolve::fits(problem)) {
-    SmallTableau scene;
-    SmallGramSolve small(problem, scene);
+    SmallTableau tableau;
+    SmallGramSolve small(problem, tableau);
     if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) {
       found.solution = std::move(solution);
       return found;
@@ -49,14 +49,14 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
     found.rows = small.one_sided_rows_held();
   }
   thread_local Arena arena;
-  GramSolve way(problem, arena);
-  if (way.solve(found.rows, accuracy, solution) && solution.status == Status::solved) {
+  GramSolve gram(problem, arena);
+  if (gram.solve(found.rows, accuracy, solution) && solution.status == Status::solved) {
     found.solution = std::move(solution);
-  } else if (const std::optional<Vector>& weights = way.set().contradiction()) {
-    solution = infeasible_answer(problem, *weights, way.scale(), way.set().steps());
+  } else if (const std::optional<Vector>& weights = gram.set().contradiction()) {
+    solution = infeasible_answer(problem, *weights, gram.scale(), gram.set().steps());
     if (solution.status == Status::infeasible) found.solution = std::move(solution);
   } else {
-    found.rows = way.set().one_sided_rows_held();
+    found.rows = gram.set().one_sided_rows_held();
   }
   if (arena.lines() > most_kept_lines) arena.give_back();
   return found;

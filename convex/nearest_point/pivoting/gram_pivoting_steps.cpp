@@ -2,14 +2,12 @@
 #include <cmath>
 
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A coefficient of a row in terms of others is 0 when its part is below this part of the row.
-constexpr double noise = 1e-9;
 
 }  // namespace
 
@@ -70,7 +68,7 @@ bool GramPivoting::raise(Index a) {
     Index blocking = -1;
     for (Index j = 0; j < set_.size(); ++j) {
       const double length = std::sqrt(rows_.square(set_.place(j)) / square);
-      if (state_[row(j)] != held || !(r[j] * length > noise)) continue;
+      if (state_[row(j)] != held || !(r[j] * length > zero_coefficient)) continue;
       const double ratio = std::max(0.0, lambda_[set_.place(j)]) / r[j];
       if (ratio < partial) {
         partial = ratio;
@@ -86,7 +84,7 @@ bool GramPivoting::raise(Index a) {
       contradiction_ = Vector::Zero(m_);
       (*contradiction_)[a] = 1;
       for (Index j = 0; j < set_.size(); ++j)
-        if (std::abs(r[j]) * std::sqrt(rows_.square(set_.place(j)) / square) > noise)
+        if (std::abs(r[j]) * std::sqrt(rows_.square(set_.place(j)) / square) > zero_coefficient)
           (*contradiction_)[row(j)] = -r[j];
       return false;
     }

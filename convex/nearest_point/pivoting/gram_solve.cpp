@@ -7,15 +7,10 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
-namespace {
-
-/// A row closer than this part of its terms to being taken in or left keeps an answer from being left in
-/// doubles.
-constexpr double near = 1e-8;
-
-}  // namespace
+namespace {}  // namespace
 
 GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
     : problem_(problem),
@@ -136,12 +131,12 @@ bool GramSolve::answer_of_doubles(const Accuracy& accuracy, Solution& solution) 
   known_.remaining = known_.rounding = known_.silenced = 0;
   for (Index j = 0; j < set_->size(); ++j)
     if (!set_->is_two_sided(rows_[j]) &&
-        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near * known_.scale))
+        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near_zero * known_.scale))
       return false;
   if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
   for (Index a = 0; a < m_; ++a)
-    if (!set_->holds(a) &&
-        !(slack_[a] > near * (std::abs(problem_.s[a]) + row_scale_[a] * std::max(magnitude_, known_.scale))))
+    if (!set_->holds(a) && !(slack_[a] > near_zero * (std::abs(problem_.s[a]) +
+                                                      row_scale_[a] * std::max(magnitude_, known_.scale))))
       return false;
   const double condition = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
   double missing = 0;

@@ -5,20 +5,15 @@
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
-constexpr double silence = 0x1p-95;
-
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
-
-/// Rows whose directions differ by less than this may be parallel; products without rounding tell.
-constexpr double noise = 1e-9;
 
 }  // namespace
 
@@ -135,7 +130,7 @@ Index GramSolve::measure_touched_slacks() {
 }
 
 double GramSolve::slack_noise(Index a) const {
-  return silence * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
+  return zero_of_pairs * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
          known_.missing_slack(row_scale_[a]);
 }
 
@@ -153,7 +148,7 @@ std::optional<int> GramSolve::slack_sign_by_parallel_row(Index a) const {
   const double part = std::abs(u[0]) / row_scale_[a];
   for (Index j = 0; j < set_->size(); ++j) {
     const double* const v = U + rows_[j] * n_;
-    if (std::abs(std::abs(v[0]) - part * row_scale_[rows_[j]]) > noise * std::abs(v[0])) continue;
+    if (std::abs(std::abs(v[0]) - part * row_scale_[rows_[j]]) > zero_coefficient * std::abs(v[0])) continue;
     const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
     Index i = 0;
     while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;

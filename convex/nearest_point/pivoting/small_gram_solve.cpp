@@ -6,18 +6,11 @@
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
 #include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
+#include "convex/processor.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
-
-/// A row outside with a smaller slack than this part of its terms is close enough to matter.
-constexpr double near = 1e-8;
-
-/// Rounding of a slack summed in twice the precision, relative to what it is the difference of.
-constexpr double silence = 0x1p-95;
-
-/// A coefficient of a row in terms of others is 0 when its part is below this part of the row.
-constexpr double coefficient_noise = 1e-9;
 
 /// Sweeps add up their rounding: after so many a row, all is swept anew.
 constexpr Index sweeps_kept = 16;
@@ -42,7 +35,7 @@ bool one_pack(const SmallTableau& t) { return t.ld == 8 && t.stride == 8; }
   };
 
 MOREAU_SMALL_TABLE(Portable, , 2, false)
-#if defined(__x86_64__) && defined(__GNUC__)
+#ifdef MOREAU_HAS_FAMILIES
 MOREAU_SMALL_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
 MOREAU_SMALL_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
 constexpr const SmallKernels* tables[] = {&Portable::table, &Wide::table, &Widest::table};
@@ -60,62 +53,62 @@ bool SmallGramSolve::fits(const NearestPointProblem& problem) {
   return problem.dimension() <= SmallTableau::most && problem.rows() <= SmallTableau::most;
 }
 
-SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau& scene)
-    : problem_(problem), scene_(scene) {
+SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau& tableau)
+    : problem_(problem), tableau_(tableau) {
   const DenseFactor factor = problem.A.dense_factor();
-  scene.n = problem.dimension();
-  scene.m = problem.rows();
-  scene.ld = factor.ld;
-  scene.stride = padded(scene.m);
-  scene.T = factor.T;
-  scene.inverse = factor.inverse;
-  scene.A = problem.A.dense_gram().data();
-  scene.U = problem.U.dense().data();
+  tableau.n = problem.dimension();
+  tableau.m = problem.rows();
+  tableau.ld = factor.ld;
+  tableau.stride = padded(tableau.m);
+  tableau.T = factor.T;
+  tableau.inverse = factor.inverse;
+  tableau.A = problem.A.dense_gram().data();
+  tableau.U = problem.U.dense().data();
   const auto diagonal = problem.A.diagonal().array();
-  Eigen::Map<Eigen::ArrayXd>(scene.inverse_diagonal, scene.n) = diagonal.inverse();
-  Eigen::Map<Eigen::ArrayXd>(scene.unit, scene.n) = diagonal.sqrt().inverse();
+  Eigen::Map<Eigen::ArrayXd>(tableau.inverse_diagonal, tableau.n) = diagonal.inverse();
+  Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = diagonal.sqrt().inverse();
 }
 
 void SmallGramSolve::take_force() {
-  for (Index i = 0; i < scene_.n; ++i) scene_.z[i] = problem_.z[i];
-  for (Index i = scene_.n; i < scene_.ld; ++i) scene_.z[i] = 0;
-  for (Index a = 0; a < scene_.m; ++a) scene_.level[a] = problem_.s[a];
-  for (Index a = scene_.m; a < scene_.stride; ++a) scene_.level[a] = 0;
+  for (Index i = 0; i < tableau_.n; ++i) tableau_.z[i] = problem_.z[i];
+  for (Index i = tableau_.n; i < tableau_.ld; ++i) tableau_.z[i] = 0;
+  for (Index a = 0; a < tableau_.m; ++a) tableau_.level[a] = problem_.s[a];
+  for (Index a = tableau_.m; a < tableau_.stride; ++a) tableau_.level[a] = 0;
 }
 
 void SmallGramSolve::begin(const std::vector<Index>& guess) {
   take_force();
-  for (Index a = 0; a < scene_.stride; ++a) scene_.held[a] = scene_.two_sided[a] = false;
-  for (Index a : problem_.two_sided) scene_.two_sided[a] = true;
-  for (Index a : guess) scene_.held[a] = true;
+  for (Index a = 0; a < tableau_.stride; ++a) tableau_.held[a] = tableau_.two_sided[a] = false;
+  for (Index a : problem_.two_sided) tableau_.two_sided[a] = true;
+  for (Index a : guess) tableau_.held[a] = true;
 }
 
 bool SmallGramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
   begin(guess);
   const SmallKernels& kernels = small_kernels();
-  const bool settled = kernels.begin(scene_) && kernels.settle(scene_);
+  const bool settled = kernels.begin(tableau_) && kernels.settle(tableau_);
   sweeps_ = 0;
   return settled && answer(accuracy, solution);
 }
 
 bool SmallGramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
-  if (sweeps_ > sweeps_kept * scene_.m) return solve(solution.basis, accuracy, solution);
+  if (sweeps_ > sweeps_kept * tableau_.m) return solve(solution.basis, accuracy, solution);
   take_force();
   const SmallKernels& kernels = small_kernels();
-  const bool settled = kernels.begin_again(scene_) && kernels.settle(scene_);
-  sweeps_ += scene_.steps;
+  const bool settled = kernels.begin_again(tableau_) && kernels.settle(tableau_);
+  sweeps_ += tableau_.steps;
   return settled && answer(accuracy, solution);
 }
 
 std::optional<Vector> SmallGramSolve::contradiction() const {
-  const SmallTableau& t = scene_;
+  const SmallTableau& t = tableau_;
   if (t.dependent < 0) return std::nullopt;
   const double* const coefficients = t.swept + t.dependent * t.stride;
   Vector weights = Vector::Zero(t.m);
   weights[t.dependent] = 1;
   for (Index a = 0; a < t.m; ++a) {
     const double part = coefficients[a] * t.row_scale[a] * t.inverse_scale[t.dependent];
-    if (!t.held[a] || std::abs(part) <= coefficient_noise) continue;
+    if (!t.held[a] || std::abs(part) <= zero_coefficient) continue;
     if (part > 0 && !t.two_sided[a]) return std::nullopt;
     weights[a] = -coefficients[a];
   }
@@ -124,14 +117,14 @@ std::optional<Vector> SmallGramSolve::contradiction() const {
 
 std::vector<Index> SmallGramSolve::one_sided_rows_held() const {
   std::vector<Index> rows;
-  for (Index a = 0; a < scene_.m; ++a)
-    if (scene_.held[a] && !scene_.two_sided[a]) rows.push_back(a);
+  for (Index a = 0; a < tableau_.m; ++a)
+    if (tableau_.held[a] && !tableau_.two_sided[a]) rows.push_back(a);
   return rows;
 }
 
 /// Weak are multipliers (times lengths) and slacks (over them) that are `small`.
 void SmallGramSolve::mark_weak(double small) {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   t.any_weak = false;
   zeroed_ = 0;
   if (!(small > 0)) return;
@@ -148,7 +141,7 @@ void SmallGramSolve::mark_weak(double small) {
 }
 
 bool SmallGramSolve::correct(bool is_first, double small) {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   if (is_first) fill_packs(t.ld, 0, t.q_low);
   mark_weak(small);
   t.is_first = is_first;
@@ -172,7 +165,7 @@ bool SmallGramSolve::correct(bool is_first, double small) {
 }
 
 bool SmallGramSolve::take_noise_for_zero(bool more) {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   const bool told = known_.take_noise_for_zero({t.n, t.q, t.q_low, t.dq, problem_.A.diagonal().data(), t.unit,
                                                 t.size, t.held_lambda, t.correction, t.length, t.pull},
                                                more);
@@ -182,24 +175,24 @@ bool SmallGramSolve::take_noise_for_zero(bool more) {
 
 void SmallGramSolve::find_magnitude() {
   double square = 0;
-  for (Index i = 0; i < scene_.n; ++i) square += problem_.A.diagonal()[i] * scene_.q[i] * scene_.q[i];
+  for (Index i = 0; i < tableau_.n; ++i) square += problem_.A.diagonal()[i] * tableau_.q[i] * tableau_.q[i];
   magnitude_ = std::sqrt(square);
 }
 
 /// Whether no row outside is close, of ||q||_A or that size if it is larger.
 bool SmallGramSolve::is_clear(double size) {
-  const SmallTableau& t = scene_;
+  const SmallTableau& t = tableau_;
   find_magnitude();
   Index close = 0;
   for (Index a = 0; a < t.m; ++a)
     close += !t.held[a] &&
-             !(t.slack[a] > near * (std::abs(t.level[a]) + t.row_scale[a] * std::max(size, magnitude_)) +
+             !(t.slack[a] > near_zero * (std::abs(t.level[a]) + t.row_scale[a] * std::max(size, magnitude_)) +
                                 known_.missing_slack(t.row_scale[a]));
   return close == 0;
 }
 
 Slacks SmallGramSolve::measure_slacks() {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   small_kernels().measure(t);
   find_magnitude();
   const double rounding = 2 * static_cast<double>(t.n) * unit_roundoff;
@@ -221,7 +214,7 @@ Slacks SmallGramSolve::measure_slacks() {
 
 /// As in `GramSolve`, but for the way up, which is left to it.
 Slacks SmallGramSolve::decide_degenerate_rows() {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   if (problem_.radii) return Slacks::doubtful;
   if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
     for (std::size_t k = 0; k < touched_.size(); ++k) t.slack[touched_[k]] = (*slacks)[static_cast<Index>(k)];
@@ -233,7 +226,7 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
   for (Index a = 0; a < t.m; ++a)
     if (t.held[a]) t.slack[a] = in_doubles[a];
   for (Index a : touched_) {
-    const double noise = silence * (std::abs(t.level[a]) + t.row_scale[a] * known_.scale) +
+    const double noise = zero_of_pairs * (std::abs(t.level[a]) + t.row_scale[a] * known_.scale) +
                          known_.missing_slack(t.row_scale[a]);
     if (t.slack[a] > noise) continue;
     if (t.slack[a] < -noise) {
@@ -252,22 +245,22 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
 }
 
 std::optional<Vector> SmallGramSolve::slacks_of_touched_rows_if_kept() const {
-  const SmallTableau& t = scene_;
+  const SmallTableau& t = tableau_;
   return slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
                         std::vector<Index>(t.rows, t.rows + t.size), touched_);
 }
 
 /// Whether the answer in doubles is within so much, no row close to tipping over.
 bool SmallGramSolve::doubles_do(double close) {
-  const SmallTableau& t = scene_;
-  small_kernels().measure(scene_);
+  const SmallTableau& t = tableau_;
+  small_kernels().measure(tableau_);
   known_ = Corrections();
   known_.scale = std::max(t.acceleration_norm, t.force_norm);
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.rows[k];
-    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near * known_.scale);
+    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near_zero * known_.scale);
     missing += t.slack[a] * t.slack[a];
   }
   if (weak > 0 || !is_clear(known_.scale)) return false;
@@ -278,7 +271,7 @@ bool SmallGramSolve::doubles_do(double close) {
 }
 
 bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   t.factor_condition = problem_.A.factor_condition();
   const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
   return !accuracy.refine && doubles_do(close) ? write(accuracy, solution)
@@ -286,7 +279,7 @@ bool SmallGramSolve::answer(const Accuracy& accuracy, Solution& solution) {
 }
 
 bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
-  SmallTableau& t = scene_;
+  SmallTableau& t = tableau_;
   if (std::all_of(t.q, t.q + t.n, [](double x) { return x == 0; })) t.acceleration_norm = 0;
   const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
   if (!(known_.bound <= close) && t.size == t.n && !problem_.radii) {
@@ -313,7 +306,7 @@ bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
 
 /// `convex::residuals` where only the rows held matter, measured in doubles.
 Residuals SmallGramSolve::residuals() const {
-  const SmallTableau& t = scene_;
+  const SmallTableau& t = tableau_;
   double most = 0;
   for (Index k = 0; k < t.size; ++k) most = std::max(most, std::abs(t.held_lambda[k]));
   HeldResiduals held(t.stationarity, t.acceleration_norm, known_.scale, most);

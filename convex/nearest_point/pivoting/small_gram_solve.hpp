@@ -21,9 +21,9 @@ class SmallGramSolve {
   static bool fits(const NearestPointProblem&);
 
   /// The problem is referred to; its z and s may change from one solve to the next.
-  SmallGramSolve(const NearestPointProblem& problem, SmallTableau& scene);
+  SmallGramSolve(const NearestPointProblem& problem, SmallTableau& tableau);
 
-  /// Puts z, s and the rows to begin with into the scene; the first half of `solve`.
+  /// Puts z, s and the rows to begin with into the tableau; the first half of `solve`.
   void begin(const std::vector<Index>& guess);
   /// False when something is in doubt; the solution is then not to be used.
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
@@ -33,8 +33,8 @@ class SmallGramSolve {
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be
   /// proved.
   std::optional<Vector> contradiction() const;
-  double scale() const { return scene_.force_norm; }
-  Index steps() const { return scene_.steps; }
+  double scale() const { return tableau_.force_norm; }
+  Index steps() const { return tableau_.steps; }
 
  private:
   template <class Engine>
@@ -56,7 +56,7 @@ class SmallGramSolve {
   Residuals residuals() const;
 
   const NearestPointProblem& problem_;
-  SmallTableau& scene_;
+  SmallTableau& tableau_;
   Index sweeps_ = 0;
   Corrections known_;
   std::optional<SlackOnEdge> edge_;

@@ -1,6 +1,6 @@
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
-#include "convex/prox_formulas/clones.hpp"
+#include "convex/processor.hpp"
 
 namespace convex {
 namespace {

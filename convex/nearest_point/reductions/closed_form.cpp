@@ -6,6 +6,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -14,9 +15,6 @@ namespace {
 /// they may shrink, and how many there are at most.
 constexpr double at_rounding = 0x1p-80, slowest_contraction = 0.25;
 constexpr int most_corrections = 40;
-
-/// A slack computed in twice the precision is 0 when it is below this part of its terms.
-constexpr double silence = 0x1p-95;
 
 /// The point with the row held, or without it, and how far it may be off.
 struct Point {
@@ -85,7 +83,7 @@ class ClosedForm {
     if (problem_.rows() == 0) return false;
     if (!problem_.two_sided.empty()) return true;
     const double zero =
-        silence * (std::abs(problem_.s[0]) + length() * free_norm_) + 2 * length() * free.remaining;
+        zero_of_pairs * (std::abs(problem_.s[0]) + length() * free_norm_) + 2 * length() * free.remaining;
     return slack(problem_, 0, free.q).value() < -zero;
   }
 
@@ -119,7 +117,7 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
     solution.steps = 1;
   } else if (problem.rows() == 1) {
     const double left = slack(problem, 0, point.q).value();
-    const double zero = silence * (std::abs(problem.s[0]) + formula.length() * formula.free_norm()) +
+    const double zero = zero_of_pairs * (std::abs(problem.s[0]) + formula.length() * formula.free_norm()) +
                         2 * formula.length() * point.remaining;
     solution.slack[0] = left > zero ? left : 0;
   }
@@ -131,8 +129,9 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
   if (problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity)
     solution.rounding = problem.A.norm(point.q.lo);
   // A slack within its rounding counts as 0: then the row's edge is that close.
-  const double edge =
-      problem.rows() == 1 ? silence * (std::abs(problem.s[0]) / formula.length() + formula.free_norm()) : 0;
+  const double edge = problem.rows() == 1
+                          ? zero_of_pairs * (std::abs(problem.s[0]) / formula.length() + formula.free_norm())
+                          : 0;
   solution.error_bound = 4 * point.remaining + edge + solution.rounding;
   solution.residuals =
       residuals(problem, solution.q, solution.lambda,

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "convex/prox_formulas/clones.hpp"
+#include "convex/processor.hpp"
 
 namespace convex {
 namespace {
@@ -54,11 +54,7 @@ void subtract_two_from_four(Index n, double* __restrict c0, double* __restrict c
   }
 }
 
-#if defined(__x86_64__) && defined(__GNUC__)
-const bool has_many_registers = __builtin_cpu_supports("avx512f");
-#else
-constexpr bool has_many_registers = false;
-#endif
+const bool has_many_registers = processor() == Processor::avx512;
 
 MOREAU_CLONES
 void subtract_one(Index n, double* __restrict c, const double* a, double w) {

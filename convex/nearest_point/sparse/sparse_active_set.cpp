@@ -16,6 +16,7 @@
 #include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/interior_point_start.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -314,7 +315,7 @@ class SparseActiveSet {
   /// Multipliers that grow without bound point along a witness: its part in the null space of Uᵀ, on the rows
   /// that grow.
   Solution infeasible(const Vector& lambda) {
-    constexpr double growing = 1e-4, farthest = 1e3;
+    constexpr double growing = 1e-4;
     constexpr int most_projections = 20;
     Solution solution;
     solution.method = method;
@@ -338,7 +339,7 @@ class SparseActiveSet {
     }
     for (Index a : rows)
       if (one_sided(a)) w[a] = std::max(0.0, w[a]);
-    const double reach = farthest * problem_.A.dual_norm(problem_.z);
+    const double reach = farthest_motion * problem_.A.dual_norm(problem_.z);
     if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
     solution.farkas = w / w.cwiseAbs().maxCoeff();
     if (!proves_infeasibility(problem_, solution.farkas, reach)) return solution;

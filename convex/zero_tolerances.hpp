@@ -1,0 +1,24 @@
+#pragma once
+
+namespace convex {
+
+// Parts of their largest terms below which sums count as 0: what rounding leaves of them. They choose what is
+// looked at more closely; where a sign decides, it is taken without rounding.
+
+/// Of a few terms in twice the working precision, u² = 2⁻¹⁰⁶ each, as in a slack.
+inline constexpr double zero_of_pairs = 0x1p-95;
+
+/// Of up to 2¹⁶ terms in twice the working precision, as along a chain.
+inline constexpr double zero_of_long_sums = 0x1p-90;
+
+/// Of coefficients of a row in terms of others, found in doubles.
+inline constexpr double zero_coefficient = 1e-9;
+
+/// A slack in doubles that is closer to 0 is computed again in twice the working precision.
+inline constexpr double near_zero = 1e-8;
+
+/// Weights of rows that are not exactly 0 together exclude motions up to some size only: they prove a
+/// contradiction when that is so many times the scale of the problem.
+inline constexpr double farthest_motion = 1e3;
+
+}  // namespace convex
