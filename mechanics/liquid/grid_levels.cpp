@@ -85,4 +85,32 @@ std::vector<convex::CutSolution> GridLevels::solve(bool one_sided) const {
   return convex::solve_cut_grids(grids, one_sided);
 }
 
+bool GridLevels::has_pull() const {
+  const std::vector<double>& pull = finest().grid.pull;
+  return std::any_of(pull.begin(), pull.end(), [](double one) { return one > 0; });
+}
+
+std::pair<double, double> GridLevels::surplus(std::size_t l) const {
+  double sum = 0, absolute = 0;
+  const convex::CutGrid& grid = levels_[l]->grid;
+  for (Index k = 0; k < grid.size(); ++k)
+    if (grid.is_unknown(k)) {
+      sum += grid.load[static_cast<std::size_t>(k)];
+      absolute += std::abs(grid.load[static_cast<std::size_t>(k)]);
+    }
+  return {sum, absolute};
+}
+
+void GridLevels::balance() {
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    CutCells& cells = *levels_[l];
+    const double sum = surplus(l).first;
+    double volume = 0;
+    for (std::size_t k = 0; k < cells.volume.size(); ++k)
+      if (cells.grid.is_unknown(static_cast<Index>(k))) volume += cells.volume[k];
+    for (std::size_t k = 0; k < cells.volume.size(); ++k)
+      if (cells.grid.is_unknown(static_cast<Index>(k))) cells.grid.load[k] -= sum * cells.volume[k] / volume;
+  }
+}
+
 }  // namespace mechanics::liquid

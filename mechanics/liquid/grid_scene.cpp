@@ -21,7 +21,7 @@ using convex::Index;
 std::size_t index_of(Index k) { return static_cast<std::size_t>(k); }
 
 /// The first grid tried, and the finest, by dimension.
-constexpr std::array<long, 3> first_cells{256, 128, 32}, most_cells{65536, 2048, 128};
+constexpr std::array<long, 3> first_cells{256, 256, 32}, most_cells{65536, 1024, 128};
 
 /// Calls work(k, point) for every node, framed index k.
 template <class Work>
@@ -184,6 +184,69 @@ bool is_connected(const CutCells& cells) {
   return true;
 }
 
+/// Of the nodes and walls.
+template <class Offer>
+void for_values(const CutCells& cells, const CutSolution& found, Offer offer) {
+  for (std::size_t k = 0; k < found.q.size(); ++k)
+    if (cells.grid.kind[k] == CutPoint::bounded) offer(found.q[k]);
+  for (const convex::Pendant& pendant : cells.grid.pendants)
+    offer(found.q[index_of(pendant.point)] + pendant.shift);
+}
+
+double least_value(const CutCells& cells, const CutSolution& found) {
+  double least = std::numeric_limits<double>::infinity();
+  for_values(cells, found, [&](double p) { least = std::min(least, p); });
+  return least;
+}
+
+/// Without a free part: whether walls and h squeeze the liquid, balance, or lack liquid, as far as the
+/// difference of two grids tells.
+enum class Closed { squeezed, balanced, lacking };
+Closed closed_state(const GridLevels& levels, LiquidSolution& solution) {
+  constexpr double digits = 1e-10, safety = 2;
+  const auto [sum, absolute] = levels.surplus(0);
+  double slack = digits * absolute;
+  if (levels.count() > 1) slack += safety * std::abs(sum - levels.surplus(1).first);
+  solution.surplus = std::abs(sum) <= slack ? 0 : sum;
+  return solution.surplus == 0 ? Closed::balanced : sum > 0 ? Closed::squeezed : Closed::lacking;
+}
+
+std::vector<CutSolution> solve_balanced(GridLevels& levels) {
+  levels.balance();
+  std::vector<CutSolution> found = levels.solve(false);
+  for (std::size_t l = 0; l < found.size(); ++l) {
+    const double least = least_value(levels.level(l), found[l]);
+    for (double& p : found[l].q) p -= least;
+  }
+  return found;
+}
+
+/// Grids from the first one on until the pressure is known well enough. Empty when the scene is infeasible.
+std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const LiquidAccuracy& accuracy,
+                                           GridLevels& levels, LiquidSolution& solution) {
+  const std::size_t axis = scene.dimension() - 1;
+  for (;; levels.refine()) {
+    const bool is_closed = !levels.has_pull();
+    const Closed closed = is_closed ? closed_state(levels, solution) : Closed::lacking;
+    if (closed == Closed::squeezed) {
+      solution.status = LiquidSolution::Status::infeasible;
+      return {};
+    }
+    std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
+    find_largest(solution, levels.finest(), found.front());
+    solution.error_bound = estimated_error(levels, found, solution.largest);
+    solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure();
+    bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
+    const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
+    if (is_last || is_close) {
+      const bool is_asked = !scene.cells || accuracy.tolerance;
+      if (!found.front().ended || (!is_close && is_asked))
+        solution.status = LiquidSolution::Status::inaccurate;
+      return found;
+    }
+  }
+}
+
 }  // namespace
 
 LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
@@ -196,34 +259,55 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
   if (scene.domain.condition && !is_connected(levels.finest()))
     throw convex::InvalidInput(
         "domain: it is not connected; give one part of it, the others files of their own");
-  std::vector<CutSolution> found;
-  for (;; levels.refine()) {
-    found = levels.solve(true);
-    find_largest(solution, levels.finest(), found.front());
-    solution.error_bound = estimated_error(levels, found, solution.largest);
-    const bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
-    const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
-    if (!is_close && !is_last) continue;
-    if (!is_close && !(scene.cells && !accuracy.tolerance))
-      solution.status = LiquidSolution::Status::inaccurate;
-    break;
-  }
-  const CutCells& cells = levels.finest();
-  solution.unknowns = cells.grid.unknowns();
+  const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution);
+  solution.unknowns = levels.finest().grid.unknowns();
   solution.cells = levels.cells();
-  if (!found.front().ended) solution.status = LiquidSolution::Status::inaccurate;
+  if (found.empty()) return solution;
+  const CutCells& cells = levels.finest();
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
   solution.parted_walls = parted_walls(scene, cells, found.front());
   const auto pressure = std::make_shared<const GridPressure>(cells, found.front().q);
   const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());
   if (!edge->is_empty()) {
-    solution.cavity_measure = edge->measure();
     if (solution.cavity_measure > 0) solution.cavity_extent = edge->extent();
   }
   solution.p = [pressure](const Point& x) { return (*pressure)(x); };
   solution.in_cavity = [pressure, edge](const Point& x) { return edge->level(x) < 0; };
   return solution;
+}
+
+double least_grid_pressure(const LiquidScene& scene, long cells) {
+  const GridLevels levels(scene, cells);
+  if (!levels.has_pull()) return levels.surplus(0).first;
+  const CutSolution found = std::move(levels.solve(false).front());
+  const CutCells& grid = levels.finest();
+  double least = std::numeric_limits<double>::infinity(), scale = 0;
+  for (const GivenPressure& given : grid.pressures) {
+    least = std::min(least, given.pressure);
+    scale = std::max(scale, given.pressure);
+  }
+  for_nodes(grid, [&](Index k, const std::array<Index, 3>&) {
+    if (grid.grid.kind[index_of(k)] != CutPoint::bounded) return;
+    double p = found.q[index_of(k)];
+    scale = std::max(scale, std::abs(p));
+    for (std::size_t axis = 0; axis < grid.grid.dimension;
+         ++axis) {  // the bottom of the parabola through three
+      const Index s = grid.grid.stride(axis);
+      if (grid.grid.kind[index_of(k - s)] != CutPoint::bounded ||
+          grid.grid.kind[index_of(k + s)] != CutPoint::bounded)
+        continue;
+      const double low = found.q[index_of(k - s)], here = found.q[index_of(k)],
+                   high = found.q[index_of(k + s)];
+      const double bend = low - 2 * here + high, tilt = 0.5 * (high - low);
+      if (low >= here && high >= here && bend > 0) p -= 0.5 * tilt * tilt / bend;
+    }
+    least = std::min(least, p);
+  });
+  for (const convex::Pendant& pendant : grid.grid.pendants)
+    least = std::min(least, found.q[index_of(pendant.point)] + pendant.shift);
+  constexpr double digits = 1e-9;  // of the solve
+  return std::abs(least) <= digits * scale ? 0 : least;
 }
 
 }  // namespace mechanics::liquid

@@ -20,6 +20,11 @@ class GridLevels {
   static void require_memory(const LiquidScene&, long cells);
 
   std::vector<convex::CutSolution> solve(bool one_sided) const;
+  /// Without a free part, the sum of the loads on a grid and of their absolute values.
+  std::pair<double, double> surplus(std::size_t level) const;
+  bool has_pull() const;
+  /// Takes the surplus out of the loads, evenly over the volume.
+  void balance();
   const CutCells& finest() const { return *levels_.front(); }
   const CutCells& level(std::size_t l) const { return *levels_[l]; }
   std::size_t count() const { return levels_.size(); }
@@ -34,7 +39,8 @@ class GridLevels {
 
 LiquidSolution solve_grid_scene(const LiquidScene&, const LiquidAccuracy&);
 
-/// The least value of the pressure without the obstacle and how far it may be off.
-std::pair<double, double> least_grid_pressure(const LiquidScene&, long cells);
+/// The least value of the pressure without the obstacle on a grid; where no pressure is given, the sum of the
+/// loads, which is below 0 if and only if the walls lack liquid.
+double least_grid_pressure(const LiquidScene&, long cells);
 
 }  // namespace mechanics::liquid

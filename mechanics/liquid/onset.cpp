@@ -1,9 +1,11 @@
 #include "mechanics/liquid/onset.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 
 #include "convex/invalid_input.hpp"
+#include "mechanics/liquid/grid_scene.hpp"
 #include "mechanics/liquid/line_scene.hpp"
 
 namespace mechanics::liquid {
@@ -58,27 +60,63 @@ LiquidOnset root(const Sign& f, double a, double b, double accuracy) {
   return {0.5 * (a + b), std::abs(b - a)};
 }
 
+/// A change of sign around a value, searched for in steps that double.
+std::optional<std::pair<double, double>> near_bracket(const Sign& f, double value, double step) {
+  for (int doubling = 0; doubling < 30; ++doubling, step *= 2) {
+    const std::optional<double> low = f(value - step), high = f(value + step);
+    if (low && high && (*low < 0) != (*high < 0)) return std::pair{value - step, value + step};
+    if (!low && !high) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<LiquidOnset> find_onset(const LiquidText& text, const std::string& parameter,
-                                      const LiquidAccuracy&) {
+                                      const LiquidAccuracy& accuracy) {
   const double start = parameter_value(text, parameter);
-  const Sign least = [&](double value) -> std::optional<double> {
-    try {
-      const LiquidScene scene = read_scene(with_parameter(text, parameter, value));
-      const std::optional<LineScene> line = as_line(scene);
-      if (!line) return std::nullopt;
-      return least_line_pressure(*line);
-    } catch (const convex::InvalidInput&) {
-      return std::nullopt;
-    }
+  const auto least_on = [&](long cells) -> Sign {
+    return [&text, &parameter, cells](double value) -> std::optional<double> {
+      try {
+        const LiquidScene scene = read_scene(with_parameter(text, parameter, value));
+        if (const std::optional<LineScene> line = as_line(scene)) return least_line_pressure(*line);
+        return least_grid_pressure(scene, cells);
+      } catch (const convex::InvalidInput&) {
+        return std::nullopt;
+      }
+    };
   };
-  const auto found = bracket(least, start);
+  const LiquidScene scene = read_scene(text);
+  const std::array<long, 3> first_cells{64, 32, 8}, most_cells{1024, 512, 64};
+  const std::size_t axis = scene.dimension() - 1;
+  const auto found = bracket(least_on(first_cells[axis]), start);
   if (!found) return std::nullopt;
   constexpr double rounding = 1e-15;
-  LiquidOnset onset = root(least, found->first, found->second, rounding);
-  // What rounding in the least pressure moves the root by is far below this.
-  onset.error += 1e-12 * std::max(std::abs(onset.value), std::abs(start));
+  if (as_line(scene)) {
+    LiquidOnset onset = root(least_on(0), found->first, found->second, rounding);
+    // What rounding in the least pressure moves the root by is far below this.
+    onset.error += 1e-12 * std::max(std::abs(onset.value), std::abs(start));
+    return onset;
+  }
+  // On finer grids the root is near that of the one before; two of them tell how near.
+  constexpr double solve_accuracy = 1e-8;
+  const std::array<long, 3> second_cells{128, 64, 16};
+  LiquidOnset before = root(least_on(first_cells[axis]), found->first, found->second, solve_accuracy),
+              onset = before;
+  double step = 0.05 * std::max(std::abs(before.value), 1e-3 * std::abs(start));
+  for (long cells = second_cells[axis]; cells <= most_cells[axis]; cells *= 2) {
+    const Sign least = least_on(cells);
+    const auto near = near_bracket(least, before.value, step);
+    if (!near) return std::nullopt;
+    const LiquidOnset here = root(least, near->first, near->second, solve_accuracy);
+    const double change = here.value - before.value;
+    // As far as the error is of second order a third of the change is left.
+    onset = {here.value + change / 3, std::abs(change) + solve_accuracy * std::abs(here.value)};
+    before = here;
+    step = std::max(2 * std::abs(change), 1e-6 * std::abs(here.value));
+    const double asked = accuracy.part() * std::abs(onset.value);
+    if (cells > second_cells[axis] && 4 * onset.error <= asked) break;
+  }
   return onset;
 }
 
