@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -27,7 +28,33 @@ std::string unknown_command(const CLI::App& app, const std::string& first) {
     if (command->get_name() == first) return "";
     if (!command->get_group().empty()) known.push_back(command->get_name());
   }
-  return "unknown command \"" + first + "\"; did you mean \"" + convex::nearest_name(first, known) + "\"?";
+  return "unknown command \"" + first + "\"; " + convex::suggestion(first, known);
+}
+
+/// "see `moreau solve --help`", of the command that was called.
+std::string help_on(const CLI::App& app) {
+  const auto called = app.get_subcommands();
+  return "see `moreau " + (called.empty() ? "" : called.front()->get_name() + " ") + "--help`";
+}
+
+/// A message about what the command called does not take, with the nearest of its options; "" when all was
+/// taken.
+std::string unexpected(const CLI::App& app) {
+  const auto called = app.get_subcommands();
+  const CLI::App& command = called.empty() ? app : *called.front();
+  const std::vector<std::string> left = app.remaining(true);
+  const auto option_like = [](const std::string& text) { return text.rfind("--", 0) == 0; };
+  const auto found = std::find_if(left.begin(), left.end(), option_like);
+  if (found == left.end())
+    return left.empty()
+               ? ""
+               : "\"" + left.front() + "\" is more than " + command.get_name() + " takes; " + help_on(app);
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  const std::string nearest = convex::nearest_name(*found, known);
+  return command.get_name() + " has no option " + *found + "; " +
+         (nearest.empty() ? help_on(app) : "did you mean " + nearest + "?");
 }
 
 }  // namespace
@@ -55,7 +82,8 @@ int main(int argc, char** argv) {
     return 0;
   } catch (const CLI::ParseError& error) {
     if (argc < 2) std::fputs(app.help().c_str(), stderr);
-    return wrong(std::string(error.what()) + "; see `moreau --help`");
+    const std::string message = unexpected(app);
+    return wrong(message.empty() ? std::string(error.what()) + "; " + help_on(app) : message);
   }
   try {
     return static_cast<int>(chosen());

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "cli/problem_file/numbers_by_constraint.hpp"
+#include "convex/nearest_name.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace cli {
@@ -22,11 +23,11 @@ mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSe
   const std::string name = options.method.value_or(settings.method.value_or(std::string(made.method->name)));
   made.method = convex::find_method(name);
   if (made.method != nullptr) return made;
-  std::string known;
-  for (const convex::Method& method : convex::methods())
-    known += (known.empty() ? "" : ", ") + std::string(method.name);
-  throw InvalidInput("unknown method \"" + name + "\"; the methods are " + known,
-                     from_file ? std::optional(settings.method_place) : std::nullopt);
+  std::vector<std::string> known;
+  for (const convex::Method& method : convex::methods()) known.emplace_back(method.name);
+  throw InvalidInput(
+      "unknown method \"" + name + "\"; " + convex::suggestion(name, known, "`moreau methods` lists them"),
+      from_file ? std::optional(settings.method_place) : std::nullopt);
 }
 
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {

@@ -54,8 +54,8 @@ void keep_asked(std::vector<Contest>& contests, const std::string& only) {
 
 void require_method(const std::string& name, const std::vector<std::string>& known, const char* option) {
   if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
-  throw InvalidInput(std::string(option) + " " + name + ": there is no such method; did you mean \"" +
-                     convex::nearest_name(name, known) + "\"?");
+  throw InvalidInput(std::string(option) + " " + name + ": there is no such method; " +
+                     convex::suggestion(name, known));
 }
 
 void chart_one(const Contest& contest, const TrialLimits& limits, std::size_t step,

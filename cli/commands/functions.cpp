@@ -7,7 +7,6 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
 #include "cli/report/catalogue_report.hpp"
-#include "convex/nearest_name.hpp"
 
 namespace cli {
 namespace {
@@ -23,10 +22,7 @@ std::vector<CatalogueLine> entries(const FunctionsOptions& options) {
   if (!options.function) return catalogue_lines();
   const convex::CatalogueEntry* entry = convex::find_entry(*options.function);
   if (entry != nullptr) return {catalogue_line(*entry)};
-  std::vector<std::string> names;
-  for (const convex::CatalogueEntry& known : convex::catalogue()) names.emplace_back(known.name);
-  throw convex::InvalidInput("there is no set, function or operation \"" + *options.function +
-                             "\"; did you mean \"" + convex::nearest_name(*options.function, names) + "\"?");
+  throw convex::InvalidInput(convex::unknown_entry(*options.function));
 }
 
 Exit tell_functions(const FunctionsOptions& options) {

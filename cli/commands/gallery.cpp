@@ -40,8 +40,8 @@ const GalleryFamily& chosen_family(const std::string& name) {
   if (family != nullptr) return *family;
   std::vector<std::string> names;
   for (const GalleryFamily& known : convex::gallery()) names.emplace_back(known.name);
-  throw InvalidInput("there is no family \"" + name + "\" in the gallery; did you mean \"" +
-                     convex::nearest_name(name, names) + "\"?");
+  throw InvalidInput("there is no family \"" + name + "\" in the gallery; " +
+                     convex::suggestion(name, names));
 }
 
 std::string range_text(const GalleryFamily& family) {

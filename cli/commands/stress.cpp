@@ -46,8 +46,7 @@ std::vector<StressFamily> asked_families(const StressOptions& options) {
   for (const std::string& name : options.families) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw InvalidInput("there is no family \"" + name + "\" to stress; did you mean \"" +
-                         convex::nearest_name(name, names) + "\"?");
+      throw InvalidInput("there is no family \"" + name + "\" to stress; " + convex::suggestion(name, names));
     chosen.push_back(all[static_cast<std::size_t>(found - names.begin())]);
   }
   return chosen;
@@ -76,8 +75,8 @@ std::vector<StressTrial> stressed(const StressOptions& options) {
   }
   const std::vector<std::string> known = contestant_names();
   if (options.method && std::find(known.begin(), known.end(), *options.method) == known.end())
-    throw InvalidInput("--method " + *options.method + ": there is no such method; did you mean \"" +
-                       convex::nearest_name(*options.method, known) + "\"?");
+    throw InvalidInput("--method " + *options.method + ": there is no such method; " +
+                       convex::suggestion(*options.method, known));
   Progress progress(static_cast<int>(steps));
   std::vector<StressTrial> trials;
   for (const StressFamily& family : families) {

@@ -4,6 +4,7 @@
 #include "cli/function_language/read_list.hpp"
 #include "cli/function_language/read_number.hpp"
 #include "cli/problem_file/keys.hpp"
+#include "convex/catalogue/catalogue.hpp"
 
 namespace cli {
 namespace {
@@ -94,6 +95,11 @@ class Parser {
       cursor_.fail(quoted + " is no number; write one, or inf or -inf", place);
     if (name == "Inf" || name == "INF" || name == "infinity" || name == "Infinity")
       cursor_.fail(quoted + " is no name; an infinite number is inf or -inf", place);
+    if (convex::find_entry(name) == nullptr && cursor_.peek() != '\0')
+      cursor_.fail("\"" + quoted +
+                       "\": functions are written without their variable; give numbers, vectors, matrices or "
+                       "other functions, or nothing, as in norm1()",
+                   place);
     cursor_.fail(
         "\"" + quoted + "\" has no parentheses; write " + quoted + "(), with its arguments between them",
         place);

@@ -10,6 +10,67 @@ namespace cli {
 
 using convex::InvalidInput;
 
+namespace {
+
+/// What other programs and textbooks call a key.
+struct OtherWord {
+  const char* word;
+  const char* key;
+};
+constexpr OtherWord other_words[] = {
+    {"T", "kinetic"},
+    {"kinetic_energy", "kinetic"},
+    {"V", "potential"},
+    {"U", "potential"},
+    {"gravity", "potential"},
+    {"potential_energy", "potential"},
+    {"q", "coordinates"},
+    {"variables", "coordinates"},
+    {"dofs", "coordinates"},
+    {"Q", "forces"},
+    {"constants", "parameters"},
+    {"params", "parameters"},
+    {"contacts", "constraints"},
+    {"f", "constraints"},
+    {"functions", "definitions"},
+    {"clearance", "looseness"},
+    {"backlash", "looseness"},
+    {"initial", "state"},
+    {"initial_state", "state"},
+    {"q0", "position"},
+    {"x0", "position"},
+    {"v0", "velocity"},
+    {"time", "t"},
+    {"t0", "t"},
+    {"t_end", "until"},
+    {"tend", "until"},
+    {"duration", "until"},
+    {"dt", "step"},
+    {"e", "restitution"},
+    {"tol", "tolerance"},
+    {"eps", "tolerance"},
+    {"solver", "method"},
+    {"algorithm", "method"},
+    {"M", "A"},
+    {"H", "A"},
+    {"P", "A"},
+    {"G", "U"},
+    {"equalities", "two_sided"},
+    {"W", "metric"},
+    {"function", "f"},
+    {"rays", "generators"},
+    {"name", "title"},
+};
+
+std::string advice_on_key(const std::string& unknown, const std::vector<std::string>& known) {
+  for (const OtherWord& other : other_words)
+    if (unknown == other.word && std::find(known.begin(), known.end(), other.key) != known.end())
+      return "did you mean \"" + std::string(other.key) + "\"?";
+  return convex::suggestion(unknown, known);
+}
+
+}  // namespace
+
 std::string shown(const std::string& text) {
   constexpr std::size_t longest = 100;
   std::string shortened = text.size() > longest ? text.substr(0, longest) + "..." : text;
@@ -24,8 +85,8 @@ void require_known_keys(const TomlValue& table, const std::string& where,
     const std::vector<std::string> names(known.begin(), known.end());
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
     throw InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
-                           (where.empty() ? "" : " in [" + where + "]") + "; did you mean \"" +
-                           convex::nearest_name(entry.key, names) + "\"?",
+                           (where.empty() ? "" : " in [" + where + "]") + "; " +
+                           advice_on_key(entry.key, names),
                        entry.place);
   }
 }

@@ -104,8 +104,8 @@ convex::Vector numbers_by_constraint(const std::string& where, double otherwise,
       numbers[static_cast<Index>(a)] = named.value;
     }
     if (!found)
-      throw InvalidInput(where + ": no constraint \"" + named.constraint + "\"; did you mean \"" +
-                             convex::nearest_name(named.constraint, constraints) + "\"?",
+      throw InvalidInput(where + ": no constraint \"" + named.constraint + "\"; " +
+                             convex::suggestion(named.constraint, constraints),
                          named.place);
   }
   return numbers;

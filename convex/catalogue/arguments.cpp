@@ -20,9 +20,8 @@ std::string signature(const CatalogueEntry& entry) {
 std::string unknown_key(const CatalogueEntry& entry, const std::string& key) {
   std::vector<std::string> names;
   for (const Parameter& parameter : entry.parameters) names.emplace_back(parameter.name);
-  const std::string nearest = nearest_name(key, names);
   return std::string(entry.name) + ": there is no argument \"" + key + "\"; " +
-         (nearest.empty() ? "it takes none" : "did you mean \"" + nearest + "\"?");
+         (names.empty() ? "it takes none" : suggestion(key, names));
 }
 
 double number_of(std::string_view text) {

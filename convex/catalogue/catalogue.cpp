@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "convex/gamma0/node.hpp"
-#include "convex/nearest_name.hpp"
 
 namespace convex {
 namespace {
 
 const CatalogueEntry& entry_of(const Call& call) {
   if (const CatalogueEntry* entry = find_entry(call.name)) return *entry;
-  std::vector<std::string> names;
-  for (const CatalogueEntry& entry : catalogue()) names.emplace_back(entry.name);
-  throw InvalidInput("there is no set, function or operation \"" + call.name + "\"; did you mean \"" +
-                         nearest_name(call.name, names) + "\"? `moreau functions` lists them",
-                     call.place);
+  throw InvalidInput(unknown_entry(call.name), call.place);
 }
 
 /// Makes it, with the place of the call on errors that have none, and the size of the space checked.

@@ -57,6 +57,10 @@ std::vector<CatalogueEntry> operation_entries();
 /// The entry of that name, or null.
 const CatalogueEntry* find_entry(std::string_view name);
 
+/// The message about a name that is none of them: what the name means here when other languages have it
+/// (lasso is norm1), the entry it is a slip of, or where they are listed.
+std::string unknown_entry(std::string_view name);
+
 /// What surrounds a call: the product of the space, on which conjugate, envelope, support and
 /// proximal_average depend, and with it the number of entries.
 struct Space {

@@ -56,6 +56,12 @@ class Enumeration {
     } else if (!index.whole) {
       low = integer(index.lower);
       high = integer(index.upper);
+      // Declared as x[1..N]: the range has no name of its own.
+      if (index.name.front() == '(' && high < low - 1)
+        key_.source->fail(index.upper.steps.empty() ? 0 : index.upper.steps.front().offset,
+                          "the range " + std::to_string(low) + ".." + std::to_string(high) +
+                              " runs backwards; give its end a value from " + std::to_string(low - 1) +
+                              " (no member) on");
     } else if (family_ != nullptr && family_->size() > 0) {
       low = family_->low(k);
       high = family_->high(k);

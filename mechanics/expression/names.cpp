@@ -51,8 +51,7 @@ std::string Names::suggestion(std::string_view unknown, const std::vector<Name::
     for (const char* name : {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
                              "exp", "log", "sqrt", "abs", "sum", "pi", "t"})
       candidates.emplace_back(name);
-  const std::string nearest =
-      convex::nearest_name(unknown, candidates, unknown.size() / 2);  // half of the letters agree
+  const std::string nearest = convex::nearest_name(unknown, candidates);
   if (!nearest.empty()) return "; did you mean " + quoted(nearest) + "?";
   constexpr std::size_t most_listed = 8;
   std::string list;

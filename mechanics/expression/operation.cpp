@@ -143,6 +143,12 @@ std::string_view symbol(Operation operation) {
   return "";
 }
 
+std::vector<std::string> function_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, operation] : functions) names.emplace_back(name);
+  return names;
+}
+
 std::optional<Operation> function_named(std::string_view name) {
   for (const auto& [known, function] : functions)
     if (known == name) return function;

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace mechanics::expression {
 
@@ -45,6 +47,9 @@ std::string_view symbol(Operation operation);
 
 /// The function with this name, if there is one.
 std::optional<Operation> function_named(std::string_view name);
+
+/// The names of all functions.
+std::vector<std::string> function_names();
 
 /// Which operands vary; the partials with respect to the others are not computed and are 0.
 struct Active {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mechanics/expression/unknown_function.hpp"
+
 namespace mechanics::expression {
 
 /// One level of nesting, for as long as it lives.
@@ -195,14 +197,15 @@ void Parsing::refuse_if_out_of_vocabulary(const Token& name, Name::Kind kind) co
 
 void Parsing::unknown(const Token& name) const {
   using enum Name::Kind;
+  if (token_.kind == Kind::open)
+    source_->fail(name.offset, quoted(name.text) + " is no function; " + instead_of_function(name.text));
   std::vector<std::string> indices;
   for (const auto& [index, place] : scope_)
     if (!index.empty()) indices.push_back(index);
   std::vector<Name::Kind> kinds{parameter};
   if (vocabulary_ == Vocabulary::system) kinds = {coordinate, parameter, definition};
-  source_->fail(name.offset, quoted(name.text) +
-                                 (token_.kind == Kind::open ? " is no function" : " is unknown") +
-                                 names_->suggestion(name.text, kinds, indices, true));
+  source_->fail(name.offset,
+                quoted(name.text) + " is unknown" + names_->suggestion(name.text, kinds, indices, true));
 }
 
 void Parsing::call(Operation function, const Token& name) {
