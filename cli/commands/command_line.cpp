@@ -69,7 +69,7 @@ void add_function(CLI::App& command, FunctionOptions& options, bool needs_point)
 
 void add_measurement(CLI::App& command, MeasurementOptions& options, const char* columns) {
   command.add_option("--method", options.method, "this method alone")->type_name("NAME");
-  command.add_option("--output", options.output, "the picture: F.svg or F.png (drawn by gnuplot)")
+  command.add_option("--output", options.output, "the picture: F.svg, F.png or F.pdf (drawn by gnuplot)")
       ->type_name("FILE");
   command.add_option("--data", options.data, columns)->type_name("F.csv");
   command.add_flag("--quick", options.quick, "fewer and smaller problems, half a minute at most");

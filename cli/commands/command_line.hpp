@@ -20,6 +20,7 @@ using Work = std::function<Exit()>;
 void add_solve(CLI::App& program, Work& chosen);
 void add_check(CLI::App& program, Work& chosen);
 void add_derive(CLI::App& program, Work& chosen);
+void add_explain(CLI::App& program, Work& chosen);
 void add_simulate(CLI::App& program, Work& chosen);
 void add_orbit(CLI::App& program, Work& chosen);
 void add_prox(CLI::App& program, Work& chosen);

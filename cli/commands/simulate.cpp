@@ -126,7 +126,7 @@ void add_simulate(CLI::App& program, Work& chosen) {
   command.add_option("--events", options->events, "a line of JSON for each event")->type_name("F.jsonl");
   command
       .add_option("--plot", options->plot,
-                  "coordinates, gaps, multipliers and energy over time: F.svg or F.png (by gnuplot)")
+                  "coordinates, gaps, multipliers and energy over time: F.svg, F.png or F.pdf (by gnuplot)")
       ->type_name("FILE");
   command.add_option("--limit", options->step_limit, "steps after which the motion is stopped; default 1e7")
       ->type_name("N");

@@ -20,9 +20,11 @@ namespace {
 /// What `moreau solve` is told.
 struct SolveOptions : FileOptions, SceneOptions {
   bool sensitivity = false;
-  bool null_space = false;          ///< of the multipliers, in JSON
-  bool certify = false;             ///< a proved error bound, or that there is no solution
-  std::optional<std::string> plot;  ///< a picture to write
+  bool verbose = false;              ///< how the answer was found
+  bool null_space = false;           ///< of the multipliers, in JSON
+  bool certify = false;              ///< a proved error bound, or that there is no solution
+  std::optional<std::string> plot;   ///< a picture to write
+  std::optional<std::string> plane;  ///< its two coordinates
   LiquidRequest liquid;
 };
 
@@ -44,6 +46,8 @@ Answer solve_scene(Scene scene, const SolveOptions& options) {
       solved_scene(scene, found.solution, seconds - found.solution.multipliers.range_seconds);
   solved.null_space = options.null_space;
   solved.sensitivity = options.sensitivity;
+  solved.verbose = options.verbose || options.full_model;
+  solved.asked_method = options.method.has_value();
   solved.as_evaluated = as_evaluated;
   if (proved) solved.certificate = found.certificate;
   if (found.exact) solved.exact = &*found.exact;
@@ -51,7 +55,7 @@ Answer solve_scene(Scene scene, const SolveOptions& options) {
   if (found.text) solved.text = &*found.text;
   solved.warnings = std::move(resolved.warnings);
   for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
-  if (options.plot) draw(*options.plot, decomposition_drawing(solved));
+  if (options.plot) draw(*options.plot, decomposition_drawing(solved, options.plane));
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)
     exit = std::max(exit, Exit::inaccurate);
@@ -76,6 +80,10 @@ Answer solve_file(const std::string& file, const SolveOptions& options) {
   if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content))
     return solve_liquid_file(*liquid, problem, file, options);
   require_no_liquid_request(options.liquid);
+  const bool is_scene = std::holds_alternative<SystemProblem>(problem.content) ||
+                        std::holds_alternative<ProjectionProblem>(problem.content);
+  if (options.plot && !is_scene)
+    throw convex::InvalidInput("--plot: a picture is drawn of [system] and [projection]; leave --plot out");
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options, options.certify);
     const SplitPoint split = split_point(*decomposition, problem.solve, options);
@@ -92,6 +100,13 @@ Answer solve_file(const std::string& file, const SolveOptions& options) {
 }
 
 Exit solve_files(const SolveOptions& options) {
+  const auto refused = [&](const char* why) {
+    return answered(options, {options.files.back(), ""}, [&]() -> Exit { throw convex::InvalidInput(why); });
+  };
+  if (options.plot && options.files.size() > 1)
+    return refused("--plot takes one problem file; run the files one by one");
+  if (options.plane && !options.plot)
+    return refused("--plane goes with --plot; give a picture to draw it in");
   return print_for_each_file(options, [&](const std::string& file) { return solve_file(file, options); });
 }
 
@@ -104,6 +119,8 @@ void add_solve(CLI::App& program, Work& chosen) {
                   [options] { return solve_files(*options); });
   add_files(command, *options);
   add_accuracy(command, *options);
+  command.add_flag("--verbose", options->verbose,
+                   "how the answer was found: method, parts, what was left out");
   command.add_flag("--ranges", options->ranges,
                    "ranges of multipliers that are not unique, also beyond 1000 contacts");
   command
@@ -120,9 +137,12 @@ void add_solve(CLI::App& program, Work& chosen) {
   command
       .add_option(
           "--plot", options->plot,
-          "the decomposition drawn, for two coordinates; of a liquid the pressure and the cavity: F.svg "
-          "or F.png (by gnuplot)")
+          "the decomposition drawn; of a liquid the pressure and the cavity: F.svg, F.png or F.pdf (by "
+          "gnuplot)")
       ->type_name("FILE");
+  command
+      .add_option("--plane", options->plane, "the two coordinates that --plot draws, of more than two: x,y")
+      ->type_name("X,Y");
   command
       .add_option("--onset", options->liquid.onset,
                   "of a liquid: the value of a parameter at which cavitation begins")

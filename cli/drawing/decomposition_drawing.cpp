@@ -7,7 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "convex/invalid_input.hpp"
+#include "cli/drawing/label_placement.hpp"
+#include "cli/drawing/plane_section.hpp"
+#include "cli/report/verdict_text.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 
 namespace cli {
@@ -31,22 +33,31 @@ Polygon cut(const Polygon& polygon, const Point& a, double b) {
   return kept;
 }
 
-/// The window: both ends of every arrow with room around.
+/// The page: 700 pixels wide, with a square of accelerations in it.
+constexpr int page_size = 700;
+constexpr double frame_left = 92, frame_size = 580, frame_bottom = 56;
+constexpr double font_size = 11.5;
+
+/// The window: both ends of every arrow with room around; where all is one point, what is near it.
 struct Window {
   Point low, high;
-  explicit Window(const Polygon& points) : low(points.front()), high(points.front()) {
+  Window(const Polygon& points, double otherwise) : low(points.front()), high(points.front()) {
     for (const Point& p : points) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    const double room = 0.45 * std::max((high - low).maxCoeff(), 1e-9 * high.cwiseAbs().maxCoeff() + 1e-300);
+    double size = (high - low).maxCoeff();
+    if (!(size > 1e-9 * otherwise)) size = otherwise;
     const Point middle = (low + high) / 2;
-    const double half = (high - low).maxCoeff() / 2 + room;
+    const double half = 0.95 * size;
     low = middle.array() - half;
     high = middle.array() + half;
   }
   Polygon frame() const { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
   double size() const { return (high - low).maxCoeff(); }
+  PagePoint pixel(const Point& p) const {
+    return PagePoint(frame_left, frame_bottom) + frame_size / size() * (p - low);
+  }
 };
 
 std::string rows(const Polygon& points) {
@@ -55,26 +66,52 @@ std::string rows(const Polygon& points) {
   return text;
 }
 
-/// Draws a page: data blocks first, then what is plotted of them, and labels.
+/// Draws a page: data blocks first, then what is plotted of them, arrows, and labels where there is room.
 class Page {
  public:
+  explicit Page(const Window& window)
+      : window_(window),
+        labels_({frame_left, frame_bottom}, {frame_left + frame_size, frame_bottom + frame_size}) {}
+
   void add(const Polygon& points, const std::string& how) {
     if (points.empty()) return;
     fmt::format_to(std::back_inserter(blocks_), "$d{} << EOD\n{}EOD\n", count_, rows(points));
     plots_ += fmt::format("{}$d{} using 1:2 {}", count_ > 0 ? ", \\\n  " : "", count_, how);
     ++count_;
   }
-  void label(const Point& p, const std::string& text, const char* where) {
-    fmt::format_to(std::back_inserter(blocks_), "set label {} at {},{} {} front font \",11\"\n", quoted(text),
-                   p.x(), p.y(), where);
+  /// The same, as something that labels keep off.
+  void line(const Polygon& points, const std::string& how) {
+    add(points, how);
+    std::vector<PagePoint> corners;
+    for (const Point& p : points) corners.push_back(window_.pixel(p));
+    labels_.avoid_line(std::move(corners));
+  }
+  void point(const Point& p, const std::string& how) {
+    add({p}, how);
+    constexpr double radius = 5;
+    labels_.avoid_point(window_.pixel(p), radius);
   }
   void arrow(const Point& from, const Point& to, const char* style) {
     fmt::format_to(std::back_inserter(blocks_), "set arrow from {},{} to {},{} {} front\n", from.x(),
                    from.y(), to.x(), to.y(), style);
+    labels_.avoid_line({window_.pixel(from), window_.pixel(to)});
+  }
+  /// Whether there was room for it.
+  bool label(const Polygon& anchors, const std::string& text, const char* tint) {
+    std::vector<PagePoint> pixels;
+    for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
+    const auto placed = labels_.place(pixels, text, font_size);
+    if (!placed) return false;
+    fmt::format_to(std::back_inserter(blocks_),
+                   "set label {} at screen {},{} {} front font \",11\" tc rgb \"{}\"\n", quoted(text),
+                   placed->at.x() / page_size, placed->at.y() / page_size, placed->aligned, tint);
+    return true;
   }
   std::string script(const std::string& top) const { return top + blocks_ + "plot " + plots_ + "\n"; }
 
  private:
+  const Window& window_;
+  LabelPlacement labels_;
   std::string blocks_, plots_;
   int count_ = 0;
 };
@@ -118,82 +155,159 @@ Polygon cone_at(const Point& x, const Polygon& generators, const Window& window)
   return cut(cone, {0, -1}, -window.high.y());
 }
 
+/// The part of the line u·p = s that the window shows; empty when none.
+Polygon visible_part(const PlaneSection::Row& row, const Window& window) {
+  const Polygon frame = window.frame();
+  Polygon ends;
+  for (std::size_t k = 0; k < frame.size(); ++k) {
+    const Point &p = frame[k], &next = frame[(k + 1) % frame.size()];
+    const double here = row.u.dot(p) - row.s, there = row.u.dot(next) - row.s;
+    if ((here < 0) != (there < 0)) ends.push_back(p + here / (here - there) * (next - p));
+  }
+  return ends.size() == 2 ? ends : Polygon{};
+}
+
+Polygon along(const Polygon& line) {
+  Polygon points;
+  for (const double part : {0.08, 0.92, 0.2, 0.8, 0.35, 0.65, 0.5})
+    points.push_back(line[0] + part * (line[1] - line[0]));
+  return points;
+}
+
+/// The window's size where free and true motion are one: that of the lines, as long as the farthest is not
+/// much farther than the nearest; that of the acceleration where there is none.
+double fallback_size(const PlaneSection& section) {
+  constexpr double much = 6;
+  double nearest = 0, farthest = 0;
+  for (const PlaneSection::Row& row : section.rows) {
+    const double distance = std::abs(row.u.dot(section.truth) - row.s) / row.u.norm();
+    if (distance > 0 && (nearest == 0 || distance < nearest)) nearest = distance;
+    farthest = std::max(farthest, distance);
+  }
+  if (nearest == 0) nearest = farthest = section.truth.norm();
+  return nearest > 0 ? 1.3 * std::min(farthest, much * nearest) : 1;
+}
+
+struct Words {
+  const char *cone = "A⁻¹N, N the normal cone at x", *free = "A⁻¹z, free",
+             *truth = "q'' = A⁻¹x, x = proj_C z", *reaction = "A⁻¹R, R the reaction", *allowed = "A⁻¹C";
+};
+
+void draw_rows(Page& page, const SolvedScene& solved, const PlaneSection& section, const Window& window,
+               std::vector<std::string>& elsewhere) {
+  std::vector<std::pair<Polygon, std::string>> named;
+  for (const PlaneSection::Row& row : section.rows) {
+    const Polygon line = visible_part(row, window);
+    const std::string& name = solved.scene.contact_name(row.row);
+    if (line.empty())
+      elsewhere.push_back(name);
+    else {
+      page.line(line, "with lines lc rgb \"#0072b2\" lw 1.2 notitle");
+      named.emplace_back(along(line), name);
+    }
+  }
+  for (const auto& [anchors, name] : named)
+    if (!page.label(anchors, name, "#00507d")) elsewhere.push_back(name);
+}
+
+std::string heading_of(const SolvedScene& solved, const PlaneSection& section, bool ellipses,
+                       const std::vector<std::string>& elsewhere) {
+  const Scene& scene = solved.scene;
+  std::string text = scene.title.empty() ? scene.file : scene.title;
+  std::string below;
+  const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
+  if (scene.problem.dimension() > 2)
+    say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
+        scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the others held at their values");
+  if (ellipses) say("ellipses: circles of the kinetic metric");
+  if (!elsewhere.empty()) say("outside of the picture: " + listed(elsewhere));
+  constexpr std::size_t longest = 100;
+  const auto shortened = [](std::string line) {
+    if (line.size() > longest) {
+      line.resize(longest);
+      while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
+      line.pop_back();
+      line += "…";
+    }
+    return line;
+  };
+  return shortened(text) + (below.empty() ? "" : "\n" + shortened(below));
+}
+
 }  // namespace
 
-Drawing decomposition_drawing(const SolvedScene& solved) {
+Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std::string>& plane) {
   const Scene& scene = solved.scene;
-  const convex::NearestPointProblem& problem = scene.problem;
-  if (problem.dimension() != 2)
-    throw convex::InvalidInput(
-        fmt::format("--plot: {} has {} coordinates; a picture needs two", scene.file, problem.dimension()));
-  if (!solved.has_answer())
-    throw convex::InvalidInput("--plot: " + scene.file + " has no solution to draw; leave --plot out");
-  Eigen::Matrix2d A;
-  A.col(0) = problem.A.multiply(Vector::Unit(2, 0));
-  A.col(1) = problem.A.multiply(Vector::Unit(2, 1));
-  const Point free = problem.A.solve(problem.z), x = solved.solution.primal.q;
-  const mechanics::Hypothesis& hypothesis = solved.solution.hypothesis;
+  const PlaneSection section = plane_section(solved, plane);
+  const Point &free = section.free, &x = section.truth;
+  const double radius = std::sqrt((x - free).dot(section.A * (x - free)));
+  const double size = std::sqrt(free.dot(section.A * free) + x.dot(section.A * x));
+  const bool moved = radius > 1e-12 * size;
   Polygon shown{free, x};
-  const bool has_classical = hypothesis.two_sided.consistent && hypothesis.two_sided.acceleration.size() == 2;
-  Point classical = x;
-  if (has_classical) classical = hypothesis.two_sided.acceleration;
-  if (has_classical) shown.push_back(classical);
-  shown.push_back(x + 0.3 * (x - free));
-  const Window window(shown);
+  if (moved) shown.push_back(x + 0.3 * (x - free));
+  // The classical motion is shown where it does not shrink all else.
+  constexpr double farthest = 4;
+  const bool different =
+      section.classical && (*section.classical - x).norm() > 1e-9 * std::max((x - free).norm(), size);
+  const bool near = different && (*section.classical - x).norm() <=
+                                     farthest * (moved ? (x - free).norm() : fallback_size(section));
+  if (near) shown.push_back(*section.classical);
+  const Window window(shown, fallback_size(section));
 
-  Page page;
+  Page page(window);
   Polygon admissible = window.frame(), generators;
-  std::vector<Polygon> lines;
-  for (Index a = 0; a < problem.rows(); ++a) {
-    const Point u = problem.U.row(a);
-    const bool held =
-        std::find(problem.two_sided.begin(), problem.two_sided.end(), a) != problem.two_sided.end();
-    admissible = cut(admissible, u, problem.s[a]);
-    if (held) admissible = cut(admissible, -u, -problem.s[a]);
-    const Point foot = u * problem.s[a] / u.squaredNorm(), along(-u.y(), u.x());
-    const double reach = 4 * (window.size() + foot.norm()) / along.norm();
-    lines.push_back({foot - reach * along, foot + reach * along});
-    const auto& tight = solved.solution.multipliers.tight;
-    if (std::find(tight.begin(), tight.end(), a) == tight.end()) continue;
-    generators.push_back(-problem.A.solve(problem.U.row(a)));
-    if (held) generators.push_back(problem.A.solve(problem.U.row(a)));
+  for (const PlaneSection::Row& row : section.rows) {
+    admissible = cut(admissible, row.u, row.s);
+    if (row.two_sided) admissible = cut(admissible, -row.u, -row.s);
+    if (!row.tight) continue;
+    const Point normal = Point(section.A(1, 1) * row.u.x() - section.A(0, 1) * row.u.y(),
+                               section.A(0, 0) * row.u.y() - section.A(1, 0) * row.u.x());
+    generators.push_back(-normal);
+    if (row.two_sided) generators.push_back(normal);
   }
+  const Words words;
   page.add(admissible, "with filledcurves closed fc rgb \"#d9e8f5\" notitle");
   page.add(cone_at(x, generators, window), "with filledcurves closed fc rgb \"#f7e3cf\" notitle");
-  for (const Polygon& line : lines) page.add(line, "with lines lc rgb \"#0072b2\" lw 1.2 notitle");
-  for (const Point& g : generators)
-    page.add({x, x + 4 * window.size() * g.normalized()},
-             "with lines lc rgb \"#d55e00\" dt 3 lw 1.2 notitle");
-  const double radius = std::sqrt((x - free).dot(A * (x - free)));
-  for (const double part : {1.0 / 3, 2.0 / 3, 1.0})
-    page.add(ellipse(A, free, part * radius), "with lines lc rgb \"#888888\" lw 0.8 notitle");
-  const bool moved = radius > 1e-12 * std::sqrt(free.dot(A * free) + x.dot(A * x));
+  if (moved)
+    for (const double part : {1.0 / 3, 2.0 / 3, 1.0})
+      page.line(ellipse(section.A, free, part * radius), "with lines lc rgb \"#888888\" lw 0.8 notitle");
+  std::vector<std::string> elsewhere;
+  for (const Point& g : generators) {
+    const Point end = x + 4 * window.size() * g.normalized();
+    page.line({x, end}, "with lines lc rgb \"#d55e00\" dt 3 lw 1.2 notitle");
+  }
   if (moved) page.arrow(free, x, "lc rgb \"#d55e00\" lw 2");
-  page.add({free}, "with points pt 7 ps 0.8 lc rgb \"#000000\" notitle");
-  page.add({x}, "with points pt 7 ps 1 lc rgb \"#0072b2\" notitle");
-  const bool different = has_classical && (classical - x).norm() > 1e-9 * window.size();
-  if (different) page.add({classical}, "with points pt 6 ps 1 lc rgb \"#cc79a7\" lw 1.5 notitle");
-  if (generators.size() > 1 || moved)
-    page.label(x + 1.15 * (free - x), "A⁻¹N, N the normal cone at x",
-               "center offset 0,-1.2 tc rgb \"#b04a00\"");
-  page.label(free, "A⁻¹z, free", "right offset -0.7,-0.4");
-  page.label(x, "q'' = A⁻¹x, x = proj_C z", "left offset 0.8,0.5");
-  if (moved) page.label((free + x) / 2, "A⁻¹R, R the reaction", "left offset 0.6,0 tc rgb \"#b04a00\"");
-  if (different) page.label(classical, "all contacts held", "left offset 0.7,-0.4 tc rgb \"#a04f80\"");
-  if (!admissible.empty()) {
+  if (moved) page.point(free, "with points pt 7 ps 0.8 lc rgb \"#000000\" notitle");
+  page.point(x, "with points pt 7 ps 1 lc rgb \"#0072b2\" notitle");
+  if (near) page.point(*section.classical, "with points pt 6 ps 1 lc rgb \"#cc79a7\" lw 1.5 notitle");
+  draw_rows(page, solved, section, window, elsewhere);
+  page.label({x}, moved ? words.truth : "q'' = A⁻¹x = A⁻¹z, the free motion", "#000000");
+  if (moved) page.label({free}, words.free, "#000000");
+  if (near) page.label({*section.classical}, "all contacts held", "#a04f80");
+  if (moved) page.label({(free + x) / 2, (2 * free + x) / 3, (free + 2 * x) / 3}, words.reaction, "#b04a00");
+  if (!generators.empty()) {
+    Polygon inside;
+    for (const double part : {0.25, 0.15, 0.35})
+      for (const Point& g : generators) inside.push_back(x + part * window.size() * g.normalized());
+    page.label(inside, words.cone, "#b04a00");
+  }
+  if (admissible.size() > 2) {
     Point middle = Point::Zero();
     for (const Point& p : admissible) middle += p / static_cast<double>(admissible.size());
-    page.label(middle, "A⁻¹C", "center tc rgb \"#0072b2\"");
+    page.label({middle, (2 * middle + x) / 3}, words.allowed, "#00507d");
   }
+  const auto fraction = [](double pixels) { return pixels / page_size; };
   const std::string top = fmt::format(
-      "set size ratio -1\nset clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel {}\nset ylabel "
-      "{}\nset title "
+      "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
       "{}\n"
+      "set clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel {}\nset ylabel {}\nset title {}\n"
       "set border lw 0.7 lc rgb \"#444444\"\nset tics font \",9\"\nunset key\n",
-      window.low.x(), window.high.x(), window.low.y(), window.high.y(),
-      quoted("acceleration of " + scene.coordinates[0]), quoted("acceleration of " + scene.coordinates[1]),
-      quoted((scene.title.empty() ? scene.file : scene.title) + "\nellipses: circles of the kinetic metric"));
-  return {page.script(top), 700};
+      fraction(frame_left), fraction(frame_left + frame_size), fraction(frame_bottom),
+      fraction(frame_bottom + frame_size), window.low.x(), window.high.x(), window.low.y(), window.high.y(),
+      quoted("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])]),
+      quoted("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])]),
+      quoted(heading_of(solved, section, moved, elsewhere)));
+  return {page.script(top), page_size};
 }
 
 }  // namespace cli

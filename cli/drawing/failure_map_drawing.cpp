@@ -8,12 +8,16 @@
 #include <iterator>
 
 #include "cli/drawing/gnuplot.hpp"
+#include "cli/drawing/label_placement.hpp"
 #include "cli/drawing/method_style.hpp"
 
 namespace cli {
 namespace {
 
-constexpr int columns = 3, row_height = 12, panel_frame = 82, map_title_height = 22, legend_height = 46;
+/// Pixels: of a page 700 wide, the names of methods, a row of cells, and of each diagram what is above its
+/// cells (its title) and below them (settings, what they set, room).
+constexpr int most_columns = 3, names_width = 136, page_width = 700, gap = 12, row_height = 14,
+              title_height = 24, settings_height = 58, legend_height = 66;
 
 /// Digits of accuracy on a scale whose lightness alone orders it (after viridis: van der Walt and Smith
 /// 2015).
@@ -21,9 +25,13 @@ constexpr std::array scale{"#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c"
                            "#28ae80", "#5ec962", "#addc30", "#fde725"};
 constexpr double most_digits = 16;
 
+double digits_of(double error) {
+  return error > 0 ? std::clamp(-std::log10(error), 0.0, most_digits) : most_digits;
+}
+
 std::string colour(double error) {
-  const double digits = error > 0 ? std::clamp(-std::log10(error), 0.0, most_digits) : most_digits;
-  const auto place = static_cast<std::size_t>(std::lround(digits / most_digits * (scale.size() - 1)));
+  const auto place =
+      static_cast<std::size_t>(std::lround(digits_of(error) / most_digits * (scale.size() - 1)));
   return scale[place];
 }
 
@@ -40,154 +48,188 @@ struct Mark {
   Verdict verdict;
   int point;
   const char* colour;
+  const char* background;
   const char* words;
 };
 
-/// gnuplot's markers: 2 a cross, 6 a ring, 8 a triangle, 1 a plus.
-constexpr std::array marks{Mark{Verdict::wrong, 2, "#d00000", "wrong without saying so"},
-                           Mark{Verdict::gave_up, 6, "#555555", "gave up"},
-                           Mark{Verdict::too_slow, 8, "#b06000", "too slow"},
-                           Mark{Verdict::crashed, 1, "#000000", "crashed"}};
+/// gnuplot's markers: 2 a cross, 6 a ring, 8 a triangle, 1 a plus, 0 a dot. Told apart by shape and by the
+/// lightness behind them, in grey as in colours.
+constexpr std::array marks{Mark{Verdict::wrong, 2, "#000000", "#ff9a8a", "wrong without saying so"},
+                           Mark{Verdict::gave_up, 6, "#333333", "#ffffff", "gave up, and said so"},
+                           Mark{Verdict::too_slow, 8, "#333333", "#ffffff", "too slow"},
+                           Mark{Verdict::crashed, 1, "#000000", "#ff9a8a", "crashed"},
+                           Mark{Verdict::refused, 0, "#999999", "#dddddd", "does not apply"}};
 
 template <typename T>
 std::size_t place(const std::vector<T>& all, const T& one) {
   return static_cast<std::size_t>(std::find(all.begin(), all.end(), one) - all.begin());
 }
 
-void add_panel(std::string& script, const std::vector<StressTrial>& trials, const std::string& family,
-               std::size_t index, const std::vector<std::string>& methods, bool named) {
-  const auto out = std::back_inserter(script);
-  std::vector<StressTrial> here;
-  std::copy_if(trials.begin(), trials.end(), std::back_inserter(here),
-               [&](const StressTrial& t) { return t.family == family; });
-  const auto settings = in_order<double>(here, [](const StressTrial& t) { return t.difficulty; });
-  // Neighbours of one colour are one box, for the size of the file.
-  struct Box {
-    double from, to, y;
+/// One family: a cell for each method and setting, with the digits that are right.
+class FamilyPanel {
+ public:
+  FamilyPanel(const std::vector<StressTrial>& trials, const std::string& family, std::size_t index,
+              const std::vector<std::string>& methods)
+      : index_(index), methods_(methods) {
+    std::copy_if(trials.begin(), trials.end(), std::back_inserter(here_),
+                 [&](const StressTrial& t) { return t.family == family; });
+    settings_ = in_order<double>(here_, [](const StressTrial& t) { return t.difficulty; });
+  }
+
+  std::string script(bool named) {
+    for (const StressTrial& t : here_) add(t);
+    add("boxes", boxes_,
+        "using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 border lc rgb \"#ffffff\" lc rgb variable notitle");
+    add("digits", digits_, "using 1:2:3:4 with labels font \",7\" tc rgb variable notitle");
+    for (std::size_t k = 0; k < marks.size(); ++k)
+      add(fmt::format("mark{}_", k), points_[k],
+          fmt::format("using 1:2 with points pt {} ps 0.5 lw 1.3 lc rgb \"{}\" notitle", marks[k].point,
+                      marks[k].colour));
+    std::string xtics, ytics;
+    for (std::size_t k = 0; k < settings_.size(); ++k)
+      xtics += fmt::format("{}\"{}\" {}", k > 0 ? ", " : "", tic_text(settings_[k]), k);
+    for (std::size_t k = 0; k < methods_.size(); ++k)
+      ytics += fmt::format("{}{} {}", k > 0 ? ", " : "", named ? quoted(methods_[k]) : "\"\"",
+                           methods_.size() - 1 - k);
+    return data_ + fmt::format(
+                       "set title {} offset 0,-0.7 font \",10\"\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
+                       "set xtics ({}) rotate by 60 right font \",7\" scale 0 offset 0,0.2\n"
+                       "set ytics ({}) font \",8\" scale 0\nset label 1 {} at graph 0.5, graph 0 center "
+                       "offset 0,-3.1 "
+                       "font \",8\"\nplot {}\n",
+                       quoted(here_.front().family), static_cast<double>(settings_.size()) - 0.5,
+                       static_cast<double>(methods_.size()) - 0.5, xtics, ytics, quoted(here_.front().knob),
+                       plots_.empty() ? "NaN notitle" : plots_);
+  }
+
+ private:
+  void add(const StressTrial& t) {
+    const double x = static_cast<double>(place(settings_, t.difficulty)),
+                 y = static_cast<double>(methods_.size() - 1 - place(methods_, t.trial.method));
     std::string fill;
-  };
-  std::vector<Box> boxes;
-  std::array<std::string, marks.size()> points;
-  for (const std::string& method : methods)
-    for (const StressTrial& t : here) {
-      if (t.trial.method != method) continue;
-      const double x = static_cast<double>(place(settings, t.difficulty)),
-                   y = static_cast<double>(methods.size() - 1 - place(methods, method));
-      for (std::size_t k = 0; k < marks.size(); ++k)
-        if (t.trial.verdict() == marks[k].verdict) points[k] += fmt::format("{} {}\n", x, y);
-      if (!t.trial.is_right()) continue;
-      const double error = t.trial.judgement.error;
-      const std::string fill = colour(std::isfinite(error) ? error : 1).substr(1);
-      if (!boxes.empty() && boxes.back().y == y && boxes.back().to == x - 0.5 && boxes.back().fill == fill)
-        boxes.back().to = x + 0.5;
-      else
-        boxes.push_back({x - 0.5, x + 0.5, y, fill});
+    for (std::size_t k = 0; k < marks.size(); ++k)
+      if (t.trial.verdict() == marks[k].verdict) {
+        points_[k] += fmt::format("{} {}\n", x, y);
+        fill = marks[k].background;
+      }
+    if (fill.empty()) {
+      const double error = std::isfinite(t.trial.judgement.error) ? t.trial.judgement.error : 1;
+      fill = colour(error);
+      const double right = digits_of(error);
+      constexpr double light_from = 11;  // the scale's lightness is that of black on white
+      digits_ += fmt::format("{} {} \"{}\" 0x{}\n", x, y, error > 0 ? fmt::format("{:.0f}", right) : "=",
+                             right >= light_from ? "000000" : "ffffff");
     }
-  std::string filled;
-  for (const Box& box : boxes)
-    filled += fmt::format("{} {} {} {} {} {} 0x{}\n", (box.from + box.to) / 2, box.y, box.from, box.to,
-                          box.y - 0.5, box.y + 0.5, box.fill);
-  std::string plots;
-  const auto add = [&](const std::string& name, const std::string& data, const std::string& how) {
+    boxes_ +=
+        fmt::format("{} {} {} {} {} {} 0x{}\n", x, y, x - 0.5, x + 0.5, y - 0.5, y + 0.5, fill.substr(1));
+  }
+
+  void add(const std::string& name, const std::string& data, const std::string& how) {
     if (data.empty()) return;
-    fmt::format_to(out, "${}{} << EOD\n{}EOD\n", name, index, data);
-    plots += fmt::format("{}${}{} {}", plots.empty() ? "" : ", \\\n  ", name, index, how);
-  };
-  add("boxes", filled, "using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 noborder lc rgb variable notitle");
-  for (std::size_t k = 0; k < marks.size(); ++k)
-    add(fmt::format("mark{}_", k), points[k],
-        fmt::format("using 1:2 with points pt {} ps 0.55 lw 1.4 lc rgb \"{}\" notitle", marks[k].point,
-                    marks[k].colour));
-  std::string xtics, ytics;
-  for (std::size_t k = 0; k < settings.size(); ++k)
-    xtics += fmt::format("{}\"{}\" {}", k > 0 ? ", " : "", tic_text(settings[k]), k);
-  for (std::size_t k = 0; k < methods.size(); ++k)
-    ytics += fmt::format("{}{} {}", k > 0 ? ", " : "", named ? quoted(methods[k]) : "\"\"",
-                         methods.size() - 1 - k);
-  fmt::format_to(
-      out,
-      "set title {} offset 0,-0.8 font \",10\"\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\nset xtics ({}) "
-      "rotate by 60 right font \",7\" scale 0 offset 0,0.2\nset ytics ({}) font \",8\" scale 0\nset xlabel "
-      "{} font \",8\" "
-      "offset 0,0.9\nplot {}\n",
-      quoted(family), static_cast<double>(settings.size()) - 0.5, static_cast<double>(methods.size()) - 0.5,
-      xtics, ytics, quoted(here.front().knob), plots.empty() ? "NaN notitle" : plots);
-}
+    data_ += fmt::format("${}{} << EOD\n{}EOD\n", name, index_, data);
+    plots_ += fmt::format("{}${}{} {}", plots_.empty() ? "" : ", \\\n  ", name, index_, how);
+  }
+
+  std::size_t index_;
+  const std::vector<std::string>& methods_;
+  std::vector<StressTrial> here_;
+  std::vector<double> settings_;
+  std::string boxes_, digits_, data_, plots_;
+  std::array<std::string, marks.size()> points_;
+};
+
+/// Objects and labels of the legend, which every diagram after the first would draw again.
+constexpr int first_number = 100;
 
 std::string legend(int height) {
   std::string text;
   const auto out = std::back_inserter(text);
-  const double top = 1 - 14.0 / height, below = 1 - 32.0 / height;
-  for (std::size_t k = 0; k < scale.size(); ++k)
-    fmt::format_to(
-        out, "set object {} rect from screen {},{} to screen {},{} fs solid 1 noborder fc rgb \"{}\" front\n",
-        k + 1, 0.16 + 0.022 * static_cast<double>(k), below, 0.16 + 0.022 * static_cast<double>(k + 1), top,
-        scale[k]);
-  fmt::format_to(out,
-                 "set label 1 \"0 digits\" at screen 0.15,{0} right font \",9\"\nset label 2 \"16\" at "
-                 "screen {1},{0} left "
-                 "font \",9\"\n",
-                 (top + below) / 2, 0.165 + 0.022 * static_cast<double>(scale.size()));
-  double x = 0.39;
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    fmt::format_to(out,
-                   "set label {} \"{}\" at screen {},{} left point pt {} ps 0.8 lw 1.6 lc rgb \"{}\" offset "
-                   "0.6,0 font \",8\"\n",
-                   k + 3, marks[k].words, x, (top + below) / 2, marks[k].point, marks[k].colour);
-    x += k == 0 ? 0.2 : 0.095;
+  int number = first_number;
+  const auto at = [&](double x, double y) {
+    return fmt::format("screen {},{}", x / page_width, 1 - y / height);
+  };
+  constexpr double cell = 26, top = 12, bottom = 28, from = 200;
+  fmt::format_to(out, "set label {} \"digits of accuracy\" at {} right font \",9\"\n", number++,
+                 at(from - 12, (top + bottom) / 2));
+  for (std::size_t k = 0; k < scale.size(); ++k) {
+    const double left = from + cell * static_cast<double>(k);
+    fmt::format_to(out, "set object {} rect from {} to {} fs solid 1 noborder fc rgb \"{}\" front\n", number,
+                   at(left, bottom), at(left + cell, top), scale[k]);
+    fmt::format_to(out, "set label {} \"{}\" at {} center front font \",8\" tc rgb \"{}\"\n", number++, 2 * k,
+                   at(left + cell / 2, (top + bottom) / 2), k > scale.size() / 2 ? "#000000" : "#ffffff");
   }
-  fmt::format_to(out, "set label {} \"blank: refused\" at screen {},{} left font \",8\"\n", marks.size() + 3,
-                 x, (top + below) / 2);
+  fmt::format_to(out, "set label {} \"= every digit\" at {} left font \",9\"\n", number++,
+                 at(from + cell * static_cast<double>(scale.size()) + 12, (top + bottom) / 2));
+  double x = 40;
+  for (const Mark& mark : marks) {
+    constexpr double upper = 38, lower = 54;
+    fmt::format_to(
+        out, "set object {} rect from {} to {} fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" front\n",
+        number, at(x, lower), at(x + 16, upper), mark.background);
+    fmt::format_to(out, "set label {} \"\" at {} front point pt {} ps 0.6 lw 1.3 lc rgb \"{}\"\n", number++,
+                   at(x + 8, (upper + lower) / 2), mark.point, mark.colour);
+    fmt::format_to(out, "set label {} \"{}\" at {} left font \",9\"\n", number++, mark.words,
+                   at(x + 22, (upper + lower) / 2));
+    x += 22 + text_width(mark.words, 9) + 14;
+  }
+  return text;
+}
+
+std::string without_legend() {
+  const auto labels = 3 + scale.size() + 2 * marks.size();
+  std::string text;
+  for (std::size_t k = 0; k < labels; ++k)
+    text += fmt::format("unset label {0}\nunset object {0}\n", static_cast<std::size_t>(first_number) + k);
   return text;
 }
 
 }  // namespace
 
 Drawing failure_map_drawing(const std::vector<StressTrial>& trials) {
-  /// Families that the same methods met stand together, below each other's names.
-  struct Block {
+  /// Families that the same methods met stand together.
+  struct Group {
     std::vector<std::string> methods, families;
-    int rows() const { return static_cast<int>((families.size() + columns - 1) / columns); }
-    int panel() const { return row_height * static_cast<int>(methods.size()) + panel_frame; }
+    int rows() const { return static_cast<int>((families.size() + most_columns - 1) / most_columns); }
+    int cells() const { return row_height * static_cast<int>(methods.size()); }
+    int panel() const { return title_height + cells() + settings_height; }
+    /// Of the families in this row; the diagrams of a row that is not full are wider.
+    std::size_t columns(int row) const {
+      return std::min(static_cast<std::size_t>(most_columns),
+                      families.size() - static_cast<std::size_t>(row) * most_columns);
+    }
   };
-  std::vector<Block> blocks;
+  std::vector<Group> groups;
   int height = legend_height;
   for (const auto& family : in_order<std::string>(trials, [](const StressTrial& t) { return t.family; })) {
     std::vector<StressTrial> here;
     std::copy_if(trials.begin(), trials.end(), std::back_inserter(here),
                  [&](const StressTrial& t) { return t.family == family; });
     const auto methods = in_order<std::string>(here, [](const StressTrial& t) { return t.trial.method; });
-    if (blocks.empty() || blocks.back().methods != methods) blocks.push_back({methods, {}});
-    blocks.back().families.push_back(family);
+    if (groups.empty() || groups.back().methods != methods) groups.push_back({methods, {}});
+    groups.back().families.push_back(family);
   }
-  for (const Block& block : blocks) height += block.rows() * block.panel();
+  for (const Group& group : groups) height += group.rows() * group.panel();
   Drawing drawing;
   drawing.height = height;
   drawing.script = legend(height) + "unset key\nset border lw 0.6 lc rgb \"#666666\"\nset multiplot\n";
-  const double left = 0.19, width = (1 - left - 0.02) / columns;
-  const auto out = std::back_inserter(drawing.script);
   std::size_t index = 0;
   int above = legend_height;
-  for (const Block& block : blocks) {
-    for (std::size_t k = 0; k < block.families.size(); ++k, ++index) {
-      const double column = static_cast<double>(k % columns);
-      const int from = above + static_cast<int>(k / columns) * block.panel();
-      fmt::format_to(out,
-                     "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset "
-                     "bmargin at screen "
-                     "{}\n",
-                     left + column * width, left + (column + 1) * width - 0.02,
-                     1 - static_cast<double>(from + map_title_height) / height,
-                     1 - static_cast<double>(from + block.panel() - panel_frame + map_title_height) / height);
-      add_panel(drawing.script, trials, block.families[k], index, block.methods, k % columns == 0);
-      if (index > 0) continue;
-      for (std::size_t label = 1; label <= marks.size() + 3; ++label)
-        fmt::format_to(out, "unset label {}\n", label);
-      for (std::size_t object = 1; object <= scale.size(); ++object)
-        fmt::format_to(out, "unset object {}\n", object);
+  for (const Group& group : groups)
+    for (int row = 0; row < group.rows(); ++row, above += group.panel()) {
+      const std::size_t columns = group.columns(row);
+      const double wide = static_cast<double>(page_width - names_width) / static_cast<double>(columns);
+      for (std::size_t column = 0; column < columns; ++column, ++index) {
+        const double left = names_width + wide * static_cast<double>(column);
+        const double top = above + title_height, bottom = top + group.cells();
+        drawing.script += fmt::format(
+            "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at "
+            "screen {}\n",
+            left / page_width, (left + wide - gap) / page_width, 1 - top / height, 1 - bottom / height);
+        const std::string& family = group.families[static_cast<std::size_t>(row) * most_columns + column];
+        drawing.script += FamilyPanel(trials, family, index, group.methods).script(column == 0);
+        if (index == 0) drawing.script += without_legend();
+      }
     }
-    above += block.rows() * block.panel();
-  }
   drawing.script += "unset multiplot\n";
   return drawing;
 }

@@ -1,5 +1,6 @@
 #include "cli/drawing/gnuplot.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -17,6 +18,7 @@ namespace {
 using convex::InvalidInput;
 
 constexpr int picture_width = 700;
+constexpr double inches_a_pixel = 1.0 / 72;
 
 /// What to do where gnuplot is not there.
 constexpr const char* gnuplot_advice =
@@ -48,7 +50,7 @@ class ScriptFile {
 };
 
 /// `set terminal` and `set output` for a picture of that size. Throws InvalidInput for a name that is neither
-/// .svg nor .png.
+/// .svg, .png nor .pdf.
 std::string terminal_text(const std::string& file, int wide, int height) {
   std::string size = std::to_string(wide) + "," + std::to_string(height);
   std::string plain = "\"";
@@ -65,7 +67,12 @@ std::string terminal_text(const std::string& file, int wide, int height) {
            std::to_string(2 * height) +
            " background \"#ffffff\" font \"Helvetica,11\" fontscale 2 linewidth 2 pointscale 2\nset output " +
            plain + "\n";
-  throw InvalidInput("--output " + file + ": a picture is named .svg or .png; give such a name");
+  if (ends_with(file, ".pdf"))
+    return fmt::format(
+               "set terminal pdfcairo enhanced size {},{} background \"#ffffff\" font \"Helvetica,11\"\n",
+               wide * inches_a_pixel, height * inches_a_pixel) +
+           "set output " + plain + "\n";
+  throw InvalidInput(file + ": a picture is named .svg, .png or .pdf; give such a name");
 }
 
 }  // namespace

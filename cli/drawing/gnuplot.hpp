@@ -7,8 +7,8 @@ namespace cli {
 /// Whether the plotting program is there.
 bool has_gnuplot();
 
-/// Throws InvalidInput where the file is named neither .svg nor .png, or gnuplot is not there: asked before
-/// the work whose picture it is.
+/// Throws InvalidInput where the file is named neither .svg, .png nor .pdf, or gnuplot is not there: asked
+/// before the work whose picture it is.
 void require_drawable(const std::string& file);
 
 /// A string in gnuplot's double quotes, its markup switched off.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
@@ -108,21 +109,15 @@ std::string islands_text(const convex::Model& model) {
 }
 
 std::string left_out_text(const SolvedScene& solved) {
-  constexpr std::size_t most = 8;
   std::vector<std::string> parts;
-  std::size_t total = 0;
-  const auto name = [&](std::string text) {
-    if (++total <= most) parts.push_back(std::move(text));
-  };
   for (std::size_t a = 0; a < solved.states.size(); ++a) {
     if (solved.states[a] != ConstraintState::inactive) continue;
     const Absence why = absence(solved, a);
-    name(fmt::format("{} ({} = {})", solved.scene.constraints[a],
-                     why.apart ? "apart, f" : "separating, df/dt", number_text(why.value)));
+    parts.push_back(fmt::format("{} ({} = {})", solved.scene.constraints[a],
+                                why.apart ? "apart, f" : "separating, df/dt", number_text(why.value)));
   }
   for (const convex::LeftOutRow& out : solved.solution.primal.model.left_out)
-    name(fmt::format("{} ({})", solved.scene.contact_name(out.row), reason(out.why)));
-  if (total > most) parts.push_back(fmt::format("{} more", total - most));
+    parts.push_back(fmt::format("{} ({})", solved.scene.contact_name(out.row), reason(out.why)));
   return parts.empty() ? "" : " Left out: " + listed(parts) + ".";
 }
 
@@ -139,6 +134,18 @@ void write_model(JsonWriter& json, const SolvedScene& solved) {
     json.key("difference").value(solved.solution.reduced->difference).end_object();
   }
   json.end_object();
+}
+
+std::string methods_that_ran(const SolvedScene& solved) {
+  const convex::Model& model = solved.solution.primal.model;
+  if (model.islands.empty()) return std::string(solved.solution.primal.method);
+  std::vector<std::string> ran;
+  for (const convex::Island& island : model.islands) {
+    const std::string method(island.method);
+    if (method != "unconstrained" && std::find(ran.begin(), ran.end(), method) == ran.end())
+      ran.push_back(method);
+  }
+  return ran.empty() ? "the free motion, which keeps all contacts" : listed(ran);
 }
 
 std::string model_text(const SolvedScene& solved) {

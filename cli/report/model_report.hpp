@@ -15,4 +15,8 @@ void write_model(JsonWriter&, const SolvedScene&);
 /// The same in a few lines.
 std::string model_text(const SolvedScene&);
 
+/// "active-set", or what solved the islands: "closed-form and active-set"; "no method, no contact presses"
+/// where nothing had to run.
+std::string methods_that_ran(const SolvedScene&);
+
 }  // namespace cli

@@ -21,8 +21,10 @@ struct SolvedScene {
   std::vector<ConstraintState> states;  ///< one per constraint
   convex::Vector second_rates;          ///< d²f_a/dt², one per constraint
   double seconds = 0;
-  bool sensitivity = false;  ///< whether its report is wanted
-  bool null_space = false;   ///< whether that of the multipliers is
+  bool sensitivity = false;   ///< whether its report is wanted
+  bool null_space = false;    ///< whether that of the multipliers is
+  bool verbose = false;       ///< whether the text tells how the answer was found
+  bool asked_method = false;  ///< whether a method was named
   /// The error bound for A, z, U, s as evaluated, when that of the solution counts their rounding too.
   std::optional<double> as_evaluated = {};
   std::optional<convex::Certificate> certificate = {};   ///< when a proof was asked for

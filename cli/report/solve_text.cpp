@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cli/report/model_report.hpp"
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/sensitivity_text.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
@@ -20,35 +22,61 @@ std::string cut(std::size_t total, const char* what) {
                             : "";
 }
 
-std::string constraint_table(const SolvedScene& solved) {
+/// "Persist: a and b. Opens: c." of the contacts, in their order.
+std::string verdict_line(const SolvedScene& solved) {
+  struct Group {
+    ConstraintState state;
+    const char *one, *many;
+    std::vector<std::string> names = {};
+  };
+  std::vector<Group> groups{{ConstraintState::persists, "Persists", "Persist"},
+                            {ConstraintState::touches, "Only touches", "Only touch"},
+                            {ConstraintState::opens, "Opens", "Open"}};
+  for (std::size_t a = 0; a < solved.states.size(); ++a)
+    for (Group& group : groups)
+      if (solved.states[a] == group.state) group.names.push_back(solved.scene.constraints[a]);
+  std::string text;
+  for (const Group& group : groups)
+    if (!group.names.empty())
+      text += fmt::format("{}{}: {}.", text.empty() ? "" : " ",
+                          group.names.size() == 1 ? group.one : group.many, listed(group.names));
+  if (text.empty()) text = solved.states.empty() ? "There is no constraint." : "Nothing is in contact.";
+  return text + "\n\n";
+}
+
+std::string constraint_table(const SolvedScene& solved, const ReadableNumbers& read) {
   if (solved.states.empty()) return "";
-  const convex::Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
-  const bool is_system = solved.scene.rates.has_value();
-  TextTable table(is_system
-                      ? std::vector<std::string>{"constraint", "state", "f", "df/dt", "d²f/dt²", "lambda"}
-                      : std::vector<std::string>{"constraint", "state", "u·q''- s", "lambda"});
+  const bool is_system = solved.scene.rates.has_value(),
+             forces = std::any_of(read.forces.begin(), read.forces.end(),
+                                  [](const auto&force) { return force.has_value(); });
+  std::vector<std::string> head =
+      is_system ? std::vector<std::string>{"constraint", "state", "f", "df/dt", "d²f/dt²", "lambda"}
+                : std::vector<std::string>{"constraint", "state", "u·q''- s", "lambda"};
+  if (forces) head.emplace_back("|lambda grad f|");
+  TextTable table(std::move(head));
   for (std::size_t a = 0; a < std::min(solved.states.size(), shown_rows); ++a) {
     const Index i = static_cast<Index>(a);
     std::vector<std::string> row{solved.scene.constraints[a] + (solved.scene.two_sided[a] ? " (=)" : ""),
                                  name(solved.states[a])};
     if (is_system) {
-      row.push_back(number_text(solved.scene.rates->f[i]));
-      row.push_back(number_text(solved.scene.rates->df[i]));
+      row.push_back(number_text(read.f[i]));
+      row.push_back(number_text(read.df[i]));
     }
-    row.push_back(number_text(solved.second_rates[i]));
-    row.push_back(solved.is_weighed(a) ? "-" : number_text(lambda[i]));
+    row.push_back(number_text(read.second_rates[i]));
+    const bool is_weighed = solved.is_weighed(a);
+    row.push_back(is_weighed ? "-" : number_text(read.lambda[i]));
+    if (forces) row.push_back(!is_weighed && read.forces[a] ? number_text(*read.forces[a]) : "");
     table.add(std::move(row));
   }
   return table.text() + cut(solved.states.size(), "constraints") + "\n";
 }
 
-std::string coordinate_table(const SolvedScene& solved) {
+std::string coordinate_table(const SolvedScene& solved, const ReadableNumbers& read) {
   TextTable table({"coordinate", "acceleration", "reaction"});
-  const std::size_t n = solved.scene.coordinates.size();
-  for (std::size_t i = 0; i < std::min(n, shown_rows); ++i)
-    table.add({solved.scene.coordinates[i], number_text(solved.solution.primal.q[static_cast<Index>(i)]),
-               number_text(solved.solution.reaction[static_cast<Index>(i)])});
-  return table.text() + cut(n, "coordinates") + "\n";
+  for (Index i = 0; i < read.acceleration.size(); ++i)
+    table.add({solved.scene.coordinates[static_cast<std::size_t>(i)], number_text(read.acceleration[i]),
+               number_text(read.reaction[i])});
+  return table.text() + cut(solved.scene.coordinates.size(), "coordinates") + "\n";
 }
 
 std::string uniqueness_text(const SolvedScene& solved) {
@@ -151,34 +179,37 @@ const char* proof_text(const std::optional<convex::Certificate>& certificate) {
   return "";
 }
 
+/// The reaction by its second route, said when asked for or when it disagrees.
+std::string dual_text(const SolvedScene& solved) {
+  if (!solved.solution.from_dual) return "";
+  constexpr double agreement = 1e-9;
+  const double difference = solved.solution.from_dual->difference;
+  if (difference <= agreement && !solved.verbose) return "";
+  return fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) {} {:.1e}{}.\n",
+                     difference <= agreement ? "agrees to" : "DIFFERS by", difference,
+                     difference <= agreement ? "" : ": one of the two routes is inaccurate here");
+}
+
 std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
-  std::string text;
-  constexpr double agreement = 1e-9;
-  if (solved.solution.from_dual) {
-    const double difference = solved.solution.from_dual->difference;
-    text += fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) {} {:.1e}{}.\n",
-                        difference <= agreement ? "agrees to" : "DIFFERS by", difference,
-                        difference <= agreement ? "" : ": one of the two routes is inaccurate here");
-  }
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
-  std::string accuracy =
-      fmt::format("relative error of the acceleration at most {}{:.1e}{}",
-                  is_proved(solved.certificate) ? "" : "about ", relative, proof_text(solved.certificate));
-  if (solved.as_evaluated)
+  std::string accuracy = fmt::format(
+      "relative error of the acceleration at most {}{}{}", is_proved(solved.certificate) ? "" : "about ",
+      relative > 0 ? fmt::format("{:.1e}", relative) : "0", proof_text(solved.certificate));
+  if (solved.as_evaluated && solved.verbose)
     accuracy += fmt::format(" for the mechanism as written, {:.1e} for A, z, U, s as evaluated",
                             scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
-  else if (solved.solution.as_written && solved.scene.written)
+  else if (solved.as_evaluated || (solved.solution.as_written && solved.scene.written))
     accuracy += " for the mechanism as written";
   else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
     accuracy += ", for A, z, U, s as evaluated";
-  text +=
-      primal.status == convex::Status::solved
-          ? fmt::format("Solved by {}{}: {}.\n", primal.method, primal.polished ? ", polished" : "", accuracy)
-          : fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
-                        accuracy);
-  return text;
+  if (primal.status != convex::Status::solved)
+    return fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
+                       accuracy);
+  return fmt::format("Solved{}{}: {}.\n",
+                     solved.verbose || solved.asked_method ? " by " + methods_that_ran(solved) : "",
+                     primal.polished ? ", polished" : "", accuracy);
 }
 
 std::string infeasible_text(const SolvedScene& solved) {
@@ -207,9 +238,13 @@ std::string solve_text(const SolvedScene& solved) {
   if (!solved.has_answer())
     return text + fmt::format("The method {} found neither a solution nor a proof that there is none.\n",
                               solved.solution.primal.method);
-  return text + constraint_table(solved) + coordinate_table(solved) + added_rows_text(solved) +
-         touching_text(solved) + uniqueness_text(solved) + hypothesis_text(solved) + model_text(solved) +
-         accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
+  const ReadableNumbers read = readable_numbers(solved, most_rows);
+  const bool tells_how = solved.verbose || solved.solution.primal.status != convex::Status::solved;
+  const bool tells_hypothesis = solved.verbose || !solved.solution.hypothesis.accepted;
+  return text + verdict_line(solved) + constraint_table(solved, read) + coordinate_table(solved, read) +
+         added_rows_text(solved) + touching_text(solved) + uniqueness_text(solved) +
+         (tells_hypothesis ? hypothesis_text(solved) : "") + (tells_how ? model_text(solved) : "") +
+         dual_text(solved) + accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
 }
 
 }  // namespace cli

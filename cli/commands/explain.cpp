@@ -1,0 +1,120 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/each_file.hpp"
+#include "cli/motion_settings.hpp"
+#include "cli/report/cone_report.hpp"
+#include "cli/report/decomposition_report.hpp"
+#include "cli/report/explanation.hpp"
+#include "cli/report/singular_report.hpp"
+#include "cli/resolved_scene.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+
+/// What `moreau explain` is told.
+struct ExplainOptions : FileOptions, SceneOptions {
+  bool markdown = false, latex = false, html = false;
+  std::optional<std::string> output;  ///< a file to write
+};
+
+std::string written(const Document& document, const ExplainOptions& options) {
+  if (options.latex) return document_latex(document);
+  if (options.html) return document_html(document);
+  if (options.markdown) return document_markdown(document);
+  return document_text(document);
+}
+
+/// A report that is text already: each line a paragraph.
+Document document_of_lines(const std::string& title, const std::string& text) {
+  Document document{title, {}};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (end > at) document.blocks.emplace_back(Paragraph{{text.substr(at, end - at)}});
+    at = end + 1;
+  }
+  return document;
+}
+
+/// A report with its exit code and warnings.
+struct Explained {
+  Exit exit = Exit::solved;
+  Document document;
+  std::vector<std::string> warnings = {};
+};
+
+Explained explain_scene(Problem problem, const std::string& file, const ExplainOptions& options) {
+  std::optional<SystemProblem> text;
+  if (const auto* system = std::get_if<SystemProblem>(&problem.content)) text = *system;
+  const SolveSettings solve = problem.solve;
+  const Problem kept = problem;
+  Scene scene = make_scene(std::move(problem), file, options);
+  ProvedScene resolved = resolve_and_prove(scene, false);
+  mechanics::GaussSolution& solution = resolved.found.solution;
+  if (scene.written) count_evaluation_error(scene, solution);
+  SolvedScene solved = solved_scene(scene, solution, 0);
+  solved.warnings = std::move(resolved.warnings);
+  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  Line next;
+  if (text && scene.added.empty() && solved.has_answer())
+    next = next_event(scene, motion_options(kept, *scene.system, {}));
+  return {exit_code(solution.primal.status), explanation(solved, text ? &*text : nullptr, next),
+          warning_lines(solved)};
+}
+
+Explained explained(const std::string& file, const ExplainOptions& options) {
+  Problem problem = read_problem_file(file);
+  const std::string title = problem.title.empty() ? file : problem.title;
+  if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
+    const SplitPoint split = split_point(*decomposition, problem.solve, options);
+    return {exit_code(split.split.status), document_of_lines(title, split_text(split))};
+  }
+  if (const auto* cone = std::get_if<ConeProblem>(&problem.content))
+    return {Exit::solved, document_of_lines(title, cone_text(solve_cone(*cone)))};
+  return explain_scene(std::move(problem), file, options);
+}
+
+Answer explain_file(const std::string& file, const ExplainOptions& options) {
+  Explained made = explained(file, options);
+  const std::string text = written(made.document, options);
+  if (!options.output) return {made.exit, text, std::move(made.warnings)};
+  std::ofstream out(*options.output, std::ios::binary);
+  if (!(out << text) || !out.flush())
+    throw InvalidInput("-o " + *options.output +
+                       ": cannot be written; name a file in a folder that there is");
+  return {made.exit, "", std::move(made.warnings)};
+}
+
+Exit explain_files(const ExplainOptions& options) {
+  const auto refused = [&](const char* why) {
+    return answered(options, {options.files.front(), ""}, [&]() -> Exit { throw InvalidInput(why); });
+  };
+  if (options.output && options.files.size() > 1)
+    return refused("-o takes one problem file; run the files one by one");
+  if (options.markdown + options.latex + options.html > 1)
+    return refused("--markdown, --latex and --html are three ways to write; give one of them");
+  return print_for_each_file(options, [&](const std::string& file) { return explain_file(file, options); });
+}
+
+}  // namespace
+
+void add_explain(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<ExplainOptions>();
+  CLI::App& command =
+      add_command(program, "explain", "the reasoning behind an answer, step by step, on its numbers", chosen,
+                  [options] { return explain_files(*options); });
+  command.add_option("FILE", options->files, "problem files; - is standard input")->required();
+  command.add_flag("--quiet", options->quiet, "no text; the exit code tells");
+  command.add_flag("--markdown", options->markdown, "as Markdown, formulas between dollars");
+  command.add_flag("--latex", options->latex, "as a LaTeX file");
+  command.add_flag("--html", options->html, "as one HTML file");
+  command.add_option("-o,--output", options->output, "the file to write")->type_name("F");
+}
+
+}  // namespace cli

@@ -1,0 +1,102 @@
+#include "cli/drawing/label_placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cli {
+namespace {
+
+constexpr double line_height = 1.25;  ///< over the font size
+constexpr double impossible = 1e9;    ///< on another label, or out of the frame
+constexpr double line_cost = 60;      ///< of lying on a line, in pixels of distance
+constexpr double point_cost = 200;
+
+bool overlap(const PagePoint& low, const PagePoint& high, const PagePoint& other_low,
+             const PagePoint& other_high) {
+  return low.x() < other_high.x() && other_low.x() < high.x() && low.y() < other_high.y() &&
+         other_low.y() < high.y();
+}
+
+/// Whether a segment has a point in a box (Liang and Barsky 1984).
+bool crosses(const PagePoint& from, const PagePoint& to, const PagePoint& low, const PagePoint& high) {
+  double begin = 0, end = 1;
+  const PagePoint step = to - from;
+  for (int k = 0; k < 2; ++k) {
+    if (step[k] == 0) {
+      if (from[k] < low[k] || from[k] > high[k]) return false;
+      continue;
+    }
+    const double a = (low[k] - from[k]) / step[k], b = (high[k] - from[k]) / step[k];
+    begin = std::max(begin, std::min(a, b));
+    end = std::min(end, std::max(a, b));
+  }
+  return begin <= end;
+}
+
+}  // namespace
+
+double text_width(const std::string& text, double font_size) {
+  // Averages of sans serif type: narrow and wide letters, in em.
+  double width = 0;
+  for (const char c : text) {
+    if ((static_cast<unsigned char>(c) & 0xC0U) == 0x80U) continue;
+    width += std::string("iljtf.,:;'|![]() ").find(c) != std::string::npos ? 0.36
+             : std::string("mwMWGOQ@%").find(c) != std::string::npos       ? 0.9
+                                                                           : 0.62;
+  }
+  return width * font_size;
+}
+
+void LabelPlacement::avoid_point(const PagePoint& p, double radius) {
+  points_.push_back({p.array() - radius, p.array() + radius});
+}
+
+double LabelPlacement::cost(const Box& box) const {
+  if (box.low.x() < low_.x() || box.low.y() < low_.y() || box.high.x() > high_.x() ||
+      box.high.y() > high_.y())
+    return impossible;
+  double sum = 0;
+  for (const Box& other : labels_)
+    if (overlap(box.low, box.high, other.low, other.high)) return impossible;
+  for (const Box& other : points_)
+    if (overlap(box.low, box.high, other.low, other.high)) sum += point_cost;
+  for (const std::vector<PagePoint>& line : lines_)
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      if (!crosses(line[k], line[k + 1], box.low, box.high)) continue;
+      sum += line_cost;
+      break;
+    }
+  return sum;
+}
+
+std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& anchors,
+                                                 const std::string& text, double font_size) {
+  const PagePoint half(text_width(text, font_size) / 2 + 2, line_height * font_size / 2);
+  constexpr int directions = 16;
+  constexpr double nearest = 6, farthest = 120, step = 6;
+  double least = impossible;
+  PagePoint best = PagePoint::Zero(), direction = PagePoint::Zero();
+  for (const PagePoint& anchor : anchors)
+    for (double away = nearest; away <= farthest; away += step)
+      for (int k = 0; k < directions; ++k) {
+        const double angle = 2 * std::numbers::pi * k / directions;
+        const PagePoint way(std::cos(angle), std::sin(angle));
+        // The nearest side of the box is that far away.
+        const PagePoint middle = anchor + away * way + way.cwiseProduct(half);
+        const double total = away + cost({middle - half, middle + half});
+        if (total >= least) continue;
+        least = total;
+        best = middle;
+        direction = way;
+      }
+  if (least >= impossible) return std::nullopt;
+  labels_.push_back({best - half, best + half});
+  constexpr double sideways = 0.3;
+  if (direction.x() > sideways) return PlacedLabel{{best.x() - half.x() + 2, best.y()}, "left"};
+  if (direction.x() < -sideways) return PlacedLabel{{best.x() + half.x() - 2, best.y()}, "right"};
+  return PlacedLabel{best, "center"};
+}
+
+}  // namespace cli

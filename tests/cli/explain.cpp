@@ -1,0 +1,127 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> paragraphs(const std::string& text) {
+  std::vector<std::string> found;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", at), text.size());
+    if (end > at) found.push_back(text.substr(at, end - at));
+    at = end + 2;
+  }
+  return found;
+}
+
+std::vector<std::string> naming(const std::string& text, const std::string& name) {
+  std::vector<std::string> found = paragraphs(text);
+  std::erase_if(found,
+                [&](const std::string& paragraph) { return paragraph.find(name) == std::string::npos; });
+  return found;
+}
+
+/// A point that is pushed against a wall while it lies on a floor.
+std::string pushed_against(const std::string& wall) {
+  return point_on_floor({{8, "[system.forces]\nx = -4\n[system.constraints]"},
+                         {9, "floor = \"y >= 0\"\nwall = \"" + wall + "\""}});
+}
+
+std::vector<std::string> problem_library() {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator(fs::path(MOREAU_SOURCE) / "docs/problems"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  return files;
+}
+
+std::string explained_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("of two scenes that differ in one contact every paragraph that names it differs") {
+  const std::vector<std::string> walls{"x >= 0",         "2*x >= 0",     "x >= -1",
+                                       "x + 0.1*y >= 0", "x >= 0.5*t^2", "x = 0"};
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    for (std::size_t j = i + 1; j < walls.size(); ++j) {
+      const auto one = naming(run_on("explain", pushed_against(walls[i])).out, "wall"),
+                 other = naming(run_on("explain", pushed_against(walls[j])).out, "wall");
+      CHECK_FALSE(one.empty());
+      CHECK_FALSE(other.empty());
+      for (const std::string& paragraph : one) {
+        CAPTURE(paragraph);
+        CHECK(std::find(other.begin(), other.end(), paragraph) == other.end());
+      }
+    }
+}
+
+TEST_CASE("an explanation names each contact, its multiplier and the terms of z") {
+  const std::string text = run_on("explain", pushed_against("x >= 0")).out;
+  for (const char* said :
+       {"T = m/2*(x'^2 + y'^2)", "V = m*g*y", "Q_x = -4", "wall, x >= 0: f = 0, df/dt = 0. It is in K",
+        "lambda_wall = 4", "lambda_floor = 19.62", "x''^2 + y''^2 + 4 x'' + 19.62 y''"}) {
+    CAPTURE(said);
+    CHECK(text.find(said) != std::string::npos);
+  }
+  CHECK(text.find("y             0   -19.62            0              0   -19.62") != std::string::npos);
+}
+
+TEST_CASE(
+    "the parts of z are those of a rotating frame: centrifugal force from its turning, Coriolis force from "
+    "velocities") {
+  // A point at (2, 0) with velocity (0, 3) in a frame that turns with 5: centrifugal 5² 2, Coriolis 2 5 3.
+  const std::string text =
+      run_on("explain",
+             "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"1/2*((x' - 5*y)^2 + (y' + 5*x)^2)\"\n"
+             "[state]\nposition = { x = 2, y = 0 }\nvelocity = { y = 3 }\n")
+          .out;
+  CHECK(text.find("x            0        0           30             50   80") != std::string::npos);
+  CHECK(text.find("y            0    3   13") != std::string::npos);  // p = y' + 5 x
+}
+
+TEST_CASE("every problem of the library is explained in every form, with the exit code of its solution") {
+  const Folder folder;
+  for (const std::string& file : problem_library()) {
+    CAPTURE(file);
+    const int code = run({"solve", "--quiet", file}).code;
+    for (const char* form : {"", "--markdown", "--latex", "--html"}) {
+      std::vector<std::string> arguments{"explain", file};
+      if (*form != '\0') arguments.emplace_back(form);
+      const Outcome outcome = run(arguments);
+      CHECK(outcome.code == code);
+      CHECK_FALSE(outcome.out.empty());
+    }
+  }
+}
+
+TEST_CASE("the HTML file asks nothing of a network, and the LaTeX file compiles where pdflatex is") {
+  const bool has_latex = std::system("command -v pdflatex > /dev/null 2>&1") == 0;
+  const Folder folder;
+  for (const std::string& file : problem_library()) {
+    CAPTURE(file);
+    const std::string html = run({"explain", "--html", file}).out;
+    for (const char* fetched : {"http", "src=", "href=", "@import", "url("})
+      CHECK(html.find(fetched) == std::string::npos);
+    CHECK(html.ends_with("</html>\n"));
+    const std::string latex = folder.path("a.tex");
+    run({"explain", "--latex", "-o", latex, file});
+    const std::string text = explained_bytes(latex);
+    CHECK(std::count(text.begin(), text.end(), '{') == std::count(text.begin(), text.end(), '}'));
+    CHECK(text.ends_with("\\end{document}\n"));
+    if (has_latex)
+      CHECK(std::system(("cd " + fs::path(latex).parent_path().string() +
+                         " && pdflatex -interaction=nonstopmode -halt-on-error a.tex > /dev/null 2>&1")
+                            .c_str()) == 0);
+  }
+}
