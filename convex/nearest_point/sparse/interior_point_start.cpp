@@ -47,11 +47,10 @@ double root_mean_square(const Vector& x) {
 InteriorPointStart::InteriorPointStart(const BalancedProblem& problem, RowSystem& system, const Vector& free)
     : problem_(problem),
       system_(system),
+      step_(problem.two_sided),
       weight_(Vector::Ones(problem.s.size())),
       side_(static_cast<std::size_t>(problem.s.size()), true),
-      usual_slack_(std::max(smallest, part_of_free * root_mean_square(problem.U * free - problem.s))) {
-  for (Index a = 0; a < problem.s.size(); ++a) one_sided_count_ += one_sided(a);
-}
+      usual_slack_(std::max(smallest, part_of_free * root_mean_square(problem.U * free - problem.s))) {}
 
 /// Rows as springs: what they push and how far they open tell the sizes of multipliers and slacks, and
 /// nothing starts below its usual size.
@@ -59,14 +58,14 @@ void InteriorPointStart::start() {
   started_ = true;
   weight_.setConstant(first_weight);
   if (!system_.factor(weight_)) return;
-  q_ = system_.solve(problem_.z + problem_.U.transpose() * weight_.cwiseProduct(problem_.s));
-  slack_ = problem_.U * q_ - problem_.s;
-  lambda_ = -first_weight * slack_;
-  const double push = std::max(smallest, root_mean_square(lambda_.cwiseMax(0)));
-  const double open = std::max(usual_slack_, root_mean_square(slack_.cwiseMax(0)));
-  for (Index a = 0; a < slack_.size(); ++a) {
-    if (one_sided(a)) lambda_[a] = std::max(0.0, lambda_[a]) + push;
-    slack_[a] = one_sided(a) ? std::max(0.0, slack_[a]) + open : 0;
+  at_.q = system_.solve(problem_.z + problem_.U.transpose() * weight_.cwiseProduct(problem_.s));
+  at_.slack = problem_.U * at_.q - problem_.s;
+  at_.lambda = -first_weight * at_.slack;
+  const double push = std::max(smallest, root_mean_square(at_.lambda.cwiseMax(0)));
+  const double open = std::max(usual_slack_, root_mean_square(at_.slack.cwiseMax(0)));
+  for (Index a = 0; a < at_.slack.size(); ++a) {
+    if (one_sided(a)) at_.lambda[a] = std::max(0.0, at_.lambda[a]) + push;
+    at_.slack[a] = one_sided(a) ? std::max(0.0, at_.slack[a]) + open : 0;
   }
 }
 
@@ -74,70 +73,60 @@ void InteriorPointStart::start_from_free_motion() {
   started_ = true;
   weight_.setConstant(regularisation);
   if (!system_.factor(weight_)) return;
-  q_ = system_.solve(problem_.z);
-  slack_ = problem_.U * q_ - problem_.s;
-  for (Index a = 0; a < slack_.size(); ++a)
-    if (!one_sided(a)) slack_[a] = 0;
-  lambda_ = Vector::Zero(problem_.s.size());
+  at_.q = system_.solve(problem_.z);
+  at_.slack = problem_.U * at_.q - problem_.s;
+  for (Index a = 0; a < at_.slack.size(); ++a)
+    if (!one_sided(a)) at_.slack[a] = 0;
+  at_.lambda = Vector::Zero(problem_.s.size());
   make_interior();
 }
 
 /// Mehrotra's shift: far enough inside, and not badly centred.
 void InteriorPointStart::make_interior() {
   double lowest_slack = 0, lowest_lambda = 0, slack_sum = 0, lambda_sum = 0, product = 0;
-  const double count = static_cast<double>(std::max<Index>(1, one_sided_count_));
+  const double count = step_.count();
   double slack_size = 0, lambda_size = 0;
-  for (Index a = 0; a < lambda_.size(); ++a) {
+  for (Index a = 0; a < at_.lambda.size(); ++a) {
     if (!one_sided(a)) continue;
-    lowest_slack = std::min(lowest_slack, slack_[a]);
-    lowest_lambda = std::min(lowest_lambda, lambda_[a]);
-    slack_size += slack_[a] * slack_[a];
-    lambda_size += lambda_[a] * lambda_[a];
+    lowest_slack = std::min(lowest_slack, at_.slack[a]);
+    lowest_lambda = std::min(lowest_lambda, at_.lambda[a]);
+    slack_size += at_.slack[a] * at_.slack[a];
+    lambda_size += at_.lambda[a] * at_.lambda[a];
   }
   const double slack_shift = std::max(-1.5 * lowest_slack, 0.1 * std::sqrt(slack_size / count) + 1e-3);
   const double lambda_shift =
       std::max(-1.5 * lowest_lambda, 0.1 * std::sqrt(lambda_size / count) + 1e-3 + load_of_a_row * count);
-  for (Index a = 0; a < lambda_.size(); ++a) {
+  for (Index a = 0; a < at_.lambda.size(); ++a) {
     if (!one_sided(a)) continue;
-    slack_[a] += slack_shift;
-    lambda_[a] += lambda_shift;
-    slack_sum += slack_[a];
-    lambda_sum += lambda_[a];
-    product += slack_[a] * lambda_[a];
+    at_.slack[a] += slack_shift;
+    at_.lambda[a] += lambda_shift;
+    slack_sum += at_.slack[a];
+    lambda_sum += at_.lambda[a];
+    product += at_.slack[a] * at_.lambda[a];
   }
-  for (Index a = 0; a < lambda_.size(); ++a) {
+  for (Index a = 0; a < at_.lambda.size(); ++a) {
     if (!one_sided(a)) continue;
-    slack_[a] += 0.5 * product / lambda_sum;
-    lambda_[a] += 0.5 * product / slack_sum;
+    at_.slack[a] += 0.5 * product / lambda_sum;
+    at_.lambda[a] += 0.5 * product / slack_sum;
   }
 }
 
 /// lambda dslack + slack dlambda = target, U dq - dslack = primal_rest, A dq - Uᵀdlambda = dual_rest.
 void InteriorPointStart::solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target,
-                               Direction& to) const {
+                               InteriorPointState& to) const {
   Vector push(target.size());
   for (Index a = 0; a < target.size(); ++a)
-    push[a] = weight_[a] * ((one_sided(a) ? target[a] / lambda_[a] : 0) + primal_rest[a]);
+    push[a] = weight_[a] * ((one_sided(a) ? target[a] / at_.lambda[a] : 0) + primal_rest[a]);
   to.q = system_.solve(dual_rest + problem_.U.transpose() * push);
   to.lambda = push - weight_.cwiseProduct(problem_.U * to.q);
   to.slack.resize(target.size());
   for (Index a = 0; a < target.size(); ++a)
-    to.slack[a] = one_sided(a) ? (target[a] - slack_[a] * to.lambda[a]) / lambda_[a] : 0;
-}
-
-double InteriorPointStart::longest_step(const Direction& to) const {
-  double step = std::numeric_limits<double>::infinity();
-  for (Index a = 0; a < lambda_.size(); ++a) {
-    if (!one_sided(a)) continue;
-    if (to.slack[a] < 0) step = std::min(step, -slack_[a] / to.slack[a]);
-    if (to.lambda[a] < 0) step = std::min(step, -lambda_[a] / to.lambda[a]);
-  }
-  return step;
+    to.slack[a] = one_sided(a) ? (target[a] - at_.slack[a] * to.lambda[a]) / at_.lambda[a] : 0;
 }
 
 Index InteriorPointStart::changes_of_sides() {
   Index changes = 0;
-  for (Index a = 0; a < lambda_.size(); ++a) {
+  for (Index a = 0; a < at_.lambda.size(); ++a) {
     const auto k = static_cast<std::size_t>(a);
     if (side_[k] == looks_active(a)) continue;
     side_[k] = !side_[k];
@@ -148,40 +137,29 @@ Index InteriorPointStart::changes_of_sides() {
 
 InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_steady) {
   if (!started_) start();
-  const Index m = lambda_.size();
-  const double count = static_cast<double>(std::max<Index>(1, one_sided_count_));
+  const Index m = at_.lambda.size();
   int idle = 0;
-  Direction to;
-  Vector target(m);
   for (Index k = 0; k < most_steps; ++k) {
-    const Vector dual_rest = problem_.z - problem_.A * q_ + problem_.U.transpose() * lambda_;
-    const Vector primal_rest = problem_.s - problem_.U * q_ + slack_;
-    const double mean = slack_.dot(lambda_) / count;
+    const Vector dual_rest = problem_.z - problem_.A * at_.q + problem_.U.transpose() * at_.lambda;
+    const Vector primal_rest = problem_.s - problem_.U * at_.q + at_.slack;
+    const double mean = step_.mean(at_);
     const double rest = std::max(primal_rest.cwiseAbs().maxCoeff(), dual_rest.cwiseAbs().maxCoeff());
     if (mean <= gap && rest <= std::sqrt(gap)) return End::close;
     if (k == 0) first_rest_ = rest;
     if (changes_of_sides() == 0 && until_steady && k > 0 && rest <= part_left * first_rest_)
       return End::steady;
-    if (lambda_.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap) return End::unbounded;
+    if (at_.lambda.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap)
+      return End::unbounded;
     for (Index a = 0; a < m; ++a)
-      weight_[a] = 1 / ((one_sided(a) ? slack_[a] / lambda_[a] : 0) + regularisation);
+      weight_[a] = 1 / ((one_sided(a) ? at_.slack[a] / at_.lambda[a] : 0) + regularisation);
     if (!system_.factor(weight_)) return End::stalled;
-    target = -slack_.cwiseProduct(lambda_);
-    solve(dual_rest, primal_rest, target, to);
-    const double reach = std::min(1.0, longest_step(to));
-    const double ahead = (slack_ + reach * to.slack).dot(lambda_ + reach * to.lambda) / count;
-    const double centring = mean > 0 ? std::pow(ahead / mean, 3) : 0;
-    for (Index a = 0; a < m; ++a)
-      if (one_sided(a)) target[a] += centring * mean - to.slack[a] * to.lambda[a];
-    solve(dual_rest, primal_rest, target, to);
-    const double step = std::min(1.0, short_of_boundary * longest_step(to));
-    q_ += step * to.q;
-    slack_ += step * to.slack;
-    lambda_ += step * to.lambda;
+    const double step = step_.take(at_, short_of_boundary, [&](const Vector& target, InteriorPointState& to) {
+      solve(dual_rest, primal_rest, target, to);
+    });
     ++steps_;
     SolveWatch::tell("sparse-active-set", steps_);
     idle = step < short_step ? idle + 1 : 0;
-    if (idle > patience || !q_.allFinite() || !lambda_.allFinite()) return End::stalled;
+    if (idle > patience || !at_.q.allFinite() || !at_.lambda.allFinite()) return End::stalled;
   }
   return End::stalled;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convex/nearest_point/sparse/mehrotra_step.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
 
 namespace convex {
@@ -21,31 +22,30 @@ class InteriorPointStart {
   /// problems in which rows held together are far from the answer.
   void start_from_free_motion();
 
-  const Vector& q() const { return q_; }
-  const Vector& lambda() const { return lambda_; }
+  const Vector& q() const { return at_.q; }
+  const Vector& lambda() const { return at_.lambda; }
   /// Whether row a looks active: two-sided, or with a multiplier above its slack.
   bool looks_active(Index a) const {
-    return problem_.two_sided[static_cast<std::size_t>(a)] || lambda_[a] > slack_[a];
+    return problem_.two_sided[static_cast<std::size_t>(a)] || at_.lambda[a] > at_.slack[a];
   }
   Index steps() const { return steps_; }
 
  private:
-  struct Direction {
-    Vector q, slack, lambda;
-  };
   void start();
   void make_interior();
-  void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target, Direction&) const;
-  double longest_step(const Direction&) const;
+  void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target,
+             InteriorPointState& to) const;
   Index changes_of_sides();
-  bool one_sided(Index a) const { return !problem_.two_sided[static_cast<std::size_t>(a)]; }
+  bool one_sided(Index a) const { return step_.one_sided(a); }
 
   const BalancedProblem& problem_;
   RowSystem& system_;
-  Vector q_, slack_, lambda_, weight_;
+  MehrotraStep step_;
+  InteriorPointState at_;
+  Vector weight_;
   std::vector<bool> side_;  ///< of each row, as it looked before the last step
   double usual_slack_, first_rest_ = 0;
-  Index one_sided_count_ = 0, steps_ = 0;
+  Index steps_ = 0;
   bool started_ = false;
 };
 
