@@ -11,6 +11,17 @@
 namespace convex {
 namespace {
 
+__extension__ using TwoWords = __int128;
+
+Integer of_two_words(TwoWords x) {
+  constexpr int half = 32;  // so that the lower half is a word with a sign
+  const auto word = static_cast<std::int64_t>(x);
+  if (word == x) return word;
+  const auto low = static_cast<std::int64_t>(x & 0xffffffff);
+  return Integer::shifted(static_cast<std::int64_t>(x >> half >> half), 2 * half) +
+         Integer::shifted(static_cast<std::int64_t>((x >> half) & 0xffffffff), half) + low;
+}
+
 /// v times a positive number minus a multiple of the row, 0 at its pivot.
 void clear_pivot(IntegerVector& v, const IntegerVector& row, std::size_t pivot) {
   if (v[pivot].is_zero()) return;
@@ -22,9 +33,14 @@ void clear_pivot(IntegerVector& v, const IntegerVector& row, std::size_t pivot) 
 }  // namespace
 
 Integer dot(const IntegerVector& a, const IntegerVector& b) {
-  Integer sum = 0;
+  TwoWords words_sum = 0;  // of products of words, as long as it fits
   std::size_t i = 0;
-  for (; i < a.size() && a[i].fits_word() && b[i].fits_word() && sum.fits_word(); ++i) sum += a[i] * b[i];
+  for (; i < a.size() && a[i].fits_word() && b[i].fits_word(); ++i) {
+    TwoWords next = 0;
+    if (__builtin_add_overflow(words_sum, TwoWords{a[i].word()} * b[i].word(), &next)) break;
+    words_sum = next;
+  }
+  Integer sum = of_two_words(words_sum);
   if (i == a.size()) return sum;
   mpz_t total, words;
   mpz_init(total);
@@ -44,7 +60,10 @@ Integer dot(const IntegerVector& a, const IntegerVector& b) {
     else
       mpz_addmul_ui(total, other, magnitude);
   };
-  add_product(1, sum);
+  if (sum.fits_word())
+    mpz_set_si(total, sum.word());
+  else
+    mpz_set(total, static_cast<mpz_srcptr>(sum.gmp()));
   for (; i < a.size(); ++i) {
     if (a[i].fits_word())
       add_product(a[i], b[i]);

@@ -1,4 +1,5 @@
 #include "convex/exact/integer.hpp"
+#include "convex/exact/elimination.hpp"
 
 #include <doctest/doctest.h>
 #include <gmpxx.h>
@@ -72,4 +73,32 @@ TEST_CASE("a quotient is rounded to the nearest double, ties to even, down to th
   CHECK(convex::nearest_quotient(Integer::shifted(1, 1024) - 1, 1) ==
         std::numeric_limits<double>::infinity());
   CHECK(convex::nearest_quotient(Integer::shifted(-1, 2000), Integer::shifted(1, 1999)) == -2);
+}
+
+TEST_CASE("a sum of products is the same by words, by two words and term by term") {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max(),
+                         least = std::numeric_limits<std::int64_t>::min();
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 2000; ++trial) {
+    convex::IntegerVector a, b;
+    for (int k = 0; k < 12; ++k) {
+      const auto draw = [&]() -> convex::Integer {
+        switch (random() % 6) {
+          case 0:
+            return most;
+          case 1:
+            return least;
+          case 2:
+            return trial % 2 == 0 ? convex::Integer(3) : convex::Integer::shifted(least, random() % 80);
+          default:
+            return static_cast<std::int64_t>(random());
+        }
+      };
+      a.push_back(draw());
+      b.push_back(draw());
+    }
+    convex::Integer sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    CHECK(convex::dot(a, b) == sum);
+  }
 }
