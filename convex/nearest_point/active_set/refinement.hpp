@@ -14,10 +14,6 @@ inline constexpr double enough = 0x1p-68;
 /// A enlarges: it does not shrink any more.
 inline constexpr double at_rounding = 0x1p-80;
 
-/// One correction from doubles has to do: it is to leave no more than `enough` of the scale, and to shrink
-/// what is missing by this much.
-inline constexpr double largest_contraction = 0x1p-20;
-
 /// By what corrections shrink what is missing, estimated from conditions: A + E is factored instead of A,
 /// which leaves u times the condition of A, that of its factor squared; the whitened rows are rounded with
 /// that factor; and the rows held are factored with the condition of their Gram matrix where that is what is
