@@ -71,6 +71,13 @@ bool is_large_and_sparse(const NearestPointProblem& problem) {
   return static_cast<double>(entries(problem)) <= sparse_part * n * (n + m);
 }
 
+/// What the obstacle method leaves open the others decide where they can.
+std::optional<Solution> obstacle_decided(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  std::optional<Solution> found = solve_obstacle(problem, accuracy);
+  if (found && !found->undecided.empty() && problem.dimension() <= affordable_size) return std::nullopt;
+  return found;
+}
+
 Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
                          const std::vector<Index>& guess) {
   if (problem.rows() <= 1)
@@ -85,7 +92,7 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     }
   if (accuracy.reduce) {
     if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
-    if (std::optional<Solution> found = solve_obstacle(problem, accuracy)) return *std::move(found);
+    if (std::optional<Solution> found = obstacle_decided(problem, accuracy)) return *std::move(found);
     if (std::optional<Solution> found = solve_bordered_chain(problem, accuracy)) return *std::move(found);
   }
   std::vector<Index> likely = guess;
@@ -203,7 +210,7 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   validate(problem);
   if (std::optional<Solution> chain = solve_chain(problem, accuracy))
     if (problem.rows() > 1) return *std::move(chain);
-  if (std::optional<Solution> obstacle = solve_obstacle(problem, accuracy)) return *std::move(obstacle);
+  if (std::optional<Solution> obstacle = obstacle_decided(problem, accuracy)) return *std::move(obstacle);
   const Islands islands = find_islands(problem);
   if (has_contradiction(problem, islands)) return solve_connected(problem, accuracy, guess);
   const bool whole = islands.count == 1 && std::find(islands.of_row.begin(), islands.of_row.end(),

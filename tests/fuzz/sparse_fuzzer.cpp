@@ -42,7 +42,7 @@ std::string verdict(const PlantedSparse& planted, const Solution& found, bool& r
   const double off = error(planted, found.q), size = problem.A.norm(planted.q);
   std::snprintf(text, sizeof text, "error %.2g, bound %.2g, size %.2g", off, found.error_bound, size);
   if (!(found.error_bound <= 1.01e-9 * std::max(1.0, size)) ||
-      !(off <= 10 * found.error_bound || off <= 4e-16 * size))
+      !(off <= 10 * found.error_bound + 0x1p-95 * problem.A.dual_norm(problem.z) || off <= 4e-16 * size))
     return text;
   for (Index a = 0; a < problem.rows(); ++a) {
     if ((found.slack[a] > 0) == (planted.slack[a] > 0) && !(found.slack[a] < 0)) continue;

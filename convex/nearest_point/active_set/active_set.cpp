@@ -1,6 +1,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
@@ -57,7 +58,7 @@ class DualActiveSet {
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
       if (outcome == Outcome::infeasible) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
-      if (outcome == Outcome::unchanged) return answer(refined, true);
+      if (outcome == Outcome::unchanged && !let_weak_go(refined)) return answer(refined, true);
     }
     set_.solve();
     return answer(refine(set_), false);
@@ -280,6 +281,15 @@ class DualActiveSet {
     return true;
   }
 
+  /// Lets rows with multipliers that are 0 for all that W's condition tells go, once: their slacks say more.
+  bool let_weak_go(const RefinedPoint& refined) {
+    if (problem_.radii || std::exchange(weak_went_, true)) return false;
+    const Index before = set_.size();
+    for (Index k = before - 1; k >= 0; --k)
+      if (set_.one_sided(k) && refined.lambda.hi[k] <= 0) set_.remove(k);
+    return set_.size() < before && finish_change() == Outcome::changed;
+  }
+
   /// Takes in a row that the refined point violates.
   Outcome admit_violated(RefinedPoint& refined) {
     slack_ = refined_slacks(set_, refined, row_scale_);
@@ -316,7 +326,7 @@ class DualActiveSet {
   std::vector<bool> two_sided_, passed_;
   Vector slack_, farkas_;
   Split split_;
-  bool flat_wedge_ = false;
+  bool flat_wedge_ = false, weak_went_ = false;
   Index steps_ = 0;
   // left_outside_: parts of the rows passed over that W does not span
   double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0, left_outside_ = 0;

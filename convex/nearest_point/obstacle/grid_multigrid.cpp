@@ -142,12 +142,17 @@ void GridMultigrid::cycle(std::size_t level, RowDone row_done) {
 GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vector& u, double absolute) {
   Level& grid = levels_.front();
   const Index size = finest_.size(), n = grid.width;
-  double square = 0;
+  double square = 0, largest = 0;
   for (Index j = 0; j < grid.height; ++j)
-    for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
-      square += grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] * right[k] : 0;
+    for (Index k = grid.at(j); k < grid.at(j) + n; ++k) {
+      const double own = grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] : 0;
+      square += own * own;
+      largest = std::max(largest, std::abs(own));
+    }
   u.setZero(size);
-  if (!(square > 0)) return {0, 0};
+  if (!(largest > 0)) return {0, 0};
+  constexpr double least = 0x1p-450, so_little = 0x1p-400;  // squares below are no ordinary doubles
+  if (largest < least) return {so_little, so_little};
   // Numbers of size 1, and c = 1: of A/c x = r, r scaled, energies are those of A u = r over unit²/c.
   const double unit = std::sqrt(square / static_cast<double>(n * grid.height));
   for (std::vector<float>* field : {&x_, &p_, &Ap_}) field->assign(static_cast<std::size_t>(size), 0);
@@ -185,7 +190,8 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   }
   const double back = unit / finest_.c;
   for (Index k = 0; k < size; ++k) u[k] = back * static_cast<double>(x_[static_cast<std::size_t>(k)]);
-  return {std::sqrt(energy * energy_unit), std::sqrt(previous * energy_unit)};
+  const double root = unit / std::sqrt(finest_.c);  // squares of tiny numbers are 0
+  return {std::sqrt(energy) * root, std::sqrt(previous) * root};
 }
 
 }  // namespace convex

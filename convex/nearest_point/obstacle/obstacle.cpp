@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/exact/exact_sum.hpp"
 #include "convex/nearest_point/obstacle/grid_kernels.hpp"
 #include "convex/nearest_point/obstacle/obstacle_grid.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
 namespace convex {
 namespace {
@@ -75,6 +77,81 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   return grid;
 }
 
+/// Decides which free points touch their bound where what is missing in q could hide that: points tied to
+/// each other through free ones, and kept from the rest by points held, are put on their bounds where these
+/// are close and verified without rounding. False when that does not verify.
+class TouchedPoints {
+ public:
+  TouchedPoints(const ObstacleGrid& grid, ObstaclePoint& point) : grid_(grid), A_(grid.A), point_(point) {
+    for (Index j = 0; j < A_.height; ++j)
+      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k) inside_.push_back(k);
+    // |e_k| <= ||e||_A / sqrt(least eigenvalue of A), which is that of the whole rectangle.
+    const double pi = std::acos(-1.0);
+    const auto bend = [&](Index points) { return std::cos(pi / static_cast<double>(points + 1)); };
+    const double least = A_.d - 2 * A_.c * (bend(A_.width) + bend(A_.height));
+    reach_ = 4 * point.missing / std::sqrt(std::max(least, 0x1p-40 * A_.d));
+  }
+
+  bool decide() {
+    std::vector<Index> close;
+    for (Index k : inside_)
+      if (is_free(k) && point_.q.hi[k] - grid_.lower[k] <= reach_) close.push_back(k);
+    if (close.empty()) return true;
+    seen_.assign(static_cast<std::size_t>(A_.size()), true);
+    for (Index k : inside_) seen_[static_cast<std::size_t>(k)] = !is_free(k);
+    std::vector<Index> tied;
+    for (Index k : close) gather(k, tied);
+    for (Index k : close) put(k, grid_.lower[k]);
+    for (Index k : tied) {
+      if (point_.q.lo[k] != 0) return false;
+      const int sign = rest(k).sign();
+      const bool on_bound = point_.q.hi[k] <= grid_.lower[k];
+      if (on_bound ? sign > 0 : sign != 0) return false;
+    }
+    for (Index k : tied) point_.rest[k] = rest(k).value();
+    return true;
+  }
+
+ private:
+  bool is_free(Index k) const { return !grid_.holds(k) && point_.q.hi[k] > grid_.lower[k]; }
+  void put(Index k, double height) {
+    point_.q.hi[k] = height;
+    point_.q.lo[k] = 0;
+  }
+  void gather(Index first, std::vector<Index>& tied) {
+    const std::size_t begin = tied.size();
+    const auto meet = [&](Index k) {
+      if (seen_[static_cast<std::size_t>(k)]) return;
+      seen_[static_cast<std::size_t>(k)] = true;
+      tied.push_back(k);
+    };
+    meet(first);
+    for (std::size_t next = begin; next < tied.size(); ++next)
+      for (Index by : {Index{1}, A_.stride()}) {
+        meet(tied[next] - by);
+        meet(tied[next] + by);
+      }
+  }
+  /// z - Aq at a point.
+  ExactSum rest(Index k) const {
+    ExactSum sum;
+    sum.add(grid_.z[k]);
+    sum.add_product(-A_.d, point_.q.hi[k]);
+    for (Index by : {Index{1}, A_.stride()}) {
+      sum.add_product(A_.c, point_.q.hi[k - by]);
+      sum.add_product(A_.c, point_.q.hi[k + by]);
+    }
+    return sum;
+  }
+
+  const ObstacleGrid& grid_;
+  const GridOperator& A_;
+  ObstaclePoint& point_;
+  std::vector<Index> inside_;
+  std::vector<bool> seen_;
+  double reach_ = 0;
+};
+
 /// ||c||_(A⁻¹) of fields without a factor of A.
 class GridNorm {
  public:
@@ -107,8 +184,9 @@ class GridNorm {
 std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const Accuracy& accuracy) {
   const std::optional<ObstacleGrid> grid = grid_problem(problem);
   if (!grid) return std::nullopt;
-  const ObstaclePoint point = solve_obstacle_grid(*grid);
+  ObstaclePoint point = solve_obstacle_grid(*grid);
   if (!point.ended) return std::nullopt;
+  const bool decided = TouchedPoints(*grid, point).decide();
   const Index n = problem.dimension(), width = grid->A.width;
   const auto place = [&](Index k) { return grid->A.at(k % width, k / width); };
   Solution found;
@@ -144,7 +222,8 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   found.rounding = std::sqrt(2 * grid->A.d * lost.squaredNorm());
   found.error_bound = 2 * point.missing + found.rounding;
   const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
-  found.status = close ? Status::solved : Status::inaccurate;
+  found.status = close && decided ? Status::solved : Status::inaccurate;
+  if (!decided) found.undecided = open_question::touched;
   found.model.islands = {{found.method, n, problem.rows(), 0, 60.0 * static_cast<double>(point.steps * n),
                           6.0 * static_cast<double>(n)}};
   return found;

@@ -146,4 +146,8 @@ std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const V
   return slacks;
 }
 
+int sign_of_slack(const NearestPointProblem& problem, Index a, const Vector& q) {
+  return exact_slack(problem, a, q).sign();
+}
+
 }  // namespace convex

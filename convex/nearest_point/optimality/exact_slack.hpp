@@ -40,4 +40,7 @@ class SlackOnEdge {
 /// ||Aq - z - Uᵀlambda||_(A⁻¹) then, q* the solution.
 std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Vector& q,
                                      const std::vector<Index>& held, const std::vector<Index>& touched);
+
+/// The sign of u_a·q - s_a at the doubles q, without rounding.
+int sign_of_slack(const NearestPointProblem&, Index a, const Vector& q);
 }  // namespace convex

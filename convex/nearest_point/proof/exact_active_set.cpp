@@ -51,6 +51,40 @@ class HeldRows {
   IntegerSystem system_;
 };
 
+/// Bits of the longest number of each row of [A z] and [U s].
+std::vector<double> row_bits(const ExactProblem& problem) {
+  std::vector<double> bits;
+  const auto add = [&](const IntegerVector& row, const Integer& right) {
+    std::size_t most = right.bits();
+    for (const Integer& entry : row) most = std::max(most, entry.bits());
+    bits.push_back(std::max(1.0, static_cast<double>(most)));
+  };
+  for (std::size_t i = 0; i < problem.z.size(); ++i) add(problem.A[i], problem.z[i]);
+  for (std::size_t a = 0; a < problem.s.size(); ++a) add(problem.U[a], problem.s[a]);
+  return bits;
+}
+
+double longest(const std::vector<double>& bits) {
+  return bits.empty() ? 1 : *std::max_element(bits.begin(), bits.end());
+}
+
+/// One linear system with `held` rows whose numbers have so many bits, those of its fractions together.
+double operations(const ExactProblem& problem, std::size_t held, double bits, double of_fractions) {
+  constexpr double word = 64, digit = 62;  // bits; of a number, and that a step of lifting gives
+  const double n = static_cast<double>(problem.z.size()), N = n + static_cast<double>(held),
+               m = static_cast<double>(problem.s.size());
+  const double words = 1 + bits / word, digits = 1 + of_fractions / digit;
+  // The inverse modulo a prime; lifting; reading off the fractions; slacks.
+  return N * N * N + digits * N * N * (1 + words) + N * digits * digits + m * n * digits * words;
+}
+
+double operations_to_find(const ExactProblem& problem, const ExactVector& x, std::size_t held) {
+  std::size_t most = 0;
+  for (const Integer& numerator : x.numerators) most = std::max(most, numerator.bits());
+  const std::vector<double> bits = row_bits(problem);
+  return operations(problem, held, longest(bits), static_cast<double>(most + x.denominator.bits()));
+}
+
 class ExactActiveSet {
  public:
   ExactActiveSet(const ExactProblem& problem, const std::vector<Index>& guess, double most_words)
@@ -85,13 +119,19 @@ class ExactActiveSet {
       solution_.status = Status::gave_up;
       return false;
     }
-    solution_.word_operations += next;
+    estimate_ = next;
     return true;
+  }
+
+  /// The work is that of the fractions found, which are mostly much shorter than they might have been.
+  void count(const ExactVector& found) {
+    solution_.word_operations += std::min(estimate_, operations_to_find(problem_, found, rows_.size()));
   }
 
   bool find_point() {
     if (!afford()) return false;
     point_ = HeldRows(problem_, rows_).point();
+    count(point_);
     return true;
   }
 
@@ -148,6 +188,8 @@ class ExactActiveSet {
       const HeldRows held(problem_, rows_);
       point_ = held.point();
       const ExactVector direction = held.direction(row);
+      count(point_);
+      count(direction);
       ++solution_.steps;
       // Times common positive factors: t2 = gap / rise, t1 = multiplier / -change.
       const IntegerVector q(point_.numerators.begin(),
@@ -211,6 +253,7 @@ class ExactActiveSet {
   double most_words_;
   std::vector<bool> two_sided_;
   Vector lengths_;
+  double estimate_ = 0;
   std::vector<Index> rows_;
   ExactVector point_;
   IntegerVector slack_;
@@ -237,25 +280,13 @@ bool proves_infeasibility(const ExactProblem& problem, const IntegerVector& w) {
 }
 
 double word_operations(const ExactProblem& problem, std::size_t held) {
-  constexpr double word = 64, digit = 62;  // bits; of a number, and that a step of lifting gives
-  const std::size_t n = problem.z.size();
-  std::vector<double> bits;
-  double longest = 1, of_all = 0;
-  const auto longest_of = [&](const IntegerVector& row, const Integer& right) {
-    std::size_t most = right.bits();
-    for (const Integer& entry : row) most = std::max(most, entry.bits());
-    longest = std::max(longest, static_cast<double>(most));
-    return static_cast<double>(most);
-  };
-  for (std::size_t i = 0; i < n; ++i) of_all += longest_of(problem.A[i], problem.z[i]);
-  for (std::size_t a = 0; a < problem.s.size(); ++a) bits.push_back(longest_of(problem.U[a], problem.s[a]));
-  std::sort(bits.begin(), bits.end(), std::greater<>());
-  for (std::size_t k = 0; k < std::min(held, bits.size()); ++k) of_all += bits[k];
-  const double N = static_cast<double>(n + held), m = static_cast<double>(problem.s.size());
-  const double words = 1 + longest / word, digits = 1 + 2 * of_all / digit;
-  // The inverse modulo a prime; lifting; reading off the fractions; slacks.
-  return N * N * N + digits * N * N * (1 + words) + N * digits * digits +
-         m * static_cast<double>(n) * digits * words;
+  const std::vector<double> bits = row_bits(problem);
+  double of_all = 0;
+  for (std::size_t i = 0; i < problem.z.size(); ++i) of_all += bits[i];
+  std::vector<double> rows(bits.begin() + static_cast<std::ptrdiff_t>(problem.z.size()), bits.end());
+  std::sort(rows.begin(), rows.end(), std::greater<>());
+  for (std::size_t k = 0; k < std::min(held, rows.size()); ++k) of_all += rows[k];
+  return operations(problem, held, longest(bits), 2 * of_all);
 }
 
 ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess,

@@ -17,7 +17,7 @@ struct ExactSolution {
   std::vector<Index> basis;  ///< independent rows, tight, that hold all multipliers
   IntegerVector farkas;
   Index steps = 0;             ///< rows taken in or dropped after the guess
-  double word_operations = 0;  ///< an estimate of the work, made from sizes alone
+  double word_operations = 0;  ///< an estimate of the work, from the sizes of the numbers that came up
 };
 
 /// Solves the problem in fractions. `guess`: rows thought to be active; where they are, the answer costs one

@@ -18,6 +18,7 @@ constexpr double roundings = 64;
 Vector slowest_residual(const BalancedProblem& scaled, const RowSystem& system,
                         const std::vector<Index>& rows, const Vector& weight) {
   Vector left = Vector::Zero(scaled.s.size());
+  const Vector held = (weight.array() > 0).cast<double>();
   double k = 0;
   for (Index a : rows) {
     const double golden = 0.6180339887498949 * ++k;
@@ -26,8 +27,7 @@ Vector slowest_residual(const BalancedProblem& scaled, const RowSystem& system,
   }
   for (int power = 0; power < most_powers && !is_held_firmly(left); ++power) {
     const Vector push = scaled.U.transpose() * left.cwiseProduct(weight);
-    const Vector along = scaled.U * system.solve(push);
-    for (Index a : rows) left[a] -= along[a];
+    left -= (scaled.U * system.solve(push)).cwiseProduct(held);
   }
   return left;
 }

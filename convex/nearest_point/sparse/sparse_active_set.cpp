@@ -6,15 +6,14 @@
 
 #include "convex/nearest_point/isotonic/peeling.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
-#include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
-#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
 #include "convex/nearest_point/sparse/dependent_rows.hpp"
 #include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/interior_point_start.hpp"
+#include "convex/nearest_point/sparse/sparse_contradiction.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
 #include "convex/zero_tolerances.hpp"
 
@@ -43,10 +42,6 @@ constexpr int most_single = 20;
 /// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
 constexpr double data_roundings = 16;
 
-/// A slack computed in twice the precision may be off by this part of its terms: whether it is 0 is then
-/// decided without rounding.
-constexpr double rounding_of_slacks = 0x1p-96;
-
 /// Of the word operations that fractions may take, what eliminations modulo a prime may: their numbers are in
 /// lists.
 constexpr double part_for_lists = 0.1;
@@ -64,7 +59,7 @@ class SparseActiveSet {
       point_.q = DoubleDoubleVector(problem_.dimension());
       point_.lambda = DoubleDoubleVector(problem_.rows());
       if (exchange(most_exchanges, 1)) return answer();
-      if (all_two_sided) return infeasible(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
+      if (all_two_sided) return contradicted(point_.lambda.hi.cwiseQuotient(scaled_.multiplier));
     }
     InteriorPointStart start(scaled_, system_,
                              problem_.A.solve(problem_.z).cwiseQuotient(scaled_.coordinate));
@@ -77,7 +72,7 @@ class SparseActiveSet {
       }
       steps_ += start.steps() - before;
       if (end == InteriorPointStart::End::unbounded || (end == InteriorPointStart::End::stalled && k == 0)) {
-        Solution refused = infeasible(start.lambda());
+        Solution refused = contradicted(start.lambda());
         if (refused.status == Status::infeasible) return refused;
       }
       if (start.q().size() != problem_.dimension()) break;
@@ -207,8 +202,7 @@ class SparseActiveSet {
       if (held[static_cast<std::size_t>(a)]) continue;
       slack_[a] = slack(problem_, a, point_.q).value();
       const double over = slack_[a] / scaled_.bound[a];
-      if (std::abs(over) <=
-          left + std::max(rounding_of_slacks, 2 * silence_) * (size + std::abs(scaled_.s[a]))) {
+      if (std::abs(over) <= left + std::max(zero_of_pairs, 2 * silence_) * (size + std::abs(scaled_.s[a]))) {
         slack_[a] = 0;
         touched_.push_back(a);
       }
@@ -221,34 +215,50 @@ class SparseActiveSet {
     return wrong;
   }
 
+  Solution contradicted(const Vector& lambda) {
+    Solution found = sparse_contradiction(problem_, scaled_, system_, lambda);
+    found.method = method;
+    found.steps = steps_;
+    return found;
+  }
+
   /// Whether the rows held hold firmly and those touched have a slack of 0: what is open where that cannot be
   /// told, else nothing. What depends on what, and with which bound, is decided without rounding.
   std::string_view open() {
-    double delta = delta_;
-    std::vector<Index> tight = rows_, besides = touched_;
+    const double delta = delta_;
+    std::vector<Index> tight = rows_, besides;
     tight.insert(tight.end(), touched_.begin(), touched_.end());
     std::sort(tight.begin(), tight.end());
+    // Rows that q keeps without rounding have no residual, however nearly they depend on each other.
+    std::vector<Index> rounded;
+    for (Index a : tight)
+      if (sign_of_slack(problem_, a, point_.q.hi) != 0) rounded.push_back(a);
+    for (Index a : touched_)
+      if (std::binary_search(rounded.begin(), rounded.end(), a)) besides.push_back(a);
+    if (rounded.empty()) return {};
     if (!touched_.empty() && !hold(tight, delta)) return open_question::conditioning;
-    const Vector slowest = slowest_residual(scaled_, system_, tight, weight_);
+    const Vector slowest = slowest_residual(scaled_, system_, rounded, weight_);
     if (problem_.radii)
       return is_held_firmly(slowest) || is_zero_within(problem_, scaled_, slowest)
                  ? std::string_view()
                  : open_question::dependence;
     if (!is_held_firmly(slowest)) {
-      const double most = accuracy_.limit * part_for_lists * most_word_operations;
+      const double most = std::max(1.0, accuracy_.limit) * part_for_lists * most_word_operations;
       const auto found = row_dependences(problem_.U, problem_.s, rows_, touched_, most);
       if (!found) return open_question::dependence;
       if (!found->consistent) return open_question::contradiction;
       if (!found->off_edge.empty()) return open_question::touched;
+      std::erase_if(rounded, [&](Index a) {
+        return !std::binary_search(found->independent.begin(), found->independent.end(), a);
+      });
       if (found->independent.size() == tight.size() || !hold(found->independent, delta) ||
-          !is_held_firmly(slowest_residual(scaled_, system_, found->independent, weight_)))
+          !is_held_firmly(slowest_residual(scaled_, system_, rounded, weight_)))
         return open_question::dependence;
       std::erase_if(besides, [&](Index a) {
         return std::binary_search(found->implied.begin(), found->implied.end(), a);
       });
     }
     if (besides.empty()) return {};
-    if (!point_.q.lo.isZero(0)) return open_question::touched;
     const auto slacks = slacks_if_kept(problem_, point_.q.hi, rows_, besides);
     if (!slacks) return open_question::touched;
     slack_(besides) = *slacks;
@@ -309,48 +319,6 @@ class SparseActiveSet {
     solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,
                                static_cast<double>(system_.factorisations()) * system_.flops(),
                                system_.nonzeros()}};
-    return solution;
-  }
-
-  /// Multipliers that grow without bound point along a witness: its part in the null space of Uᵀ, on the rows
-  /// that grow.
-  Solution infeasible(const Vector& lambda) {
-    constexpr double growing = 1e-4;
-    constexpr int most_projections = 20;
-    Solution solution;
-    solution.method = method;
-    solution.steps = steps_;
-    const double largest = lambda.cwiseAbs().maxCoeff();
-    std::vector<Index> rows;
-    Vector weight = Vector::Zero(problem_.rows()), w = Vector::Zero(problem_.rows());
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (std::abs(lambda[a]) > growing * largest) {
-        rows.push_back(a);
-        weight[a] = 1e6;  // A is then a small part of A + UᵀDU
-        w[a] = lambda[a] / largest * scaled_.multiplier[a];
-      }
-    if (!system_.factor(weight)) return solution;
-    for (int k = 0; k < most_projections; ++k) {
-      DoubleDoubleVector sum(problem_.dimension());
-      for (Index a : rows) problem_.U.add_multiple(a, {w[a], 0}, sum);
-      const Vector rest = sum.value().cwiseQuotient(scaled_.force);
-      const Vector along = scaled_.U * system_.solve(rest);
-      for (Index a : rows) w[a] -= weight[a] * along[a] * scaled_.multiplier[a];
-    }
-    for (Index a : rows)
-      if (one_sided(a)) w[a] = std::max(0.0, w[a]);
-    const double reach = farthest_motion * problem_.A.dual_norm(problem_.z);
-    if (!w.allFinite() || !(w.cwiseAbs().maxCoeff() > 0)) return solution;
-    solution.farkas = w / w.cwiseAbs().maxCoeff();
-    if (!proves_infeasibility(problem_, solution.farkas, reach)) return solution;
-    if (problem_.radii) {
-      solution.status = Status::infeasible;
-    } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem_, solution.farkas)) {
-      solution.farkas = std::move(proof->farkas);
-      solution.status = Status::infeasible;
-    } else {
-      solution.undecided = open_question::contradiction;
-    }
     return solution;
   }
 
