@@ -124,12 +124,15 @@ void CutMultigrid::set_free(const std::vector<std::uint8_t>& held, const std::ve
     } else {
       for (Index k = 0; k < grid.size(); ++k) level.free[at(k)] = grid.is_unknown(k) && held[at(k)] == 0;
       load_ = grid.load;
+      pull_ = grid.pull;
     }
     for (std::size_t a = 0; a < grid.pendants.size(); ++a) {
       if (!taut_here[a]) continue;
       const Pendant& pendant = grid.pendants[a];
       level.diagonal[at(pendant.point)] += pendant.conductance;
-      if (l == 0) load_[at(pendant.point)] -= pendant.conductance * pendant.shift;
+      if (l > 0) continue;
+      pull_[at(pendant.point)] += pendant.conductance;
+      load_[at(pendant.point)] -= pendant.conductance * pendant.shift;
     }
     for (Index k = 0; k < grid.size(); ++k)
       level.inverse[at(k)] =
@@ -246,7 +249,7 @@ double CutMultigrid::residual(const std::vector<double>& q, std::vector<double>&
 
 double CutMultigrid::push(const std::vector<double>& q, Index k) const {
   const CutGrid& grid = *levels_.front().grid;
-  double sum = grid.pull[at(k)] * q[at(k)] - grid.load[at(k)];
+  double sum = pull_[at(k)] * q[at(k)] - load_[at(k)];
   for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
     const Index s = grid.stride(axis);
     sum += grid.link[axis][at(k)] * (q[at(k)] - q[at(k + s)]) +

@@ -22,7 +22,7 @@ class CutMultigrid {
   double residual(const std::vector<double>& q, std::vector<double>& r) const;
   /// q += the correction for the residual r, to `part` of its energy norm. Steps taken.
   Index correct(std::vector<double>& q, std::vector<double>& r, double part);
-  /// Σ links (q_i - q_j) + pull q_i - load_i, without pendants: what pushes a held point.
+  /// Σ links (q_i - q_j) + pull q_i - load_i and what taut pendants add: what pushes a held point.
   double push(const std::vector<double>& q, Index point) const;
   static void interpolate(const CutGrid& coarse, const std::vector<double>& from, const CutGrid& fine,
                           std::vector<double>& to);
@@ -39,7 +39,7 @@ class CutMultigrid {
   void restrict_residual(Level& fine, Level& coarse);
   void cycle(std::size_t level);
   std::vector<Level> levels_;
-  std::vector<double> load_, p_, Ap_, z_;
+  std::vector<double> load_, pull_, p_, Ap_, z_;
 };
 
 }  // namespace convex

@@ -1,0 +1,169 @@
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/error_form.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+double number(const Json& text) { return std::stod(text.get<std::string>()); }
+
+double fraction(const Json& text) {
+  const std::string digits = text.get<std::string>();
+  const std::size_t slash = digits.find('/');
+  return std::stod(digits) / (slash == std::string::npos ? 1 : std::stod(digits.substr(slash + 1)));
+}
+
+/// Lines: 1 [liquid], 2 coordinates, 3 domain, 4 density, 5 velocity, 6 force, 7 free, 8 walls, 9 cells,
+/// 10 [liquid.parameters], 11 p0.
+std::string tank(const Changes& changes = {}) {
+  std::vector<std::string> lines{"[liquid]",
+                                 "coordinates = [\"x\", \"y\"]",
+                                 "domain = \"box(low=[0, 0], high=[1, 1])\"",
+                                 "density = 2",
+                                 "",
+                                 "force = [\"0\", \"-9\"]",
+                                 "free = { top = { where = \"y >= 1\", pressure = \"p0\" } }",
+                                 "walls = { rest = { where = \"true\", acceleration = 0 } }",
+                                 "",
+                                 "[liquid.parameters]",
+                                 "p0 = 1"};
+  for (const auto& [line, text] : changes) lines[static_cast<std::size_t>(line - 1)] = text;
+  std::string file;
+  for (const std::string& line : lines) file += line + "\n";
+  return file;
+}
+
+Json solved_liquid(const std::string& text, std::vector<std::string> options = {}) {
+  const Folder folder;
+  std::vector<std::string> arguments{"solve", "--json", folder.write("liquid.toml", text)};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Outcome outcome = run(arguments);
+  CAPTURE(text);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code <= 1);
+  return Json::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("the liquids of the library have the answers of closed forms, within their error bounds") {
+  for (const std::string name : {"piston", "tube", "disc", "ball", "square", "tank"}) {
+    CAPTURE(name);
+    std::ifstream file(MOREAU_SOURCE "/tests/cases/liquid_" + name + ".expected.json");
+    const Json expected = Json::parse(file);
+    std::vector<std::string> arguments{"solve", "--json",
+                                       MOREAU_SOURCE "/docs/problems/liquid_" + name + ".toml"};
+    for (const Json& probe : expected["probes"]) {
+      arguments.push_back("--probe");
+      arguments.push_back(probe["at"]);
+    }
+    std::string onset;
+    for (const auto& [parameter, value] : expected["onset"].items()) {
+      onset = parameter;
+      arguments.insert(arguments.end(), {"--onset", parameter});
+    }
+    const Outcome outcome = run(arguments);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const Json found = Json::parse(outcome.out);
+    const double largest = number(expected["max"]), tolerance = number(expected["tolerance"]);
+    const double bound = found["certificate"]["error_bound"].get<double>() + 1e-12 * largest;
+    CHECK(std::abs(found["pressure"]["max"].get<double>() - largest) <= bound);
+    CHECK(found["parted_walls"] == expected["parted_walls"]);
+    for (std::size_t k = 0; k < expected["probes"].size(); ++k) {
+      const double error =
+          std::abs(found["probes"][k]["p"].get<double>() - number(expected["probes"][k]["p"]));
+      CHECK(error <= bound);
+      CHECK(error <= tolerance * largest);
+      CHECK(found["probes"][k]["growth"].get<double>() ==
+            doctest::Approx(number(expected["probes"][k]["growth"])));
+    }
+    const double measure = number(expected["measure"]);
+    CHECK(std::abs(found["cavity"]["measure"].get<double>() - measure) <=
+          std::max(tolerance, 1e-11) * std::max(1.0, measure));
+    CHECK(found["cavity"]["extent"].is_null() == expected["extent"].is_null());
+    if (!expected["extent"].is_null())
+      CHECK(std::abs(found["cavity"]["extent"]["x"][1].get<double>() - number(expected["extent"])) <=
+            std::max(tolerance, 1e-11));
+    if (onset.empty()) continue;
+    const double value = fraction(expected["onset"][onset]),
+                 error = std::abs(found["onset"][onset].get<double>() - value);
+    CHECK(error <= found["onset_error"].get<double>());
+    CHECK(error <= 1e-7);
+  }
+}
+
+TEST_CASE("a liquid without a free surface is squeezed, rests, or parts from the wall that leaves") {
+  const auto lid = [](const std::string& acceleration) {
+    return tank({{7, "free = {}"},
+                 {8, "walls = { lid = { where = \"y >= 1\", acceleration = " + acceleration +
+                         " }, rest = { where = \"true\", acceleration = 0 } }"}});
+  };
+  const Json squeezed = solved_liquid(lid("-1")),
+             at_rest = solved_liquid(lid("0"), {"--probe", "x=0.5, y=0.25"}),
+             lifted = solved_liquid(lid("1"));
+  CHECK(squeezed["status"] == "infeasible");
+  CHECK(squeezed["surplus"].get<double>() == doctest::Approx(2));
+  CHECK(at_rest["status"] == "solved");
+  CHECK(at_rest["probes"][0]["p"].get<double>() == doctest::Approx(13.5).epsilon(1e-6));
+  CHECK(at_rest["parted_walls"].empty());
+  CHECK(lifted["parted_walls"] == Json::parse(R"(["lid"])"));
+}
+
+TEST_CASE("a parameter has no onset where no value of it brings cavitation") {
+  CHECK(solved_liquid(tank(), {"--onset", "p0"})["onset"].is_null());
+}
+
+TEST_CASE(
+    "the table and the image of a liquid have a row for each point of the domain and for each of the box") {
+  const Folder folder;
+  const std::string table = folder.path("p.csv"), image = folder.path("p.vti");
+  solved_liquid(tank({{9, "cells = 8"}}), {"--data", table, "--vtk", image});
+  std::ifstream rows(table);
+  std::string line;
+  REQUIRE(std::getline(rows, line));
+  CHECK(line == "x,y,p,growth,cavity");
+  int count = 0;
+  while (std::getline(rows, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream numbers(line);
+    double x = 0, y = 0, p = 0;
+    numbers >> x >> y >> p;
+    CHECK(p == doctest::Approx(1 + 18 * (1 - y)));
+    ++count;
+  }
+  CHECK(count == 81);
+  std::ifstream text(image);
+  std::stringstream whole;
+  whole << text.rdbuf();
+  CHECK(whole.str().find("WholeExtent=\"0 8 0 8 0 0\"") != std::string::npos);
+}
+
+TEST_CASE("what is wrong in a liquid is named, with its place") {
+  const std::vector<Wrong> wrong{
+      {tank({{8, ""}}), "1:1", {"boundary point", "no part"}},
+      {tank({{11, "p0 = -1"}}), "7:10", {"free.top", "below 0"}},
+      {tank({{5, "velocity = [\"x\", \"y\"]"}}), "1:1", {"divergence is 2", "no cavity"}},
+      {tank({{5, "velocities = [0, 0]"}}), "5:1", {"velocities", "velocity"}},
+      {tank({{5, "velocity = [0]"}}), "5:12", {"one a coordinate"}},
+      {tank({{3, "domain = \"box(low=[0, 0], high=[1, 0])\""}}), "3:11", {"empty"}},
+      {tank({{3, "domain = \"disk(center=[0, 0], radius=1)\""}}), "3:11", {"no shape"}},
+      {tank({{3, "domain = \"{x^2 + y^2 <= -1}\""}}), "3:11", {"empty"}},
+      {tank({{3, "domain = \"{x >= 0, y >= 0}\""}}), "3:11", {"does not end"}},
+      {tank({{3, "domain = \"{(x^2 - 1)^2 + y^2 <= 0.5}\""}, {9, "low = [-2, -1]\nhigh = [2, 1]"}}),
+       "1:1",
+       {"not connected"}},
+      {tank({{3, "domain = \"polygon(vertices=[[0, 0], [1, 1], [1, 0], [0, 1]])\""}}), "3:11", {"cross"}},
+      {tank({{4, "density = 0"}}), "4:11", {"above 0"}},
+      {tank({{7, "free = { top = { where = \"y\", pressure = \"p0\" } }"}}), "7:27", {"relation"}},
+      {tank({{7, "free = { top = { where = \"z >= 1\", pressure = \"p0\" } }"}}), "7:27", {"unknown"}},
+      {tank({{9, "cells = 100000"}}), "1:1", {"GB of memory"}},
+      {tank({{9, "symmetry = \"radial\""}}), "1:1", {"radial"}},
+  };
+  for (const Wrong& one : wrong) expect_refusal(one);
+}
