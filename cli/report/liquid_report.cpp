@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "cli/drawing/liquid_drawing.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/liquid_files.hpp"
 #include "cli/report/text_table.hpp"
@@ -61,8 +62,9 @@ void write_point(JsonWriter& json, const std::vector<std::string>& names, const 
 }
 
 void write_files(const SolvedLiquid& solved, const LiquidRequest& request) {
-  if (!request.data && !request.vtk) return;
   if (solved.solution.status == Status::infeasible) return;
+  if (request.plot) draw(*request.plot, liquid_drawing(solved.scene, solved.solution));
+  if (!request.data && !request.vtk) return;
   const auto sample =
       mechanics::liquid::sample(solved.scene, solved.solution, mechanics::liquid::sample_cells(solved.scene));
   if (request.data) write_liquid_table(*request.data, solved.scene.coordinates, sample);

@@ -57,6 +57,7 @@ double slope(const CutGrid& grid, const std::vector<double>& q, Index k) {
 TEST_CASE(
     "the point found on a grid with holes, pendants and any links fulfils the conditions of a minimum") {
   std::mt19937 random(7);
+  int held = 0;
   for (const auto& [dimension, points] : {std::pair{std::size_t{1}, Index{33}}, {2, 17}, {3, 9}})
     for (int trial = 0; trial < 8; ++trial) {
       CAPTURE(dimension);
@@ -64,7 +65,6 @@ TEST_CASE(
       const CutGrid coarse = random_grid(dimension, (points + 1) / 2, random);  // it only has to help
       const CutSolution found = convex::solve_cut_grids({&fine, &coarse}).front();
       CHECK(found.ended);
-      int held = 0;
       for (Index k = 0; k < fine.size(); ++k) {
         if (!fine.is_unknown(k)) continue;
         const auto i = static_cast<std::size_t>(k);
@@ -76,8 +76,8 @@ TEST_CASE(
           CHECK(std::abs(here) <= 1e-7);
         held += found.held[i];
       }
-      CHECK(held > 0);
     }
+  CHECK(held > 100);
 }
 
 TEST_CASE("without bounds the equation holds at every unknown") {

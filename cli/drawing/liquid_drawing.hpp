@@ -1,0 +1,12 @@
+#pragma once
+
+#include "cli/drawing/gnuplot.hpp"
+#include "mechanics/liquid/liquid_solution.hpp"
+
+namespace cli {
+
+/// The pressure with contours, the cavity hatched, walls that part in red; of one coordinate p over it, of
+/// three the section through the middle of the domain.
+Drawing liquid_drawing(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&);
+
+}  // namespace cli
