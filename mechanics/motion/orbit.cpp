@@ -5,6 +5,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
+#include "mechanics/motion/tangent_chart.hpp"
 
 namespace mechanics {
 namespace {
@@ -17,8 +18,9 @@ constexpr int most_iterations = 60;
 constexpr double met = 1e-10;
 
 /// Steps of differences, relative to how far the motion goes: of the second order for Newton's method, of the
-/// fourth for the multipliers; shorter ones where the events on the way change.
-constexpr double newton_step = 1e-6, multiplier_step = 2e-4, shortest_step = 1e-7;
+/// eighth for the multipliers; shorter ones where the events on the way change.
+constexpr double newton_step = 1e-6, multiplier_step = 1e-3, shortest_step = 1e-7;
+constexpr int multiplier_levels = 4;
 
 /// Points of an arc that are looked at when a return is searched for.
 constexpr int looks_per_arc = 16;
@@ -77,27 +79,33 @@ class PeriodMap {
     return difference;
   }
 
-  /// ∂end/∂x by central differences, of the fourth order if `accurate`; none if a motion on the way has other
-  /// events, unless `at_any_rate`.
-  std::optional<Matrix> derivative(const Vector& x, double period, const Flight& flight, double step,
-                                   bool accurate, bool at_any_rate) const {
-    Matrix D(x.size(), x.size());
-    for (Index i = 0; i < x.size(); ++i) {
-      const double h = step * std::max(flight.largest[i], least_scale(flight));
+  /// ∂end/∂y in the coordinates of a chart by central differences of order 2 times `levels`, extrapolated
+  /// (Richardson); none if a motion on the way has other events, unless `at_any_rate`.
+  std::optional<Matrix> derivative(const TangentChart& chart, double period, const Flight& flight,
+                                   double step, int levels, bool at_any_rate) const {
+    const Index size = chart.dimension();
+    Matrix D(size, size);
+    for (Index k = 0; k < size; ++k) {
+      double part = 0;  // of what the motion goes, by a unit of this coordinate
+      const Vector direction = chart.direction(k);
+      for (Index i = 0; i < direction.size(); ++i)
+        part = std::max(part, std::abs(direction[i]) / std::max(flight.largest[i], least_scale(flight)));
       const auto beside = [&](double by) -> std::optional<Vector> {
-        Vector moved = x;
-        moved[i] += by;
-        const Flight other = fly(moved, period);
+        const Flight other = fly(chart.state_of(by * Vector::Unit(size, k)), period);
         if (!other.arrives || (!at_any_rate && !alike(other.events, flight.events))) return std::nullopt;
         return other.end;
       };
-      const auto right = beside(h), left = beside(-h);
-      if (!right || !left) return std::nullopt;
-      D.col(i) = (*right - *left) / (2 * h);
-      if (!accurate) continue;
-      const auto far_right = beside(2 * h), far_left = beside(-2 * h);
-      if (!far_right || !far_left) return std::nullopt;
-      D.col(i) += (D.col(i) - (*far_right - *far_left) / (4 * h)) / 3;
+      std::vector<Vector> slopes;  // with h, 2h, 4h, …
+      double h = step / part;
+      for (int level = 0; level < levels; ++level, h *= 2) {
+        const auto right = beside(h), left = beside(-h);
+        if (!right || !left) return std::nullopt;
+        slopes.push_back((*right - *left) / (2 * h));
+      }
+      double factor = 4;
+      for (std::size_t left = slopes.size(); left > 1; --left, factor *= 4)
+        for (std::size_t j = 0; j + 1 < left; ++j) slopes[j] += (slopes[j] - slopes[j + 1]) / (factor - 1);
+      D.col(k) = chart.along(slopes[0]);
     }
     return D;
   }
@@ -160,23 +168,19 @@ double return_time(const LagrangianSystem& system, const State& guess, const Mot
 }  // namespace
 
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
-  for (const Constraint& constraint : system.constraints())
-    if (constraint.two_sided)
-      throw convex::InvalidInput("constraint " + constraint.name +
-                                     ": orbits with two-sided constraints are not available yet; choose "
-                                     "coordinates that hold it by themselves",
-                                 constraint.place);
   Orbit orbit;
-  orbit.start = guess;
+  std::optional<TangentChart> chart(std::in_place, system, guess);
+  orbit.start = chart->origin();
   orbit.period = question.period;
-  if (question.is_free && !(orbit.period > 0)) orbit.period = return_time(system, guess, question.motion);
+  if (question.is_free && !(orbit.period > 0))
+    orbit.period = return_time(system, orbit.start, question.motion);
   if (!(orbit.period > 0)) {
     orbit.why = "the motion from the state of the file does not come near it again";
     return orbit;
   }
   const PeriodMap map(system, guess.t, question);
-  const Index n = guess.q.size(), size = 2 * n, unknowns = size + (question.is_free ? 1 : 0);
-  Vector x = joined(guess.q, guess.v);
+  const Index n = guess.q.size(), size = chart->dimension(), unknowns = size + (question.is_free ? 1 : 0);
+  Vector x = joined(orbit.start.q, orbit.start.v);
   Flight flight = map.fly(x, orbit.period);
   if (!flight.arrives) {
     orbit.why = flight.why;
@@ -185,25 +189,26 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   Vector miss = map.miss(flight, x);
   orbit.residual = relative(miss, flight);
   const Vector first = x;
-  Vector across = Vector::Zero(size);
+  Vector across = Vector::Zero(2 * n);
   for (int i = 0; i < most_iterations && orbit.residual > 0; ++i) {
-    auto D = map.derivative(x, orbit.period, flight, newton_step, false, false);
-    if (!D) D = map.derivative(x, orbit.period, flight, newton_step, false, true);
+    if (i > 0) chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
+    auto D = map.derivative(*chart, orbit.period, flight, newton_step, 1, false);
+    if (!D) D = map.derivative(*chart, orbit.period, flight, newton_step, 1, true);
     if (!D) break;
     Matrix J = Matrix::Zero(unknowns, unknowns);
     Vector right = Vector::Zero(unknowns);
     J.topLeftCorner(size, size) = *D - Matrix::Identity(size, size);
-    right.head(size) = -miss;
+    right.head(size) = -chart->along(miss);
     if (question.is_free) {
       if (i == 0) across = flight.rate;
-      J.col(size).head(size) = flight.rate;
-      J.row(size).head(size) = across.transpose();
+      J.col(size).head(size) = chart->along(flight.rate);
+      for (Index k = 0; k < size; ++k) J(size, k) = across.dot(chart->direction(k));
       right[size] = -across.dot(x - first);
     }
     const Vector step = convex::linear_algebra::CompleteOrthogonal(J).solve(right);
     bool is_better = false;
     for (double part = 1; part > 1e-4 && !is_better; part *= 0.5) {
-      const Vector next = x + part * step.head(size);
+      const Vector next = chart->state_of(part * step.head(size));
       const double period = orbit.period + (question.is_free ? part * step[size] : 0);
       if (!(period > 0)) continue;
       Flight tried = map.fly(next, period);
@@ -230,8 +235,9 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   orbit.is_found = true;
   for (const MotionEvent& event : flight.events)
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
+  chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
   for (double step = multiplier_step; step > shortest_step && !orbit.multipliers; step *= 0.25)
-    if (const auto D = map.derivative(x, orbit.period, flight, step, true, false))
+    if (const auto D = map.derivative(*chart, orbit.period, flight, step, multiplier_levels, false))
       orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
   if (!orbit.multipliers) return orbit;
   std::vector<std::complex<double>> others = *orbit.multipliers;

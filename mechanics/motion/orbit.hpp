@@ -25,17 +25,19 @@ struct Orbit {
   State start;
   double period = 0;
   double residual = 0;  ///< how far the motion misses its start, relative to how far it goes
-  /// Eigenvalues of the derivative, the largest first; none where the map has no derivative: impacts come,
+  /// Eigenvalues of the derivative, the largest first, 2 (n - k) of them with k independent two-sided
+  /// constraints; none where the map has no derivative: impacts come,
   /// go, or change their order however little the start is moved.
   std::optional<std::vector<std::complex<double>>> multipliers;
   bool is_stable = false;  ///< all inside the unit circle, but for the 1 along an orbit of free period
   std::vector<MotionEvent> impacts;
 };
 
-/// Newton's method on the map over one period, from a guess (shooting). The derivative of the map is taken by
-/// central differences of motions that are known to rounding, of the fourth order for the multipliers:
-/// impacts and releases on the way are in it as they are. Throws InvalidInput where the guess cannot begin a
-/// motion, and for two-sided constraints.
+/// Newton's method on the map over one period, from a guess (shooting), on the states that satisfy the
+/// two-sided constraints in f and df/dt; the guess is brought to them. The derivative of the map is taken by
+/// central differences of motions that are known to rounding, extrapolated to the eighth order for the
+/// multipliers: impacts and releases on the way are in it as they are. Throws InvalidInput where the guess
+/// cannot begin a motion.
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question);
 
 }  // namespace mechanics
