@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "cli/report/json_writer.hpp"
 
@@ -10,17 +11,6 @@ namespace {
 
 using convex::Index;
 using convex::InvalidInput;
-
-std::ofstream opened(const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw InvalidInput("cannot write " + path + "; check the folder and its permissions");
-  return file;
-}
-
-void require_written(std::ofstream& file, const std::string& path) {
-  file.close();
-  if (!file) throw InvalidInput("cannot write " + path + "; check that the disk has room");
-}
 
 /// A heading of a CSV column: in quotation marks where it has a comma.
 std::string heading(const std::string& name) {
@@ -35,15 +25,48 @@ void append(std::string& line, double x) {
 
 }  // namespace
 
+std::ofstream opened(const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw InvalidInput("cannot write " + path + "; check the folder and its permissions");
+  return file;
+}
+
+void require_written(std::ofstream& file, const std::string& path) {
+  file.close();
+  if (!file) throw InvalidInput("cannot write " + path + "; check that the disk has room");
+}
+
 std::vector<std::string> constraint_names(const mechanics::System& system) {
   std::vector<std::string> names;
   for (const mechanics::Constraint& constraint : system.constraints()) names.push_back(constraint.name);
   return names;
 }
 
+Instants Instants::strobe(double begin, double end, double period) {
+  const double periods = std::floor((end - begin) / period * (1 + 4 * convex::unit_roundoff));
+  constexpr double most = 1e9;
+  if (!(periods < most)) throw InvalidInput("--strobe: more than a billion instants; give a longer period");
+  return {begin, end, static_cast<long>(periods) + 1, period};
+}
+
+double Instants::operator[](long k) const {
+  if (period_ > 0) return std::min(end_, begin_ + static_cast<double>(k) * period_);
+  if (k == count_ - 1) return end_;
+  return begin_ + (end_ - begin_) * (static_cast<double>(k) / static_cast<double>(count_ - 1));
+}
+
+convex::Vector wrapped(convex::Vector q, const convex::Vector& modulo) {
+  for (Index i = 0; i < modulo.size(); ++i) {
+    if (!(modulo[i] > 0)) continue;
+    q[i] = std::fmod(q[i], modulo[i]);
+    if (q[i] < 0) q[i] += modulo[i];
+  }
+  return q;
+}
+
 TrajectoryFile::TrajectoryFile(const std::string& path, const mechanics::LagrangianSystem& system,
-                               double begin, double end, long samples)
-    : file_(opened(path)), path_(path), system_(system), begin_(begin), end_(end), samples_(samples) {
+                               Instants instants, convex::Vector modulo)
+    : file_(opened(path)), path_(path), system_(system), instants_(instants), modulo_(std::move(modulo)) {
   std::string line = "t";
   for (const char* mark : {"", "'", "''"})
     for (const std::string& name : system.coordinates()) line += "," + heading(name + mark);
@@ -51,16 +74,12 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const mechanics::Lagrang
   file_ << line << ",energy\n";
 }
 
-double TrajectoryFile::time(long row) const {
-  if (row == samples_ - 1) return end_;
-  return begin_ + (end_ - begin_) * (static_cast<double>(row) / static_cast<double>(samples_ - 1));
-}
-
 void TrajectoryFile::write(const mechanics::State& state, const convex::Vector& q2,
                            const convex::Vector& lambda) {
   std::string line;
   append(line, state.t);
-  for (const convex::Vector* numbers : {&state.q, &state.v, &q2, &lambda})
+  const convex::Vector q = wrapped(state.q, modulo_);
+  for (const convex::Vector* numbers : {&q, &state.v, &q2, &lambda})
     for (Index i = 0; i < numbers->size(); ++i) {
       line += ',';
       append(line, (*numbers)[i]);
@@ -73,17 +92,17 @@ void TrajectoryFile::write(const mechanics::State& state, const convex::Vector& 
 
 void TrajectoryFile::follow(const mechanics::Motion& motion) {
   const mechanics::Arc& arc = motion.arc();
-  while (row_ < samples_ && time(row_) < motion.state().t) {
-    const double tau = std::min(std::max(0.0, time(row_) - arc.t), arc.length);
+  while (row_ < instants_.count() && instants_[row_] < motion.state().t) {
+    const double tau = std::min(std::max(0.0, instants_[row_] - arc.t), arc.length);
     mechanics::State state = arc.state(tau);
-    state.t = time(row_);
+    state.t = instants_[row_];
     write(state, arc.acceleration(tau), arc.multipliers(tau));
   }
 }
 
 void TrajectoryFile::finish(const mechanics::Motion& motion) {
   if (motion.acceleration().size() == motion.state().q.size())
-    while (row_ < samples_ && time(row_) <= motion.state().t)
+    while (row_ < instants_.count() && instants_[row_] <= motion.state().t)
       write(motion.state(), motion.acceleration(), motion.multipliers());
   require_written(file_, path_);
 }

@@ -1,5 +1,7 @@
 #include "cli/motion_settings.hpp"
 
+#include <algorithm>
+
 #include "cli/motion_files.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/scene.hpp"
@@ -50,6 +52,34 @@ mechanics::MotionOptions motion_options(const Problem& problem, const mechanics:
   chosen.restitution =
       numbers_by_constraint("simulate.restitution", settings.restitution, restitutions, constraints);
   return chosen;
+}
+
+double value_of(const Problem& problem, const mechanics::LagrangianSystem& system,
+                const std::string& expression, const std::string& where) {
+  // A time is an expression in the parameters.
+  mechanics::StateText state = std::get<SystemProblem>(problem.content).state;
+  state.t = mechanics::Text{expression, {}};
+  try {
+    return system.state(state).t;
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(where + " " + expression + ": " + error.what());
+  }
+}
+
+convex::Vector multiples_of_turns(const Problem& problem, const mechanics::LagrangianSystem& system,
+                                  const std::vector<std::string>& modulo) {
+  const std::vector<std::string>& coordinates = system.coordinates();
+  convex::Vector found = convex::Vector::Zero(static_cast<convex::Index>(coordinates.size()));
+  for (const std::string& text : modulo) {
+    const std::size_t equals = text.find('=');
+    const auto place = std::find(coordinates.begin(), coordinates.end(), text.substr(0, equals));
+    if (equals == std::string::npos || place == coordinates.end())
+      throw InvalidInput("--modulo " + text + ": no coordinate and multiple; write --modulo \"a=2*pi\"");
+    const double multiple = value_of(problem, system, text.substr(equals + 1), "--modulo");
+    if (!(multiple > 0)) throw InvalidInput("--modulo " + text + ": the multiple is not positive");
+    found[place - coordinates.begin()] = multiple;
+  }
+  return found;
 }
 
 }  // namespace cli

@@ -17,29 +17,13 @@
 #include "cli/report/text_table.hpp"
 #include "cli/scene.hpp"
 #include "mechanics/motion/orbit.hpp"
+#include "mechanics/motion/tangent_chart.hpp"
 
 namespace cli {
 namespace {
 
 using convex::Index;
 using convex::InvalidInput;
-
-/// "a=2*pi" by coordinate, 0 where there is none.
-convex::Vector modulo(const Problem& problem, const mechanics::LagrangianSystem& system,
-                      const OrbitOptions& options) {
-  const std::vector<std::string>& coordinates = system.coordinates();
-  convex::Vector found = convex::Vector::Zero(static_cast<Index>(coordinates.size()));
-  for (const std::string& text : options.modulo) {
-    const std::size_t equals = text.find('=');
-    const auto place = std::find(coordinates.begin(), coordinates.end(), text.substr(0, equals));
-    if (equals == std::string::npos || place == coordinates.end())
-      throw InvalidInput("--modulo " + text + ": no coordinate and multiple; write --modulo \"a=2*pi\"");
-    const double multiple = value_of(problem, system, text.substr(equals + 1), "--modulo");
-    if (!(multiple > 0)) throw InvalidInput("--modulo " + text + ": the multiple is not positive");
-    found[place - coordinates.begin()] = multiple;
-  }
-  return found;
-}
 
 void write_numbers(JsonWriter& json, const std::vector<std::complex<double>>& numbers) {
   json.begin_array();
@@ -120,7 +104,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const auto system = mechanics::lagrangian_system(text->system);
   mechanics::OrbitQuestion question;
   question.motion = motion_options(problem, *system, options);
-  question.modulo = modulo(problem, *system, options);
+  question.modulo = multiples_of_turns(problem, *system, options.modulo);
   question.is_free = *options.period == "free";
   if (!question.is_free) {
     const double period = value_of(problem, *system, *options.period, "--period");
@@ -131,7 +115,8 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const mechanics::State guess = system->state(text->state);
   mechanics::Orbit orbit;
   try {
-    mechanics::Motion motion(*system, guess, question.motion);
+    const mechanics::TangentChart chart(*system, guess);
+    const mechanics::Motion motion(*system, chart.origin(), question.motion);
     orbit = mechanics::find_orbit(*system, guess, question);
   } catch (const InvalidInput& error) {
     throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));

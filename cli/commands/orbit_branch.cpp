@@ -76,18 +76,6 @@ std::string crossing(const mechanics::Orbit& before, const mechanics::Orbit& now
 
 }  // namespace
 
-double value_of(const Problem& problem, const mechanics::LagrangianSystem& system,
-                const std::string& expression, const std::string& where) {
-  // A time is an expression in the parameters.
-  mechanics::StateText state = std::get<SystemProblem>(problem.content).state;
-  state.t = mechanics::Text{expression, {}};
-  try {
-    return system.state(state).t;
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(where + " " + expression + ": " + error.what());
-  }
-}
-
 Answer orbit_branch(const std::string& file, const Problem& problem, const mechanics::OrbitQuestion& asked,
                     const OrbitOptions& options) {
   const Range range = parse_range(*options.over);

@@ -1,15 +1,20 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/drawing/animation.hpp"
 #include "cli/drawing/motion_drawing.hpp"
+#include "cli/drawing/phase_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/motion_files.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/impact_laws_report.hpp"
+#include "cli/report/motion_progress.hpp"
 #include "cli/report/motion_report.hpp"
+#include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
 #include "mechanics/motion/motion.hpp"
 
@@ -21,8 +26,12 @@ using convex::InvalidInput;
 /// What `moreau simulate` is told.
 struct SimulateOptions : FileOptions, MotionChoice {
   std::optional<double> until;
-  std::optional<std::string> output, events, plot;  ///< files to write
-  bool impact_laws = false;                         ///< all laws at the first impact
+  std::optional<std::string> output, events, plot, animate;  ///< files to write
+  std::optional<std::string> phase;                          ///< a coordinate: --plot draws q' over q
+  std::optional<std::string> strobe;                         ///< a period: instants of --output and --phase
+  std::vector<std::string> modulo;                           ///< "a=2*pi"
+  std::optional<std::string> resume;                         ///< a file with the state to begin from
+  bool impact_laws = false;                                  ///< all laws at the first impact
 };
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -40,6 +49,85 @@ class InterruptWatch {
   void (*before_)(int);
 };
 
+/// The files that a motion is written to, as it goes.
+class MotionFiles {
+ public:
+  MotionFiles(const Problem& problem, const mechanics::LagrangianSystem& system, double begin, double end,
+              const SimulateOptions& options)
+      : options_(options), scene_(problem) {
+    constexpr long usual_samples = 201;
+    const Instants evenly = Instants::evenly(begin, end, problem.simulate.samples.value_or(usual_samples));
+    Instants instants = evenly;
+    if (options.strobe) {
+      const double period = value_of(problem, system, *options.strobe, "--strobe");
+      if (!(period > 0)) throw InvalidInput("--strobe " + *options.strobe + ": not positive");
+      instants = Instants::strobe(begin, end, period);
+      if (!options.output && !options.phase)
+        throw InvalidInput(
+            "--strobe says at which instants to look; add --output F.csv, or --plot F.svg --phase x");
+    }
+    const convex::Vector modulo = multiples_of_turns(problem, system, options.modulo);
+    if (options.plot) require_drawable(*options.plot);
+    if (options.phase) {
+      if (!options.plot) throw InvalidInput("--phase says what --plot draws; add --plot F.svg");
+      const auto& names = system.coordinates();
+      const auto found = std::find(names.begin(), names.end(), *options.phase);
+      if (found == names.end()) throw InvalidInput("--phase " + *options.phase + ": no such coordinate");
+      constexpr long curve_points = 4001;
+      phase_.emplace(system, found - names.begin(),
+                     options.strobe ? instants : Instants::evenly(begin, end, curve_points),
+                     options.strobe.has_value(), modulo);
+    } else if (options.plot) {
+      drawing_.emplace(system, begin, end);
+    }
+    if (options.output) trajectory_.emplace(*options.output, system, instants, modulo);
+    if (options.events) events_.emplace(*options.events, system);
+    if (options.animate) {
+      page_.emplace(opened(*options.animate));
+      animation_.emplace(system, scene_, evenly);
+    }
+  }
+
+  void tell_events(const mechanics::Motion& motion) {
+    if (!events_) return;
+    for (const mechanics::MotionEvent& event : motion.events()) events_->write(event);
+  }
+  void follow(const mechanics::Motion& motion) {
+    if (trajectory_) trajectory_->follow(motion);
+    if (drawing_) drawing_->follow(motion);
+    if (phase_) phase_->follow(motion);
+    if (animation_) animation_->follow(motion);
+    tell_events(motion);
+  }
+  void finish(const mechanics::Motion& motion, const std::string& title) {
+    if (trajectory_) trajectory_->finish(motion);
+    if (events_) events_->finish();
+    if (animation_) {
+      animation_->finish(motion);
+      *page_ << animation_->page(title);
+      require_written(*page_, *options_.animate);
+    }
+    if (phase_) {
+      phase_->finish(motion);
+      draw(*options_.plot, phase_->drawing(title));
+    }
+    if (drawing_) {
+      drawing_->finish(motion);
+      draw(*options_.plot, drawing_->drawing(title));
+    }
+  }
+
+ private:
+  const SimulateOptions& options_;
+  DrawnScene scene_;
+  std::optional<TrajectoryFile> trajectory_;
+  std::optional<EventsFile> events_;
+  std::optional<MotionDrawing> drawing_;
+  std::optional<PhaseDrawing> phase_;
+  std::optional<std::ofstream> page_;
+  std::optional<Animation> animation_;
+};
+
 Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const Problem problem = read_problem_file(file);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
@@ -49,7 +137,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
   const auto start = std::chrono::steady_clock::now();
   const auto system = mechanics::lagrangian_system(text->system);
-  const mechanics::State state = system->state(text->state);
+  const mechanics::State state =
+      options.resume ? resumed_state(*options.resume, *system) : system->state(text->state);
   const double until = options.until.value_or(settings.until.value_or(0));
   if (!(until >= state.t))
     throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
@@ -58,55 +147,47 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   try {
     begun.emplace(*system, state, chosen);
   } catch (const InvalidInput& error) {
+    if (options.resume) throw InvalidInput("--resume " + *options.resume + ": " + error.what());
     throw InvalidInput(error.what(), error.place().value_or(text->system.kinetic.begin));
   }
   mechanics::Motion& motion = *begun;
 
-  std::optional<TrajectoryFile> trajectory;
-  std::optional<EventsFile> events;
-  std::optional<MotionDrawing> drawing;
-  constexpr long usual_samples = 201;
-  if (options.output)
-    trajectory.emplace(*options.output, *system, state.t, until, settings.samples.value_or(usual_samples));
-  if (options.events) events.emplace(*options.events, *system);
-  if (options.plot) {
-    require_drawable(*options.plot);
-    drawing.emplace(*system, state.t, until);
-  }
+  MotionFiles files(problem, *system, state.t, until, options);
   FollowedMotion followed{file, problem.title, *system, motion, {}, until};
-  const auto tell = [&] {
-    for (const mechanics::MotionEvent& event : motion.events()) {
-      if (events) events->write(event);
+  const auto remember = [&] {
+    for (const mechanics::MotionEvent& event : motion.events())
       if (followed.first_events.size() < events_in_text) followed.first_events.push_back(event);
-    }
   };
   const InterruptWatch watch;
-  tell();
+  remember();
+  files.tell_events(motion);
   const auto goes_on = [&] { return !options.impact_laws || !motion.record().first_impact; };
-  while (interrupted == 0 && goes_on() && motion.advance(until)) {
-    if (trajectory) trajectory->follow(motion);
-    if (drawing) drawing->follow(motion);
-    tell();
+  {
+    MotionProgress progress(state.t, until);
+    while (interrupted == 0 && goes_on() && motion.advance(until)) {
+      files.follow(motion);
+      remember();
+      progress.tell(motion);
+    }
   }
   if (options.impact_laws) {
     const std::string laws = options.json ? impact_laws_json(followed) + "\n" : impact_laws_text(followed);
     return {motion.record().first_impact ? Exit::solved : Exit::inaccurate, laws};
   }
   followed.interrupted = interrupted != 0 && motion.state().t < until;
-  if (trajectory) trajectory->finish(motion);
-  if (events) events->finish();
-  if (drawing) {
-    drawing->finish(motion);
-    draw(*options.plot, drawing->drawing(problem.title.empty() ? file : problem.title));
-  }
+  files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
 }
 
 Exit simulate_files(const SimulateOptions& options) {
-  if ((options.output || options.events || options.plot) && options.files.size() > 1)
+  const bool is_for_one =
+      options.output || options.events || options.plot || options.animate || options.resume;
+  if (is_for_one && options.files.size() > 1)
     return answered(options, {options.files[1], ""}, []() -> Exit {
-      throw InvalidInput("--output, --events and --plot take one problem file; run the files one by one");
+      throw InvalidInput(
+          "--output, --events, --plot, --animate and --resume take one problem file; run the files one by "
+          "one");
     });
   return print_for_each_file(options, [&](const std::string& file) { return simulate_file(file, options); });
 }
@@ -120,7 +201,8 @@ void add_simulate(CLI::App& program, Work& chosen) {
   add_files(command, *options);
   command.add_option("--until", options->until, "the time at which the motion ends")->type_name("T");
   add_step_tolerance(command, *options);
-  command.add_option("--method", options->method, "event-driven, the default, or time-stepping")->type_name("NAME");
+  command.add_option("--method", options->method, "event-driven, the default, or time-stepping")
+      ->type_name("NAME");
   command.add_option("--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy")
       ->type_name("F.csv");
   command.add_option("--events", options->events, "a line of JSON for each event")->type_name("F.jsonl");
@@ -128,6 +210,20 @@ void add_simulate(CLI::App& program, Work& chosen) {
       .add_option("--plot", options->plot,
                   "coordinates, gaps, multipliers and energy over time: F.svg, F.png or F.pdf (by gnuplot)")
       ->type_name("FILE");
+  command.add_option("--animate", options->animate, "a page that plays the motion, as [draw] says")
+      ->type_name("F.html");
+  command.add_option("--phase", options->phase, "--plot draws the velocity of a coordinate over it")
+      ->type_name("Q");
+  command
+      .add_option("--strobe", options->strobe,
+                  "rows of --output, points of --phase, once a period: an expression in the parameters")
+      ->type_name("P");
+  command
+      .add_option("--modulo", options->modulo,
+                  "a coordinate that turns, written between 0 and its multiple: \"a=2*pi\"")
+      ->type_name("a=M");
+  command.add_option("--resume", options->resume, "go on from the state that --json printed")
+      ->type_name("STATE.json");
   command.add_option("--limit", options->step_limit, "steps after which the motion is stopped; default 1e7")
       ->type_name("N");
   command.add_flag("--impact-laws", options->impact_laws,

@@ -81,8 +81,9 @@ void MotionDrawing::follow(const mechanics::Motion& motion) {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(point_) / static_cast<double>(points - 1);
     if (!(t < motion.state().t)) break;
     const double tau = std::clamp(t - arc.t, 0.0, arc.length);
-    Vector f(constraints_);
-    for (Index a = 0; a < constraints_; ++a)
+    const bool is_series = arc.f.rows() > 0;
+    Vector f = is_series ? Vector(constraints_) : system_.constraint_rates(arc.state(tau)).f;
+    for (Index a = 0; is_series && a < constraints_; ++a)
       f[a] = mechanics::value_at(mechanics::coefficients(arc.f, a), tau);
     add(t, arc.position(tau), f, arc.multipliers(tau), system_.energy(arc.state(tau)));
   }

@@ -83,12 +83,22 @@ struct SimulateSettings {
   convex::Place impact_law_place;
 };
 
+/// Something of `[draw]`: its numbers are expressions in coordinates, parameters, definitions and t. A point
+/// has x and y, a segment those of its two ends, a circle those of its centre, and its radius.
+struct DrawnShape {
+  enum class Kind { point, segment, circle };
+  Kind kind;
+  mechanics::Text name;  ///< of one, or of a family
+  std::vector<mechanics::Text> numbers;
+};
+
 /// A problem file as plain data.
 struct Problem {
   std::string title;
   std::variant<SystemProblem, ProjectionProblem, DecompositionProblem, ConeProblem, LiquidProblem> content;
   SolveSettings solve;
   SimulateSettings simulate;
+  std::vector<DrawnShape> draw;
 };
 
 /// Reads the text of a problem file; `directory` is where its matrix files are looked for. Throws

@@ -37,9 +37,9 @@ const TomlEntry& content_table(const TomlValue& document) {
 Problem read_problem(const std::string& text, const std::string& directory) {
   const auto kept = std::make_shared<const TomlValue>(parse_toml(text));
   const TomlValue& document = *kept;
-  require_known_keys(
-      document, "",
-      {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve", "simulate"});
+  require_known_keys(document, "",
+                     {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve",
+                      "simulate", "draw"});
   Problem problem;
   if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
   if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
@@ -50,6 +50,10 @@ Problem read_problem(const std::string& text, const std::string& directory) {
   const TomlValue* state = document.find("state");
   if (content.key != "system" && state != nullptr)
     throw InvalidInput("[state] goes with [system] only; take it out", state->place);
+  const TomlValue* draw = document.find("draw");
+  if (content.key != "system" && draw != nullptr)
+    throw InvalidInput("[draw] goes with [system] only; take it out", draw->place);
+  if (draw != nullptr) problem.draw = read_draw(*draw);
   if (content.key == "system") {
     problem.content = read_system(document);
   } else if (content.key == "projection") {

@@ -26,4 +26,7 @@ SolveSettings read_solve_settings(const TomlValue& table);
 /// `[simulate]`.
 SimulateSettings read_simulate_settings(const TomlValue& table);
 
+/// `[draw]`.
+std::vector<DrawnShape> read_draw(const TomlValue& table);
+
 }  // namespace cli

@@ -111,7 +111,7 @@ TEST_CASE("the motion is drawn with a panel for each kind of number") {
   std::string all;
   for (const std::string& line : drawn) all += line + "\n";
   for (const char* word : {"floor", "T + V", "lambda"}) CHECK(all.find(word) != std::string::npos);
-  CHECK(run({"simulate", file, "--plot", folder.path("motion.pdf")}).code == 2);
+  CHECK(run({"simulate", file, "--plot", folder.path("motion.gif")}).code == 2);
 }
 
 TEST_CASE("a row at an event holds the state after it") {

@@ -1,0 +1,257 @@
+#include "cli/drawing/animation.hpp"
+
+namespace cli {
+namespace {
+
+constexpr std::string_view page_before_data = R"html(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>@TITLE@</title>
+<style>
+  :root { color-scheme: light; }
+  body { font: 14px/1.4 system-ui, sans-serif; margin: 0 auto; max-width: 1000px; padding: 12px; color: #222; background: #fff; }
+  h1 { font-size: 18px; margin: 0 0 8px; }
+  canvas { width: 100%; height: auto; border: 1px solid #ccc; display: block; background: #fcfcfc; }
+  #bar { display: flex; gap: 10px; align-items: center; margin-top: 8px; }
+  #line { flex: 1; }
+  #scrubber { width: 100%; margin: 0; }
+  #marks { position: relative; height: 16px; margin: 2px 8px 0; }
+  #marks button { position: absolute; width: 5px; height: 14px; padding: 0; margin-left: -2px; border: 0; cursor: pointer; }
+  #time { min-width: 9em; font-variant-numeric: tabular-nums; }
+  #event { min-height: 1.4em; }
+  .impact { background: #d55e00; } .contact { background: #e69f00; } .release { background: #009e73; }
+  .accumulation { background: #882255; } .branch { background: #888; }
+  #legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 12px; }
+</style>
+</head>
+<body>
+<h1 id="title"></h1>
+<canvas id="scene" width="1000" height="560"></canvas>
+<div id="bar">
+  <button id="play">Play</button>
+  <div id="line"><input id="scrubber" type="range" min="0" value="0" step="1" aria-label="time"><div id="marks"></div></div>
+  <span id="time"></span>
+  <label>speed <select id="speed"><option value="0.1">1/10</option><option value="0.25">1/4</option>
+    <option value="1" selected>1</option><option value="4">4</option><option value="16">16</option></select></label>
+</div>
+<div id="event"></div>
+<div id="legend"></div>
+<script type="application/json" id="motion">)html";
+
+constexpr std::string_view page_after_data = R"html(</script>
+<script>
+"use strict";
+const motion = JSON.parse(document.getElementById("motion").textContent);
+const frames = motion.frames, shapes = motion.shapes;
+const byId = (id) => document.getElementById(id);
+const canvas = byId("scene"), pen = canvas.getContext("2d"), scrubber = byId("scrubber");
+const blue = "#0072b2", red = "#d55e00", grey = "#666";
+byId("title").textContent = motion.title;
+scrubber.max = frames.length - 1;
+const first = frames[0].t, last = frames[frames.length - 1].t;
+const isScene = shapes.length > 0;
+
+// The part of the plane that the motion needs, and the largest force.
+let box = [Infinity, Infinity, -Infinity, -Infinity], strongest = 0;
+const take = (x, y, r) => {
+  box = [Math.min(box[0], x - r), Math.min(box[1], y - r), Math.max(box[2], x + r), Math.max(box[3], y + r)];
+};
+const sizes = [];
+for (const frame of frames) {
+  const v = frame.values;
+  for (const shape of shapes) {
+    const n = shape.numbers;
+    take(v[n[0]], v[n[1]], shape.kind === "circle" ? Math.abs(v[n[2]]) : 0);
+    if (shape.kind === "segment") take(v[n[2]], v[n[3]], 0);
+  }
+  for (const a of frame.arrows) sizes.push(Math.hypot(a[3], a[4]));
+}
+// One impact must not make all other forces invisible: nine in ten are drawn to scale.
+sizes.sort((a, b) => a - b);
+strongest = sizes.length > 0 ? sizes[Math.floor(0.9 * (sizes.length - 1))] : 0;
+const span = Math.max(box[2] - box[0], box[3] - box[1], 1e-12);
+const low = motion.coordinates.map((_, i) => Math.min(...frames.map((f) => f.values[i])));
+const high = motion.coordinates.map((_, i) => Math.max(...frames.map((f) => f.values[i])));
+const mostSliders = 24;
+
+function drawScene(frame) {
+  const w = canvas.width, h = canvas.height, margin = 60;
+  const scale = Math.min((w - 2 * margin) / Math.max(box[2] - box[0], 0.02 * span),
+                         (h - 2 * margin) / Math.max(box[3] - box[1], 0.02 * span));
+  const X = (x) => w / 2 + scale * (x - (box[0] + box[2]) / 2);
+  const Y = (y) => h / 2 - scale * (y - (box[1] + box[3]) / 2);
+  const v = frame.values;
+  pen.lineWidth = 2.5;
+  for (const shape of shapes) {
+    const n = shape.numbers;
+    pen.strokeStyle = pen.fillStyle = blue;
+    pen.beginPath();
+    if (shape.kind === "segment") {
+      pen.moveTo(X(v[n[0]]), Y(v[n[1]]));
+      pen.lineTo(X(v[n[2]]), Y(v[n[3]]));
+      pen.stroke();
+    } else if (shape.kind === "circle") {
+      pen.arc(X(v[n[0]]), Y(v[n[1]]), Math.abs(v[n[2]]) * scale, 0, 2 * Math.PI);
+      pen.globalAlpha = 0.12;
+      pen.fill();
+      pen.globalAlpha = 1;
+      pen.stroke();
+    } else {
+      pen.arc(X(v[n[0]]), Y(v[n[1]]), 5, 0, 2 * Math.PI);
+      pen.fill();
+    }
+  }
+  pen.fillStyle = grey;
+  pen.font = "12px system-ui, sans-serif";
+  if (shapes.length <= 40) for (const shape of shapes) {
+    const n = shape.numbers, isSegment = shape.kind === "segment";
+    const x = isSegment ? (v[n[0]] + v[n[2]]) / 2 : v[n[0]], y = isSegment ? (v[n[1]] + v[n[3]]) / 2 : v[n[1]];
+    pen.fillText(shape.name, X(x) + 8, Y(y) - 6);
+  }
+  for (const [a, x, y, fx, fy] of frame.arrows) {
+    const size = Math.hypot(fx, fy), length = 90 * Math.min(1.3, size / strongest);
+    arrow(X(x), Y(y), fx / size * length, -fy / size * length, motion.constraints[a]);
+  }
+}
+
+function arrow(x, y, dx, dy, name) {
+  const length = Math.hypot(dx, dy);
+  if (length < 1) return;
+  const ux = dx / length, uy = dy / length, tip = Math.min(9, length);
+  pen.strokeStyle = pen.fillStyle = red;
+  pen.lineWidth = 2;
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.lineTo(x + dx - ux * tip, y + dy - uy * tip);
+  pen.stroke();
+  pen.beginPath();
+  pen.moveTo(x + dx, y + dy);
+  pen.lineTo(x + dx - ux * tip - uy * tip / 2, y + dy - uy * tip + ux * tip / 2);
+  pen.lineTo(x + dx - ux * tip + uy * tip / 2, y + dy - uy * tip - ux * tip / 2);
+  pen.fill();
+  if (frames.length > 0 && motion.constraints.length <= 40) pen.fillText(name, x + dx + 4, y + dy + 4);
+}
+
+function drawSliders(frame) {
+  const count = Math.min(mostSliders, motion.coordinates.length), left = 140, right = canvas.width - 150;
+  pen.font = "14px system-ui, sans-serif";
+  for (let i = 0; i < count; ++i) {
+    const y = 30 + i * Math.min(60, (canvas.height - 120) / count), range = high[i] - low[i];
+    const x = range > 0 ? left + (right - left) * (frame.values[i] - low[i]) / range : (left + right) / 2;
+    pen.strokeStyle = "#bbb";
+    pen.lineWidth = 3;
+    pen.beginPath();
+    pen.moveTo(left, y);
+    pen.lineTo(right, y);
+    pen.stroke();
+    pen.fillStyle = blue;
+    pen.beginPath();
+    pen.arc(x, y, 8, 0, 2 * Math.PI);
+    pen.fill();
+    pen.fillStyle = "#222";
+    pen.fillText(motion.coordinates[i], 10, y + 5);
+    pen.fillText(frame.values[i].toPrecision(5), right + 20, y + 5);
+  }
+}
+
+// Forces that act on no place that is drawn stand as numbers.
+function drawForces(frame) {
+  const drawn = new Set(frame.arrows.map((a) => a[0]));
+  const others = frame.lambda.filter(([a]) => !drawn.has(a)).slice(0, 8);
+  pen.fillStyle = red;
+  pen.font = "13px system-ui, sans-serif";
+  others.forEach(([a, lambda], k) => pen.fillText("lambda[" + motion.constraints[a] + "] = " + lambda.toPrecision(5),
+                                                 10, canvas.height - 12 - 16 * k));
+}
+
+let now = 0;
+function show(k) {
+  now = Math.max(0, Math.min(frames.length - 1, k));
+  const frame = frames[now];
+  pen.clearRect(0, 0, canvas.width, canvas.height);
+  isScene ? drawScene(frame) : drawSliders(frame);
+  drawForces(frame);
+  scrubber.value = now;
+  byId("time").textContent = "t = " + frame.t.toPrecision(6);
+  const before = motion.events.filter((e) => e.t <= frame.t);
+  byId("event").textContent = before.length === 0 ? "" : told(before[before.length - 1]);
+}
+const told = (e) => e.kind + " at t = " + e.t.toPrecision(8) + (e.constraints.length === 0 ? "" :
+  ": " + e.constraints.map((a) => motion.constraints[a]).join(", "));
+function frameAt(t) {
+  let k = 0;
+  while (k < frames.length - 1 && frames[k].t < t) ++k;
+  return k;
+}
+for (const e of motion.events) {
+  const mark = document.createElement("button");
+  mark.className = e.kind;
+  mark.title = told(e);
+  mark.style.left = (last > first ? 100 * (e.t - first) / (last - first) : 0) + "%";
+  mark.onclick = () => { stop(); show(frameAt(e.t)); };
+  byId("marks").append(mark);
+}
+for (const kind of new Set(motion.events.map((e) => e.kind))) {
+  const swatch = document.createElement("span");
+  swatch.className = kind;
+  byId("legend").append(swatch, kind);
+}
+if (motion.events_left_out > 0) byId("legend").append("; " + motion.events_left_out + " more events are not marked");
+
+let timer = null, begun = 0, from = 0;
+function stop() {
+  if (timer !== null) cancelAnimationFrame(timer);
+  timer = null;
+  byId("play").textContent = "Play";
+}
+function tick(clock) {
+  const t = from + (clock - begun) / 1000 * Number(byId("speed").value);
+  show(t >= last ? frames.length - 1 : frameAt(t));
+  if (t >= last) return stop();
+  timer = requestAnimationFrame(tick);
+}
+byId("play").onclick = () => {
+  if (timer !== null) return stop();
+  from = now === frames.length - 1 ? first : frames[now].t;
+  begun = performance.now();
+  byId("play").textContent = "Pause";
+  timer = requestAnimationFrame(tick);
+};
+byId("speed").onchange = () => { from = frames[now].t; begun = performance.now(); };
+scrubber.oninput = () => { stop(); show(Number(scrubber.value)); };
+show(0);
+document.body.dataset.ready = "yes";
+</script>
+</body>
+</html>
+)html";
+
+std::string without_markup(const std::string& text) {
+  std::string clean;
+  for (const char c : text)
+    if (c == '<')
+      clean += "&lt;";
+    else if (c == '&')
+      clean += "&amp;";
+    else
+      clean += c;
+  return clean;
+}
+
+}  // namespace
+
+std::string animation_page(const std::string& title, const std::string& data) {
+  std::string page(page_before_data);
+  constexpr std::string_view mark = "@TITLE@";
+  page.replace(page.find(mark), mark.size(), without_markup(title));
+  for (const char c : data)  // "</script>" in a name would end the data
+    if (c == '<')
+      page += "\\u003c";
+    else
+      page += c;
+  return page + std::string(page_after_data);
+}
+
+}  // namespace cli
