@@ -16,6 +16,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// Times within so many roundings of each other are one: several events at once.
 constexpr double roundings_of_time = 64;
 
+/// f counts as 0 in an event of other contacts within so many roundings of what it is the sum of.
+constexpr double roundings_of_f = 16;
+
 /// A step that misses the equations at its end by more than this many times its tolerance is taken again.
 constexpr double allowed_defect = 1e3;
 
@@ -217,11 +220,29 @@ void Motion::EventDriven::take_step(double until) {
   for (double& elapsed : elapsed_) elapsed += tau;
   expansion_.set(state);
   look_for_penetration();
+  if (!zeros.empty()) close_together(zeros);
   if (zeros.empty())
     continue_arc();
   else
     handle(zeros);
   tell_endings();
+}
+
+/// Contacts that are closed as far as rounding tells close in the same event, however slow they are: their
+/// own zero is uncertain by the rounding of f over df/dt, which is more than the rounding of t.
+void Motion::EventDriven::close_together(std::vector<Zero>& zeros) const {
+  const auto is_in = [&](Index a) {
+    return std::any_of(zeros.begin(), zeros.end(),
+                       [&](const Zero& zero) { return zero.of == Zero::Of::constraint && zero.which == a; });
+  };
+  const bool closes = std::any_of(zeros.begin(), zeros.end(),
+                                  [](const Zero& zero) { return zero.of == Zero::Of::constraint; });
+  for (Index a = 0; closes && a < expansion_.constraints(); ++a) {
+    const bool is_free = !is_two_sided(a) && std::find(persist_.begin(), persist_.end(), a) == persist_.end();
+    if (!is_free || is_in(a) || !(expansion_.rate(a) < 0)) continue;
+    if (std::abs(expansion_.f(a)) <= roundings_of_f * epsilon * expansion_.position_scale(a))
+      zeros.push_back({Zero::Of::constraint, a, done.length, false});
+  }
 }
 
 void Motion::EventDriven::look_for_penetration() {

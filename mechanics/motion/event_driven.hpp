@@ -43,6 +43,7 @@ class Motion::EventDriven final : public Motion::Course {
   void continue_arc();
   void project();
   void fill_next();
+  void close_together(std::vector<Zero>& zeros) const;
   void look_for_penetration();
   void tell_endings();
   Arc next;  ///< the one ahead of `state`

@@ -121,3 +121,23 @@ TEST_CASE(
   CHECK(stops.end().v.norm() <= 1e-14);
   CHECK(stops.motion.multipliers().minCoeff() > 4);
 }
+
+TEST_CASE("a block that lands flat and slowly strikes with both corners at once") {
+  // Corners at +-1/20 strike at one time up to the rounding of f, which over the low speed is much more than
+  // that of t; one after the other they would set the block spinning.
+  const SystemText text{{"y", "a"},
+                        "(y'^2 + a'^2/1000)/2",
+                        "",
+                        {},
+                        {},
+                        {},
+                        {{"left", "y - sin(a)/20 + (1 - cos(a))/40 + 0.3 - 0.1 - 0.2 >= 0"},
+                         {"right", "y + sin(a)/20 + (1 - cos(a))/40 + 0.3 - 0.2 - 0.1 >= 0"}}};
+  for (const double speed : {1.0, 1e-3, 1e-6}) {
+    const Followed found = followed(text, state({speed, 0}, {-speed, 0}), 1.5, restitution(text, 0.4));
+    REQUIRE(found.events.size() == 1);
+    CHECK(found.events[0].constraints.size() == 2);
+    CHECK(std::abs(found.end().v[1]) <= 1e-12 * speed);
+    CHECK(found.end().v[0] == doctest::Approx(0.4 * speed).epsilon(1e-12));
+  }
+}
