@@ -36,8 +36,9 @@ void check_size(const LagrangianModel& model, const State& state) {
 /// Something in T, V or their derivatives, or in Q, is not finite.
 [[noreturn]] void refuse_motion(const LagrangianModel& model, const Values& x, int derivatives) {
   bool energies_are_finite = true;
+  const std::vector<bool> used = model.motion.in_use(x, 0);
   for (Slot slot = 0; slot < model.motion.end(0); ++slot)
-    energies_are_finite = energies_are_finite && std::isfinite(x[slot]);
+    energies_are_finite = energies_are_finite && (!used[slot] || std::isfinite(x[slot]));
   const std::size_t group = derivatives == 0 && energies_are_finite ? 1 : 0;
   refuse_values(model, model.motion, group, x, derivatives, names_of_motion(model, group));
 }

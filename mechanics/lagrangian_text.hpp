@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,15 @@ struct NamedText {
   Text value;
 };
 
+/// The points of a table, as numbers and as they are written.
+struct TablePoints {
+  std::vector<double> x, y;
+  std::vector<std::string> x_text, y_text;
+};
+
+/// Reads the file that table(x, "F.csv") names; InvalidInput says what is wrong with it.
+using TableFile = std::function<TablePoints(const std::string& file)>;
+
 /// The Lagrangian data of a system as text (docs/problem-files.md): T, V, Q, the constraints and what they
 /// use.
 struct LagrangianText {
@@ -30,6 +40,7 @@ struct LagrangianText {
   Text kinetic;
   std::optional<Text> potential;
   std::vector<NamedText> parameters, definitions, forces, constraints;
+  TableFile table_file = {};  ///< none: a table in a file is an error
 };
 
 /// A state as text: expressions in parameters and t. What is missing in `velocity` is 0.

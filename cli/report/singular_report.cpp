@@ -7,6 +7,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
+#include "mechanics/branch_edges.hpp"
 #include "mechanics/near_contact.hpp"
 
 namespace cli {
@@ -57,6 +58,9 @@ std::vector<Warning> contact_warnings(const SolvedScene& solved) {
   if (auto near = mechanics::near_contacts(*scene.system, scene.state, {scene.contacts, *scene.rates},
                                            solved.solution.primal.q))
     found.push_back(std::move(*near));
+  if (scene.written)
+    if (auto edges = mechanics::branch_edges(*scene.system, scene.state, scene.written->radii))
+      found.push_back(std::move(*edges));
   if (const std::vector<Index> only_touch = touching(solved); !only_touch.empty())
     found.push_back({Warning::Kind::undecided, only_touch,
                      names(solved, only_touch) +

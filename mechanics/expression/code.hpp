@@ -20,6 +20,8 @@ struct Instruction {
     coordinate,     ///< pop `count` indices, push the member of the family `operand`
     definition,     ///< likewise
     apply,          ///< pop the operands, push the result of `operation`
+    construct,      ///< pop `number` arguments, push what the Construction `operand` makes of them
+    table_file,     ///< pop, push the spline through the points of the file that the text here names
     differentiate,  ///< pop, push the total time derivative
     repeat,  ///< pop the bounds, run up to the matching `repeat_end`, `number` steps on, once per value of
              ///< the index in slot `operand`; `count` is 1 if the bounds do not depend on an enclosing sum
@@ -28,7 +30,7 @@ struct Instruction {
   Step step = Step::literal;
   Operation operation = Operation::literal;
   bool numeric = false;
-  std::uint8_t count = 0;
+  std::uint8_t count = 0;  ///< of `apply` and `construct`: 1 within a branch of an if
   std::uint32_t operand = 0;
   std::uint32_t offset = 0;  ///< in the source
   double number = 0;

@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "mechanics/expression/exact_jet.hpp"
+#include "mechanics/expression/rounded_nodes.hpp"
 
 namespace mechanics::expression {
 namespace {
-
-/// Whether the double of a literal is what is written.
-bool is_as_written(const Tape& tape, NodeId literal) {
-  const double value = tape.constant(literal);
-  if (value == std::floor(value) && std::abs(value) <= 0x1p53) return true;
-  const auto written = literal_value(tape, literal);
-  return written && *written == convex::fraction(value);
-}
 
 /// The constants of a tape with the rounding that made them.
 class Constants {
@@ -42,8 +34,7 @@ class Constants {
     const double value = tape_->constant(node);
     const Operation operation = tape_->operation(node);
     constexpr double rounding = 0x1p-53;
-    if (operation == Operation::literal)
-      return {value, is_as_written(*tape_, node) ? 0 : std::abs(value) * rounding};
+    if (operation == Operation::literal) return rounded_literal(*tape_, node);
     if (operation == Operation::pi) return {value, value * rounding};
     const TimeSeries a(known_.at(tape_->a(node)));
     if (operation == Operation::parameter) return a.c[0];

@@ -30,6 +30,9 @@ int degree(const Tape& tape, NodeId node, const std::vector<int>& of) {
       if (!(exponent >= 0) || exponent != std::floor(exponent)) return not_a_polynomial;
       return static_cast<int>(std::min(of[a] * exponent, double{not_a_polynomial}));
     }
+    case where_not_negative:
+    case where_negative:
+      return of[a] == 0 ? of[b] : not_a_polynomial;
     default:
       return of[a] == 0 && of[b] == 0 ? 0 : not_a_polynomial;
   }

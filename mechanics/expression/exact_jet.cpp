@@ -88,6 +88,19 @@ ExactJet ExactEvaluation::variable(NodeId node) const {
   return jet;
 }
 
+/// The branch that a known sign takes; the other need not exist.
+std::optional<ExactJet> ExactEvaluation::branch(NodeId node) const {
+  const Operation operation = tape_->operation(node);
+  const auto &a = *known_[tape_->a(node)], &b = *known_[tape_->b(node)];
+  if (!a || (!is_where(operation) && !b)) return std::nullopt;
+  const auto sign = is_where(operation)           ? a->value.sign()
+                    : operation == Operation::max ? (a->value - b->value).sign()
+                                                  : (b->value - a->value).sign();
+  if (!sign) return std::nullopt;
+  if (!is_where(operation)) return *sign >= 0 ? a : b;
+  return (*sign < 0) == (operation == Operation::where_negative) ? b : ExactJet{};
+}
+
 std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
   switch (const Operation operation = tape_->operation(node)) {
     case Operation::literal: {
@@ -109,6 +122,11 @@ std::optional<ExactJet> ExactEvaluation::evaluated(NodeId node) const {
       return variable(node);
     case Operation::parameter:
       return *known_[tape_->a(node)];
+    case Operation::min:
+    case Operation::max:
+    case Operation::where_not_negative:
+    case Operation::where_negative:
+      return branch(node);
     default: {
       const auto& a = *known_[tape_->a(node)];
       const auto& b = arity(operation) == 2 ? *known_[tape_->b(node)] : a;

@@ -39,6 +39,7 @@ class ExactEvaluation {
 
  private:
   std::optional<ExactJet> evaluated(NodeId node) const;
+  std::optional<ExactJet> branch(NodeId node) const;
   ExactJet variable(NodeId node) const;
   const Tape* tape_;
   const ExactState* state_;

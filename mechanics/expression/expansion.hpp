@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Vocabularies {
   std::vector<Family> coordinate_families, definition_families;
   std::vector<Entry> definitions;
   std::vector<std::uint32_t> entry_of, family_of;  ///< by member of a definition
+  TableFile table_file;                            ///< reads the tables that expressions name; may be empty
 };
 
 /// Turns code into nodes of a tape, or into numbers. Each parameter and each member of a definition is
@@ -59,6 +61,10 @@ class Expansion {
   void push_node(const Instruction& instruction);
   void apply(const Instruction& instruction);
   void differentiate(const Instruction& instruction);
+  void construct(const Instruction& instruction);
+  void push_table(const Instruction& instruction);
+  void check_table(const Instruction& instruction, std::span<const NodeId> arguments) const;
+  void push_number(const Instruction& instruction, double number);
   void begin_sum(const Instruction& instruction);
   void end_sum(const Instruction& instruction);
   /// Pushes the memoised node, or calls the code that makes it and leaves the step to be done again.

@@ -43,7 +43,7 @@ class Sweep {
   NodeId square(NodeId x) { return binary(Operation::power, x, number("2", 2, at_)); }
   NodeId one() { return number("1", 1, at_); }
   bool is_number(NodeId node, double value) const {
-    return tape_->is_constant(node) && tape_->constant(node) == value;
+    return tape_->operation(node) == Operation::literal && tape_->constant(node) == value;
   }
   NodeId product(NodeId x, NodeId y) {
     if (is_number(x, 1)) return y;
@@ -154,6 +154,15 @@ void Sweep::pass_down(NodeId node) {
       give(a, binary(multiply, share, b));
       return give(b, negative(binary(multiply, share, a)));
     }
+    case min:
+    case max: {
+      const NodeId first = tape_->operation(node) == max ? binary(subtract, a, b) : binary(subtract, b, a);
+      give(a, binary(where_not_negative, first, mine));
+      return give(b, binary(where_negative, first, mine));
+    }
+    case where_not_negative:
+    case where_negative:
+      return give(b, binary(tape_->operation(node), a, mine));
     default:
       if (const NodeId rate = slope(node); rate != no_node) give(a, product(mine, rate));
   }
@@ -172,6 +181,7 @@ GradientNodes gradient_nodes(Tape& tape, NodeId root) {
     if (adjoint == no_node) continue;
     if (tape.operation(node) == Operation::coordinate)
       found.by_coordinate.emplace_back(tape.a(node), adjoint);
+    if (tape.operation(node) == Operation::time) found.by_time = adjoint;
     if (tape.operation(node) == Operation::velocity) found.by_velocity.emplace_back(tape.a(node), adjoint);
   }
   std::sort(found.by_coordinate.begin(), found.by_coordinate.end());

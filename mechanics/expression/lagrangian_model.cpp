@@ -34,6 +34,11 @@ bool is_finite(const SecondPartials& p) {
             "rewrite the "
             "expression",
         model.sources.place(model.tape.origin(node)));
+  if (model.tape.operation(node) == Operation::literal && std::isnan(model.tape.constant(node)))
+    throw convex::InvalidInput(
+        name + ": " + model.tape.text(node) +
+            " is asked for at this state; give the table a wider range, or start within it",
+        model.sources.place(model.tape.origin(node)));
   throw convex::InvalidInput(name + ": " + quoted(written(model.tape, node, model.coordinates)) + wrong,
                              model.sources.place(model.tape.origin(node)));
 }
@@ -49,16 +54,18 @@ void refuse_values(const LagrangianModel& model, const Program& program, std::si
       "expression";
   const auto& roots = program.roots(group);
   Gradients search(program);
+  const std::vector<bool> used = program.in_use(x, group);
   for (int order = 0; order <= derivatives; ++order)
     for (std::size_t r = 0; r < roots.size(); ++r) {
       const std::vector<Slot> below = search.below(roots[r]);
       if (order == 0 && program.is_constant(roots[r]) && !std::isfinite(x[roots[r]]))
         refuse(model, names[r], first_undefined(model.tape, program.node(roots[r])), no_value);
       for (const Slot slot : below) {
+        if (!used[slot]) continue;
         const auto& i = program[slot];
         if (order == 0)
           for (const Slot operand : {i.a, i.b})
-            if (program.is_constant(operand) && !std::isfinite(x[operand]))
+            if (used[operand] && program.is_constant(operand) && !std::isfinite(x[operand]))
               refuse(model, names[r], first_undefined(model.tape, program.node(operand)), no_value);
         if (order == 0 && !std::isfinite(x[slot])) refuse(model, names[r], program.node(slot), no_value);
         if (order >= 1 && !is_finite(program.partials(slot, x)))

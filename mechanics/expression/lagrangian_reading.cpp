@@ -16,6 +16,7 @@ class Reading {
       : text_(text), model_(model), meanings_(model.meanings), expansion_(model.meanings, model.tape) {}
 
   void read() {
+    meanings_.table_file = text_.table_file;
     declare_names();
     read_parameters();
     read_coordinates();

@@ -60,7 +60,14 @@ Token Lexer::next() {
     case '>':
     case '<':
       if (after == '=') return token(c == '>' ? at_least : at_most, 2);
-      source_->fail(begin, std::string("\"") + c + "\" is no relation; write " + c + "=");
+      return token(c == '>' ? more : less, 1);
+    case '"': {
+      const std::size_t close = text.find('"', begin + 1);
+      if (close == std::string_view::npos)
+        source_->fail(begin, "the quotation mark has no partner; write table(x, \"F.csv\")");
+      at_ = close + 1;
+      return {Token::Kind::quotation, begin, text.substr(begin + 1, close - begin - 1), 0};
+    }
     case '=':
       if (after == '=') source_->fail(begin, "\"==\" is no relation; write =");
       return token(equal, 1);

@@ -26,6 +26,9 @@ struct Token {
     at_least,
     at_most,
     equal,
+    more,
+    less,
+    quotation,  ///< in quotation marks, which do not belong to `text`
     end,
   };
   Kind kind = Kind::end;

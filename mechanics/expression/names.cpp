@@ -21,6 +21,8 @@ std::string_view article_and_kind(Name::Kind kind) {
 }
 
 bool is_reserved(std::string_view name) {
+  // Names that files may have used before these were functions; a parenthesis tells which is meant.
+  if (name == "min" || name == "max" || name == "ln") return false;
   return name == "pi" || name == "t" || name == "sum" || name == "in" || function_named(name).has_value();
 }
 
@@ -48,8 +50,9 @@ std::string Names::suggestion(std::string_view unknown, const std::vector<Name::
   if (candidates.empty() && !language) return "; there is none";
   const std::size_t known = candidates.size();
   if (language)
-    for (const char* name : {"sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh",
-                             "exp", "log", "sqrt", "abs", "sum", "pi", "t"})
+    for (const char* name : {"sin",  "cos",  "tan",   "asin", "acos", "atan", "atan2", "sinh", "cosh",
+                             "tanh", "exp",  "log",   "sqrt", "abs",  "sum",  "pi",    "t",    "min",
+                             "max",  "sign", "hypot", "ln",   "step", "if",   "table"})
       candidates.emplace_back(name);
   const std::string nearest = convex::nearest_name(unknown, candidates);
   if (!nearest.empty()) return "; did you mean " + quoted(nearest) + "?";

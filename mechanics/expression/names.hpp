@@ -38,7 +38,8 @@ class Names {
   std::vector<std::string> in_order_;
 };
 
-/// pi, t, sum, in and the functions.
+/// pi, t, sum, in and those functions that no file may have as a name; the others are known by their
+/// parenthesis.
 bool is_reserved(std::string_view name);
 
 }  // namespace mechanics::expression

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::array<std::pair<std::string_view, Operation>, 14> functions{{
+constexpr std::array<std::pair<std::string_view, Operation>, 17> functions{{
     {"sin", Operation::sin},
     {"cos", Operation::cos},
     {"tan", Operation::tan},
@@ -28,6 +28,9 @@ constexpr std::array<std::pair<std::string_view, Operation>, 14> functions{{
     {"log", Operation::log},
     {"sqrt", Operation::sqrt},
     {"abs", Operation::abs},
+    {"min", Operation::min},
+    {"max", Operation::max},
+    {"ln", Operation::log},  // after log, which stands for it in messages
 }};
 
 // The functions of doubles; those of numbers with radii are found by their arguments.
@@ -59,6 +62,38 @@ double sign(double x) { return x > 0 ? 1 : x < 0 ? -1 : undefined; }
 /// Unknown where x may be 0.
 Rounded sign(Rounded x) {
   return {sign(x.value), x.may_be_zero() ? std::numeric_limits<double>::infinity() : 0};
+}
+
+/// b where a >= 0 (or a < 0), else 0. A branch that rounding may have decided otherwise is off by at most b.
+double where(bool is_taken, double, double b) { return is_taken ? b : 0; }
+Rounded where(bool is_taken, Rounded a, Rounded b) {
+  const Rounded taken = is_taken ? b : Rounded(0);
+  return a.is_undecided() ? Rounded(taken.value, widened(std::abs(b.value) + b.radius)) : taken;
+}
+
+template <class Real>
+bool is_taken(Operation operation, Real a) {
+  return operation == Operation::where_negative ? a < 0 : !(a < 0);
+}
+
+/// The larger (or smaller) of two; between numbers with radii nothing larger than theirs happens.
+template <class Real>
+bool takes_first(Operation operation, Real a, Real b) {
+  const Real difference = operation == Operation::max ? a - b : b - a;
+  return !(difference < 0);
+}
+double chosen(Operation operation, double a, double b) { return takes_first(operation, a, b) ? a : b; }
+Rounded chosen(Operation operation, Rounded a, Rounded b) {
+  Rounded f = takes_first(operation, a, b) ? a : b;
+  if ((a - b).is_undecided()) f.radius = std::max(a.radius, b.radius);
+  return f;
+}
+
+template <class Real>
+PartialsOf<Real> choice_partials(Operation operation, Real a, Real b) {
+  const Real difference = operation == Operation::max ? a - b : b - a, one = 1;
+  return {where(is_taken(Operation::where_not_negative, difference), difference, one),
+          where(is_taken(Operation::where_negative, difference), difference, one)};
 }
 
 /// 1 - tanh² without its cancellation.
@@ -109,6 +144,10 @@ int arity(Operation operation) {
     case divide:
     case power:
     case atan2:
+    case min:
+    case max:
+    case where_not_negative:
+    case where_negative:
       return 2;
     default:
       return 1;
@@ -135,6 +174,9 @@ std::string_view symbol(Operation operation) {
       return "t";
     case sign:
       return "sign";
+    case where_not_negative:
+    case where_negative:
+      return "if";
     default:
       break;
   }
@@ -202,6 +244,12 @@ Real value(Operation operation, Real a, Real b) {
       return abs(a);
     case Operation::sign:
       return sign(a);
+    case Operation::min:
+    case Operation::max:
+      return chosen(operation, a, b);
+    case Operation::where_not_negative:
+    case Operation::where_negative:
+      return where(is_taken(operation, a), a, b);
     default:
       break;
   }
@@ -256,6 +304,12 @@ PartialsOf<Real> partials(Operation operation, Real a, Real b, Real f, Active ac
       return {sign(a), 0};
     case Operation::sign:
       return {0, 0};
+    case Operation::min:
+    case Operation::max:
+      return choice_partials(operation, a, b);
+    case Operation::where_not_negative:
+    case Operation::where_negative:
+      return {0, where(is_taken(operation, a), a, Real(1))};
     default:
       break;
   }

@@ -37,7 +37,16 @@ enum class Operation : std::uint8_t {
   sqrt,
   abs,
   sign,  // the derivative of abs, undefined at 0; nobody writes it
+  min,
+  max,                 // at a tie, the first
+  where_not_negative,  // b where a >= 0, else 0: what if(…), step and sign(x) are written out into
+  where_negative,      // b where a < 0, else 0
 };
+
+/// Whether an operation takes one of two branches by the sign of a number.
+inline bool is_branch(Operation operation) { return operation >= Operation::min; }
+/// Whether it takes its second operand, or 0, by the sign of its first.
+inline bool is_where(Operation operation) { return operation >= Operation::where_not_negative; }
 
 /// Number of operands: 0, 1 or 2.
 int arity(Operation operation);

@@ -49,6 +49,10 @@ Token Parsing::expect(Kind kind, const char* wanted) {
 }
 
 void Parsing::unexpected(const char* wanted) const {
+  if (token_.kind == Kind::more || token_.kind == Kind::less) {
+    const std::string sign(token_.text);
+    source_->fail(token_.offset, "\"" + sign + "\" is no relation; write " + sign + "=");
+  }
   const std::string got = token_.kind == Kind::end ? "the end" : quoted(token_.text);
   source_->fail(token_.offset, "got " + got + "; expected " + wanted);
 }
@@ -59,6 +63,7 @@ Instruction& Parsing::emit(Step step, std::size_t offset, std::uint32_t operand)
   instruction.numeric = vocabulary_ != Vocabulary::system && vocabulary_ != Vocabulary::parameters;
   instruction.operand = operand;
   instruction.offset = static_cast<std::uint32_t>(offset);
+  instruction.count = branches_ > 0 ? 1 : 0;
   return instruction;
 }
 
@@ -162,7 +167,11 @@ void Parsing::primary() {
 
 void Parsing::named(const Token& name) {
   if (name.text == "sum") return indexed_sum(name);
-  if (const auto function = function_named(name.text)) return call(*function, name);
+  if (const auto function = function_named(name.text);
+      function && (token_.kind == Kind::open || is_reserved(name.text)))
+    return call(*function, name);
+  if (const auto what = construction_named(name.text); what && token_.kind == Kind::open)
+    return construct(*what, name);
   if (name.text == "pi") return void(emit(Step::pi, name.offset));
   if (name.text == "in") source_->fail(name.offset, "\"in\" belongs to sum(i in a..b, …); it is no value");
   if (name.text == "t") {
@@ -213,18 +222,20 @@ void Parsing::call(Operation function, const Token& name) {
   if (token_.kind != Kind::open)
     source_->fail(name.offset, quoted(name.text) + " is a function; write " + std::string(name.text) + "(…)");
   advance();
+  const bool any_number = function == Operation::min || function == Operation::max;
   int given = 0;
   do {
-    if (++given > arity(function))
+    if (++given > arity(function) && !any_number)
       source_->fail(token_.offset, std::string(name.text) + " has too many arguments; it takes " +
                                        std::to_string(arity(function)));
     sum();
+    if (any_number && given > 1) apply(function, name.offset);
   } while (accept(Kind::comma));
   if (token_.kind == Kind::close && given < arity(function))
     source_->fail(token_.offset, std::string(name.text) + " has too few arguments; it takes " +
-                                     std::to_string(arity(function)));
+                                     (any_number ? "at least " : "") + std::to_string(arity(function)));
   expect(Kind::close, "an operator or \")\"");
-  apply(function, name.offset);
+  if (!any_number) apply(function, name.offset);
 }
 
 void Parsing::number_in(Vocabulary vocabulary, void (Parsing::*part)()) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/expression/construction.hpp"
 #include "mechanics/expression/lexer.hpp"
 #include "mechanics/expression/parser.hpp"
 
@@ -39,6 +40,11 @@ class Parsing {
   void primary();
   void named(const Token& name);
   void call(Operation function, const Token& name);
+  void construct(Construction what, const Token& name);
+  void conditional(const Token& name);
+  void table(const Token& name);
+  double list(const Token& name);
+  void comma_of(const Token& name, const char* form);
   void indexed_sum(const Token& name);
   bool at_index_declaration() const;
   void member(const Name& meaning, const Token& name);
@@ -59,7 +65,7 @@ class Parsing {
   std::uint32_t key_slots_ = 0, slots_ = 0;
   Lexer lexer_;
   Token token_, ahead_;
-  int depth_ = 0;
+  int depth_ = 0, branches_ = 0;
   std::vector<Instruction> steps_;
 };
 

@@ -72,11 +72,25 @@ Program::Program(const Tape& tape, std::size_t coordinates, const std::vector<st
       const NodeId a = tape.a(node), b = tape.b(node);
       slot[node] = static_cast<Slot>(node_.size());
       node_.push_back(node);
+      has_branches_ = has_branches_ || is_where(tape.operation(node));
       code_.push_back({tape.operation(node), {!tape.is_constant(a), !tape.is_constant(b)}, slot[a], slot[b]});
     }
     ends_.push_back(static_cast<Slot>(node_.size()));
     roots_.emplace_back();
     for (const NodeId root : groups[group]) roots_.back().push_back(slot[root]);
+  }
+  if (has_branches_) find_differentiated();
+}
+
+void Program::find_differentiated() {
+  is_differentiated_.assign(size(), false);
+  for (const auto& roots : roots_)
+    for (const Slot root : roots) is_differentiated_[root] = true;
+  for (Slot slot = static_cast<Slot>(size()); slot-- > first_;) {
+    if (!is_differentiated_[slot]) continue;
+    const Instruction& i = (*this)[slot];
+    is_differentiated_[i.b] = true;
+    if (!is_where(i.operation)) is_differentiated_[i.a] = true;
   }
 }
 
@@ -94,8 +108,38 @@ Values Program::values(const State& state, std::size_t group, bool& is_finite) c
     spoiled += 0 * x[slot];
   }
   is_finite = spoiled == 0;
+  if (!has_branches_) return x;
+  const std::vector<bool> used = in_use(x, group);
+  is_finite = true;
+  for (Slot slot = 0; slot < ends_[group]; ++slot)
+    is_finite = is_finite && (!used[slot] || std::isfinite(x[slot]));
+  strike_unused(x, group, used);
   return x;
 }
+
+template <class Real>
+std::vector<bool> Program::in_use(const ValuesOf<Real>& x, std::size_t group) const {
+  std::vector<bool> used(size());
+  for (std::size_t g = 0; g <= group; ++g)
+    for (const Slot root : roots_[g]) used[root] = true;
+  for (Slot slot = ends_[group]; slot-- > first_;) {
+    if (!used[slot]) continue;
+    const Instruction& i = code_[slot - first_];
+    used[i.a] = true;
+    if (!is_where(i.operation) || (x[i.a] < 0) == (i.operation == Operation::where_negative))
+      used[i.b] = true;
+  }
+  return used;
+}
+
+template <class Real>
+void Program::strike_unused(ValuesOf<Real>& x, std::size_t group, const std::vector<bool>& used) const {
+  for (Slot slot = first_; slot < ends_[group]; ++slot)
+    if (!used[slot]) x[slot] = std::numeric_limits<double>::quiet_NaN();
+}
+
+template std::vector<bool> Program::in_use(const Values&, std::size_t) const;
+template std::vector<bool> Program::in_use(const ValuesOf<Rounded>&, std::size_t) const;
 
 ValuesOf<Rounded> Program::rounded_values(const RoundedState& state, std::size_t group,
                                           const std::vector<Rounded>& of_nodes) const {
@@ -108,6 +152,7 @@ ValuesOf<Rounded> Program::rounded_values(const RoundedState& state, std::size_t
     const Instruction& i = code_[slot - first_];
     x[slot] = value(i.operation, x[i.a], x[i.b]);
   }
+  if (has_branches_) strike_unused(x, group, in_use(x, group));
   return x;
 }
 

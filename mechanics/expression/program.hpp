@@ -14,6 +14,10 @@ using Values = std::vector<double>;  // by slot
 template <class Real>
 using ValuesOf = std::vector<Real>;
 
+/// The mark of an operation that no branch taken uses.
+inline bool is_unused(double x) { return std::isnan(x); }
+inline bool is_unused(Rounded x) { return std::isnan(x.value); }
+
 /// A state with a radius to each number.
 struct RoundedState {
   Rounded t;
@@ -48,25 +52,36 @@ class Program {
   const std::vector<Slot>& roots(std::size_t group) const { return roots_[group]; }
   NodeId node(Slot slot) const { return node_[slot]; }
 
-  /// The values up to the end of a group, at a state; `is_finite` tells whether all of them are.
+  /// The values up to the end of a group, at a state; `is_finite` tells whether all of them are. An operation
+  /// that is used by branches alone that are not taken has the value NaN and the partials 0;
+  /// one that conditions alone use has the partials 0.
   Values values(const State& state, std::size_t group, bool& is_finite) const;
   /// The same doubles with radii. `of_nodes`: the constants of the tape, by node.
   ValuesOf<Rounded> rounded_values(const RoundedState& state, std::size_t group,
                                    const std::vector<Rounded>& of_nodes) const;
+  /// By slot: whether something of the groups up to this one uses it, on the branches that the values take.
+  template <class Real>
+  std::vector<bool> in_use(const ValuesOf<Real>& x, std::size_t group) const;
   template <class Real>
   PartialsOf<Real> partials(Slot slot, const ValuesOf<Real>& x) const {
+    if (has_branches_ && (!is_differentiated_[slot] || is_unused(x[slot]))) return {};
     const Instruction& i = (*this)[slot];
     return expression::partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
   }
   template <class Real>
   SecondPartialsOf<Real> second_partials(Slot slot, const ValuesOf<Real>& x) const {
+    if (has_branches_ && (!is_differentiated_[slot] || is_unused(x[slot]))) return {};
     const Instruction& i = (*this)[slot];
     return expression::second_partials(i.operation, x[i.a], x[i.b], x[slot], i.active);
   }
   bool is_computed(Slot slot) const { return slot >= first_; }
   bool is_constant(Slot slot) const { return slot > time() && slot < first_; }
+  bool has_branches() const { return has_branches_; }
 
  private:
+  void find_differentiated();
+  template <class Real>
+  void strike_unused(ValuesOf<Real>& x, std::size_t group, const std::vector<bool>& used) const;
   std::size_t n_ = 0;
   Slot first_ = 0;
   std::vector<Instruction> code_;
@@ -75,6 +90,8 @@ class Program {
   std::vector<std::vector<Slot>> roots_;
   std::vector<NodeId> node_;  // by slot; no_node for a variable
   Values constants_;
+  bool has_branches_ = false;
+  std::vector<bool> is_differentiated_;  // with branches: what more than conditions depends on
 };
 
 }  // namespace mechanics::expression

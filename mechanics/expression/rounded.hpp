@@ -18,6 +18,8 @@ struct Rounded {
   Rounded(double exact) : value(exact) {}  // NOLINT: a number that is what it says
   Rounded(double rounded, double bound) : value(rounded), radius(bound) {}
   bool is_exact() const { return radius == 0; }
+  /// Its sign is that of the double for all that is known, or not.
+  bool is_undecided() const { return radius != 0 && may_be_zero(); }
   bool may_be_zero() const { return !(std::abs(value) > radius); }
 };
 

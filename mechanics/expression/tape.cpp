@@ -83,6 +83,7 @@ NodeId Tape::time(Origin origin) { return find_or_add(Operation::time, 0, 0, ori
 
 NodeId Tape::apply(Operation operation, NodeId a, NodeId b, Origin origin) {
   const auto depends = static_cast<std::uint8_t>(depends_[a] | depends_[b]);
+  has_branches_ = has_branches_ || is_branch(operation);
   double result = 0;
   if (depends == on_nothing)
     result = std::isfinite(value_[a]) && std::isfinite(value_[b]) ? value(operation, value_[a], value_[b])
@@ -105,6 +106,8 @@ void write(const Tape& tape, NodeId node, const std::vector<std::string>& coordi
   const Operation operation = tape.operation(node);
   switch (operation) {
     case Operation::literal:
+      out += tape.text(node).substr(0, tape.text(node).find(radius_mark));
+      return;
     case Operation::parameter:
       out += tape.text(node);
       return;
@@ -132,6 +135,7 @@ void write(const Tape& tape, NodeId node, const std::vector<std::string>& coordi
   if (arity(operation) == 0) return;
   out += "(";
   part(tape.a(node));
+  if (is_where(operation)) out += operation == Operation::where_negative ? " < 0" : " >= 0";
   if (arity(operation) == 2) {
     out += ", ";
     part(tape.b(node));

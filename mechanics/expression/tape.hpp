@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "mechanics/expression/operation.hpp"
@@ -13,6 +14,9 @@ namespace mechanics::expression {
 
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
+
+/// In the text of a literal: what follows is its radius (see rounded_nodes.hpp).
+inline constexpr char radius_mark = '~';
 
 /// Which variables a node depends on, as bits; a constant has none.
 enum Dependence : std::uint8_t { on_nothing = 0, on_coordinates = 1, on_velocities = 2, on_time = 4 };
@@ -41,6 +45,10 @@ class Tape {
   bool is_constant(NodeId node) const { return depends_[node] == on_nothing; }
   double constant(NodeId node) const { return value_[node]; }
   Origin origin(NodeId node) const { return origin_[node]; }
+  /// A number whose sign 0 lies between two branches that need not fit together (if, step, sign).
+  void note_edge(NodeId node) { edges_.insert(node); }
+  bool is_edge(NodeId node) const { return edges_.count(node) > 0; }
+  bool has_branches() const { return has_branches_; }
   /// The text of a literal or the name of a parameter.
   const std::string& text(NodeId node) const;
 
@@ -57,6 +65,8 @@ class Tape {
   std::vector<NodeId> table_ = std::vector<NodeId>(1024, no_node);  // open addressing, a power of two
   std::unordered_map<std::string, std::uint32_t> text_numbers_;
   std::vector<std::string> texts_;
+  std::unordered_set<NodeId> edges_;
+  bool has_branches_ = false;
 };
 
 /// The expression of a node as text, cut to about 60 characters.

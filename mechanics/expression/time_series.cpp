@@ -224,6 +224,15 @@ TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b
       return a.c[0].value > 0   ? TimeSeries(Rounded(1))
              : a.c[0].value < 0 ? TimeSeries(Rounded(-1))
                                 : undefined_series();
+    case Operation::min:
+    case Operation::max: {
+      const Rounded first = operation == Operation::max ? a.c[0] - b.c[0] : b.c[0] - a.c[0];
+      return first.is_undecided() ? undefined_series() : first < 0 ? b : a;
+    }
+    case Operation::where_not_negative:
+    case Operation::where_negative:
+      if (a.c[0].is_undecided()) return undefined_series();
+      return (a.c[0] < 0) == (operation == Operation::where_negative) ? b : TimeSeries(Rounded(0));
     default:
       return undefined_series();
   }

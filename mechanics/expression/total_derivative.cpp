@@ -101,6 +101,15 @@ NodeId TotalDerivative::rule(NodeId node) {
       return binary(divide, da, binary(multiply, number("2", 2), node));
     case abs:
       return chain(unary(sign, a), da, at);
+    case min:
+    case max: {
+      const NodeId first = operation == max ? binary(subtract, a, b) : binary(subtract, b, a);
+      const NodeId left = da == no_node ? no_node : binary(where_not_negative, first, da);
+      return sum(add, left, db == no_node ? no_node : binary(where_negative, first, db), at);
+    }
+    case where_not_negative:
+    case where_negative:
+      return db == no_node ? no_node : binary(operation, a, db);
     default:
       return no_node;  // sign
   }

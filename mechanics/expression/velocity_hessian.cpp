@@ -113,7 +113,15 @@ auto VelocityHessian::coefficients(const Program& program, const ValuesOf<Real>&
   for (const Term& term : terms_) {
     const auto& instruction = program[term.slot];
     const Real a = x[instruction.a], b = x[instruction.b];
+    if (program.has_branches() && is_unused(x[term.slot])) {
+      result.push_back({});
+      continue;
+    }
     switch (instruction.operation) {
+      case Operation::where_not_negative:
+      case Operation::where_negative:
+        result.push_back({program.partials(term.slot, x).b, 0, 0});
+        break;
       case Operation::negate:
         result.push_back({-1, 0, 0});
         break;
@@ -223,10 +231,15 @@ std::vector<Real> VelocityHessian::gradient_rate(const Program& program, const V
   for (std::size_t k = terms_.size(); k-- > 0;) {
     const Term& term = terms_[k];
     const auto& instruction = program[term.slot];
+    if (program.has_branches() && is_unused(x[term.slot])) continue;
     const Real mine = rate[first_term + k], above = adjoint[term.slot];
     const Real a = x[instruction.a], b = x[instruction.b], da = tangent[instruction.a],
                db = tangent[instruction.b];
     switch (instruction.operation) {
+      case Operation::where_not_negative:
+      case Operation::where_negative:
+        rate[term.a] += mine * program.partials(term.slot, x).b;
+        break;
       case Operation::negate:
         rate[term.a] -= mine;
         break;

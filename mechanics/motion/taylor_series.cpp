@@ -162,10 +162,19 @@ void TaylorSeries::extend(const TaylorStep& step, std::size_t k) {
       return;
     }
     case Kind::absolute:
-      f[k] = branches_[static_cast<std::size_t>(step.number)] * a[k];
+      f[k] = branch(step) * a[k];
+      return;
+    case Kind::where_not_negative:
+      f[k] = branch(step) > 0 ? b[k] : 0;
+      return;
+    case Kind::where_negative:
+      f[k] = branch(step) < 0 ? b[k] : 0;
+      return;
+    case Kind::either:
+      f[k] = branch(step) > 0 ? a[k] : b[k];
       return;
     case Kind::sign:
-      f[k] = k == 0 ? branches_[static_cast<std::size_t>(step.number)] : 0;
+      f[k] = k == 0 ? branch(step) : 0;
       return;
   }
 }
@@ -207,6 +216,12 @@ void TaylorSeries::carry(std::vector<double>& change, std::size_t lanes) const {
           break;
         case Kind::share:
           f[l] = a[l] / step.number;
+          break;
+        case Kind::where_not_negative:
+          f[l] = branch(step) > 0 ? b[l] : 0;
+          break;
+        case Kind::where_negative:
+          f[l] = branch(step) < 0 ? b[l] : 0;
           break;
         default:  // a quotient; its divisor does not depend on velocities
           f[l] = a[l] / b0;

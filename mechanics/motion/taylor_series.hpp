@@ -41,6 +41,7 @@ class TaylorSeries {
  private:
   double* at(Slot series) { return c_.data() + series * width_; }
   const double* at(Slot series) const { return c_.data() + series * width_; }
+  double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   void begin(const TaylorStep& step);
   void extend(const TaylorStep& step, std::size_t k);
 

@@ -55,11 +55,11 @@ class Translation {
   }
   double value(Slot slot) const { return tape_.constant(program_.node(slot)); }
 
-  void add_switch(Kind kind, Slot out, Slot a) {
+  void add_switch(Kind kind, Slot out, Slot argument, Slot a, Slot b) {
     std::size_t k = 0;
-    while (k < to_.switches.size() && to_.switches[k].argument != a) ++k;
-    if (k == to_.switches.size()) to_.switches.push_back({a, program_.node(out)});
-    add(kind, out, a, 0, 0, static_cast<double>(k));
+    while (k < to_.switches.size() && to_.switches[k].argument != argument) ++k;
+    if (k == to_.switches.size()) to_.switches.push_back({argument, program_.node(out)});
+    add(kind, out, a, b, 0, static_cast<double>(k));
   }
 
   /// 1 + a² or (1 - a)(1 + a), which keeps its digits near 1.
@@ -153,9 +153,17 @@ class Translation {
       case Operation::sqrt:
         return add(Kind::root, out, a);
       case Operation::abs:
-        return add_switch(Kind::absolute, out, a);
+        return add_switch(Kind::absolute, out, a, a, 0);
       case Operation::sign:
-        return add_switch(Kind::sign, out, a);
+        return add_switch(Kind::sign, out, a, a, 0);
+      case Operation::where_not_negative:
+        return add_switch(Kind::where_not_negative, out, a, 0, b);
+      case Operation::where_negative:
+        return add_switch(Kind::where_negative, out, a, 0, b);
+      case Operation::max:
+        return add_switch(Kind::either, out, made(Kind::difference, a, b), a, b);
+      case Operation::min:
+        return add_switch(Kind::either, out, made(Kind::difference, b, a), a, b);
       default:
         throw convex::InvalidInput(
             "\"" + std::string(symbol(operation)) +
@@ -174,7 +182,8 @@ class Translation {
 /// lower ones. The text of T is checked for degree 2, so that p and df/dt have degree 1.
 bool is_affine(Kind kind) {
   return kind == Kind::sum || kind == Kind::difference || kind == Kind::negative || kind == Kind::product ||
-         kind == Kind::multiple || kind == Kind::square || kind == Kind::quotient || kind == Kind::share;
+         kind == Kind::multiple || kind == Kind::square || kind == Kind::quotient || kind == Kind::share ||
+         kind == Kind::where_not_negative || kind == Kind::where_negative;
 }
 
 }  // namespace

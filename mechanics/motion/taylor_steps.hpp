@@ -30,16 +30,19 @@ struct TaylorStep {
     power,    ///< a^number, a not 0
     absolute,  ///< |a|, the sign of a known
     sign,
+    where_not_negative,  ///< b on the branch 1 of a switch, else 0
+    where_negative,      ///< b on the branch -1, else 0
+    either,              ///< a on the branch 1, b on the other
   };
   Kind kind;
   expression::Slot out, a, b, partner;
-  double number = 0;  ///< of `absolute` and `sign`: which switch
+  double number = 0;  ///< of what has branches: which switch
 };
 
-/// An argument whose sign chooses a branch of an expression, such as x in |x|.
+/// An argument whose sign chooses a branch of an expression, such as x in |x| or x - y in max(x, y).
 struct Switch {
   expression::Slot argument;
-  expression::NodeId node;  ///< the |x| or sign(x), for messages
+  expression::NodeId node;  ///< the |x|, max(x, y), …, for messages
 };
 
 /// A program translated into recurrences. Its slots are series 0, 1, …; what the recurrences need in

@@ -1,0 +1,172 @@
+#include "mechanics/expression/construction.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "mechanics/expression/rounded_nodes.hpp"
+#include "mechanics/expression/simplification.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics::expression {
+namespace {
+
+/// Builds nodes of one origin.
+class Builder {
+ public:
+  Builder(Tape& tape, Origin origin) : tape_(&tape), origin_(origin) {}
+
+  NodeId number(const char* text, double value) { return tape_->literal(text, value, origin_); }
+  NodeId binary(Operation operation, NodeId a, NodeId b) { return tape_->apply(operation, a, b, origin_); }
+  NodeId unary(Operation operation, NodeId a) { return binary(operation, a, a); }
+  NodeId difference(NodeId a, NodeId b) { return binary(Operation::subtract, a, b); }
+  NodeId sum(NodeId a, NodeId b) { return binary(Operation::add, a, b); }
+
+  /// The one where d >= 0, the other where d < 0.
+  NodeId branches(NodeId d, NodeId not_negative, NodeId negative) {
+    if (tape_->is_constant(d)) return tape_->constant(d) < 0 ? negative : not_negative;
+    if (is_zero(not_negative)) return binary(Operation::where_negative, d, negative);
+    if (is_zero(negative)) return binary(Operation::where_not_negative, d, not_negative);
+    return sum(binary(Operation::where_not_negative, d, not_negative),
+               binary(Operation::where_negative, d, negative));
+  }
+  NodeId edge(NodeId d) {
+    tape_->note_edge(d);
+    return d;
+  }
+
+  /// The pieces `first` to `last` of a spline, by bisection of the knots.
+  NodeId pieces(const CubicSpline& spline, NodeId x, std::span<const NodeId> knots,
+                std::span<const NodeId> values, std::size_t first, std::size_t last) {
+    if (first < last) {
+      const std::size_t middle = (first + last + 1) / 2;
+      const NodeId left = pieces(spline, x, knots, values, first, middle - 1);
+      const NodeId right = pieces(spline, x, knots, values, middle, last);
+      return branches(difference(x, knots[middle]), right, left);
+    }
+    const NodeId u = difference(x, knots[first]);
+    NodeId f = rounded(spline.jerk[first]);
+    f = sum(binary(Operation::multiply, f, u), rounded(spline.bend[first]));
+    f = sum(binary(Operation::multiply, f, u), rounded(spline.slope[first]));
+    return sum(binary(Operation::multiply, f, u), values[first]);
+  }
+
+ private:
+  /// A number that is not known exactly: its text is that of no fraction.
+  NodeId rounded(Rounded number) {
+    return tape_->literal(text_with_radius(shortest_digits(number.value), number.radius), number.value,
+                          origin_);
+  }
+  bool is_zero(NodeId node) const {
+    return tape_->operation(node) == Operation::literal && tape_->constant(node) == 0;
+  }
+
+  Tape* tape_;
+  Origin origin_;
+};
+
+bool holds(Construction what, double a, double b) {
+  switch (what) {
+    case Construction::if_at_least:
+      return a >= b;
+    case Construction::if_more:
+      return a > b;
+    case Construction::if_at_most:
+      return a <= b;
+    default:
+      return a < b;
+  }
+}
+
+}  // namespace
+
+std::optional<Construction> construction_named(std::string_view name) {
+  if (name == "if") return Construction::if_at_least;
+  if (name == "sign") return Construction::sign;
+  if (name == "step") return Construction::step;
+  if (name == "hypot") return Construction::hypot;
+  if (name == "table") return Construction::table;
+  return std::nullopt;
+}
+
+NodeId constructed(Tape& tape, Construction what, std::span<const NodeId> arguments, Origin origin) {
+  Builder build(tape, origin);
+  const NodeId a = arguments[0];
+  switch (what) {
+    case Construction::if_at_least:
+      return build.branches(build.edge(build.difference(a, arguments[1])), arguments[2], arguments[3]);
+    case Construction::if_at_most:
+      return build.branches(build.edge(build.difference(arguments[1], a)), arguments[2], arguments[3]);
+    case Construction::if_more:
+      return build.branches(build.edge(build.difference(arguments[1], a)), arguments[3], arguments[2]);
+    case Construction::if_less:
+      return build.branches(build.edge(build.difference(a, arguments[1])), arguments[3], arguments[2]);
+    case Construction::sign: {
+      const NodeId zero = build.number("0", 0), one = build.number("1", 1);
+      const NodeId above = build.edge(build.unary(Operation::negate, a));
+      return build.difference(build.branches(above, zero, one), build.branches(build.edge(a), zero, one));
+    }
+    case Construction::step:
+      return build.branches(build.edge(a), build.number("1", 1), build.number("0", 0));
+    case Construction::hypot: {
+      const NodeId two = build.number("2", 2);
+      NodeId squares = no_node;
+      for (const NodeId x : arguments) {
+        const NodeId square = build.binary(Operation::power, x, two);
+        squares = squares == no_node ? square : build.sum(squares, square);
+      }
+      return build.unary(Operation::sqrt, squares);
+    }
+    case Construction::table:
+      break;
+  }
+  const std::size_t n = (arguments.size() - 1) / 2;
+  const auto knots = arguments.subspan(1, n), values = arguments.subspan(1 + n, n);
+  return spline_node(tape, a, knots, values, origin);
+}
+
+double constructed(Construction what, std::span<const double> arguments) {
+  const double a = arguments[0];
+  switch (what) {
+    case Construction::sign:
+      return a > 0 ? 1 : a < 0 ? -1 : 0;
+    case Construction::step:
+      return a < 0 ? 0 : 1;
+    case Construction::hypot: {
+      double length = 0;
+      for (const double x : arguments) length = std::hypot(length, x);
+      return length;
+    }
+    case Construction::table: {
+      const std::size_t n = (arguments.size() - 1) / 2;
+      return natural_cubic_spline(arguments.subspan(1, n), arguments.subspan(1 + n, n))(a);
+    }
+    default:
+      return holds(what, a, arguments[1]) ? arguments[2] : arguments[3];
+  }
+}
+
+NodeId spline_node(Tape& tape, NodeId x, std::span<const NodeId> knots, std::span<const NodeId> values,
+                   Origin origin) {
+  Builder build(tape, origin);
+  const std::vector<Rounded> constants = rounded_nodes(tape);
+  std::vector<Rounded> points, heights;
+  for (const NodeId node : knots) points.push_back(constants[node]);
+  for (const NodeId node : values) heights.push_back(constants[node]);
+  const CubicSpline spline = natural_cubic_spline(points, heights);
+  const std::string range =
+      "table(…) outside " + number_text(spline.x.front()) + " to " + number_text(spline.x.back());
+  const NodeId outside = tape.literal(range, std::numeric_limits<double>::quiet_NaN(), origin);
+  const NodeId inside = build.pieces(spline, x, knots, values, 0, spline.slope.size() - 1);
+  const NodeId below_end = build.branches(build.difference(knots.back(), x), inside, outside);
+  return build.branches(build.difference(x, knots.front()), below_end, outside);
+}
+
+NodeId absolute_power(Tape& tape, NodeId x, NodeId exponent, Origin origin) {
+  Builder build(tape, origin);
+  const NodeId plain = build.binary(Operation::power, x, exponent);
+  if (std::fmod(tape.constant(exponent), 2) == 0) return plain;
+  const NodeId turned = build.binary(Operation::power, build.unary(Operation::negate, x), exponent);
+  return build.branches(x, plain, turned);
+}
+
+}  // namespace mechanics::expression
