@@ -15,8 +15,13 @@ struct Printing {
   bool quiet = false;
 };
 
+/// What a problem file says, said otherwise: "m=3", "position.x=0.2", "simulate.until=2".
+struct Overrides {
+  std::vector<std::string> settings;
+};
+
 /// Files answered one after the other.
-struct FileOptions : Printing {
+struct FileOptions : Printing, Overrides {
   std::vector<std::string> files;
 };
 

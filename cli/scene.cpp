@@ -2,7 +2,10 @@
 
 #include <numeric>
 
+#include "cli/assembled_state.hpp"
+#include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
+#include "cli/problem_file/settings.hpp"
 #include "convex/nearest_name.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
@@ -92,12 +95,12 @@ Scene projection_scene(ProjectionProblem numbers) {
           std::move(exact)};
 }
 
+}  // namespace
+
 std::string directory_of(const std::string& file) {
   const std::size_t slash = file.rfind('/');
   return slash == std::string::npos ? "" : file.substr(0, slash);
 }
-
-}  // namespace
 
 Vector contact_tolerances(const SolveSettings& settings, const std::vector<std::string>& constraints) {
   return numbers_by_constraint("solve.contact_tolerance",
@@ -123,8 +126,12 @@ Vector Scene::over_constraints(const Vector& over_contacts) const {
   return all;
 }
 
-Problem read_problem_file(const std::string& file) {
-  return read_problem(read_file(file), directory_of(file));
+Problem read_problem_file(const std::string& file, const Overrides& overrides) {
+  TomlValue document = read_document(file);
+  apply_settings(document, parsed_settings(overrides.settings));
+  Problem problem = read_problem(document, directory_of(file));
+  assemble_declared(problem, file);
+  return problem;
 }
 
 Scene make_scene(Problem problem, const std::string& file, const SceneOptions& options) {
@@ -145,8 +152,8 @@ Scene make_scene(Problem problem, const std::string& file, const SceneOptions& o
   return scene;
 }
 
-Scene read_scene(const std::string& file, const SceneOptions& options) {
-  return make_scene(read_problem_file(file), file, options);
+Scene read_scene(const std::string& file, const SceneOptions& options, const Overrides& overrides) {
+  return make_scene(read_problem_file(file, overrides), file, options);
 }
 
 }  // namespace cli

@@ -48,13 +48,17 @@ struct Scene {
 /// The tolerance of each constraint by `[solve] contact_tolerance`.
 convex::Vector contact_tolerances(const SolveSettings&, const std::vector<std::string>& constraints);
 
-/// Reads a problem file; its matrix files are looked for beside it.
-Problem read_problem_file(const std::string& file);
+/// Where the files that a problem file names are looked for.
+std::string directory_of(const std::string& file);
+
+/// Reads a problem file, with what is set in it; its matrix files are looked for beside it. A state that
+/// declares contacts is assembled, and what that moved is told on standard error.
+Problem read_problem_file(const std::string& file, const Overrides& overrides);
 
 /// The scene of a [system] or a [projection]; options of the command line win over the file's [solve].
 Scene make_scene(Problem, const std::string& file, const SceneOptions& options);
 
 /// Both in one. Throws InvalidInput when the file holds another kind of problem.
-Scene read_scene(const std::string& file, const SceneOptions& options);
+Scene read_scene(const std::string& file, const SceneOptions& options, const Overrides& overrides = {});
 
 }  // namespace cli

@@ -25,17 +25,20 @@ Contacts contacts(const System& system, const State& state, const Vector& tolera
                  df_zero = tolerance[a] * found.rates.df_scale[a];
     if (constraint.two_sided) {
       if (!(std::abs(f) <= f_zero))
-        refuse(constraint,
-               "two-sided, but f = " + number_text(f) + " at the state; move the position so that it holds");
+        refuse(constraint, "two-sided, but f = " + number_text(f) +
+                               " at the state; move the position so that it holds, or let "
+                               "`moreau assemble` find the nearest one");
       if (!(std::abs(df) <= df_zero))
-        refuse(constraint,
-               "two-sided, but df/dt = " + number_text(df) + " at the state; choose velocities that keep it");
+        refuse(constraint, "two-sided, but df/dt = " + number_text(df) +
+                               " at the state; choose velocities that keep it, or let "
+                               "`moreau assemble` find the nearest ones");
       found.present.push_back(a);
       continue;
     }
     if (!(f >= -f_zero))
       refuse(constraint, "penetrated, f = " + number_text(f) +
-                             " < 0; move the position so that f >= 0, or raise contact_tolerance");
+                             " < 0; move the position so that f >= 0, raise contact_tolerance, or let "
+                             "`moreau assemble` find the nearest state");
     if (f > f_zero) continue;
     if (df < -df_zero && impending == Impending::allowed)
       found.closing.push_back(a);

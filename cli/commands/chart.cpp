@@ -16,6 +16,7 @@
 #include "cli/measurement/progress.hpp"
 #include "cli/measurement/rank_correlation.hpp"
 #include "cli/measurement/trial_files.hpp"
+#include "cli/problem_file/documents.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/nearest_name.hpp"
 

@@ -77,7 +77,7 @@ Answer check_scene(Scene scene, const CheckOptions& options) {
 }
 
 Answer check_file(const std::string& file, const CheckOptions& options) {
-  Problem problem = read_problem_file(file);
+  Problem problem = read_problem_file(file, options);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content))
     return check_decomposition(*decomposition, problem, file, options);
   if (const auto* cone = std::get_if<ConeProblem>(&problem.content))

@@ -18,8 +18,17 @@ void add_printing(CLI::App& command, Printing& printing) {
   command.add_flag("--quiet", printing.quiet, "no text; the exit code tells");
 }
 
+void add_overrides(CLI::App& command, Overrides& options) {
+  command
+      .add_option("--set", options.settings,
+                  "what the file says, said otherwise: \"m=3\", \"position.x=0.2\", \"simulate.until=2\"")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
 void add_files(CLI::App& command, FileOptions& options) {
   command.add_option("FILE", options.files, "problem files; - is standard input")->required();
+  add_overrides(command, options);
   add_printing(command, options);
 }
 

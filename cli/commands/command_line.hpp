@@ -30,6 +30,9 @@ void add_methods(CLI::App& program, Work& chosen);
 void add_gallery(CLI::App& program, Work& chosen);
 void add_chart(CLI::App& program, Work& chosen);
 void add_stress(CLI::App& program, Work& chosen);
+void add_assemble(CLI::App& program, Work& chosen);
+void add_sweep(CLI::App& program, Work& chosen);
+void add_convert(CLI::App& program, Work& chosen);
 
 /// `moreau check --catalogue`: the laws over every set, function and operation of the language.
 Exit check_catalogue(const Printing&);
@@ -42,7 +45,10 @@ CLI::App& add_command(CLI::App& program, const char* name, const char* help, Wor
 /// --json and --quiet.
 void add_printing(CLI::App& command, Printing&);
 
-/// Problem files, and how their answers are printed.
+/// --set.
+void add_overrides(CLI::App& command, Overrides&);
+
+/// Problem files, what is set in them, and how their answers are printed.
 void add_files(CLI::App& command, FileOptions&);
 
 /// --method, --tolerance and --limit.

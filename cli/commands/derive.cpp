@@ -6,8 +6,11 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
+#include "cli/problem_file/documents.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/appell_function.hpp"
+#include "cli/report/equation_code.hpp"
+#include "cli/report/equation_latex.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/scene.hpp"
@@ -123,10 +126,38 @@ std::string derive_text(const Scene& scene) {
          appell_function(scene, number_text) + " + a number without accelerations\n";
 }
 
-Exit derive_files(const FileOptions& options) {
+/// What `moreau derive` is told.
+struct DeriveOptions : FileOptions {
+  bool c = false, python = false, latex = false;
+  std::optional<std::string> matrices;  ///< a folder to write
+};
+
+std::string derived_code(const Scene& scene, const DeriveOptions& options) {
+  if (!scene.system)
+    throw convex::InvalidInput(
+        "--c, --python and --latex are for a [system]; the numbers of a [projection] are there already");
+  const auto constants = options.latex ? mechanics::ConstantsAs::written : mechanics::ConstantsAs::numbers;
+  const mechanics::SymbolicEquations equations =
+      mechanics::symbolic_equations(scene.system->model(), scene.contacts, constants);
+  const EquationTitle title{function_name(scene.file), scene.contact_names()};
+  if (options.c) return equations_in_c(equations, title);
+  if (options.python) return equations_in_python(equations, title);
+  return equations_in_latex(equations, title);
+}
+
+Exit derive_files(const DeriveOptions& options) {
+  if (options.files.size() > 1 && options.matrices)
+    return answered(options, {options.files[1], ""}, []() -> Exit {
+      throw convex::InvalidInput("--mtx takes one problem file; run the files one by one");
+    });
   return for_each_file(options, [&](const std::string& file) {
-    const Scene scene = read_scene(file, {});
-    if (options.json)
+    const Scene scene = read_scene(file, {}, options);
+    if (options.matrices) write_problem_folder(scene.problem, *options.matrices);
+    if (options.c || options.python || options.latex)
+      fmt::print("{}", derived_code(scene, options));
+    else if (options.matrices && !options.json)
+      return Exit::solved;
+    else if (options.json)
       fmt::print("{}\n", derive_json(scene));
     else if (!options.quiet)
       fmt::print("{}", derive_text(scene));
@@ -137,10 +168,18 @@ Exit derive_files(const FileOptions& options) {
 }  // namespace
 
 void add_derive(CLI::App& program, Work& chosen) {
-  const auto options = std::make_shared<FileOptions>();
+  const auto options = std::make_shared<DeriveOptions>();
   CLI::App& command = add_command(program, "derive", "A, z, U, s of a system at its state", chosen,
                                   [options] { return derive_files(*options); });
   add_files(command, *options);
+  CLI::Option& c =
+      *command.add_flag("--c", options->c, "a C99 function of q, q' and t, parameters as constants");
+  CLI::Option& python = *command.add_flag("--python", options->python, "the same in Python, with numpy");
+  command.add_flag("--latex", options->latex, "the formulas, for LaTeX with amsmath")->excludes(&c, &python);
+  python.excludes(&c);
+  command
+      .add_option("--mtx", options->matrices, "a folder for A.mtx, z.mtx, U.mtx, s.mtx: numbers at the state")
+      ->type_name("DIR");
 }
 
 }  // namespace cli

@@ -69,7 +69,7 @@ Explained explain_scene(Problem problem, const std::string& file, const ExplainO
 }
 
 Explained explained(const std::string& file, const ExplainOptions& options) {
-  Problem problem = read_problem_file(file);
+  Problem problem = read_problem_file(file, options);
   const std::string title = problem.title.empty() ? file : problem.title;
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     const SplitPoint split = split_point(*decomposition, problem.solve, options);

@@ -8,6 +8,7 @@
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
 #include "cli/measurement/trial_files.hpp"
+#include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/write_projection.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"

@@ -92,7 +92,7 @@ std::string orbit_text(const std::string& head, const mechanics::LagrangianSyste
 }
 
 Answer orbit_file(const std::string& file, const OrbitOptions& options) {
-  const Problem problem = read_problem_file(file);
+  const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
   if (motion_method(problem.simulate, options) != mechanics::MotionMethod::event_driven)

@@ -129,7 +129,7 @@ class MotionFiles {
 };
 
 Answer simulate_file(const std::string& file, const SimulateOptions& options) {
-  const Problem problem = read_problem_file(file);
+  const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau simulate` takes a file with [system]");
   const SimulateSettings& settings = problem.simulate;

@@ -76,7 +76,7 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
 
 Answer solve_file(const std::string& file, const SolveOptions& options) {
   if (options.plot) require_drawable(*options.plot);
-  Problem problem = read_problem_file(file);
+  Problem problem = read_problem_file(file, options);
   if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content))
     return solve_liquid_file(*liquid, problem, file, options);
   require_no_liquid_request(options.liquid);

@@ -13,6 +13,7 @@
 #include "cli/measurement/progress.hpp"
 #include "cli/measurement/stress_families.hpp"
 #include "cli/measurement/trial_files.hpp"
+#include "cli/problem_file/documents.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"

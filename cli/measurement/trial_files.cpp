@@ -78,12 +78,4 @@ std::string about_file(const std::string& data_file) {
   return (has_ending ? data_file.substr(0, dot) : data_file) + ".about.json";
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file)
-    throw convex::InvalidInput("cannot write " + path + "; give a path in a folder that you may write");
-}
-
 }  // namespace cli

@@ -27,7 +27,4 @@ std::string measurement_json(const std::vector<Trial>&, const TrialLimits&);
 /// F.csv -> F.about.json.
 std::string about_file(const std::string& data_file);
 
-/// Throws InvalidInput when the file cannot be written.
-void write_file(const std::string& path, const std::string& text);
-
 }  // namespace cli

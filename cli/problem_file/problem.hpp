@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/problem_file/toml_document.hpp"
 #include "convex/cones/exact_metric.hpp"
 #include "convex/gamma0/call.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
@@ -21,11 +22,19 @@ struct NamedNumber {
   double value = 0;
 };
 
+/// What `[state]` declares: the state given is a guess at one with these contacts.
+struct DeclaredState {
+  std::vector<std::string> in_contact;
+  std::optional<std::vector<std::string>> solve_for;  ///< the coordinates that move; none: all
+  convex::Place place;
+};
+
 /// `[system]` and `[state]`: a mechanical system by its Lagrangian data.
 struct SystemProblem {
   mechanics::LagrangianText system;
   mechanics::StateText state;
   std::vector<NamedNumber> restitutions;  ///< that [system.looseness] gives to its constraints
+  std::optional<DeclaredState> declared = {};
 };
 
 /// `[projection]`: the same problem from numbers.
@@ -101,8 +110,9 @@ struct Problem {
   std::vector<DrawnShape> draw;
 };
 
-/// Reads the text of a problem file; `directory` is where its matrix files are looked for. Throws
-/// InvalidInput with the place.
+/// Reads a problem; `directory` is where the files that it names are looked for. Throws InvalidInput with the
+/// place.
+Problem read_problem(const TomlValue& document, const std::string& directory);
 Problem read_problem(const std::string& text, const std::string& directory);
 
 /// The bytes of a file, or of standard input for "-". Throws InvalidInput when it cannot be read.

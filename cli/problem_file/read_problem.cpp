@@ -35,7 +35,11 @@ const TomlEntry& content_table(const TomlValue& document) {
 }  // namespace
 
 Problem read_problem(const std::string& text, const std::string& directory) {
-  const auto kept = std::make_shared<const TomlValue>(parse_toml(text));
+  return read_problem(parse_toml(text), directory);
+}
+
+Problem read_problem(const TomlValue& given, const std::string& directory) {
+  const auto kept = std::make_shared<const TomlValue>(given);
   const TomlValue& document = *kept;
   require_known_keys(document, "",
                      {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve",
@@ -55,7 +59,7 @@ Problem read_problem(const std::string& text, const std::string& directory) {
     throw InvalidInput("[draw] goes with [system] only; take it out", draw->place);
   if (draw != nullptr) problem.draw = read_draw(*draw);
   if (content.key == "system") {
-    problem.content = read_system(document);
+    problem.content = read_system(document, directory);
   } else if (content.key == "projection") {
     ProjectionProblem projection = read_projection(content.value, directory);
     projection.are_doubles = is_made_of_doubles(content.value);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/table_points.hpp"
 #include "cli/problem_file/tables.hpp"
 
 namespace cli {
@@ -57,7 +58,7 @@ mechanics::LagrangianText read_lagrangian(const TomlValue& table) {
 }
 
 mechanics::StateText read_state(const TomlValue& table) {
-  require_known_keys(table, "state", {"t", "position", "velocity"});
+  require_known_keys(table, "state", {"t", "position", "velocity", "in_contact", "solve_for"});
   mechanics::StateText state;
   if (const TomlValue* t = table.find("t")) state.t = expression(*t, "state.t");
   const TomlValue* position = table.find("position");
@@ -65,6 +66,25 @@ mechanics::StateText read_state(const TomlValue& table) {
   state.position = named(position, "state.position");
   state.velocity = named(table.find("velocity"), "state.velocity");
   return state;
+}
+
+std::vector<std::string> names_in(const TomlValue& list, const std::string& where) {
+  if (list.is_string()) return {list.text};
+  if (list.kind != TomlValue::Kind::array)
+    throw InvalidInput(where + ": no list of names; write " + where.substr(6) + " = [\"string\"]",
+                       list.place);
+  std::vector<std::string> names;
+  for (const TomlValue& name : list.array) names.push_back(require_string(name, where));
+  return names;
+}
+
+std::optional<DeclaredState> read_declared(const TomlValue& state) {
+  const TomlValue *contacts = state.find("in_contact"), *unknowns = state.find("solve_for");
+  if (contacts == nullptr && unknowns == nullptr) return std::nullopt;
+  DeclaredState declared{{}, {}, contacts != nullptr ? contacts->place : unknowns->place};
+  if (contacts != nullptr) declared.in_contact = names_in(*contacts, "state.in_contact");
+  if (unknowns != nullptr) declared.solve_for = names_in(*unknowns, "state.solve_for");
+  return declared;
 }
 
 /// "mesh" and "_lower" make "mesh_lower", "mesh[i in 1..3]" makes "mesh_lower[i in 1..3]".
@@ -107,15 +127,20 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
 
 }  // namespace
 
-SystemProblem read_system(const TomlValue& document) {
+SystemProblem read_system(const TomlValue& document, const std::string& directory) {
   const TomlValue& system = *document.find("system");
   const TomlValue* state = document.find("state");
   SystemProblem problem{read_lagrangian(system), {}, {}};
   if (state == nullptr)
     throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
                        system.place);
+  problem.system.table_file = [directory](const std::string& file) {
+    return read_table_points(file.empty() || file[0] == '/' || directory.empty() ? file
+                                                                                 : directory + "/" + file);
+  };
   add_looseness(problem, system.find("looseness"));
   problem.state = read_state(require_table(*state, "state"));
+  problem.declared = read_declared(*state);
   return problem;
 }
 

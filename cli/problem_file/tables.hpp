@@ -5,8 +5,9 @@
 
 namespace cli {
 
-/// `[system]` with its sub-tables, and `[state]` of the same document.
-SystemProblem read_system(const TomlValue& document);
+/// `[system]` with its sub-tables, and `[state]` of the same document; tables in files are looked for in
+/// `directory`.
+SystemProblem read_system(const TomlValue& document, const std::string& directory);
 
 /// `[projection]`; matrix files are looked for in `directory`.
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);

@@ -1,0 +1,137 @@
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/assembled_state.hpp"
+#include "cli/commands/command_line.hpp"
+#include "cli/each_file.hpp"
+#include "cli/problem_file/documents.hpp"
+#include "cli/problem_file/settings.hpp"
+#include "cli/report/answer.hpp"
+#include "cli/report/json_writer.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/scene.hpp"
+
+namespace cli {
+namespace {
+
+using mechanics::Assembly;
+using mechanics::AssemblyStatus;
+using mechanics::Index;
+using mechanics::LagrangianSystem;
+
+/// What `moreau assemble` is told.
+struct AssembleOptions : Printing, Overrides {
+  std::string file;
+  std::vector<std::string> contacts, held;
+  std::optional<std::string> output;
+};
+
+const char* name_of(AssemblyStatus status) {
+  return status == AssemblyStatus::solved       ? "solved"
+         : status == AssemblyStatus::infeasible ? "infeasible"
+                                                : "gave-up";
+}
+
+std::string assembly_json(const LagrangianSystem& system, const Assembly& found, const std::string& file) {
+  JsonWriter json;
+  json.begin_object().key("file").value(file).key("kind").value("system");
+  json.key("status").value(name_of(found.status));
+  json.key("position").numbers(system.coordinates(), found.state.q);
+  json.key("velocity").numbers(system.coordinates(), found.state.v);
+  json.key("residual").value(found.residual).key("moved").value(found.moved);
+  json.key("fighting").begin_array();
+  for (const Index a : found.fighting) json.value(system.constraints()[static_cast<std::size_t>(a)].name);
+  json.end_array();
+  if (found.status == AssemblyStatus::infeasible) json.key("proved").value(found.proved);
+  return json.end_object().text();
+}
+
+std::string assembly_text(const LagrangianSystem& system, const Assembly& found) {
+  if (found.status == AssemblyStatus::infeasible)
+    return "No such state was found from many starts: " + fighting_text(system, found.fighting) +
+           " exclude each other.\n";
+  if (found.status == AssemblyStatus::gave_up)
+    return "No state was found: what should be 0 is still " + number_text(found.residual) +
+           ". Give a closer guess, or hold fewer coordinates.\n";
+  TextTable table({"coordinate", "position", "velocity"});
+  for (std::size_t i = 0; i < system.coordinates().size(); ++i)
+    table.add({system.coordinates()[i], fmt::format("{}", found.state.q[static_cast<Index>(i)]),
+               fmt::format("{}", found.state.v[static_cast<Index>(i)])});
+  return table.text() + fmt::format("\nmoved by {} in the kinetic metric; what should be 0 is at most {}\n",
+                                    number_text(found.moved), number_text(found.residual));
+}
+
+TomlValue number_value(double x) { return number_setting("", x).value; }
+
+/// The file with the state found in it; in_contact and solve_for have done their work.
+std::string assembled_file(TomlValue document, const LagrangianSystem& system,
+                           const mechanics::State& state) {
+  for (TomlEntry& entry : document.table) {
+    if (entry.key != "state") continue;
+    TomlValue position, velocity;
+    for (std::size_t i = 0; i < system.coordinates().size(); ++i) {
+      const auto k = static_cast<Index>(i);
+      position.table.push_back({system.coordinates()[i], {}, number_value(state.q[k])});
+      velocity.table.push_back({system.coordinates()[i], {}, number_value(state.v[k])});
+    }
+    std::vector<TomlEntry> kept;
+    for (TomlEntry& old : entry.value.table)
+      if (old.key == "t") kept.push_back(std::move(old));
+    kept.push_back({"position", {}, std::move(position)});
+    kept.push_back({"velocity", {}, std::move(velocity)});
+    entry.value.table = std::move(kept);
+  }
+  return toml_text(document);
+}
+
+Exit assemble_file(const AssembleOptions& options) {
+  TomlValue document = read_document(options.file);
+  apply_settings(document, parsed_settings(options.settings));
+  const Problem problem = read_problem(document, directory_of(options.file));
+  const auto* text = std::get_if<SystemProblem>(&problem.content);
+  if (text == nullptr)
+    throw convex::InvalidInput("nothing here to assemble; `moreau assemble` takes a file with [system]");
+  const auto system = mechanics::lagrangian_system(text->system);
+  mechanics::AssemblyQuestion question;
+  if (text->declared) question = declared_question(*system, *text->declared);
+  for (const Index a : constraints_named(*system, options.contacts, "--contact"))
+    question.contacts.push_back(a);
+  for (const Index i : coordinates_named(*system, options.held, "--hold")) question.held.push_back(i);
+  const Assembly found = mechanics::assemble(*system, system->state(text->state), question);
+  if (options.json)
+    fmt::print("{}\n", assembly_json(*system, found, options.file));
+  else if (!options.quiet)
+    fmt::print("{}{}", heading(problem.title, options.file), assembly_text(*system, found));
+  if (found.status == AssemblyStatus::infeasible) return Exit::no_solution;
+  if (found.status == AssemblyStatus::gave_up) return Exit::inaccurate;
+  if (options.output) write_file(*options.output, assembled_file(document, *system, found.state));
+  return Exit::solved;
+}
+
+}  // namespace
+
+void add_assemble(CLI::App& program, Work& chosen) {
+  const auto options = std::make_shared<AssembleOptions>();
+  CLI::App& command = add_command(
+      program, "assemble", "the nearest state that satisfies the constraints, with contacts of your choice",
+      chosen, [options] {
+        return answered(*options, {options->file, ""}, [&] { return assemble_file(*options); });
+      });
+  command.add_option("FILE", options->file, "a problem file; its state is the guess")->required();
+  command
+      .add_option("--contact", options->contacts, "a constraint that is to be in contact; may be repeated")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command.add_option("--hold", options->held, "a coordinate that is to keep its position and velocity")
+      ->type_name("COORDINATE")
+      ->allow_extra_args(false);
+  command.add_option("-o,--output", options->output, "the file again, with the state found")
+      ->type_name("OUT.toml");
+  add_overrides(command, *options);
+  add_printing(command, *options);
+}
+
+}  // namespace cli

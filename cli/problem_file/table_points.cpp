@@ -1,0 +1,68 @@
+#include "cli/problem_file/table_points.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "cli/problem_file/problem.hpp"
+
+namespace cli {
+namespace {
+
+/// The words of a line.
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> found;
+  std::string cell;
+  const auto finish = [&] {
+    if (!cell.empty()) found.push_back(cell);
+    cell.clear();
+  };
+  for (const char c : line) {
+    if (c == ',' || c == ';' || c == '\t' || c == ' ' || c == '\r')
+      finish();
+    else
+      cell += c;
+  }
+  finish();
+  return found;
+}
+
+bool is_number(const std::string& text, double& value) {
+  char* end = nullptr;
+  value = std::strtod(text.c_str(), &end);
+  return *end == '\0' && std::isfinite(value) && text.find_first_of("xXpP") == std::string::npos;
+}
+
+}  // namespace
+
+mechanics::TablePoints read_table_points(const std::string& file) {
+  std::string text;
+  try {
+    text = read_file(file);
+  } catch (const convex::InvalidInput& error) {
+    throw convex::InvalidInput("the table " + file + ": " + error.what());
+  }
+  mechanics::TablePoints points;
+  std::istringstream lines(text);
+  int number = 0;
+  bool may_be_heading = true;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    const std::vector<std::string> row = cells(line);
+    if (row.empty() || row[0][0] == '#') continue;
+    double x = 0, y = 0;
+    if (row.size() == 2 && is_number(row[0], x) && is_number(row[1], y)) {
+      points.x.push_back(x);
+      points.y.push_back(y);
+      points.x_text.push_back(row[0]);
+      points.y_text.push_back(row[1]);
+    } else if (!may_be_heading || row.size() != 2) {
+      throw convex::InvalidInput("the table " + file + ", line " + std::to_string(number) +
+                                 ": not two numbers; give x and y on each line");
+    }
+    may_be_heading = false;
+  }
+  return points;
+}
+
+}  // namespace cli

@@ -1,0 +1,101 @@
+#include "cli/sweep/change_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cli {
+namespace {
+
+using convex::Index;
+
+/// Bisection leaves so much of the range; a root is then found from the two ends.
+constexpr double bracket_part = 1e-7;
+constexpr int most_bisections = 200, most_secants = 60, most_changes = 1000;
+
+bool has(const std::vector<Index>& sorted, Index a) {
+  return std::binary_search(sorted.begin(), sorted.end(), a);
+}
+
+}  // namespace
+
+std::vector<double> ChangeSearch::between(const SweepPoint& from, const SweepPoint& to) {
+  std::vector<double> found;
+  SweepPoint low = from;
+  while (low.active != to.active && static_cast<int>(found.size()) < most_changes) {
+    SweepPoint high = to;
+    const auto halve = [&](double width) {
+      for (int k = 0; k < most_bisections && std::abs(high.at[0] - low.at[0]) > width; ++k) {
+        const double middle = low.at[0] + (high.at[0] - low.at[0]) / 2;
+        if (middle == low.at[0] || middle == high.at[0]) return true;
+        SweepPoint point = scene_.solve({middle}, watched_);
+        if (!point.has_answer()) return false;
+        (point.active == low.active ? low : high) = std::move(point);
+      }
+      return true;
+    };
+    if (!halve(bracket_part * range_)) return found;
+    const double width = std::max(std::abs(high.at[0] - low.at[0]), bracket_part * range_);
+    std::optional<double> change = root(low, high, 100 * width);
+    if (!change) {
+      if (!halve(change_part / 4 * range_)) return found;
+      change = low.at[0] + (high.at[0] - low.at[0]) / 2;
+    }
+    found.push_back(*change);
+    low = high;
+  }
+  return found;
+}
+
+/// The root of what decides about the first contact that differs and has one.
+std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoint& to, double width) {
+  std::vector<Index> differing;
+  std::set_symmetric_difference(from.active.begin(), from.active.end(), to.active.begin(), to.active.end(),
+                                std::back_inserter(differing));
+  using Margins = SweepScene::Margins;
+  const auto number = [&](std::vector<double> Margins::*which, const std::vector<Index>& held, Index c) {
+    return [this, which, held, c](double p) {
+      try {
+        return (scene_.margins({p}, held).*which)[static_cast<std::size_t>(c)];
+      } catch (const convex::InvalidInput&) {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+    };
+  };
+  const double a = from.at[0], b = to.at[0];
+  for (const Index c : differing) {
+    const bool was = has(from.active, c);
+    const SweepPoint &with = was ? from : to, &without = was ? to : from;
+    if (!has(without.contacts, c)) {  // it left K
+      for (const auto which : {&Margins::f, &Margins::df})
+        if (const auto found = secant(b, a, width, number(which, without.active, c))) return found;
+      continue;
+    }
+    if (const auto found = secant(a, b, width, number(&Margins::multiplier, with.active, c))) return found;
+    if (const auto found = secant(a, b, width, number(&Margins::slack, without.active, c))) return found;
+  }
+  return std::nullopt;
+}
+
+/// None where the steps leave the neighbourhood or do not end.
+std::optional<double> ChangeSearch::secant(double a, double b, double width,
+                                           const std::function<double(double)>& of) const {
+  const double begin = std::min(a, b) - width, end = std::max(a, b) + width;
+  double fa = of(a), fb = of(b);
+  if (fa == 0 && fb == 0) return std::nullopt;
+  for (int k = 0; k < most_secants; ++k) {
+    if (fb == 0) return b;
+    if (fa == 0) return a;
+    const double next = b - fb * (b - a) / (fb - fa);
+    if (!(next >= begin && next <= end)) return std::nullopt;
+    if (std::abs(next - b) <= 1e-16 * std::max(range_, std::abs(b)) || next == a) return next;
+    a = b;
+    fa = fb;
+    b = next;
+    fb = of(b);
+    if (std::isfinite(fb) && fb == fa) return std::nullopt;
+  }
+  // Steps that are all rounding by now: as good as it gets.
+  return std::abs(b - a) <= change_part / 4 * range_ ? std::optional(b) : std::nullopt;
+}
+
+}  // namespace cli

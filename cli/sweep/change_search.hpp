@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cli/sweep/sweep_point.hpp"
+
+namespace cli {
+
+/// Where, between two points of a sweep over one range, the contacts that persist change: the roots of their
+/// multipliers, slacks, or of f and df/dt where they leave K, to `change_part` of the range.
+class ChangeSearch {
+ public:
+  ChangeSearch(SweepScene& scene, const std::vector<Watched>& watched, double first, double last)
+      : scene_(scene), watched_(watched), range_(std::abs(last - first)) {}
+
+  /// In the order from `from` to `to`, both with an answer.
+  std::vector<double> between(const SweepPoint& from, const SweepPoint& to);
+
+  /// Values nearer to each other than this part of the range are one.
+  static constexpr double change_part = 1e-12;
+
+ private:
+  std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width);
+  std::optional<double> secant(double a, double b, double width,
+                               const std::function<double(double)>& of) const;
+
+  SweepScene& scene_;
+  const std::vector<Watched>& watched_;
+  double range_;
+};
+
+}  // namespace cli

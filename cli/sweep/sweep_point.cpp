@@ -1,0 +1,205 @@
+#include "cli/sweep/sweep_point.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "cli/assembled_state.hpp"
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/settings.hpp"
+#include "cli/report/solve_report.hpp"
+#include "cli/resolved_scene.hpp"
+#include "convex/nearest_name.hpp"
+#include "convex/nearest_point/automatic.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::InvalidInput;
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
+std::optional<Index> place_of(const std::vector<std::string>& names, const std::string& name) {
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (names[k] == name) return static_cast<Index>(k);
+  return std::nullopt;
+}
+
+/// "lambda[floor]" begins with "lambda[" and ends with "]": what stands within.
+std::optional<std::string> within(const std::string& name, const std::string& prefix) {
+  if (name.rfind(prefix, 0) != 0 || name.back() != ']') return std::nullopt;
+  return name.substr(prefix.size(), name.size() - prefix.size() - 1);
+}
+
+}  // namespace
+
+SweepScene::SweepScene(TomlValue document, std::string file, std::vector<std::string> keys,
+                       SceneOptions options)
+    : document_(std::move(document)),
+      file_(std::move(file)),
+      keys_(std::move(keys)),
+      options_(std::move(options)) {}
+
+Scene SweepScene::scene(const std::vector<double>& at) {
+  std::vector<Setting> settings;
+  for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back(number_setting(keys_[k], at[k]));
+  apply_settings(document_, settings);
+  Problem problem = read_problem(document_, directory_of(file_));
+  assemble_declared(problem);
+  return make_scene(std::move(problem), file_, options_);
+}
+
+std::vector<Watched> SweepScene::watched(const std::vector<std::string>& names,
+                                         const std::vector<double>& at) {
+  const Names known = this->names(at);
+  constraints_ = known.constraints;
+  std::vector<Watched> found;
+  if (names.empty()) {
+    for (std::size_t i = 0; i < known.coordinates.size(); ++i)
+      found.push_back({known.coordinates[i] + "''", Watched::Of::acceleration, static_cast<Index>(i)});
+    for (std::size_t a = 0; a < known.constraints.size(); ++a)
+      found.push_back(
+          {"lambda[" + known.constraints[a] + "]", Watched::Of::multiplier, static_cast<Index>(a)});
+  }
+  for (const std::string& name : names) {
+    std::optional<Index> place;
+    if (name == "gauss") {
+      found.push_back({name, Watched::Of::gauss, 0});
+      continue;
+    }
+    Watched::Of of = Watched::Of::acceleration;
+    if (const auto constraint = within(name, "lambda[")) {
+      of = Watched::Of::multiplier;
+      place = place_of(known.constraints, *constraint);
+    } else if (const auto coordinate = within(name, "reaction[")) {
+      of = Watched::Of::reaction;
+      place = place_of(known.coordinates, *coordinate);
+    } else if (name.size() > 2 && name.compare(name.size() - 2, 2, "''") == 0) {
+      place = place_of(known.coordinates, name.substr(0, name.size() - 2));
+    }
+    if (!place)
+      throw InvalidInput(
+          "--watch " + shown(name) +
+          ": there is no such number; write x'', lambda[floor], reaction[x] or gauss with names "
+          "of the file");
+    found.push_back({name, of, *place});
+  }
+  return found;
+}
+
+SweepScene::Names SweepScene::names(const std::vector<double>& at) {
+  std::vector<Setting> settings;
+  for (std::size_t k = 0; k < keys_.size(); ++k) settings.push_back(number_setting(keys_[k], at[k]));
+  apply_settings(document_, settings);
+  const Problem problem = read_problem(document_, directory_of(file_));
+  Names found;
+  if (const auto* text = std::get_if<SystemProblem>(&problem.content)) {
+    const auto system = mechanics::lagrangian_system(text->system);
+    found.coordinates = system->coordinates();
+    for (const mechanics::Constraint& constraint : system->constraints())
+      found.constraints.push_back(constraint.name);
+  } else if (const auto* numbers = std::get_if<ProjectionProblem>(&problem.content)) {
+    for (Index i = 0; i < numbers->problem.dimension(); ++i)
+      found.coordinates.push_back("q[" + std::to_string(i) + "]");
+    for (Index a = 0; a < numbers->problem.rows(); ++a)
+      found.constraints.push_back("c[" + std::to_string(a) + "]");
+  } else {
+    throw InvalidInput("no contacts here; `moreau sweep` takes a file with [system] or [projection]");
+  }
+  return found;
+}
+
+SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Watched>& watched) {
+  SweepPoint point;
+  point.at = at;
+  point.watched.assign(watched.size(), no_number);
+  point.error_bound = no_number;
+  try {
+    Scene scene = this->scene(at);
+    ProvedScene resolved = resolve_and_prove(scene, false);
+    mechanics::GaussSolution& solution = resolved.found.solution;
+    if (scene.written) count_evaluation_error(scene, solution);
+    const SolvedScene solved = solved_scene(scene, solution, 0);
+    point.status = name(solution.primal.status);
+    point.exit = exit_code(solution.primal.status);
+    point.contacts = scene.contacts;
+    if (!solved.has_answer()) return point;
+    point.error_bound = solution.primal.error_bound;
+    for (std::size_t a = 0; a < solved.states.size(); ++a)
+      if (solved.states[a] == ConstraintState::persists || solved.states[a] == ConstraintState::touches)
+        point.active.push_back(static_cast<Index>(a));
+    const convex::Vector lambda = scene.over_constraints(solution.multipliers.least_norm);
+    for (std::size_t k = 0; k < watched.size(); ++k) {
+      const Watched& one = watched[k];
+      switch (one.of) {
+        case Watched::Of::acceleration:
+          point.watched[k] = solution.primal.q[one.index];
+          break;
+        case Watched::Of::multiplier:
+          point.watched[k] = lambda[one.index];
+          break;
+        case Watched::Of::reaction:
+          point.watched[k] = solution.reaction[one.index];
+          break;
+        case Watched::Of::gauss:
+          point.watched[k] = solution.gauss;
+      }
+    }
+  } catch (const InvalidInput& error) {
+    point.status = "error";
+    point.exit = Exit::wrong_input;
+    point.message = error.what();
+  }
+  return point;
+}
+
+SweepScene::Margins SweepScene::margins(const std::vector<double>& at, const std::vector<Index>& held) {
+  const Scene scene = this->scene(at);
+  const std::size_t count = scene.constraints.size();
+  Margins found{std::vector<double>(count, no_number), std::vector<double>(count, no_number),
+                std::vector<double>(count, no_number), std::vector<double>(count, no_number)};
+  if (scene.rates)
+    for (std::size_t a = 0; a < count; ++a) {
+      found.f[a] = scene.rates->f[static_cast<Index>(a)];
+      found.df[a] = scene.rates->df[static_cast<Index>(a)];
+    }
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k)
+    if (std::find(held.begin(), held.end(), scene.contacts[k]) != held.end())
+      rows.push_back(static_cast<Index>(k));
+  if (rows.size() != held.size()) return found;
+  const auto m = static_cast<Index>(rows.size()), n = scene.problem.dimension();
+  convex::Matrix U(m, n), directions(n, m);
+  convex::Vector s(m);
+  for (Index k = 0; k < m; ++k) {
+    const convex::Vector u = scene.problem.U.row(rows[static_cast<std::size_t>(k)]);
+    U.row(k) = u;
+    directions.col(k) = scene.problem.A.solve(u);
+    s[k] = scene.problem.s[rows[static_cast<std::size_t>(k)]];
+  }
+  const convex::Vector free = scene.problem.A.solve(scene.problem.z);
+  convex::Vector q = free;
+  if (m > 0) {
+    std::optional<convex::Metric> gram;
+    try {
+      const convex::Matrix products = U * directions;
+      gram = convex::Metric::dense((products + products.transpose()) / 2);
+    } catch (const InvalidInput&) {
+      return found;
+    }
+    convex::Vector lambda = gram->solve(s - U * free);
+    lambda += gram->solve(s - U * (free + directions * lambda));
+    q += directions * lambda;
+    for (Index k = 0; k < m; ++k)
+      found.multiplier[static_cast<std::size_t>(
+          scene.contacts[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])])] = lambda[k];
+  }
+  for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    found.slack[static_cast<std::size_t>(scene.contacts[k])] =
+        scene.problem.U.row(row).dot(q) - scene.problem.s[row];
+  }
+  return found;
+}
+
+}  // namespace cli

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// `--over "a=0:0.1:1"` or "m=1,2,4": the values that a key of the file takes, as for `--set`.
+struct SweepRange {
+  std::string key;
+  std::vector<double> values;  ///< in the order given
+  bool is_range = false;       ///< first:step:last
+};
+
+/// Numbers are exact while they are counted: 0:0.1:0.3 ends with 0.3. Throws InvalidInput.
+SweepRange parse_sweep_range(const std::string& text);
+
+}  // namespace cli
