@@ -111,7 +111,7 @@ std::string full_key(const TomlValue& document, const std::string& key) {
     const TomlValue* position = state == nullptr ? nullptr : state->find("position");
     if (position != nullptr && position->find(key) != nullptr)
       refuse_setting(key, "this is a coordinate; write position." + key + " or velocity." + key);
-    const std::string nearest = convex::nearest_name(key, known, key.size() / 2);
+    const std::string nearest = convex::nearest_name(key, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
     refuse_setting(key,

@@ -19,7 +19,7 @@ enum class Language { c, python };
 /// How tightly the outermost operator of a piece of code binds.
 enum class Binding { choice, sum, product, sign, atom };
 
-struct Piece {
+struct CodePiece {
   std::string text;
   Binding binding = Binding::atom;
 };
@@ -41,7 +41,7 @@ class EquationCode {
       if (operands >= 1) depth[node] = depth[tape_.a(node)] + 1;
       if (operands == 2) depth[node] = std::max(depth[node], depth[tape_.b(node)] + 1);
       constexpr int deepest = 24;
-      Piece piece = written(node);
+      CodePiece piece = written(node);
       if (operands >= 1 && (uses_[node] > 1 || depth[node] > deepest)) {
         const std::string name = fmt::format("x{}", ++variables_);
         lines_ += language == Language::c ? fmt::format("  const double {} = {};\n", name, piece.text)
@@ -79,36 +79,37 @@ class EquationCode {
   }
 
   std::string within(NodeId node, Binding least) const {
-    const Piece& piece = text_[node];
+    const CodePiece& piece = text_[node];
     return piece.binding < least ? "(" + piece.text + ")" : piece.text;
   }
 
-  Piece infix(NodeId node, const char* sign, Binding own) const {
+  CodePiece infix(NodeId node, const char* sign, Binding own) const {
     // The order of the operations is kept: what stands on the right binds more tightly.
     const auto tighter = static_cast<Binding>(static_cast<int>(own) + 1);
     return {within(tape_.a(node), own) + sign + within(tape_.b(node), tighter), own};
   }
 
-  Piece call(const std::string& function, NodeId node) const {
+  CodePiece call(const std::string& function, NodeId node) const {
     const std::string prefix = language_ == Language::c ? "" : "np.";
     std::string arguments = text_[tape_.a(node)].text;
     if (arity(tape_.operation(node)) == 2) arguments += ", " + text_[tape_.b(node)].text;
     return {prefix + function + "(" + arguments + ")", Binding::atom};
   }
 
-  Piece number(double x) const {
+  CodePiece number(double x) const {
     if (!std::isfinite(x)) return {language_ == Language::c ? "NAN" : "np.nan", Binding::atom};
     std::string digits = fmt::format("{}", x);
     if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
     return {digits, Binding::atom};
   }
 
-  Piece choice(const std::string& condition, const std::string& then, const std::string& otherwise) const {
+  CodePiece choice(const std::string& condition, const std::string& then,
+                   const std::string& otherwise) const {
     if (language_ == Language::c) return {condition + " ? " + then + " : " + otherwise, Binding::choice};
     return {then + " if " + condition + " else " + otherwise, Binding::choice};
   }
 
-  Piece written(NodeId node) const {
+  CodePiece written(NodeId node) const {
     const Operation operation = tape_.operation(node);
     const bool is_c = language_ == Language::c;
     switch (operation) {
@@ -150,7 +151,7 @@ class EquationCode {
       }
       case Operation::sign: {
         const std::string a = within(tape_.a(node), Binding::sum);
-        const Piece below = choice(a + " < 0.0", "-1.0", is_c ? "NAN" : "np.nan");
+        const CodePiece below = choice(a + " < 0.0", "-1.0", is_c ? "NAN" : "np.nan");
         return choice(a + " > 0.0", "1.0", "(" + below.text + ")");
       }
       case Operation::min:
@@ -171,7 +172,7 @@ class EquationCode {
   const Tape& tape_;
   Language language_;
   std::vector<unsigned> uses_;
-  std::vector<Piece> text_;
+  std::vector<CodePiece> text_;
   std::string lines_;
   int variables_ = 0;
 };

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include "cli/report/greek_letters.hpp"
 
 namespace cli {
 namespace {
@@ -12,13 +11,6 @@ using mechanics::SymbolicEquations;
 using mechanics::expression::NodeId;
 using mechanics::expression::Operation;
 using mechanics::expression::Tape;
-
-constexpr std::array greek{"alpha", "beta",    "gamma",  "delta", "epsilon", "zeta",  "eta",   "theta",
-                           "iota",  "kappa",   "lambda", "mu",    "nu",      "xi",    "rho",   "sigma",
-                           "tau",   "upsilon", "phi",    "chi",   "psi",     "omega", "Gamma", "Delta",
-                           "Theta", "Lambda",  "Xi",     "Sigma", "Phi",     "Psi",   "Omega"};
-
-bool is_greek(const std::string& name) { return std::find(greek.begin(), greek.end(), name) != greek.end(); }
 
 std::string escaped(const std::string& name) {
   std::string text;
@@ -34,7 +26,7 @@ std::string stem_symbol(const std::string& stem) {
 
 enum class Tightness { sum, product, power, atom };
 
-struct Formula {
+struct LatexFormula {
   std::string text;
   Tightness tightness = Tightness::atom;
 };
@@ -48,12 +40,12 @@ class LatexFormulas {
   std::string operator()(NodeId root) { return at(root).text; }
 
  private:
-  const Formula& at(NodeId node) {
+  const LatexFormula& at(NodeId node) {
     if (known_[node].text.empty()) known_[node] = made(node);
     return known_[node];
   }
   std::string within(NodeId node, Tightness least) {
-    const Formula& part = at(node);
+    const LatexFormula& part = at(node);
     return part.tightness < least ? "\\left(" + part.text + "\\right)" : part.text;
   }
   bool is_literal(NodeId node, double value) const {
@@ -61,7 +53,7 @@ class LatexFormulas {
   }
   bool begins_with_digit(const std::string& text) const { return text[0] >= '0' && text[0] <= '9'; }
 
-  Formula number(double x) const {
+  LatexFormula number(double x) const {
     std::string digits = fmt::format("{}", x);
     const std::size_t e = digits.find('e');
     if (e == std::string::npos) return {digits, Tightness::atom};
@@ -69,7 +61,7 @@ class LatexFormulas {
     return {fmt::format("{} \\cdot 10^{{{}}}", digits.substr(0, e), exponent), Tightness::product};
   }
 
-  Formula power(NodeId node) {
+  LatexFormula power(NodeId node) {
     const NodeId a = tape_.a(node), b = tape_.b(node);
     if (is_literal(b, 0.5)) return {"\\sqrt{" + at(a).text + "}", Tightness::atom};
     static constexpr std::array trigonometric{Operation::sin, Operation::cos, Operation::tan};
@@ -82,23 +74,23 @@ class LatexFormulas {
 
   /// sin θ, sin(θ + φ).
   std::string argument(NodeId node) {
-    const Formula& part = at(node);
+    const LatexFormula& part = at(node);
     const bool is_plain = tape_.operation(node) == Operation::coordinate ||
                           tape_.operation(node) == Operation::parameter ||
                           tape_.operation(node) == Operation::time;
     return is_plain ? part.text : "\\left(" + part.text + "\\right)";
   }
 
-  Formula function(const std::string& name, NodeId node) {
+  LatexFormula function(const std::string& name, NodeId node) {
     return {name + " " + argument(tape_.a(node)), Tightness::product};
   }
 
-  Formula cases(const std::string& then, const std::string& condition) const {
+  LatexFormula cases(const std::string& then, const std::string& condition) const {
     return {"\\begin{cases}" + then + " & " + condition + " \\\\ 0 & \\text{else}\\end{cases}",
             Tightness::product};
   }
 
-  Formula made(NodeId node) {
+  LatexFormula made(NodeId node) {
     const Operation operation = tape_.operation(node);
     const NodeId a = tape_.a(node), b = tape_.b(node);
     switch (operation) {
@@ -163,7 +155,7 @@ class LatexFormulas {
 
   const Tape& tape_;
   const SymbolicEquations& equations_;
-  std::vector<Formula> known_;
+  std::vector<LatexFormula> known_;
 };
 
 }  // namespace

@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "cli/report/document.hpp"
+#include "cli/report/greek_letters.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli {
 namespace {
-
-constexpr const char* greek[] = {"alpha",  "beta",   "gamma", "delta", "epsilon", "zeta",  "eta",   "theta",
-                                 "kappa",  "lambda", "mu",    "nu",    "xi",      "pi",    "rho",   "sigma",
-                                 "tau",    "phi",    "chi",   "psi",   "omega",   "Gamma", "Delta", "Theta",
-                                 "Lambda", "Sigma",  "Phi",   "Psi",   "Omega"};
 
 struct FunctionLatex {
   const char *name, *latex;
@@ -26,8 +22,7 @@ constexpr FunctionLatex function_latex[] = {
 /// "x" is x, "alpha" \alpha, "front_left" \mathit{front\_left}.
 std::string name_latex(const std::string& name) {
   if (name.size() == 1) return name;
-  for (const char* letter : greek)
-    if (name == letter) return "\\" + name;
+  if (is_greek(name)) return "\\" + name;
   for (const FunctionLatex& function : function_latex)
     if (name == function.name) return function.latex;
   std::string text;
