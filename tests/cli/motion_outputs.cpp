@@ -9,7 +9,7 @@
 #include "tests/cli/program.hpp"
 
 using namespace tests;
-using Json = nlohmann::json;
+using MotionJson = nlohmann::json;
 
 namespace {
 
@@ -34,10 +34,10 @@ std::string whole(const std::string& path) {
 }
 
 /// The data that a page plays.
-Json data_of(const std::string& page) {
+MotionJson data_of(const std::string& page) {
   const std::string begin = "id=\"motion\">", end = "</script>";
   const std::size_t from = page.find(begin) + begin.size();
-  return Json::parse(page.substr(from, page.find(end, from) - from));
+  return MotionJson::parse(page.substr(from, page.find(end, from) - from));
 }
 
 std::vector<std::vector<std::string>> table(const std::string& path) {
@@ -62,12 +62,12 @@ TEST_CASE("an animation is one page without network, with the motion, its forces
   CHECK(page.find("http") == std::string::npos);
   CHECK(page.find("src=") == std::string::npos);
   CHECK(page.find("<b>pendulum") == std::string::npos);
-  const Json data = data_of(page);
+  const MotionJson data = data_of(page);
   CHECK(data["title"] == "A <b>pendulum</b> & a wall");
   CHECK(data["shapes"].size() == 3);
   CHECK(data["frames"].size() == 201);
-  CHECK(data["events"].size() == Json::parse(outcome.out)["events"]);
-  for (const Json& frame : data["frames"]) {
+  CHECK(data["events"].size() == MotionJson::parse(outcome.out)["events"]);
+  for (const MotionJson& frame : data["frames"]) {
     const auto value = [&](std::size_t shape, std::size_t k) {
       return frame["values"][data["shapes"][shape]["numbers"][k].get<std::size_t>()].get<double>();
     };
@@ -78,7 +78,7 @@ TEST_CASE("an animation is one page without network, with the motion, its forces
     CHECK(value(2, 1) == y);
     CHECK(value(1, 2) == 0.1);
     // The force of the rod points along it.
-    for (const Json& arrow : frame["arrows"])
+    for (const MotionJson& arrow : frame["arrows"])
       if (arrow[0] == 0)
         CHECK(std::abs(arrow[3].get<double>() * y - arrow[4].get<double>() * x) <=
               1e-5 * std::hypot(arrow[3].get<double>(), arrow[4].get<double>()));
@@ -90,9 +90,9 @@ TEST_CASE("without [draw] an animation has the coordinates as sliders") {
   const Folder folder;
   const std::string file = folder.write("p.toml", pendulum("")), page_file = folder.path("p.html");
   REQUIRE(run({"simulate", "--json", file, "--animate", page_file}).code == 0);
-  const Json data = data_of(whole(page_file));
+  const MotionJson data = data_of(whole(page_file));
   CHECK(data["shapes"].empty());
-  CHECK(data["coordinates"] == Json::parse("[\"x\", \"y\"]"));
+  CHECK(data["coordinates"] == MotionJson::parse("[\"x\", \"y\"]"));
   CHECK(data["frames"][0]["values"].size() == 2);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("a family is drawn member by member") {
       "[draw.circles]\n\"ball[i in 1..N]\" = { centre = [\"x[i]\", \"i/10\"], radius = \"i/20\" }\n");
   const std::string page_file = folder.path("f.html");
   REQUIRE(run({"simulate", file, "--animate", page_file}).code == 0);
-  const Json data = data_of(whole(page_file));
+  const MotionJson data = data_of(whole(page_file));
   REQUIRE(data["shapes"].size() == 3);
   CHECK(data["shapes"][2]["name"] == "ball[3]");
   const auto number = [&](std::size_t k) {
@@ -164,14 +164,14 @@ TEST_CASE("a motion that is resumed from its JSON goes where the whole one goes"
   const Outcome half = run({"simulate", "--json", file, "--until", "1.3"});
   REQUIRE(half.code == 0);
   const std::string state = folder.write("half.json", half.out);
-  const Json rest = Json::parse(run({"simulate", "--json", file, "--resume", state}).out);
-  const Json all = Json::parse(run({"simulate", "--json", file}).out);
+  const MotionJson rest = MotionJson::parse(run({"simulate", "--json", file, "--resume", state}).out);
+  const MotionJson all = MotionJson::parse(run({"simulate", "--json", file}).out);
   CHECK(rest["t"] == 3);
   for (const char* name : {"x", "y"}) {
     CHECK(std::abs(rest["position"][name].get<double>() - all["position"][name].get<double>()) <= 1e-12);
     CHECK(std::abs(rest["velocity"][name].get<double>() - all["velocity"][name].get<double>()) <= 1e-12);
   }
-  CHECK(rest["impacts"].get<int>() + Json::parse(half.out)["impacts"].get<int>() ==
+  CHECK(rest["impacts"].get<int>() + MotionJson::parse(half.out)["impacts"].get<int>() ==
         all["impacts"].get<int>());
   for (const std::string& text : {std::string("[1]"), std::string("{\"t\": 1}"), std::string("nonsense"),
                                   std::string("{\"t\":0,\"position\":{\"z\":0,\"x\":1},\"velocity\":{}}")}) {
@@ -213,10 +213,10 @@ TEST_CASE("time-stepping writes what following events writes, as means over its 
   const Outcome outcome =
       run({"simulate", "--json", file, "--output", csv, "--events", events, "--animate", page});
   REQUIRE(outcome.code == 0);
-  const Json found = Json::parse(outcome.out);
+  const MotionJson found = MotionJson::parse(outcome.out);
   CHECK(found["method"] == "time-stepping");
   CHECK(found["steps"] == 1000);
-  const Json exact = Json::parse(run({"simulate", "--json", file, "--method", "event-driven"}).out);
+  const MotionJson exact = MotionJson::parse(run({"simulate", "--json", file, "--method", "event-driven"}).out);
   CHECK(exact["method"] == "event-driven");
   CHECK(std::abs(found["position"]["x"].get<double>() - exact["position"]["x"].get<double>()) <= 1e-2);
   CHECK(found["impacts"] == exact["impacts"]);
@@ -224,6 +224,6 @@ TEST_CASE("time-stepping writes what following events writes, as means over its 
   CHECK(data_of(whole(page))["frames"].size() == 201);
   std::istringstream lines(whole(events));
   std::size_t count = 0;
-  for (std::string line; std::getline(lines, line); ++count) CHECK(Json::parse(line).contains("kind"));
+  for (std::string line; std::getline(lines, line); ++count) CHECK(MotionJson::parse(line).contains("kind"));
   CHECK(found["events"] == count);
 }
