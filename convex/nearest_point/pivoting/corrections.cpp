@@ -17,6 +17,7 @@ bool Corrections::note(double step, bool is_fresh, double factor_condition, doub
   step_ = step;
   scale = the_scale;
   is_fresh_ = is_fresh;
+  count_ += 1;
   factor_condition_ = factor_condition;
   gram_condition_ = gram_condition;
   const double seen = is_fresh                                     ? (scale > 0 ? step / scale : 0)
@@ -30,7 +31,7 @@ bool Corrections::note(double step, bool is_fresh, double factor_condition, doub
       is_fresh ? std::max(seen, expected_contraction(factor_condition, gram_condition, true)) : usual);
   if (!(contraction <= slowest_contraction)) return false;
   remaining = step * contraction / (1 - contraction) + floor_of_residuals();
-  likely_ = std::min(remaining, step * usual);
+  likely_ = std::min(remaining, step * usual + floor_of_residuals());
   return true;
 }
 
@@ -43,8 +44,10 @@ bool Corrections::take_noise_for_zero(const Point& point, bool more) {
   const double usual = usual_contraction(factor_condition_, gram_condition_);
   const double missing = 4 * likely_ * factor_condition_;
   // An entry is noise up to the larger of `of_unit` units and this part of its step; the second correction of
-  // an entry is more than what is missing in it.
-  const double floor = at_rounding * scale, of_unit = is_fresh_ ? missing : floor,
+  // an entry is more than what is missing in it, and what is far below the scale then is rounding of
+  // residuals.
+  const double floor = at_rounding * scale,
+               of_unit = is_fresh_ ? std::max(missing, count_ > 1 ? floor : 0) : floor,
                of_multiplier = is_fresh_ ? missing : floor_of_residuals(),
                of_step = is_fresh_ ? cancelled : 2;
   Index unclear = 0;

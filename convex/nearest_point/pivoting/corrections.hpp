@@ -9,6 +9,8 @@ namespace convex {
 /// they converge, what of q and lambda is 0 as far as they tell, and the bound that is left.
 class Corrections {
  public:
+  /// Before the first correction of a point.
+  void begin() { count_ = 0; }
   /// Notes a correction, of ||dq||_A = `step`; fresh: the first with these rows. gram_condition: of the Gram
   /// matrix of the rows held, each divided by its length; inverse_error: by how much what stands for its
   /// inverse may be off, relative to the inverse in the direction where that is small, 0 where there is a
@@ -48,6 +50,7 @@ class Corrections {
   double floor_of_residuals() const;
 
   double step_ = 0, likely_ = 0, factor_condition_ = 1, gram_condition_ = 0;
+  int count_ = 0;
   bool is_fresh_ = true;
 };
 
@@ -65,6 +68,7 @@ bool finish(Engine& engine, const Accuracy& accuracy, Solution& solution) {
   constexpr int most_more = 3;        // corrections beyond what is enough, for entries that are close to 0
   constexpr int most_passes = 12;     // before pivoting has lost its way
   Corrections& known = engine.corrections();
+  known.begin();
   double small = 0;
   int more = most_more;
   for (int pass = 0; pass < most_passes; ++pass) {

@@ -159,3 +159,15 @@ TEST_CASE("a tolerance that doubles cannot meet brings the correction in") {
   CHECK(convex::active_set(problem, sharp).error_bound < convex::active_set(problem, doubles).error_bound);
   CHECK(convex::active_set(problem, sharp).q == convex::active_set(problem).q);
 }
+
+TEST_CASE("where rows leave no motion, the point is 0 and not what rounding leaves of it") {
+  convex::RowMatrix U(3, 2);
+  U << 2, -3, 1, 0, 0, 1;
+  Vector z(2);
+  z << -3, -5;
+  const Solution found = convex::active_set(
+      {convex::Metric::identity(2), z, convex::ConstraintRows(U), Vector::Zero(3), {0}}, {});
+  CHECK(found.status == Status::solved);
+  CHECK(found.q == Vector::Zero(2));
+  CHECK(found.residuals.feasibility == 0);
+}
