@@ -26,6 +26,7 @@ std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, doub
   if (!(move <= membership_tolerance * scale)) return std::nullopt;
   Prox moved = found;
   moved.x = nearest.x;
+  moved.values.reset();
   moved.error_bound += move;
   return moved;
 }
@@ -35,6 +36,7 @@ std::optional<Prox> moreau_partner(const Prox& of_f, const Vector& z, const Metr
   Prox made = of_f;
   made.x = refined_solve(W, of_f.v);
   made.v = W.multiply(of_f.x);
+  if (of_f.values) made.values = turned_round(*of_f.values);
   made.error_bound = of_f.error_bound + W.dual_norm(metric_difference(W, of_f.x, z) + of_f.v) +
                      roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(of_f.x));
   if (!of_f.method.starts_with("Moreau")) made.method = "Moreau's identity, " + of_f.method;
@@ -47,6 +49,7 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
   Prox made = *dual;
   made.x = dual->v;
   made.v = dual->x;
+  if (dual->values) made.values = turned_round(*dual->values);
   made.error_bound = dual->error_bound + W.dual_norm(metric_difference(W, made.x, z) + made.v) +
                      roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(made.x));
   made.by_conjugate = true;
@@ -96,6 +99,7 @@ std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at,
   if (!v || !v->allFinite()) return std::nullopt;
   Prox made = *at;
   made.v = *v;
+  made.values.reset();
   made.error_bound += W.dual_norm(metric_difference(W, at->x, z) + *v);
   return made;
 }

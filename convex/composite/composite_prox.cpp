@@ -42,6 +42,77 @@ double gap(const SaddleProblem& problem, const SaddlePoint& point, const Vector&
   return sum;
 }
 
+/// A sum of products and values, with what rounding may make of it.
+struct Total {
+  double value = 0, size = 0;
+  void add(double part) {
+    value += part;
+    size += std::abs(part);
+  }
+  Value finished(double missed) const {
+    constexpr double roundings = 16;
+    return {value, roundings * unit_roundoff * size + missed};
+  }
+};
+
+/// How far M ξ + b is from u beyond the rounding of the prox that gave u, as a part of the sizes that it is
+/// made of.
+double relative_miss(const SaddleProblem& problem, const SaddlePoint& point) {
+  const SparseMatrix magnitude = problem.M.cwiseAbs();
+  const Vector size = magnitude * point.xi.cwiseAbs() + problem.b.cwiseAbs();
+  constexpr double roundings = 64;
+  const double around = 1 + (magnitude * point.xi.cwiseAbs()).norm() + problem.z.norm();
+  double worst = 0;
+  for (const SaddleTerm& term : problem.terms) {
+    // Where no multipliers exist t grows without end, and its rounding is no measure.
+    const double t = std::min(point.t.segment(term.first, term.rows).norm(), around);
+    const double rounding = roundings * unit_roundoff * t;
+    const double r = point.r.segment(term.first, term.rows).norm() - rounding;
+    if (r > 0) worst = std::max(worst, r / size.segment(term.first, term.rows).norm());
+  }
+  return worst;
+}
+
+/// The terms at u, and for all x' and w', with q for the quadratic terms together,
+///   f(x') >= q(ξ) + (v, rho_w)·ξ' - smooth·ξ + sum_j y_j·b_j - scale_j f_j*(y_j / scale_j),
+/// so that f*(v) is at most what does not depend on ξ', but for rho_w, which is rounding.
+std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& problem,
+                                      const SaddlePoint& point, const Vector& covectors) {
+  Total primal, dual;
+  primal.add(f.constant);
+  dual.add(-f.constant);
+  for (const GraphTerm& term : f.terms)
+    if (const auto form = term.f->quadratic_form(term.M.rows())) {
+      const Vector shift = term.scale * term.b;
+      const double at_zero =
+          0.5 * shift.dot(form->Q * term.b) + form->c.dot(shift) + term.scale * form->constant;
+      primal.add(at_zero);
+      dual.add(-at_zero);
+    }
+  const Vector& xi = point.xi;
+  for (Index i = 0; i < xi.size(); ++i) primal.add(problem.c[i] * xi[i]);
+  if (problem.Q.size() > 0) {
+    const double square = 0.5 * xi.dot(problem.Q * xi);
+    primal.add(square);
+    dual.add(square);
+  }
+  for (const SaddleTerm& term : problem.terms) {
+    const Vector y = covectors.segment(term.first, term.rows);
+    primal.add(term.scale * term.f->value(point.u.segment(term.first, term.rows)));
+    dual.add(term.scale * term.f->conjugate().node().value(y / term.scale));
+  }
+  for (Index i = 0; i < problem.m; ++i) {
+    primal.add(covectors[i] * point.r[i]);  // to first order, what the miss of M ξ + b costs
+    dual.add(-covectors[i] * problem.b[i]);
+  }
+  if (!std::isfinite(primal.value) || !std::isfinite(dual.value)) return std::nullopt;
+  Vector left = problem.c + problem.M.transpose() * covectors;
+  if (problem.Q.size() > 0) left += problem.Q * xi;
+  const double missed = left.tail(problem.k).cwiseAbs().dot(xi.tail(problem.k).cwiseAbs());
+  return PairOfValues{primal.finished(covectors.cwiseAbs().dot(point.r.cwiseAbs())), dual.finished(missed),
+                      relative_miss(problem, point)};
+}
+
 }  // namespace
 
 Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
@@ -73,6 +144,7 @@ Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
   if (!theirs) found.v = (smooth + problem.M.transpose() * point.y).head(f.n);
   found.error_bound = theirs ? std::max(error.bound, of_own) : error.bound;
   found.duality_gap = gap(problem, point, theirs ? own : point.y);
+  found.values = values_of(f, problem, point, theirs ? own : point.y);
   const double size = W.norm(z) + W.norm(found.x);
   // Where x and z are 0 beside the data, shifts b and slopes that cancel in v, only rounding of those is
   // asked for.

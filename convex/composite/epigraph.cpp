@@ -95,7 +95,7 @@ class EpigraphAtom final : public Atom {
     const double t = side_ * z[n_], above = f_->value(x) / unit_ - t;
     const auto excess = [&](double mu) -> ValueAndSlope {
       WorkLimit::count();
-      const Vector inverse = Vector::Constant(n_, unit_ / mu);
+      const Vector inverse = Vector::Constant(n_, unit_ / std::max(mu, smallest(z)));
       const Vector point = f_->prox_diagonal(x, inverse), v = (x - point) / mu;
       const Matrix J = f_->prox_jacobian(x, inverse);
       return {t + mu - f_->value(point) / unit_, 1 + std::max(0.0, v.dot(J * v))};

@@ -19,7 +19,8 @@ template <class Increasing>
 double monotone_root(const Increasing& increasing, double start, double smallest) {
   double low = 0, high = std::numeric_limits<double>::infinity(), mu = start, halved = high;
   constexpr int step_limit = 200;  // bisection of exponents and bits alone, every third step, ends within it
-  constexpr double roundings = 8;  // of mu in mu - value, which may cancel
+  constexpr double farthest = 0x1p400;  // times and over data it is a double still
+  constexpr double roundings = 8;       // of mu in mu - value, which may cancel
   for (int step = 0; step < step_limit; ++step) {
     const ValueAndSlope at = increasing(mu);
     if (at.value == 0) return mu;
@@ -41,6 +42,7 @@ double monotone_root(const Increasing& increasing, double start, double smallest
       const bool wide = low < high / 16;
       next = wide ? (low > 0 ? std::sqrt(low) * std::sqrt(high) : 1e-3 * high) : 0.5 * (low + high);
       if (!std::isfinite(high)) next = 16 * mu;
+      if (!(next < farthest)) return mu;  // no finite value on the way
     }
     if (std::abs(next - mu) <= unit_roundoff * mu) return next;
     mu = next;

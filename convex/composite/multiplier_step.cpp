@@ -8,7 +8,6 @@
 namespace convex {
 namespace {
 
-constexpr double relative_accuracy = 0.1;  ///< of the inner minimum, to the step of y
 constexpr double armijo = 1e-4;
 constexpr int halvings = 50;
 constexpr Index newton_limit = 100;
@@ -56,7 +55,7 @@ Inner inner_at(const SaddleProblem& problem, const SaddlePoint& centre, const Ve
 }  // namespace
 
 MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& centre, const Vector& D,
-                               const Vector& ridge) {
+                               const Vector& ridge, double accuracy) {
   MultiplierStep result;
   Inner at = inner_at(problem, centre, D, ridge, centre.xi);
   const Vector no_r = Vector::Zero(problem.m);
@@ -68,7 +67,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
     const double decrement = std::sqrt(std::max(0.0, -slope));
     const double noise = floor_roundings * unit_roundoff * at.size;
     const double moved = D.cwiseSqrt().cwiseProduct(at.r).norm();
-    if (decrement <= std::max(relative_accuracy * moved, unit_roundoff * std::sqrt(at.size))) {
+    if (decrement <= std::max(accuracy * moved, unit_roundoff * std::sqrt(at.size))) {
       result.minimised = true;
       break;
     }
@@ -76,6 +75,7 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
     double length = 1;
     for (int halving = 0; halving < halvings && !accepted; ++halving, length /= 2) {
       ++result.evaluations;
+      WorkLimit::count(WorkLimit::of_a_saddle_point);
       Inner next = inner_at(problem, centre, D, ridge, at.xi + length * direction);
       const double change = next.value - at.value;
       accepted = change <= armijo * length * slope;

@@ -17,8 +17,9 @@ struct MultiplierStep {
 ///   ½||x - z||_W² + ½ ξ·Qξ + c·ξ + ½||w - w_0||²_ridge + sum_j env_D(scale_j f_j)(M_j ξ + b_j + y_0 / D)
 /// by semismooth Newton steps with Armijo's line search; the function is strongly convex with a Lipschitz
 /// gradient, so that they converge from anywhere. It stops when the distance to the minimum, as the Newton
-/// decrement shows it, is a small part of the step of y, as convergence of the outer steps asks for.
+/// decrement shows it, is this part of the step of y; a tenth is what convergence of the outer steps asks
+/// for.
 MultiplierStep multiplier_step(const SaddleProblem&, const SaddlePoint& centre, const Vector& D,
-                               const Vector& ridge);
+                               const Vector& ridge, double accuracy = 0.1);
 
 }  // namespace convex

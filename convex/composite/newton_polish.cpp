@@ -28,6 +28,7 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
     bool kept = false;
     for (double length : {1.0, 0.5, 0.1}) {
       ++polished.evaluations;
+      WorkLimit::count(WorkLimit::of_a_saddle_point);
       SaddlePoint next =
           saddle_point(problem, point.xi + length * step.dxi, point.t + length * step.dt, problem.D);
       if (!(next.residual <= required_division * point.residual) &&

@@ -102,8 +102,10 @@ class PerspectiveAtom final : public Atom {
     const double s = d * side_ * z[n_];
     const double square = side_ * side_;
     if (square * f_->conjugate().node().value(q) <= -s) return 0;
-    const auto excess = [&](double mu) -> ValueAndSlope {
+    const double size = d * z.norm(), least = smallest(size);
+    const auto excess = [&](double at_mu) -> ValueAndSlope {
       WorkLimit::count();
+      const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Matrix J = f_->prox_jacobian(q / mu, step);
       // Far out on a flat part the difference q - mu p is all rounding, where a formula is not.
@@ -111,8 +113,7 @@ class PerspectiveAtom final : public Atom {
       const Vector v = own ? *own : Vector(q - mu * p);
       return {square * (f_->value(p) - p.dot(v)) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p))};
     };
-    const double size = d * z.norm();
-    return std::max(monotone_root(excess, s > 0 ? s : size > 0 ? size : 1, smallest(size)), smallest(size));
+    return std::max(monotone_root(excess, s > 0 ? s : size > 0 ? size : 1, least), least);
   }
 
   std::shared_ptr<const Atom> f_;

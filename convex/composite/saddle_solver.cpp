@@ -149,6 +149,32 @@ double error_of(const SaddleProblem& problem, const SaddlePoint& point) {
 
 }  // namespace
 
+bool domains_apart(const GraphForm& f) {
+  constexpr double weak = 0x1p-40;      // of the metric that keeps ξ from running away
+  constexpr double accurate = 0x1p-30;  // of the gaps
+  constexpr int most_steps = 4;         // each from where the last one ended, in a weaker metric
+  GraphForm domains{f.n, f.k, {}, 0};
+  for (const GraphTerm& term : f.terms)
+    if (!term.f->facts().finite) domains.terms.push_back({term.f, 1 / stiff, term.M, term.b});
+  if (domains.terms.empty()) return false;
+  double ridge = 1;
+  SaddleProblem problem = saddle_problem(domains, Vector::Zero(f.n), Metric::identity(f.n));
+  const Vector D = Vector::Ones(problem.m);
+  SaddlePoint centre = saddle_point(problem, Vector::Zero(f.n + f.k), problem.b, D);
+  for (int step = 0; step < most_steps; ++step) {
+    ridge *= std::sqrt(std::sqrt(weak));
+    problem.W = Metric::identity(f.n).scaled(ridge);
+    problem.z = centre.xi.head(f.n);
+    problem.G.topLeftCorner(f.n, f.n) = ridge * Matrix::Identity(f.n, f.n);
+    centre.y.setZero();
+    const MultiplierStep near = multiplier_step(problem, centre, D, Vector::Constant(f.k, ridge), accurate);
+    if (separates(problem, near, D)) return true;
+    if (!(near.gap.norm() > separated * near.point.xi.norm())) return false;
+    centre = near.point;
+  }
+  return false;
+}
+
 SaddleSolution solve(SaddleProblem problem) {
   Vector xi = Vector::Zero(problem.n + problem.k);
   xi.head(problem.n) = problem.z;

@@ -1,33 +1,33 @@
 #include "convex/composite/work_limit.hpp"
 
+#include <algorithm>
+
 namespace convex {
 namespace {
 
 /// Some seconds; a question with one root in another takes some ten thousand.
-constexpr long most_evaluations = 1'000'000;
+constexpr double most_evaluations = 400'000;
 
-struct Work {
-  long evaluations = 0;
-  int standing = 0;
-};
-
-Work& work() {
-  thread_local Work done;
-  return done;
-}
+thread_local long evaluations = 0;
+thread_local const WorkLimit* innermost = nullptr;
 
 }  // namespace
 
-WorkLimit::WorkLimit() { ++work().standing; }
+WorkLimit::WorkLimit(double part)
+    : outer_(innermost), end_(evaluations + static_cast<long>(part * most_evaluations)) {
+  if (outer_) end_ = std::min(end_, outer_->end_);
+  innermost = this;
+}
 
 WorkLimit::~WorkLimit() {
-  if (--work().standing == 0) work().evaluations = 0;
+  innermost = outer_;
+  if (!outer_) evaluations = 0;
 }
 
-void WorkLimit::count() {
-  if (work().standing > 0) ++work().evaluations;
+void WorkLimit::count(long done) {
+  if (innermost) evaluations += done;
 }
 
-bool WorkLimit::passed() { return work().evaluations > most_evaluations; }
+bool WorkLimit::passed() { return innermost && evaluations > innermost->end_; }
 
 }  // namespace convex

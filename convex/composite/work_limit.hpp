@@ -4,19 +4,27 @@ namespace convex {
 
 /// A bound on the work of one question, a decomposition, a prox or a value, counted and not timed, so that
 /// the same question has the same answer everywhere: evaluations of the functions of one variable whose roots
-/// give the proxes of epigraphs and perspectives. An epigraph in a perspective in an epigraph needs a root
-/// for each step to a root; where a saddle problem on top of that converges slowly it would take minutes.
-/// Once the limit is passed its steps end, and the answer says how far they got.
+/// give the proxes of epigraphs and perspectives, and the steps of saddle problems, each as so many of them.
+/// An epigraph in a perspective in an epigraph needs a root for each step to a root; where a saddle problem
+/// on top of that converges slowly it would take minutes. Once the limit is passed its steps end, and the
+/// answer says how far they got.
 ///
-/// The outermost one that stands counts; those inside are parts of its question.
+/// Those that stand inside another are parts of its question: each may take its own part of the whole, and no
+/// more than is left.
 class WorkLimit {
  public:
-  WorkLimit();
+  explicit WorkLimit(double part = 1);
   ~WorkLimit();
   WorkLimit(const WorkLimit&) = delete;
   WorkLimit& operator=(const WorkLimit&) = delete;
-  static void count();
+  /// What one evaluation of a saddle problem counts as.
+  static constexpr long of_a_saddle_point = 10;
+  static void count(long evaluations = 1);
   static bool passed();
+
+ private:
+  const WorkLimit* outer_;
+  long end_;
 };
 
 }  // namespace convex

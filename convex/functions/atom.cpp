@@ -53,7 +53,8 @@ Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
   const std::optional<Vector> v = f.prox_covector(result.x, z, d);
   result.v = v ? *v : force;
   const Vector root = d.cwiseSqrt();
-  result.duality_gap = f.value(result.x) + f.conjugate().node().value(result.v) - result.x.dot(result.v);
+  result.values = {f.evaluate(result.x), f.conjugate().evaluate(result.v), 0};
+  result.duality_gap = result.values->f_x.value + result.values->f_v.value - result.x.dot(result.v);
   result.error_bound = (result.v - force).cwiseQuotient(root).norm() +
                        f.subgradient_miss(result.x, result.v, d) +
                        distance_in_gap(f.facts(), result.duality_gap, root.cwiseProduct(result.x).norm(),

@@ -6,6 +6,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
 #include "convex/other_pairs.hpp"
 
 namespace convex {
@@ -36,6 +37,14 @@ double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
 double size_of_slope(const Function& f, const Vector& x) {
   const std::optional<Vector> v = f.subgradient(x);
   return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
+}
+
+/// What each prox, and each value, may take of the work that a decomposition may; pairs are made of the rest.
+constexpr double part_of_a_prox = 0.25, part_of_a_value = 0.05, part_of_a_move = 0.05;
+
+Value value_of(const Function& f, const Vector& x) {
+  const WorkLimit part(part_of_a_value);
+  return f.evaluate(x);
 }
 
 /// x and y with what follows from them.
@@ -112,7 +121,36 @@ Candidate at_points(const Pair& of, Prox x_part, Prox y_part, const Vector& z, c
   const Vector &x = split.x.x, &y = split.y.x;
   split.inner = W.inner(x, y);
   const double size = size_of_inner(W, x, y), residual = split.residual;
-  return finished(std::move(split), of.f.evaluate(x), of.g.evaluate(y), size, residual, W, z);
+  return finished(std::move(split), value_of(of.f, x), value_of(of.g, y), size, residual, W, z);
+}
+
+/// f(x) and f*(v).
+struct ChosenValues {
+  Value f_x, f_v;
+  double of_prox = 0;  ///< the errors of those that came with the prox
+};
+
+/// The values that the prox came with are of a point and a covector that are feasible as far as their errors
+/// say: at least f(x) and f*(v). Where they, or one of them and the other evaluated, come nearer to x·v than
+/// what is evaluated, they are taken; where f(x) or f*(v) itself is +inf, only when x and v are roundings of
+/// where it is not.
+ChosenValues values_at(const Pair& of, const Prox& at, double product) {
+  const ChosenValues found{value_of(of.f, at.x), value_of(of.plain, at.v)};
+  const auto outside = [](const Value& value) { return std::isinf(value.value) && value.error == 0; };
+  if (!at.values) return found;
+  if ((outside(found.f_x) || outside(found.f_v)) && !(at.values->miss <= membership_tolerance)) return found;
+  const auto miss = [&](const Value& f_x, const Value& f_v) {
+    const double most = std::abs(f_x.value + f_v.value - product) + f_x.error + f_v.error;
+    return std::isfinite(most) ? most : INFINITY;
+  };
+  ChosenValues best = found;
+  const Value& f_x = at.values->f_x;
+  const Value& f_v = at.values->f_v;
+  for (const ChosenValues& other : {ChosenValues{found.f_x, f_v, f_v.error},
+                                    {f_x, found.f_v, f_x.error},
+                                    {f_x, f_v, f_x.error + f_v.error}})
+    if (miss(other.f_x, other.f_v) < 0.5 * miss(best.f_x, best.f_v)) best = other;
+  return best;
 }
 
 /// The right side at x and the covector v of its prox. No y of doubles has a g(y) near that of the exact one
@@ -128,8 +166,8 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   split.y.error_bound += W.dual_norm(metric_difference(W, y, Vector::Zero(y.size())) - v);
   const Vector r = metric_difference(W, x, z) + v;
   const double size = x.cwiseAbs().dot(v.cwiseAbs()), residual = W.dual_norm(r);
-  const Value f_x = of.f.evaluate(x), g_y = of.plain.evaluate(v);
   const double product = accurate_dot(x, v);
+  const auto [f_x, g_y, of_prox] = values_at(of, split.x, product);
   split.inner = product;
   for (const double moved : {product - accurate_dot(W.solve(r), v), product - accurate_dot(x, r)}) {
     const double values = f_x.value + g_y.value;
@@ -140,7 +178,7 @@ Candidate at_covector(const Pair& of, Prox x_part, Prox y_part, const Vector& z,
   const double gap = std::abs(made.split.fenchel_gap);
   // Programs minimise: their values are no less than f(x) and f*(v), and these no less together than x·v.
   if (made.split.fenchel_gap >= -made.rounding && std::isfinite(gap))
-    made.error = std::min(made.error, gap + made.rounding);
+    made.error = std::min(made.error, gap + made.rounding + of_prox);
   if (gap <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
     made.split.fenchel_gap = 0;
@@ -163,29 +201,49 @@ bool is_inner_of_points(const Decomposition& split, double tolerance, const Metr
   return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
 }
 
+/// `found`, or a point of which nothing is known.
+Prox made_up(const std::optional<Prox>& found, const Vector& point) {
+  if (found) return *found;
+  Prox made;
+  made.x = point;
+  made.error_bound = INFINITY;
+  made.status = Status::gave_up;
+  return made;
+}
+
 /// What the two proxes gave, held against the values. Where these do not bear it out, other pairs are tried:
 /// the points moved into their domains, one of the two by Moreau's identity from the other, the covectors in
 /// place of y, and x and v balanced.
 Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double tolerance) {
-  const Prox x = of.f.prox(z, W), y = of.g.prox(z, W);
+  const auto prox_of = [&](const Function& h, const Vector& point, const Metric& V) {
+    const WorkLimit part(part_of_a_prox);
+    return h.prox(point, V);
+  };
+  Prox x = prox_of(of.f, z, W), y = prox_of(of.g, z, W);
+  // What gave up without a point is found from the other, or not at all.
+  const auto none = [&](const Prox& part) { return part.x.size() != z.size(); };
+  if (none(x)) x = made_up(none(y) ? std::nullopt : moreau_partner(y, z, W), z);
+  if (none(y)) y = made_up(moreau_partner(x, z, W), Vector::Zero(z.size()));
   Candidate best = at_points(of, x, y, z, W);
   const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
   const auto is_borne_out = [&](const Candidate& made) {
     return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
   };
-  const auto ended = [&] { return is_borne_out(best) || WorkLimit::passed(); };
+  const auto is_found = [&] { return is_borne_out(best); };
+  const auto ended = [&] { return is_found() || WorkLimit::passed(); };
   const auto near = [&](const std::optional<Prox>& found) { return found && found->error_bound <= enough; };
   const auto into = [&](const Function& h, const std::optional<Prox>& found) {
+    const WorkLimit part(part_of_a_move);
     return near(found) ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
   };
   const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
-    if (ended() || !near(of_x) || !near(of_y)) return;
+    if (is_found() || !near(of_x) || !near(of_y)) return;
     Candidate other = at_points(of, *of_x, *of_y, z, W);
     if (is_borne_out(other)) best = std::move(other);
   };
   // x with its covector, beside y and beside the y that the covector gives.
   const auto consider_covector = [&](const std::optional<Prox>& of_x) {
-    if (ended() || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
+    if (is_found() || !near(of_x) || of_x->v.size() != z.size() || !of_x->v.allFinite()) return;
     for (const std::optional<Prox>& of_y : {std::optional(y), moreau_partner(*of_x, z, W)}) {
       if (!near(of_y)) continue;
       Candidate other = at_covector(of, *of_x, *of_y, z, W);
@@ -204,19 +262,34 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
-    consider(x, moreau_partner(x, z, W));
-    consider_all(x);
   }
-  if (!ended()) consider_all(balanced(of.f, x, z, W));
-  if (!ended()) {
-    const auto x_of_y = moreau_partner(y, z, W);
+  // What costs little beside the proxes is tried however much work these took.
+  if (!is_found()) {
+    const std::optional<Prox> x_of_y = moreau_partner(y, z, W);
+    consider(x, moreau_partner(x, z, W));
+    consider_covector(x);
     consider(x_of_y, y);
-    consider(into(of.f, x_of_y), y);
+    consider_covector(x_of_y);
+  }
+  if (!ended()) consider_all(x);
+  if (!ended()) {
+    const WorkLimit part(part_of_a_prox);
+    consider_all(balanced(of.f, x, z, W));
+  }
+  if (!ended()) {
+    if (const auto* made = dynamic_cast<const Operation*>(&of.f.node())) {
+      const std::optional<Prox> other = made->other_prox(z, W);
+      consider(other, y);
+      consider_all(other);
+    }
+  }
+  if (!ended()) {
+    consider(into(of.f, moreau_partner(y, z, W)), y);
   }
   if (!ended()) {
     const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
     const Metric V = inverse(W);
-    const Prox dual = of.plain.prox(force, V);
+    const Prox dual = prox_of(of.plain, force, V);
     consider_all(turned(dual, z, W));
     if (!ended()) consider_all(turned(balanced(of.plain, dual, force, V), z, W));
   }

@@ -36,6 +36,7 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   if (!std::isfinite(at_zero) || at_zero > here) return;
   if (std::isfinite(here) && length > negligible * W.norm(z)) return;
   found.x.setZero();
+  found.values.reset();
   found.error_bound += length;
 }
 
@@ -66,7 +67,7 @@ Prox Function::prox(const Vector& z, const Metric& W) const {
                        std::to_string(W.dimension()) + " rows; give one of the other's size");
   const WorkLimit question;
   Prox found = node_->prox(z, W);
-  settle_at_zero(*node_, z, W, found);
+  if (found.x.size() == z.size()) settle_at_zero(*node_, z, W, found);
   return found;
 }
 

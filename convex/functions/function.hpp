@@ -13,13 +13,6 @@ namespace convex {
 
 class FunctionNode;
 
-/// f(x) as it was computed. The true value is within `error`: a few roundings of the terms where a formula
-/// gives it, what a program leaves open otherwise, +inf where it was not decided whether x is in the domain.
-struct Value {
-  double value = 0;
-  double error = 0;
-};
-
 /// What the laws ask of a function that a user writes: a value with two verbs, f(x) and f.prox(z, W).
 template <class F>
 concept Gamma0 = requires(const F& f, const Vector& x, const Metric& W) {

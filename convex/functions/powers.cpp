@@ -144,7 +144,9 @@ Function NegativePower::conjugate() const { return scalar_sum(NegativePowerConju
 Function power(double p) {
   require_finite("power", "p", p);
   if (p < 1) throw InvalidInput("power(p): less than 1; |x|^p would not be convex, give 1 or more");
-  return p == 1 ? norm1(1) : scalar_sum(Power{{}, p});
+  if (p == 1) return norm1(1);
+  if (p == 2) return squared_norm2(2);  // quadratic: exact in any metric
+  return scalar_sum(Power{{}, p});
 }
 
 Function inverse_power(double q) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "convex/functions/value.hpp"
 #include "convex/nearest_point/solution.hpp"
 #include "convex/vector.hpp"
 
@@ -9,6 +11,18 @@ namespace convex {
 
 /// What computed a prox.
 enum class ProxRoute { closed_form, active_set, iterative };
+
+/// f(x) and f*(v) for the x and v of a prox, made of the values of the functions that f is made of and of
+/// their conjugates there: feasible for the two programs of which one is minus the other, so that each is at
+/// least what it stands for, and together they are x·v where x and v are right (Fenchel 1949).
+struct PairOfValues {
+  Value f_x, f_v;
+  /// How far from x the parts were valued, as a part of the sizes that their arguments are made of.
+  double miss = 0;
+};
+
+/// The same of the conjugate, v its point and x its covector.
+inline PairOfValues turned_round(const PairOfValues& values) { return {values.f_v, values.f_x, values.miss}; }
 
 /// x = prox_f z = argmin ½||u - z||_W² + f(u) in a metric W.
 struct Prox {
@@ -25,6 +39,7 @@ struct Prox {
   /// The whole or a part of it was found from the prox of the conjugate (Moreau's identity, or the partition
   /// that the conjugate's prox found): beside that conjugate's prox it proves nothing.
   bool by_conjugate = false;
+  std::optional<PairOfValues> values = std::nullopt;  ///< where the way to x and v gives them
 };
 
 /// Were the proxes of a function and of its conjugate at one point found without each other? Only then is it

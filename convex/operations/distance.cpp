@@ -58,9 +58,16 @@ class Distance : public Operation {
     if (part.x.size() == 0) return part;
     const Vector away = z - part.x;
     const double reach = weight_ / k, length = away.norm();
-    if (length <= reach) return moved(part, part.x, k * away, std::sqrt(k) * part.error_bound, z, W);
-    const Vector v = (weight_ / length) * away;
-    return moved(part, z - v / k, v, std::sqrt(k) * part.error_bound, z, W);
+    const bool inside = length <= reach;
+    const Vector v = inside ? Vector(k * away) : Vector((weight_ / length) * away);
+    Prox whole = moved(part, inside ? part.x : Vector(z - v / k), v, std::sqrt(k) * part.error_bound, z, W);
+    if (!part.values) return whole;
+    // The set's support function, there weight times a unit normal or less, is the conjugate.
+    const double factor = inside ? k : weight_ / length, error = 4 * unit_roundoff * weight_ * z.norm();
+    whole.duality_gap *= factor;
+    whole.values = {inside ? Value{0, 0} : Value{weight_ * (whole.x - part.x).norm(), error},
+                    multiple_of(factor, part.values->f_v), part.values->miss};
+    return whole;
   }
 
  private:

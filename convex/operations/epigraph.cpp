@@ -6,6 +6,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 /// The epigraph of a function and its perspective: each other's conjugates, through f* and a change of sign.
 namespace convex {
@@ -75,6 +76,13 @@ class Lifted : public Operation {
   bool polyhedral_ = false;
 };
 
+/// f on all entries but the last, which is not negative: what an epigraph is where f is an indicator, and a
+/// perspective where f is positively homogeneous.
+Function with_last_not_negative(const Function& f, Index n) {
+  const Function parts[] = {f, named("indicator", {argument(Call{"orthant", {}})}, 1)};
+  return separable(parts, {n - 1, 1});
+}
+
 class Epigraph : public Lifted {
  public:
   using Lifted::Lifted;
@@ -122,6 +130,7 @@ class Epigraph : public Lifted {
     return v.head(n).norm() / std::abs(v[n]);
   }
   std::optional<GraphForm> graph_at_slope(Index n, double slope) const override {
+    if (f_.facts().indicator) return with_last_not_negative(f_, n).node().graph(n);
     const auto form = part_graph(n);
     if (!form) return std::nullopt;
     return convex::epigraph(*form, unit_of_slope(slope));
@@ -130,6 +139,7 @@ class Epigraph : public Lifted {
  protected:
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (polyhedral_) return std::nullopt;
+    if (f_.facts().indicator) return with_last_not_negative(f_, z.size()).prox(z, W);
     // With the unit 1 x and t come from the set itself, and v is proved to be normal to it.
     return prox_in_slopes(*this, 1, z, W);
   }
@@ -171,6 +181,7 @@ class Perspective : public Lifted {
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, true); }
   std::optional<GraphForm> graph(Index n) const override {
+    if (const auto simple = simpler(n)) return simple->node().graph(n);
     const auto form = part_graph(n);
     if (!form) return std::nullopt;
     return convex::perspective(*form);
@@ -184,6 +195,23 @@ class Perspective : public Lifted {
     Vector whole(n + 1);
     whole << *v, f_(inside) - v->dot(inside);
     return whole;
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+    if (polyhedral_) return std::nullopt;
+    if (const auto simple = simpler(z.size())) return simple->prox(z, W);
+    return std::nullopt;
+  }
+
+ private:
+  /// The same function without a perspective in a perspective, or the epigraph of a part in one.
+  std::optional<Function> simpler(Index n) const {
+    if (f_.facts().support) return with_last_not_negative(f_, n);
+    std::vector<Function> lifted;
+    for (const Function& part : parts_of_max(f_)) lifted.push_back(perspective(part));
+    if (lifted.empty()) return std::nullopt;
+    return proper_max(std::move(lifted));
   }
 };
 

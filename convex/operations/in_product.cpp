@@ -60,7 +60,10 @@ class InProduct : public Operation {
         Prox part = f->prox(point, C);
         if (part.x.size() == 0) return part;
         part.by_conjugate = true;
-        return moved(part, refined_solve(M_, part.v), image(part.x), part.error_bound, z, W);
+        const auto values = part.values;  // those of f, of which h is the conjugate
+        Prox whole = moved(part, refined_solve(M_, part.v), image(part.x), part.error_bound, z, W);
+        if (values) whole.values = turned_round(*values);
+        return whole;
       };
       const Vector force = factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));
       return reduced(force, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
@@ -70,7 +73,8 @@ class InProduct : public Operation {
     const auto from = [&](const Vector& point) {
       Prox part = h_.prox(point, S);
       if (part.x.size() == 0) return part;
-      return moved(part, refined_solve(M_, part.x), image(part.v), part.error_bound, z, W);
+      return with_values(moved(part, refined_solve(M_, part.x), image(part.v), part.error_bound, z, W),
+                         part.values);
     };
     return reduced(image(z), z, W, from, into_point);
   }

@@ -7,7 +7,7 @@ namespace convex {
 /// over it, would come back to where it began and not end.
 class OneAtATime {
  public:
-  enum class Kind { conjugate_prox, supremum, lower_bound, maximum };
+  enum class Kind { conjugate_prox, supremum, lower_bound, maximum, maximum_in_maximum };
   explicit OneAtATime(Kind kind) : standing_(of(kind)), first_(!standing_) { standing_ = true; }
   ~OneAtATime() {
     if (first_) standing_ = false;
@@ -19,7 +19,7 @@ class OneAtATime {
 
  private:
   static bool& of(Kind kind) {
-    thread_local bool standing[4] = {false, false, false, false};
+    thread_local bool standing[5] = {};
     return standing[static_cast<int>(kind)];
   }
   bool& standing_;

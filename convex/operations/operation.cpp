@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/composite/composite_prox.hpp"
+#include "convex/composite/saddle_solver.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/linear_quadratic/properness.hpp"
@@ -11,6 +12,7 @@
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/one_at_a_time.hpp"
+#include "convex/operations/open_domain.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 
@@ -53,7 +55,9 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
     std::optional<Prox> part = dual(point, V);
     known = known && part;
     if (!part || part->x.size() == 0) return part ? *part : Prox{};
-    return moved(*part, part->v, part->x, part->error_bound, z, W);
+    Prox turned = moved(*part, part->v, part->x, part->error_bound, z, W);
+    if (part->values) turned.values = turned_round(*part->values);
+    return turned;
   };
   Prox whole = reduced(W.multiply(z), z, W, from, [](const Vector& r) { return r; });
   if (!known) return std::nullopt;
@@ -123,6 +127,8 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W) const 
 Prox Operation::prox(const Vector& z, const Metric& W) const {
   std::optional<Prox> best = own_prox(z, W);
   if (!best) refuse(*this, "prox in this metric");
+  if (!is_settled(*best, z, W))
+    if (auto other = other_prox(z, W)) take_better(best, *std::move(other));
   const OneAtATime question(OneAtATime::Kind::conjugate_prox);
   if (is_settled(*best, z, W) || !question.first()) return *std::move(best);
   const Function g = conjugate();
@@ -157,21 +163,21 @@ Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const M
   if (part.status == Status::infeasible || part.x.size() == 0) return part;
   const double rounding = roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x) + W.dual_norm(v));
   part.error_bound = bound + V.dual_norm(stationarity(z, W, x, v)) + rounding;
+  part.values.reset();
   part.x = std::move(x);
   part.v = std::move(v);
   return part;
 }
 
-Value sum_of(const Value& a, const Value& b) {
-  const double sum = a.value + b.value;
-  if (std::isfinite(sum)) return {sum, a.error + b.error + unit_roundoff * std::abs(sum)};
-  // What is finite adds nothing to what is not, nor to the doubt about it.
-  return {sum, (std::isfinite(a.value) ? 0 : a.error) + (std::isfinite(b.value) ? 0 : b.error)};
+Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const Value& f_more,
+                 const Value& v_more) {
+  if (of_part) whole.values = {sum_of(of_part->f_x, f_more), sum_of(of_part->f_v, v_more), of_part->miss};
+  return whole;
 }
 
-Value multiple_of(double factor, const Value& a) {
-  const double product = factor * a.value;
-  return {product, factor * a.error + (std::isfinite(product) ? unit_roundoff * std::abs(product) : 0)};
+Value product(const Vector& a, const Vector& b) {
+  const double rounding = static_cast<double>(a.size() + 1) * unit_roundoff;
+  return {a.dot(b), rounding * a.cwiseAbs().dot(b.cwiseAbs())};
 }
 
 Value value_near(const Function& f, const Vector& y, double size) {
@@ -225,6 +231,7 @@ void require_proper(const Function& f, Index n, const char* where) {
   } else if (auto graph = f.node().graph(n)) {
     // Terms that are finite everywhere leave the domain as it is, and would only pull at the gap.
     std::erase_if(graph->terms, [](const GraphTerm& term) { return term.f->facts().finite; });
+    if (has_empty_open_domain(*graph) || domains_apart(*graph)) refuse_empty();
     if (prox(*graph, Vector::Zero(n), Metric::identity(n)).status == Status::infeasible) refuse_empty();
   }
 }

@@ -23,6 +23,9 @@ class Operation : public FunctionNode {
   Function conjugate() const override;
   /// f*(v) where a formula gives it though the conjugate has no expression for any number of entries.
   virtual std::optional<Value> conjugate_value(const Vector&) const { return std::nullopt; }
+  /// The prox by another way, for where those by formula and program are not accurate, or the values of f do
+  /// not bear them out; none when there is none.
+  virtual std::optional<Prox> other_prox(const Vector&, const Metric&) const { return std::nullopt; }
   /// The slope that a covector of this function tells of the functions whose heights are measured.
   virtual double slope_of(const Vector& v) const { return v.norm(); }
   /// The graph form for use where slopes are of the size of `slope` > 0.
@@ -50,6 +53,14 @@ class Operation : public FunctionNode {
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W);
 Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const Metric& W, const Metric& V);
 
+/// `whole` with the values of the part that it was moved from, f(x) and f*(v) raised by so much; without any
+/// where the part has none.
+Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const Value& f_more = {},
+                 const Value& v_more = {});
+
+/// a·b with its rounding.
+Value product(const Vector& a, const Vector& b);
+
 /// Nothing is left to try: the bound is within the accuracy that is asked for, or there is no solution.
 bool is_settled(const Prox& found, const Vector& z, const Metric& W);
 
@@ -68,10 +79,6 @@ std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metri
 /// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
 /// `membership_tolerance` of that, the value there.
 Value value_near(const Function& f, const Vector& y, double size);
-
-/// a + b, and factor · a, factor > 0, each rounded.
-Value sum_of(const Value& a, const Value& b);
-Value multiple_of(double factor, const Value& a);
 
 /// Throws InvalidInput "where: c has … entries" unless all are finite and f takes as many.
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name);

@@ -32,6 +32,7 @@ class PointwiseMax : public Operation {
     piecewise_ = program(parts_, n_ == 0 ? 2 : n_).has_value();
   }
 
+  const std::vector<Function>& parts() const { return parts_; }
   Index dimension() const override { return n_; }
   void require_size(Index n) const override {
     for (const Function& f : parts_) f.node().require_size(n);
@@ -87,20 +88,17 @@ class PointwiseMax : public Operation {
     return convex::pointwise_max(*forms, unit_of_slope(slope));
   }
 
+  std::optional<Prox> other_prox(const Vector& z, const Metric& W) const override {
+    if (piecewise_) return std::nullopt;
+    return prox_of_max(parts_, z, W);
+  }
+
  protected:
   /// By epigraphs in units of the slope at the solution, which is known when it has been found: units far
   /// above would hide a miss in the height.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (piecewise_) return std::nullopt;
-    std::optional<Prox> best = prox_in_slopes(*this, first_slope(z, W), z, W);
-    if (parts_.size() != 2 || (best && is_settled(*best, z, W))) return best;
-    const OneAtATime question(OneAtATime::Kind::maximum);
-    if (!question.first()) return best;
-    auto other = prox_of_two_function_max(parts_[0], parts_[1], z, W);
-    if (!other || (best && !(other->error_bound < best->error_bound))) return best;
-    if (!(other->error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(other->x))))
-      other->status = Status::inaccurate;
-    return other;
+    return prox_in_slopes(*this, first_slope(z, W), z, W);
   }
 
  private:
@@ -120,6 +118,29 @@ class PointwiseMax : public Operation {
 };
 
 }  // namespace
+
+std::vector<Function> parts_of_max(const Function& f) {
+  const auto* most = dynamic_cast<const PointwiseMax*>(&f.node());
+  if (!most || f.facts().piecewise_quadratic) return {};
+  return most->parts();
+}
+
+Function proper_max(std::vector<Function> parts) {
+  return Function(std::make_shared<PointwiseMax>(std::move(parts)));
+}
+
+std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W) {
+  const OneAtATime outer(OneAtATime::Kind::maximum);
+  const auto inner =
+      outer.first() ? nullptr : std::make_unique<OneAtATime>(OneAtATime::Kind::maximum_in_maximum);
+  if (inner && !inner->first()) return std::nullopt;
+  const Function rest =
+      parts.size() == 2 ? parts[1] : proper_max(std::vector<Function>(parts.begin() + 1, parts.end()));
+  auto found = prox_of_two_function_max(parts[0], rest, z, W);
+  if (found && !(found->error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found->x))))
+    found->status = Status::inaccurate;
+  return found;
+}
 
 Function pointwise_max(std::span<const Function> parts, Index n) {
   if (parts.empty()) throw InvalidInput("pointwise_max: no functions; give at least one");

@@ -80,7 +80,8 @@ class Precompose : public Operation {
       Vector x = z - image->lift * part.v;
       // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.
       for (int pass = 0; pass < 2; ++pass) x += image->lift * S.multiply(part.x - A_ * x - b_);
-      return moved(part, x, A_.transpose() * part.v, part.error_bound, z, W);
+      return with_values(moved(part, x, A_.transpose() * part.v, part.error_bound, z, W), part.values, {},
+                         product(part.v, -b_));
     };
     const auto correction = [&](const Vector& r) -> Vector { return A_ * W.solve(r); };
     Prox whole = reduced(A_ * z + b_, z, W, from, correction);

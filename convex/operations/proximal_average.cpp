@@ -91,14 +91,36 @@ class ProximalAverage : public Operation {
     if (p.status == Status::solved) part.status = q.status;
     if (p.method != q.method) part.method += ", " + q.method;
     part.method = "mean of proxes, " + part.method;
-    return moved(part, t_ * p.x + (1 - t_) * q.x, t_ * p.v + (1 - t_) * q.v,
-                 t_ * p.error_bound + (1 - t_) * q.error_bound, z, W);
+    Prox whole = moved(part, t_ * p.x + (1 - t_) * q.x, t_ * p.v + (1 - t_) * q.v,
+                       t_ * p.error_bound + (1 - t_) * q.error_bound, z, W);
+    whole.duality_gap = t_ * p.duality_gap + (1 - t_) * q.duality_gap;
+    whole.values = values(p, q);
+    return whole;
   }
 
  private:
   /// The metrics W and M/gamma are one when they differ by the rounding of 1/gamma.
   static constexpr double equal_steps = 4 * unit_roundoff;
   Metric product(Index n) const { return M_ ? *M_ : Metric::identity(n); }
+
+  /// t f(p) + (1-t) g(q) + t(1-t)/(2 gamma) ||p - q||², and the same of the conjugates at the two covectors.
+  std::optional<PairOfValues> values(const Prox& p, const Prox& q) const {
+    const auto of_part = [](const Function& f, const Prox& at) -> PairOfValues {
+      if (at.values) return *at.values;
+      return {f.evaluate(at.x), f.conjugate().evaluate(at.v), 0};
+    };
+    const auto mean = [&](const Value& a, const Value& b, const Value& square) {
+      return sum_of(sum_of(multiple_of(t_, a), multiple_of(1 - t_, b)),
+                    multiple_of(t_ * (1 - t_) / 2, square));
+    };
+    const Metric M = product(p.x.size());
+    const Vector apart = p.x - q.x, turned = p.v - q.v;
+    const PairOfValues a = of_part(f_, p), b = of_part(g_, q);
+    return PairOfValues{
+        mean(a.f_x, b.f_x, multiple_of(1 / gamma_, convex::product(apart, M.multiply(apart)))),
+        mean(a.f_v, b.f_v, multiple_of(gamma_, convex::product(turned, M.solve(turned)))),
+        std::max(a.miss, b.miss)};
+  }
 
   Function f_, g_;
   double t_, gamma_;

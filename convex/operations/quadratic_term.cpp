@@ -83,7 +83,11 @@ Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Me
     if (part.x.size() == 0) return part;
     const Vector& a = part.x;
     const Vector b = V.solve(metric_difference(W, z, a) - q.c);
-    return moved(part, a + b, part.v, part.error_bound, z, W, P);
+    // The kernel q takes its own slope Qb + c, where q*(Qb + c) = ½ b·Qb - q(0).
+    const Value square = multiple_of(0.5, product(b, q.Q.multiply(b)));
+    return with_values(moved(part, a + b, part.v, part.error_bound, z, W, P), part.values,
+                       sum_of(sum_of(square, product(q.c, b)), {q.constant, 0}),
+                       sum_of(square, {-q.constant, 0}));
   };
   const Vector point = q.c.isZero(0) ? z : Vector(z + q.Q.solve(q.c));
   Prox whole = reduced(point, z, W, from, [&](const Vector& r) { return P.solve(r); });

@@ -58,7 +58,12 @@ class Scale : public Operation {
       Prox part = f_.prox(point, V);
       if (part.x.size() == 0) return part;
       part.duality_gap *= alpha_;
-      return moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W);
+      if (part.values)
+        part.values = {multiple_of(alpha_, part.values->f_x), multiple_of(alpha_, part.values->f_v),
+                       part.values->miss};
+      return with_values(
+          moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W),
+          part.values);
     };
     return reduced(z / rho_, z, W, from, [&](const Vector& r) -> Vector { return W.solve(r) / rho_; });
   }

@@ -114,6 +114,7 @@ class Separable : public Operation {
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (couples(W, sizes_)) return std::nullopt;
     Prox whole;
+    whole.values.emplace();
     whole.x.resize(n_);
     whole.v.resize(n_);
     double squares = 0;
@@ -129,6 +130,12 @@ class Separable : public Operation {
       whole.v.segment(first, size) = part.v;
       squares += part.error_bound * part.error_bound;
       whole.duality_gap += part.duality_gap;
+      if (whole.values && part.values)
+        whole.values = {sum_of(whole.values->f_x, part.values->f_x),
+                        sum_of(whole.values->f_v, part.values->f_v),
+                        std::max(whole.values->miss, part.values->miss)};
+      else
+        whole.values.reset();
       if (whole.method.find(part.method) == std::string::npos)
         whole.method += (whole.method.empty() ? "" : ", ") + part.method;
     });

@@ -10,6 +10,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {}  // namespace
@@ -106,9 +107,28 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   const auto from = [&](const Vector& point) {
     const Prox part = rest.prox(point, V);
     if (part.x.size() == 0) return part;
-    return moved(part, part.x, force_of(*sorted.quadratic, part.x, part.v), part.error_bound, z, W, V);
+    // The quadratic q takes its own slope Qx + c, where q*(Qx + c) = ½ x·Qx - q(0).
+    const Value square = multiple_of(0.5, product(part.x, Q * part.x));
+    return with_values(
+        moved(part, part.x, force_of(*sorted.quadratic, part.x, part.v), part.error_bound, z, W, V),
+        part.values, sum_of(sum_of(square, product(c, part.x)), {constant, 0}),
+        sum_of(square, {-constant, 0}));
   };
   return reduced(y, z, W, from, [&](const Vector& r) { return V.solve(r); });
+}
+
+std::optional<Prox> Sum::other_prox(const Vector& z, const Metric& W) const {
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    std::vector<Function> least = parts_of_max(parts_[k]);
+    if (least.empty()) continue;
+    for (Function& f : least) {
+      std::vector<Function> terms = parts_;
+      terms[k] = f;
+      f = proper_sum(terms);
+    }
+    return prox_of_max(least, z, W);
+  }
+  return std::nullopt;
 }
 
 Function Sum::conjugate() const {

@@ -22,10 +22,7 @@ class Tilt : public Operation {
     return facts;
   }
   Call call() const override { return {"tilt", {argument(f_.call()), argument("c", c_)}}; }
-  Value evaluate(const Vector& x) const override {
-    const double rounding = static_cast<double>(x.size()) * unit_roundoff;
-    return sum_of(f_.evaluate(x), {c_.dot(x), rounding * c_.cwiseAbs().dot(x.cwiseAbs())});
-  }
+  Value evaluate(const Vector& x) const override { return sum_of(f_.evaluate(x), product(c_, x)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x);
     if (v) *v += c_;
@@ -53,7 +50,8 @@ class Tilt : public Operation {
     const auto from = [&](const Vector& point) {
       Prox part = f_.prox(point, W);
       if (part.x.size() == 0) return part;
-      return moved(part, part.x, part.v + c_, part.error_bound, z, W);
+      return with_values(moved(part, part.x, part.v + c_, part.error_bound, z, W), part.values,
+                         product(part.x, c_));
     };
     return reduced(z - W.solve(c_), z, W, from, [&](const Vector& r) { return W.solve(r); });
   }

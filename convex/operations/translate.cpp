@@ -42,7 +42,8 @@ class Translate : public Operation {
     const Prox part = f_.prox(z - by_, W);
     if (part.x.size() == 0) return part;
     const double rounding = unit_roundoff * (W.norm(z - by_) + W.norm(part.x + by_));
-    return moved(part, part.x + by_, part.v, part.error_bound + rounding, z, W);
+    return with_values(moved(part, part.x + by_, part.v, part.error_bound + rounding, z, W), part.values, {},
+                       product(part.v, by_));
   }
 
  private:

@@ -24,20 +24,32 @@ struct At {
   Prox prox;
   double difference = 0;
   double noise = 0;  ///< of the difference
+  Value above;       ///< of the maximum above the mean with these weights
 };
+
+/// weight · f, a maximum as that of its parts.
+Function weighted(const Function& f, double weight) {
+  if (weight == 1) return f;
+  std::vector<Function> parts = parts_of_max(f);
+  if (parts.empty()) return scale(f, weight);
+  for (Function& part : parts) part = scale(part, weight);
+  return proper_max(std::move(parts));
+}
 
 std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W) {
   const double of_f = f.facts().finite ? 1 - t : std::max(1 - t, least_weight);
   const double of_g = g.facts().finite ? t : std::max(t, least_weight);
   std::vector<Function> terms;
-  if (of_f > 0) terms.push_back(of_f == 1 ? f : scale(f, of_f));
-  if (of_g > 0) terms.push_back(of_g == 1 ? g : scale(g, of_g));
-  At found{t, proper_sum(terms).prox(z, W), 0, 0};
+  if (of_f > 0) terms.push_back(weighted(f, of_f));
+  if (of_g > 0) terms.push_back(weighted(g, of_g));
+  At found{t, proper_sum(terms).prox(z, W), 0, 0, {}};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
   found.noise = of_g_there.error + of_f_there.error;
   if (std::isnan(found.difference)) return std::nullopt;
+  const double missed = found.difference > 0 ? of_f : -of_g;
+  found.above = {missed * found.difference, std::abs(missed) * found.noise};
   return found;
 }
 
@@ -47,12 +59,15 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
                                              const Metric& W) {
   std::optional<At> low = at(f, g, 0, z, W), high = at(f, g, 1, z, W);
   if (!low || !high) return std::nullopt;
-  const auto named = [](Prox made) {
+  // The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
+  const auto named = [](const At& at_weight) {
+    Prox made = at_weight.prox;
+    made = with_values(made, made.values, at_weight.above);
     made.method = "dual of a maximum, " + made.method;
     return made;
   };
-  if (low->difference <= 0) return named(low->prox);  // f alone is above g at its prox
-  if (high->difference >= 0) return named(high->prox);
+  if (low->difference <= 0) return named(*low);  // f alone is above g at its prox
+  if (high->difference >= 0) return named(*high);
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
   double low_value = low->difference, high_value = high->difference;
   for (int step = 0; step < most_halvings && !WorkLimit::passed(); ++step) {
@@ -84,7 +99,7 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   }
   // Both agree but for the distance between them; the nearer one to equality is taken.
   const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
-  Prox made = named(take_low ? low->prox : high->prox);
+  Prox made = named(take_low ? *low : *high);
   made.error_bound = std::max(low->prox.error_bound, high->prox.error_bound) +
                      2 * W.norm(low->prox.x - high->prox.x) +
                      safety * moved_per_difference * std::max(low->noise, high->noise);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "convex/functions/function.hpp"
 
 namespace convex {
@@ -16,5 +19,15 @@ namespace convex {
 /// last bracket, between which the solution is, with what the rounding of g - f is worth in x: an estimate.
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W);
+
+/// The functions of which f is the maximum; none when it is not made as one, or is a program.
+std::vector<Function> parts_of_max(const Function& f);
+
+/// The maximum where it is known that some point has all parts finite, two or more.
+Function proper_max(std::vector<Function> parts);
+
+/// `prox_of_two_function_max` for two functions or more, as the first and the maximum of the rest. A maximum
+/// in a maximum is taken so once; none further inside.
+std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W);
 
 }  // namespace convex

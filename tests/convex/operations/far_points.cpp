@@ -4,7 +4,8 @@
 #include "tests/convex/operations/samples.hpp"
 
 /// Points far above what is left of them, in metrics that couple their entries: doubles of the larger part
-/// carry no digit of the smaller one.
+/// carry no digit of the smaller one. And expressions whose values, or one of whose proxes, programs alone do
+/// not tell.
 using convex::Decomposition;
 using convex::Matrix;
 using convex::Metric;
@@ -29,6 +30,33 @@ const Question questions[] = {
     {"translate(scale(perspective(logistic()), 0.0009765625), [3,2])", {-2e8, 1e8}, {4, 0, 0, 4}},
     {"perspective(quadratic([[9,-6,9],[-6,4,-6],[9,-6,9]], [3,3,3]))", {1, 1, 1e-6, -3}, {}},
     {"scale(scale(quadratic([[4,-6],[-6,9]], [1,1]), 1024), 2)", {-3, -3e8}, {}},
+    {"precompose(log_barrier(), [[-3,2,-1],[-3,2,2],[-3,-1,1]], [-1,3,-2])",
+     {-3e8, -3e8, -3e8},
+     {4, 0, -2, 0, 9, 6, -2, 6, 14}},
+    {"precompose(sum_largest(3), [[0,2,2,2],[1,3,3,3],[-2,3,2,3]], [-3,1,-3])",
+     {0, -2e8, 1e8, 3e8},
+     {9, 24, 9, 24, 24, 65, 22, 63, 9, 22, 22, 17, 24, 63, 17, 78}},
+    {"sum(pointwise_max(envelope(power(2), 1), sum(elastic_net(0.5, 0.25), hinge())), "
+     "plq([-1,1], [[0,-1,0],[1,0,0.5],[0,1,0]]))",
+     {-3e8, -3e8, -2e8, 2e8},
+     {9, 9, 3, 24, 9, 13, 1, 40, 3, 1, 3, 3, 24, 40, 3, 146}},
+    {"perspective(perspective(negative_power(0.5)))",
+     {8.42992849508192, -3, -3.654535297124088, -1},
+     {1, 8, -1, 8, 8, 65, -7, 66, -1, -7, 11, 3, 8, 66, 3, 86}},
+    {"pointwise_max(perspective(perspective(logistic())), hinge())", {-1, -1, -1}, {}},
+    {"perspective(pointwise_max(entropy(), exponential()))",
+     {2.019308175375862, 9.922587492261805, -0.10601748343867712, -0.710620986652339},
+     {1, -1, 0, 0, -1, 10, 9, 9, 0, 9, 13, 7, 0, 9, 7, 19}},
+    {"perspective(conjugate(pointwise_max(quadratic([[1]],[1]), sum_largest(1))))",
+     {-2, -2},
+     {4, -6, -6, 13}},
+    {"proximal_average(zero(), indicator(epigraph(logistic())), 0.5, 1)",
+     {-40, -40, -20},
+     {1, -1, -2, -1, 10, -4, -2, -4, 12}},
+    {"inf_convolution(norm1(0.5), distance(hyperplane([0,1,3,2], 3), 1))",
+     {3, 3, 1, 1},
+     {9, 24, 0, 6, 24, 68, 2, 22, 0, 2, 10, 0, 6, 22, 0, 23}},
+    {"inf_convolution(max_affine([[-2],[-1],[-1],[0]], [1,0,0,1]), power(2))", {0}, {}},
     {"envelope(perspective(quadratic([[9,-9,6],[-9,9,-6],[6,-6,4]], [2,-1,3])), 1)", {2, 3, -2, -1}, {}},
 };
 

@@ -1,0 +1,21 @@
+#include "convex/functions/value.hpp"
+
+#include <cmath>
+
+#include "convex/vector.hpp"
+
+namespace convex {
+
+Value sum_of(const Value& a, const Value& b) {
+  const double sum = a.value + b.value;
+  if (std::isfinite(sum)) return {sum, a.error + b.error + unit_roundoff * std::abs(sum)};
+  // What is finite adds nothing to what is not, nor to the doubt about it.
+  return {sum, (std::isfinite(a.value) ? 0 : a.error) + (std::isfinite(b.value) ? 0 : b.error)};
+}
+
+Value multiple_of(double factor, const Value& a) {
+  const double product = factor * a.value;
+  return {product, factor * a.error + (std::isfinite(product) ? unit_roundoff * std::abs(product) : 0)};
+}
+
+}  // namespace convex

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace convex {
+
+/// f(x) as it was computed. The true value is within `error`: a few roundings of the terms where a formula
+/// gives it, what a program leaves open otherwise, +inf where it was not decided whether x is in the domain.
+struct Value {
+  double value = 0;
+  double error = 0;
+};
+
+/// a + b, and factor · a, factor > 0, each rounded.
+Value sum_of(const Value& a, const Value& b);
+Value multiple_of(double factor, const Value& a);
+
+}  // namespace convex
