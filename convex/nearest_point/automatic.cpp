@@ -103,7 +103,6 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     Solution found = sparse_active_set(problem, own, guess);
     if (found.status == Status::solved || found.status == Status::infeasible) return found;
     if (problem.dimension() > affordable_size) {
-      if (!found.undecided.empty()) return found;
       Solution other = proximal_point(problem, accuracy);
       return other.status == Status::solved || found.status == Status::gave_up ? other : found;
     }

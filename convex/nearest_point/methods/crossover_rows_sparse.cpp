@@ -4,6 +4,7 @@
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
+#include "convex/nearest_point/sparse/tight_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
@@ -34,21 +35,30 @@ class SparsePolish {
     }
     Holding found;
     for (int exchange = 0; exchange <= most_exchanges; ++exchange) {
+      point_.to_the_end = false;
       rows_.clear();
       for (Index a = 0; a < problem_.rows(); ++a)
         if (active[static_cast<std::size_t>(a)]) rows_.push_back(a);
       double delta = first_delta;
       bool refined = false;
       for (int k = 0; k < most_deltas && !refined; ++k, delta *= smaller) {
-        if (!refine_rows(problem_, scaled_, system_, rows_, even_weights(problem_.rows(), rows_, delta), 0,
-                         point_))
-          return found;
+        weight_ = even_weights(problem_.rows(), rows_, delta);
+        if (!refine_rows(problem_, scaled_, system_, rows_, weight_, 0, point_)) return found;
         refined = point_.converged || point_.wrong_signs;
         delta_ = delta;
       }
       if (!refined) return found;
       if (exchange_wrong(active) || point_.wrong_signs) continue;
+      if (!touched_.empty()) {
+        point_.to_the_end = true;
+        if (!refine_rows(problem_, scaled_, system_, rows_, weight_, 0, point_) || !point_.converged)
+          return found;
+        if (exchange_wrong(active)) continue;
+      }
+      const std::string_view open =
+          decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_, 1, slack_);
       found.held = held();
+      found.held->undecided = open;
       return found;
     }
     return found;
@@ -61,6 +71,7 @@ class SparsePolish {
     const double size = std::max(1.0, point_.q.hi.cwiseQuotient(scaled_.coordinate).norm());
     bool wrong = false;
     slack_ = Vector::Zero(problem_.rows());
+    touched_.clear();
     for (Index a = 0; a < problem_.rows(); ++a) {
       const auto i = static_cast<std::size_t>(a);
       if (active[i]) {
@@ -75,8 +86,10 @@ class SparsePolish {
       }
       slack_[a] = slack(problem_, a, point_.q).value();
       if (std::abs(slack_[a]) <=
-          scaled_.bound[a] * (left + zero_of_long_sums * (size + std::abs(scaled_.s[a]))))
+          scaled_.bound[a] * (left + zero_of_pairs * (size + std::abs(scaled_.s[a])))) {
         slack_[a] = 0;
+        touched_.push_back(a);
+      }
       if (!(slack_[a] < 0)) continue;
       active[i] = true;
       wrong = true;
@@ -99,8 +112,8 @@ class SparsePolish {
   BalancedProblem scaled_;
   RowSystem system_;
   SparsePoint point_;
-  std::vector<Index> rows_;
-  Vector slack_;
+  std::vector<Index> rows_, touched_;
+  Vector slack_, weight_;
   double delta_ = first_delta;
 };
 

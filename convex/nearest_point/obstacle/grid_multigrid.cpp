@@ -142,17 +142,19 @@ void GridMultigrid::cycle(std::size_t level, RowDone row_done) {
 GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vector& u, double absolute) {
   Level& grid = levels_.front();
   const Index size = finest_.size(), n = grid.width;
-  double square = 0, largest = 0;
+  double square = 0;
   for (Index j = 0; j < grid.height; ++j)
-    for (Index k = grid.at(j); k < grid.at(j) + n; ++k) {
-      const double own = grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] : 0;
-      square += own * own;
-      largest = std::max(largest, std::abs(own));
-    }
+    for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
+      square += grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] * right[k] : 0;
   u.setZero(size);
-  if (!(largest > 0)) return {0, 0};
-  constexpr double least = 0x1p-450, so_little = 0x1p-400;  // squares below are no ordinary doubles
-  if (largest < least) return {so_little, so_little};
+  constexpr double least = 0x1p-900, so_little = 0x1p-400;  // squares below are no ordinary doubles
+  if (!(square >= least)) {
+    bool is_zero = true;
+    for (Index j = 0; j < grid.height; ++j)
+      for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
+        is_zero = is_zero && !(grid.free[static_cast<std::size_t>(k)] > 0 && right[k] != 0);
+    return is_zero ? Size{0, 0} : Size{so_little, so_little};
+  }
   // Numbers of size 1, and c = 1: of A/c x = r, r scaled, energies are those of A u = r over unit²/c.
   const double unit = std::sqrt(square / static_cast<double>(n * grid.height));
   for (std::vector<float>* field : {&x_, &p_, &Ap_}) field->assign(static_cast<std::size_t>(size), 0);

@@ -83,8 +83,6 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
 class TouchedPoints {
  public:
   TouchedPoints(const ObstacleGrid& grid, ObstaclePoint& point) : grid_(grid), A_(grid.A), point_(point) {
-    for (Index j = 0; j < A_.height; ++j)
-      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k) inside_.push_back(k);
     // |e_k| <= ||e||_A / sqrt(least eigenvalue of A), which is that of the whole rectangle.
     const double pi = std::acos(-1.0);
     const auto bend = [&](Index points) { return std::cos(pi / static_cast<double>(points + 1)); };
@@ -94,11 +92,16 @@ class TouchedPoints {
 
   bool decide() {
     std::vector<Index> close;
-    for (Index k : inside_)
-      if (is_free(k) && point_.q.hi[k] - grid_.lower[k] <= reach_) close.push_back(k);
+    for (Index j = 0; j < A_.height; ++j)
+      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k) {
+        const double height = point_.q.hi[k] - grid_.lower[k];
+        if (height > 0 && height <= reach_ && is_free(k)) close.push_back(k);
+      }
     if (close.empty()) return true;
     seen_.assign(static_cast<std::size_t>(A_.size()), true);
-    for (Index k : inside_) seen_[static_cast<std::size_t>(k)] = !is_free(k);
+    for (Index j = 0; j < A_.height; ++j)
+      for (Index k = A_.at(0, j); k < A_.at(0, j) + A_.width; ++k)
+        seen_[static_cast<std::size_t>(k)] = !is_free(k);
     std::vector<Index> tied;
     for (Index k : close) gather(k, tied);
     for (Index k : close) put(k, grid_.lower[k]);
@@ -147,7 +150,6 @@ class TouchedPoints {
   const ObstacleGrid& grid_;
   const GridOperator& A_;
   ObstaclePoint& point_;
-  std::vector<Index> inside_;
   std::vector<bool> seen_;
   double reach_ = 0;
 };

@@ -5,16 +5,14 @@
 #include <cmath>
 
 #include "convex/nearest_point/isotonic/peeling.hpp"
-#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
-#include "convex/nearest_point/sparse/dependent_rows.hpp"
-#include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/interior_point_start.hpp"
 #include "convex/nearest_point/sparse/sparse_contradiction.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
+#include "convex/nearest_point/sparse/tight_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
@@ -41,10 +39,6 @@ constexpr int most_single = 20;
 
 /// A sign that so many roundings of the terms could turn is a rounded datum's, not the problem's.
 constexpr double data_roundings = 16;
-
-/// Of the word operations that fractions may take, what eliminations modulo a prime may: their numbers are in
-/// lists.
-constexpr double part_for_lists = 0.1;
 
 class SparseActiveSet {
  public:
@@ -222,55 +216,6 @@ class SparseActiveSet {
     return found;
   }
 
-  /// Whether the rows held hold firmly and those touched have a slack of 0: what is open where that cannot be
-  /// told, else nothing. What depends on what, and with which bound, is decided without rounding.
-  std::string_view open() {
-    const double delta = delta_;
-    std::vector<Index> tight = rows_, besides;
-    tight.insert(tight.end(), touched_.begin(), touched_.end());
-    std::sort(tight.begin(), tight.end());
-    // Rows that q keeps without rounding have no residual, however nearly they depend on each other.
-    std::vector<Index> rounded;
-    for (Index a : tight)
-      if (sign_of_slack(problem_, a, point_.q.hi) != 0) rounded.push_back(a);
-    for (Index a : touched_)
-      if (std::binary_search(rounded.begin(), rounded.end(), a)) besides.push_back(a);
-    if (rounded.empty()) return {};
-    if (!touched_.empty() && !hold(tight, delta)) return open_question::conditioning;
-    const Vector slowest = slowest_residual(scaled_, system_, rounded, weight_);
-    if (problem_.radii)
-      return is_held_firmly(slowest) || is_zero_within(problem_, scaled_, slowest)
-                 ? std::string_view()
-                 : open_question::dependence;
-    if (!is_held_firmly(slowest)) {
-      const double most = std::max(1.0, accuracy_.limit) * part_for_lists * most_word_operations;
-      const auto found = row_dependences(problem_.U, problem_.s, rows_, touched_, most);
-      if (!found) return open_question::dependence;
-      if (!found->consistent) return open_question::contradiction;
-      if (!found->off_edge.empty()) return open_question::touched;
-      std::erase_if(rounded, [&](Index a) {
-        return !std::binary_search(found->independent.begin(), found->independent.end(), a);
-      });
-      if (found->independent.size() == tight.size() || !hold(found->independent, delta) ||
-          !is_held_firmly(slowest_residual(scaled_, system_, rounded, weight_)))
-        return open_question::dependence;
-      std::erase_if(besides, [&](Index a) {
-        return std::binary_search(found->implied.begin(), found->implied.end(), a);
-      });
-    }
-    if (besides.empty()) return {};
-    const auto slacks = slacks_if_kept(problem_, point_.q.hi, rows_, besides);
-    if (!slacks) return open_question::touched;
-    slack_(besides) = *slacks;
-    return {};
-  }
-
-  /// Factors with even weights on these rows.
-  bool hold(const std::vector<Index>& rows, double delta) {
-    weight_ = even_weights(problem_.rows(), rows, delta);
-    return system_.factor(weight_);
-  }
-
   double size_of_q() const { return point_.q.hi.cwiseQuotient(scaled_.coordinate).cwiseAbs().maxCoeff(); }
 
   Solution answer() {
@@ -310,7 +255,9 @@ class SparseActiveSet {
     solution.status = close ? Status::solved : Status::inaccurate;
     // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
     if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
-    if (solution.undecided.empty()) solution.undecided = open();
+    if (solution.undecided.empty())
+      solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_,
+                                             accuracy_.limit, slack_);
     if (!solution.undecided.empty()) {
       solution.status = Status::inaccurate;
       solution.basis = rows_;

@@ -1,0 +1,67 @@
+#include "convex/nearest_point/sparse/tight_rows.hpp"
+
+#include <algorithm>
+
+#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/sparse/dependent_rows.hpp"
+#include "convex/nearest_point/sparse/held_firmly.hpp"
+#include "convex/nearest_point/sparse/sparse_refinement.hpp"
+
+namespace convex {
+namespace {
+
+/// Of the word operations that fractions may take, what eliminations modulo a prime may: their numbers are in
+/// lists.
+constexpr double part_for_lists = 0.1;
+
+bool contains(const std::vector<Index>& rows, Index a) {
+  return std::binary_search(rows.begin(), rows.end(), a);
+}
+
+}  // namespace
+
+std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVector& q, const Vector& weight,
+                                   double limit, Vector& slack) {
+  const auto& [problem, scaled, system, held, touched] = rows;
+  std::vector<Index> tight = held;
+  tight.insert(tight.end(), touched.begin(), touched.end());
+  std::sort(tight.begin(), tight.end());
+  // Rows that q keeps without rounding have no residual, however nearly they depend on each other.
+  std::vector<Index> rounded, besides;
+  for (Index a : tight)
+    if (sign_of_slack(problem, a, q.hi) != 0) rounded.push_back(a);
+  if (rounded.empty()) return {};
+  for (Index a : touched)
+    if (contains(rounded, a)) besides.push_back(a);
+  const double delta = 1 / std::max(1.0, weight.maxCoeff());
+  const auto hold = [&](const std::vector<Index>& chosen, Vector& with) {
+    with = even_weights(problem.rows(), chosen, delta);
+    return system.factor(with);
+  };
+  Vector own = weight;
+  if (!touched.empty() && !hold(tight, own)) return open_question::conditioning;
+  const Vector slowest = slowest_residual(scaled, system, rounded, own);
+  if (problem.radii)
+    return is_held_firmly(slowest) || is_zero_within(problem, scaled, slowest) ? std::string_view()
+                                                                               : open_question::dependence;
+  if (!is_held_firmly(slowest)) {
+    const double most = std::max(1.0, limit) * part_for_lists * most_word_operations;
+    const auto found = row_dependences(problem.U, problem.s, held, touched, most);
+    if (!found) return open_question::dependence;
+    if (!found->consistent) return open_question::contradiction;
+    if (!found->off_edge.empty()) return open_question::touched;
+    std::erase_if(rounded, [&](Index a) { return !contains(found->independent, a); });
+    if (found->independent.size() == tight.size() || !hold(found->independent, own) ||
+        !is_held_firmly(slowest_residual(scaled, system, rounded, own)))
+      return open_question::dependence;
+    std::erase_if(besides, [&](Index a) { return contains(found->implied, a); });
+  }
+  if (besides.empty()) return {};
+  const auto slacks = slacks_if_kept(problem, q.hi, held, besides);
+  if (!slacks) return open_question::touched;
+  slack(besides) = *slacks;
+  return {};
+}
+
+}  // namespace convex
