@@ -6,8 +6,10 @@
 
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/held_point.hpp"
+#include "convex/nearest_point/proof/held_slacks.hpp"
 #include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 
@@ -29,92 +31,54 @@ bool multipliers_are_positive(const NearestPointProblem& problem, const std::vec
   return true;
 }
 
-/// What is known of the slacks of rows that are not held.
-class Slacks {
- public:
-  Slacks(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-         const std::vector<Index>& rows, const HeldPoint& point)
-      : problem_(problem),
-        radii_(radii),
-        point_(point),
-        held_(static_cast<std::size_t>(problem.rows()), false) {
-    for (Index a : rows) held_[static_cast<std::size_t>(a)] = true;
-    // |v_i| <= ||v||_A sqrt((A⁻¹)_ii), and A⁻¹ = Xᵀ A'⁻¹ X.
-    const Index n = P.dimension();
-    per_length_.resize(n);
-    for (Index i = 0; i < n; ++i) per_length_[i] = P.is_diagonal ? std::abs(P.x[i]) : norm_above(P.X.col(i));
-    per_length_ *= above(1 / std::sqrt(below(1 - P.delta)));
-    size_ = above(1) * (point.q.cwiseAbs() + point.dq.cwiseAbs());
-  }
+constexpr std::size_t most_others = 60;
 
-  /// The rows whose slack may be gone, and all two-sided ones, when the held point moves by `reach` in
-  /// ||·||_A.
-  std::vector<OpenRow> open(double reach) const {
-    const Index n = problem_.dimension();
-    const Vector hidden = above(1) * (point_.radius + reach) * per_length_;
-    const Vector loose = gamma(n + 1) * point_.q.cwiseAbs() + above(1) * point_.dq.cwiseAbs() + hidden;
-    std::vector<OpenRow> found;
-    Vector row(n);
-    for (Index a = 0; a < problem_.rows(); ++a) {
-      if (held_[static_cast<std::size_t>(a)]) continue;
-      problem_.U.copy_row(a, row);
-      const double s = problem_.s[a];
-      const double uncertain = above(radii_.s(a) + radii_.row_times(a, size_ + hidden));
-      const bool is_two_sided = std::binary_search(problem_.two_sided.begin(), problem_.two_sided.end(), a);
-      if (!is_two_sided &&
-          row.dot(point_.q) - s > above(row.cwiseAbs().dot(loose) + gamma(n + 1) * std::abs(s) + uncertain))
-        continue;
-      CompensatedSum sum;
-      sum.add(-s, 1);
-      for (Index i = 0; i < n; ++i) {
-        sum.add(row[i], point_.q[i]);
-        sum.add(row[i], point_.dq[i]);
-      }
-      const Enclosed slack = sum.result();
-      const double still = above(slack.radius + row.cwiseAbs().dot(hidden) + uncertain);
-      if (!is_two_sided && below(slack.value) > still) continue;
-      // At the held point itself.
-      const double off =
-          above(slack.radius + row.cwiseAbs().dot(Vector(point_.radius * per_length_)) + uncertain);
-      found.push_back({a, above(std::max(0.0, off - slack.value))});
-    }
-    return found;
-  }
-
- private:
-  const NearestPointProblem& problem_;
-  const RadiiOf& radii_;
-  const HeldPoint& point_;
-  std::vector<bool> held_;
-  Vector per_length_, size_;
+/// The rows held that make up row a, as doubles see it; `against`: each one-sided one with a negative part.
+struct Parts {
+  std::vector<Index> others;
+  bool against = true;
 };
 
-/// Whether a row is exactly implied by rows held at which doubles find it to be one of their combinations.
-bool follows(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
-             const Active& active, const std::vector<Index>& held, Index a) {
+Parts parts_of(const NearestPointProblem& problem, const Preconditioned& P, const Active& active,
+               const std::vector<Index>& held, Index a) {
   constexpr double noticeable = 1e-9;
-  constexpr std::size_t most_others = 60;
-  if (radii.any()) return false;
   const Vector c = coefficients_on_held(P, active, problem.U.row(a));
-  std::vector<Index> others;
-  for (Index r = 0; r < c.size(); ++r)
-    if (std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())
-      others.push_back(held[static_cast<std::size_t>(r)]);
-  return others.size() <= most_others && follows_exactly(problem, a, others);
+  Parts parts;
+  for (Index r = 0; r < c.size(); ++r) {
+    if (!(std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())) continue;
+    parts.others.push_back(held[static_cast<std::size_t>(r)]);
+    parts.against =
+        parts.against && (c[r] < 0 || std::binary_search(problem.two_sided.begin(), problem.two_sided.end(),
+                                                         parts.others.back()));
+  }
+  return parts;
+}
+
+/// Whether the open rows are exactly implied by rows held at which doubles find them to be combinations.
+bool follow(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+            const Active& active, const std::vector<Index>& held, const std::vector<OpenRow>& open) {
+  if (radii.any()) return open.empty();
+  std::vector<Index> together;
+  for (const OpenRow& o : open) {
+    const Parts parts = parts_of(problem, P, active, held, o.row);
+    if (parts.others.size() > most_others)
+      together.push_back(o.row);
+    else if (!follows_exactly(problem, o.row, parts.others))
+      return false;
+  }
+  return together.empty() || follow_exactly(problem, together, held, most_word_operations);
 }
 
 /// At least ||q* - q_W||_A: 0 where every other slack is positive, or exactly implied not to be negative.
 std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, const RadiiOf& radii,
                                          const Preconditioned& P, const Active& active,
                                          const std::vector<Index>& held, const HeldPoint& point) {
-  const Slacks slacks(problem, radii, P, held, point);
+  const HeldSlacks slacks(problem, radii, P, held, point);
   std::vector<OpenRow> open = slacks.open(0);
   const auto is_two_sided = [&](const OpenRow& row) {
     return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), row.row);
   };
-  if (std::all_of(open.begin(), open.end(),
-                  [&](const OpenRow& row) { return follows(problem, radii, P, active, held, row.row); }))
-    return 0;
+  if (follow(problem, radii, P, active, held, open)) return 0;
   // Rows that the motion may reach are counted as open, until no other is reached.
   constexpr int rounds = 4;
   for (int round = 0; round < rounds; ++round) {
@@ -146,9 +110,7 @@ std::vector<Index> loaded_rows(const Solution& solution) {
   return rows;
 }
 
-/// Rows to hold, with multipliers, not all of those given need be: independent ones that push just as the
-/// rows with a multiplier do together (Lawson and Hanson's method ends at such rows), the two-sided ones
-/// among them.
+/// Rows to hold, with multipliers.
 struct Held {
   std::vector<Index> rows;
   Vector lambda;
@@ -225,6 +187,49 @@ bool is_ordinary_problem(const NearestPointProblem& problem, const Solution& sol
                                : is_ordinary(problem.U.dense());
 }
 
+/// Open rows that add up to 0 with rows held, and their bounds: equalities in disguise.
+std::vector<Index> disguised(const NearestPointProblem& problem, const RadiiOf& radii,
+                             const Preconditioned& P, const Active& active, const std::vector<Index>& held,
+                             const HeldPoint& point) {
+  std::vector<Index> found;
+  if (radii.any()) return found;
+  for (const OpenRow& o : HeldSlacks(problem, radii, P, held, point).open(0)) {
+    const Parts parts = parts_of(problem, P, active, held, o.row);
+    if (!parts.against || parts.others.size() > most_others || !are_equalities(problem, o.row, parts.others))
+      continue;
+    found.push_back(o.row);
+    found.insert(found.end(), parts.others.begin(), parts.others.end());
+  }
+  return found;
+}
+
+/// The same set of points, with those rows two-sided.
+NearestPointProblem with_equalities(NearestPointProblem problem, const std::vector<Index>& rows) {
+  std::vector<Index>& all = problem.two_sided;
+  all.insert(all.end(), rows.begin(), rows.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return problem;
+}
+
+/// Whether the doubles q satisfy all rows without rounding, those held with equality, and no multiplier is
+/// negative: then ||q - q*||_A <= ||Aq - z - Uᵀlambda||_(A⁻¹), however the rows depend on each other.
+bool is_kept_exactly(const NearestPointProblem& problem, const std::vector<Index>& held,
+                     const HeldPoint& point) {
+  std::vector<bool> is_held(static_cast<std::size_t>(problem.rows()), false), two_sided = is_held;
+  for (Index a : held) is_held[static_cast<std::size_t>(a)] = true;
+  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  for (std::size_t r = 0; r < held.size(); ++r) {
+    const auto k = static_cast<Index>(r);
+    if (!two_sided[static_cast<std::size_t>(held[r])] && !(below(point.lambda[k] + point.dlambda[k]) >= 0))
+      return false;
+  }
+  std::vector<Index> others;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!is_held[static_cast<std::size_t>(a)]) others.push_back(a);
+  return slacks_if_kept(problem, point.q, held, others).has_value();
+}
+
 /// The bound from the rows held, when they stand alone and push.
 std::optional<double> bound_from(const NearestPointProblem& problem, const RadiiOf& radii,
                                  const Preconditioned& P, const Solution& solution, Held held) {
@@ -238,11 +243,54 @@ std::optional<double> bound_from(const NearestPointProblem& problem, const Radii
     if (!stand_alone(active)) return std::nullopt;
     point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
   }
-  if (!std::isfinite(point.radius) || !multipliers_are_positive(problem, held.rows, point))
-    return std::nullopt;
+  if (!std::isfinite(point.radius)) return std::nullopt;
+  if (!radii.any() && is_kept_exactly(problem, held.rows, point))
+    return unbalanced_above(problem, radii, P, *active, held.rows, point);
+  if (!multipliers_are_positive(problem, held.rows, point)) return std::nullopt;
   const auto shift = shift_of_open_rows(problem, radii, P, *active, held.rows, point);
   if (!shift) return std::nullopt;
   return above(length_above(P, radii, point.dq) + point.radius + *shift);
+}
+
+/// Open rows that are independent of each other and of the rows held.
+std::vector<Index> more_rows(const NearestPointProblem& problem, const Preconditioned& P,
+                             const Active& active, const std::vector<OpenRow>& open) {
+  if (open.empty()) return {};
+  Matrix V(P.dimension(), static_cast<Index>(open.size()));
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    Vector v = P.times_X(problem.U.row(open[k].row));
+    v.normalize();
+    if (active.U.rows() > 0)
+      for (int pass = 0; pass < 2; ++pass) v -= active.Z * (active.Z.transpose() * v);
+    constexpr double dependent = 1e-8;
+    V.col(static_cast<Index>(k)) = v.norm() > dependent ? v : Vector::Zero(v.size());
+  }
+  const linear_algebra::PivotedQr factor(V);
+  std::vector<Index> found;
+  for (Index r = 0; r < factor.rank; ++r)
+    found.push_back(open[static_cast<std::size_t>(factor.order[static_cast<std::size_t>(r)])].row);
+  return found;
+}
+
+/// The bound where rows held and open are equalities in disguise: these are held, with multipliers of any
+/// sign.
+std::optional<double> bound_with_disguised(const NearestPointProblem& problem, const RadiiOf& radii,
+                                           const Preconditioned& P, const Solution& solution, Held held) {
+  if (radii.any()) return std::nullopt;
+  auto active = active_rows(problem, radii, P, held.rows);
+  if (!active || !(active->delta < 0.5)) return std::nullopt;
+  HeldPoint point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
+  if (!std::isfinite(point.radius)) return std::nullopt;
+  const std::vector<Index> more =
+      more_rows(problem, P, *active, HeldSlacks(problem, radii, P, held.rows, point).open(0));
+  if (static_cast<Index>(held.rows.size() + more.size()) > problem.dimension()) return std::nullopt;
+  held.rows.insert(held.rows.end(), more.begin(), more.end());
+  active = active_rows(problem, radii, P, held.rows);
+  if (!active || !(active->delta < 0.5)) return std::nullopt;
+  point = held_point(problem, radii, P, *active, held.rows, solution.q, held.lambda);
+  const std::vector<Index> rows = disguised(problem, radii, P, *active, held.rows, point);
+  if (rows.empty()) return std::nullopt;
+  return bound_from(with_equalities(problem, rows), radii, P, solution, std::move(held));
 }
 
 /// The bound, for every problem within the radii.
@@ -254,7 +302,8 @@ std::optional<double> bound_within(const NearestPointProblem& problem, const Sol
     return sparse_enclosed_error(problem, radii, solution, held.rows);
   const auto P = preconditioned(problem.A, radii);
   if (!P || !(P->delta < 0.5)) return std::nullopt;
-  if (auto bound = bound_from(problem, radii, *P, solution, std::move(held))) return bound;
+  if (auto bound = bound_from(problem, radii, *P, solution, held)) return bound;
+  if (auto bound = bound_with_disguised(problem, radii, *P, solution, std::move(held))) return bound;
   auto chosen = independent(problem, solution);
   return chosen ? bound_from(problem, radii, *P, solution, std::move(*chosen)) : std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/integer_system.hpp"
@@ -33,9 +34,14 @@ IntegerVector dependence_of(const ExactProblem& exact) {
   return w;
 }
 
-bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
-  std::vector<Index> rows{a};
-  rows.insert(rows.end(), others.begin(), others.end());
+namespace {
+
+bool is_two_sided(const NearestPointProblem& problem, Index a) {
+  return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
+}
+
+/// The rows over the coordinates that they touch, as integers, A left out.
+ExactProblem integer_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   const ConstraintRows chosen = problem.U.select(rows);
   const auto k = static_cast<Index>(rows.size());
   Matrix U(k, problem.dimension());
@@ -47,21 +53,91 @@ bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vec
   exact.z.assign(touched.size(), 0);
   for (Index r = 0; r < k; ++r)
     append_row(exact, Vector(U.row(r).transpose())(touched), problem.s[rows[static_cast<std::size_t>(r)]]);
-  const IntegerVector w = dependence_of(exact);
-  if (w.empty() || w[0].is_zero()) return false;
-  // `w` is of the rows themselves; those of `exact` are theirs times row_unit.
-  Fraction left{};
+  return exact;
+}
+
+/// Weights w, all needed and w_0 > 0, with Σ w_r u_r = 0 exactly over the rows, and Σ w_r s_r.
+struct ZeroSum {
+  IntegerVector w;
+  Fraction left;
+};
+
+std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  const ExactProblem exact = integer_rows(problem, rows);
+  // The weights are of the rows themselves; those of `exact` are theirs times row_unit.
+  ZeroSum found{dependence_of(exact), {}};
+  const IntegerVector& w = found.w;
+  if (w.empty() || w[0].is_zero()) return std::nullopt;
   for (std::size_t r = 0; r < w.size(); ++r)
-    left = left + Fraction{w[r], 1} * Fraction{exact.s[r], exact.row_unit[r]};
-  for (std::size_t i = 0; i < touched.size(); ++i) {
+    found.left = found.left + Fraction{w[r], 1} * Fraction{exact.s[r], exact.row_unit[r]};
+  for (std::size_t i = 0; i < exact.z.size(); ++i) {
     Fraction sum{};
     for (std::size_t r = 0; r < w.size(); ++r)
       if (!exact.U[r][i].is_zero())
         sum = sum + Fraction{w[r], 1} * Fraction{exact.U[r][i], exact.row_unit[r]};
-    if (sign(sum) != 0) return false;
+    if (sign(sum) != 0) return std::nullopt;
   }
-  const bool two_sided = std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
-  return two_sided ? sign(left) == 0 : sign(left) * w[0].sign() <= 0;
+  return found;
+}
+
+std::vector<Index> with_first(Index a, const std::vector<Index>& others) {
+  std::vector<Index> rows{a};
+  rows.insert(rows.end(), others.begin(), others.end());
+  return rows;
+}
+
+}  // namespace
+
+bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
+  const auto found = zero_sum(problem, with_first(a, others));
+  if (!found) return false;
+  return is_two_sided(problem, a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
+}
+
+bool are_equalities(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
+  const std::vector<Index> rows = with_first(a, others);
+  const auto found = zero_sum(problem, rows);
+  if (!found || sign(found->left) != 0) return false;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    if (found->w[r].sign() <= 0 && !is_two_sided(problem, rows[r])) return false;
+  return true;
+}
+
+bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>& rows,
+                    const std::vector<Index>& held, double most_words) {
+  std::vector<Index> all = held;
+  all.insert(all.end(), rows.begin(), rows.end());
+  const std::size_t k = held.size();
+  const double K = static_cast<double>(k), n = static_cast<double>(problem.dimension());
+  double words = K * K * n + static_cast<double>(rows.size()) * K * n;
+  if (words > most_words) return false;
+  const ExactProblem exact = integer_rows(problem, all);
+  IntegerRows columns(exact.z.size(), IntegerVector(k));
+  for (std::size_t i = 0; i < exact.z.size(); ++i)
+    for (std::size_t r = 0; r < k; ++r) columns[i][r] = exact.U[r][i];
+  const std::vector<std::size_t> chosen = independent_rows(columns, k);
+  if (chosen.size() != k) return false;
+  IntegerRows M;
+  for (std::size_t i : chosen) M.push_back(columns[i]);
+  const auto system = IntegerSystem::prepared(M);
+  if (!system) return false;
+  IntegerVector right(k);
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    const IntegerVector& u = exact.U[k + p];
+    for (std::size_t r = 0; r < k; ++r) right[r] = u[chosen[r]];
+    const ExactVector c = system->solve(right);
+    // Of the integer rows: denominator u = Σ numerators_r u_r, and the bounds.
+    for (std::size_t i = 0; i < exact.z.size(); ++i)
+      if (dot(columns[i], c.numerators) != c.denominator * u[i]) return false;
+    const IntegerVector bounds(exact.s.begin(), exact.s.begin() + static_cast<std::ptrdiff_t>(k));
+    const int off = (dot(bounds, c.numerators) - c.denominator * exact.s[k + p]).sign();
+    if (is_two_sided(problem, rows[p]) ? off != 0 : off < 0) return false;
+    std::size_t bits = c.denominator.bits();
+    for (const Integer& numerator : c.numerators) bits = std::max(bits, numerator.bits());
+    words += K * K * (2 + 2 * static_cast<double>(bits) / 62) * 2;
+    if (words > most_words) return false;
+  }
+  return true;
 }
 
 }  // namespace convex

@@ -14,4 +14,14 @@ IntegerVector dependence_of(const ExactProblem& exact);
 /// their bounds. In integers.
 bool follows_exactly(const NearestPointProblem&, Index a, const std::vector<Index>& others);
 
+/// Whether rows a and `others`, each of them needed, add up to 0 with positive weights (of any sign on
+/// two-sided rows), and their bounds too: then each holds with equality wherever all are satisfied. In
+/// integers.
+bool are_equalities(const NearestPointProblem&, Index a, const std::vector<Index>& others);
+
+/// Whether the equations of the rows `held`, which are independent, imply those rows, as `follows_exactly`
+/// says: by one integer system for all. False, too, when that takes more than so many word operations.
+bool follow_exactly(const NearestPointProblem&, const std::vector<Index>& rows,
+                    const std::vector<Index>& held, double most_words);
+
 }  // namespace convex

@@ -1,6 +1,7 @@
 #include "convex/nearest_point/proof/held_point.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/householder.hpp"
@@ -240,12 +241,31 @@ HeldPoint held_point(const NearestPointProblem& problem, const RadiiOf& radii, c
   const auto k = static_cast<Index>(rows.size());
   HeldPoint point{q, Vector::Zero(problem.dimension()), Vector(k), Vector::Zero(k), {}, 0};
   for (Index r = 0; r < k; ++r) point.lambda[r] = lambda[rows[static_cast<std::size_t>(r)]];
-  correct(P, active, kkt_residual(problem, radii, P, active, rows, point), point);
-  // What is too small to matter is left to the bound.
-  point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
-  point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
-  enclose(P, active, kkt_residual(problem, radii, P, active, rows, point), point);
-  return point;
+  // Corrections until they no longer shrink the radius: where rows are open the bound takes its root.
+  constexpr int most_corrections = 4;
+  constexpr double still_shrinks = 0.25;
+  KktResidual residual = kkt_residual(problem, radii, P, active, rows, point);
+  HeldPoint best = point;
+  best.radius = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_corrections; ++step) {
+    correct(P, active, residual, point);
+    // What is too small to matter is left to the bound.
+    point.dq = (point.dq.array().abs() >= smallest_ordinary).select(point.dq, 0.0);
+    point.dlambda = (point.dlambda.array().abs() >= smallest_ordinary).select(point.dlambda, 0.0);
+    residual = kkt_residual(problem, radii, P, active, rows, point);
+    enclose(P, active, residual, point);
+    const bool shrinks = point.radius < still_shrinks * best.radius;
+    if (point.radius < best.radius || step == 0) best = point;
+    if (!shrinks) break;
+  }
+  return best;
+}
+
+double unbalanced_above(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
+                        const Active& active, const std::vector<Index>& rows, HeldPoint point) {
+  point.dq.setZero();
+  const KktResidual residual = kkt_residual(problem, radii, P, active, rows, point);
+  return dual_length_above(P, residual.r1, residual.r1_radius);
 }
 
 double length_above(const Preconditioned& P, const RadiiOf& radii, const Vector& dq) {

@@ -76,6 +76,10 @@ struct HeldPoint {
 HeldPoint held_point(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
                      const std::vector<Index>& rows, const Vector& q, const Vector& lambda);
 
+/// At least ||Aq - z - U_Wᵀ(lambda + dlambda)||_(A⁻¹) of a held point, its dq left out.
+double unbalanced_above(const NearestPointProblem&, const RadiiOf&, const Preconditioned&, const Active&,
+                        const std::vector<Index>& rows, HeldPoint);
+
 /// At least ||dq||_A, for every metric within the radii.
 double length_above(const Preconditioned&, const RadiiOf&, const Vector& dq);
 
