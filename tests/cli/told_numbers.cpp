@@ -1,0 +1,168 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Numbers in the prose of a page, with who prints them. A comment after a paragraph or a table says it:
+///
+///     <!-- printed: moreau solve --json docs/problems/scene.toml
+///     /acceleration/y = 9/5
+///     /status = solved -->
+///
+/// a command of the shell, run in the project's folder, that prints one JSON object, and places in it (JSON
+/// pointers) with what the prose says there: a word, a fraction, or a decimal, which is right to its last
+/// digit.
+namespace {
+
+struct ToldNumber {
+  std::string pointer, words;
+};
+
+struct ToldPassage {
+  fs::path page;
+  std::string prose, command;
+  std::vector<ToldNumber> numbers;
+};
+
+const fs::path project = MOREAU_SOURCE;
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::vector<ToldPassage> passages(const fs::path& page, std::istream& text) {
+  const std::string opening = "<!-- printed: ", closing = "-->";
+  std::vector<ToldPassage> found;
+  std::string block, before;
+  for (std::string line; std::getline(text, line);) {
+    if (line.compare(0, opening.size(), opening) != 0) {
+      if (!trimmed(line).empty()) {
+        if (!before.empty() && block.empty()) before.clear();
+        block += line + "\n";
+      } else if (!block.empty()) {
+        before = std::exchange(block, "");
+      }
+      continue;
+    }
+    ToldPassage passage{page, block.empty() ? before : block, trimmed(line.substr(opening.size())), {}};
+    for (bool open = true; open && std::getline(text, line);) {
+      if (const std::size_t end = line.find(closing); end != std::string::npos) {
+        line.resize(end);
+        open = false;
+      }
+      const std::size_t sign = line.find(" = ");
+      if (sign != std::string::npos)
+        passage.numbers.push_back({trimmed(line.substr(0, sign)), trimmed(line.substr(sign + 3))});
+    }
+    found.push_back(std::move(passage));
+  }
+  return found;
+}
+
+std::vector<ToldPassage> all_passages() {
+  std::vector<ToldPassage> all;
+  const auto add = [&](const fs::path& page) {
+    std::ifstream stream(page);
+    for (ToldPassage& passage : passages(page, stream)) all.push_back(std::move(passage));
+  };
+  add(project / "README.md");
+  for (const auto& entry : fs::recursive_directory_iterator(project / "docs"))
+    if (entry.path().extension() == ".md") add(entry.path());
+  return all;
+}
+
+/// "-18.469", "5/3", "1e-17", "2"; none for a word. `unit`: that of the last digit, 0 for a fraction.
+std::optional<double> number(const std::string& words, double& unit) {
+  char* end = nullptr;
+  const double value = std::strtod(words.c_str(), &end);
+  if (end == words.c_str()) return std::nullopt;
+  unit = 0;
+  if (*end == '/') return value / std::strtod(end + 1, nullptr);
+  if (*end != '\0') return std::nullopt;
+  const std::size_t exponent = std::min(words.find_first_of("eE"), words.size());
+  const std::size_t point = words.find('.');
+  const double places = point < exponent ? static_cast<double>(exponent - point - 1) : 0;
+  const double power = exponent < words.size() ? std::atof(words.c_str() + exponent + 1) : 0;
+  unit = std::pow(10, power - places);
+  return value;
+}
+
+bool says(const Json& printed, const std::string& words) {
+  double unit = 0;
+  const std::optional<double> told = number(words, unit);
+  if (printed.is_number() && told) {
+    const double is = printed.get<double>();
+    return std::abs(is - *told) <= 0.5 * unit + 1e-12 * std::abs(*told) + 1e-300;
+  }
+  return printed.is_string() ? printed.get<std::string>() == words : printed.dump() == words;
+}
+
+Json printed_by(const Folder& folder, const std::string& command) {
+  const char* given = std::getenv("MOREAU_PROGRAM");
+  const fs::path program = given != nullptr ? given : MOREAU_PROGRAM;
+  const std::string out = folder.path("printed");
+  const std::string line = "cd '" + project.string() + "' && PATH='" + program.parent_path().string() +
+                           ":'$PATH && { " + command + "\n} > '" + out + "' 2> /dev/null";
+  (void)std::system(line.c_str());
+  std::ifstream stream(out);
+  return Json::parse(stream, nullptr, false);
+}
+
+}  // namespace
+
+TEST_CASE("every number in prose that names who prints it is printed so") {
+  const Folder folder;
+  std::size_t numbers = 0;
+  for (const ToldPassage& passage : all_passages()) {
+    CAPTURE(passage.page.string());
+    CAPTURE(passage.command);
+    CHECK(!passage.numbers.empty());
+    const Json printed = printed_by(folder, passage.command);
+    REQUIRE(!printed.is_discarded());
+    for (const ToldNumber& told : passage.numbers) {
+      CAPTURE(told.pointer);
+      CAPTURE(told.words);
+      CHECK(passage.prose.find(told.words) != std::string::npos);
+      const Json::json_pointer place(told.pointer);
+      REQUIRE(printed.contains(place));
+      CAPTURE(printed.at(place).dump());
+      CHECK(says(printed.at(place), told.words));
+      ++numbers;
+    }
+  }
+  CHECK(numbers >= 20);
+}
+
+TEST_CASE("a told number is read from the paragraph before, and another last digit is seen") {
+  std::istringstream page(
+      "It is -1.25 here,\nor 5/3.\n<!-- printed: moreau x --json\n/a = -1.25\n/b/c = 5/3 -->\n\n| table | 2 "
+      "|\n\n<!-- printed: y\n/d = 2 -->\n");
+  const std::vector<ToldPassage> read = passages("page", page);
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].command == "moreau x --json");
+  CHECK(read[0].prose == "It is -1.25 here,\nor 5/3.\n");
+  REQUIRE(read[0].numbers.size() == 2);
+  CHECK(read[0].numbers[1].pointer == "/b/c");
+  CHECK(read[1].prose == "| table | 2 |\n");
+  CHECK(says(Json(-1.2473), "-1.25"));
+  CHECK_FALSE(says(Json(-1.244), "-1.25"));
+  CHECK(says(Json(5.0 / 3), "5/3"));
+  CHECK_FALSE(says(Json(1.67), "5/3"));
+  CHECK(says(Json("9/5"), "9/5"));
+  CHECK_FALSE(says(Json("9/4"), "9/5"));
+  CHECK(says(Json(true), "true"));
+  CHECK(says(Json(1.4e-17), "1e-17"));
+  CHECK_FALSE(says(Json(1.6e-17), "1e-17"));
+}
