@@ -1,6 +1,7 @@
 #include "convex/metric.hpp"
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -33,7 +34,12 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
                      " differ; give a symmetric matrix");
 }
 
-[[noreturn]] void refuse_indefinite() {
+[[noreturn]] void refuse_indefinite(const Vector& diagonal) {
+  for (Index i = 0; i < diagonal.size(); ++i)
+    if (diagonal[i] > 0 && diagonal[i] < std::numeric_limits<double>::min())
+      throw InvalidInput(
+          "A: " + entry(i, i) +
+          " is below 2.2e-308, where doubles lose their digits; measure masses in smaller units");
   throw InvalidInput(
       "A: not positive definite to working precision; every motion must have a positive kinetic energy");
 }
@@ -158,7 +164,7 @@ Metric Metric::diagonal(const Vector& d) {
   data->diagonal = d;
   for (Index i = 0; i < d.size(); ++i) {
     require_finite(d[i], i, i);
-    if (!(d[i] > 0)) refuse_indefinite();
+    if (!(d[i] > 0)) refuse_indefinite(d);
   }
   data->root = d.cwiseSqrt();
   return Metric(std::move(data));
@@ -179,7 +185,8 @@ Metric Metric::dense(const Matrix& W) {
   double smallest = 1;  // of L_ii² / w_ii
   for (Index i = 0; i < n; ++i) {
     const double relative = L(i, i) * L(i, i) / data->diagonal[i];
-    if (!(relative > pivot_roundings * unit_roundoff * static_cast<double>(n))) refuse_indefinite();
+    if (!(relative > pivot_roundings * unit_roundoff * static_cast<double>(n)))
+      refuse_indefinite(data->diagonal);
     smallest = std::min(smallest, relative);
   }
   data->factor_condition = 1 / std::sqrt(smallest);
@@ -200,7 +207,7 @@ Metric Metric::sparse(const SparseMatrix& W) {
     for (SparseMatrix::InnerIterator it(mean, j); it; ++it) is_diagonal = is_diagonal && it.row() == j;
   if (is_diagonal) return diagonal(data->diagonal);
   for (Index i = 0; i < n; ++i)
-    if (!(data->diagonal[i] > 0)) refuse_indefinite();
+    if (!(data->diagonal[i] > 0)) refuse_indefinite(data->diagonal);
   data->sparse.emplace(std::move(mean), pivot_roundings * unit_roundoff * static_cast<double>(n));
   return Metric(std::move(data));
 }
