@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace mechanics::expression {
 namespace {
@@ -14,61 +15,47 @@ bool is_factor(const Tape& tape, NodeId node) {
   return tape.is_constant(node) && std::isfinite(tape.constant(node)) && tape.constant(node) != 0;
 }
 
-/// The one factor that a product has beside numbers, and how often; f itself, once, where there are several.
-std::pair<NodeId, int> only_factor(const Tape& tape, NodeId f) {
-  const NodeId a = tape.a(f), b = tape.b(f);
-  switch (tape.operation(f)) {
-    case Operation::negate:
-      return only_factor(tape, a);
-    case Operation::divide:
-      return is_factor(tape, b) ? only_factor(tape, a) : std::pair{f, 1};
-    case Operation::multiply: {
-      if (is_factor(tape, a)) return only_factor(tape, b);
-      if (is_factor(tape, b)) return only_factor(tape, a);
-      const auto [left, times] = only_factor(tape, a);
-      const auto [right, more] = only_factor(tape, b);
-      return left == right ? std::pair{left, times + more} : std::pair{f, 1};
-    }
-    default:
-      return {f, 1};
-  }
-}
+/// Factors with their exponents, in the order in which they stand, numbers left out.
+using Factors = std::vector<std::pair<NodeId, double>>;
 
-/// One step from f towards g; f where there is none.
-NodeId within(const Tape& tape, NodeId f, bool& is_power) {
+void gather(const Tape& tape, NodeId f, double times, Factors& found) {
   const NodeId a = tape.a(f), b = tape.b(f);
-  switch (tape.operation(f)) {
-    case Operation::negate:
-      return a;
-    case Operation::subtract:
-      return is_zero(tape, b) ? a : is_zero(tape, a) ? b : f;
-    case Operation::multiply: {
-      const auto [factor, times] = only_factor(tape, f);
-      if (times > 1) is_power = true;
-      return factor;
-    }
-    case Operation::divide:
-      return is_factor(tape, b) ? a : f;
-    case Operation::power:
-      if (!tape.is_constant(b) || !(tape.constant(b) >= 1)) return f;
-      if (tape.constant(b) > 1) is_power = true;
-      return a;
-    default:
-      return f;
+  const Operation operation = tape.operation(f);
+  if (is_factor(tape, f)) return;
+  if (operation == Operation::negate || (operation == Operation::divide && is_factor(tape, b)) ||
+      (operation == Operation::subtract && is_zero(tape, b)))
+    return gather(tape, a, times, found);
+  if (operation == Operation::subtract && is_zero(tape, a)) return gather(tape, b, times, found);
+  if (operation == Operation::multiply) {
+    gather(tape, a, times, found);
+    return gather(tape, b, times, found);
   }
+  if (operation == Operation::power && tape.is_constant(b) && tape.constant(b) >= 1)
+    return gather(tape, a, times * tape.constant(b), found);
+  for (auto& [factor, exponent] : found)
+    if (factor == f) {
+      exponent += times;
+      return;
+    }
+  found.emplace_back(f, times);
 }
 
 }  // namespace
 
-NodeId base_of_power(const Tape& tape, NodeId f) {
+NodeId base_of_power(Tape& tape, NodeId f) {
+  if (tape.is_constant(f)) return f;
+  Factors factors;
+  gather(tape, f, 1, factors);
   bool is_power = false;
-  NodeId g = f;
-  while (!tape.is_constant(g)) {
-    const NodeId next = within(tape, g, is_power);
-    if (next == g) break;
-    g = next;
+  for (const auto& [factor, exponent] : factors) {
+    if (tape.is_constant(factor)) return f;
+    is_power = is_power || exponent > 1;
   }
-  return is_power && !tape.is_constant(g) ? g : f;
+  if (!is_power) return f;
+  NodeId product = factors.front().first;
+  for (std::size_t k = 1; k < factors.size(); ++k)
+    product = tape.apply(Operation::multiply, product, factors[k].first, tape.origin(f));
+  return product;
 }
 
 }  // namespace mechanics::expression

@@ -4,9 +4,9 @@
 
 namespace mechanics::expression {
 
-/// g with {f = 0} = {g = 0} for a node f that is a power of g, or a product of g with itself, times or over
-/// constants that are not 0: its gradient vanishes wherever f = 0, that of g need not. f itself where it is
-/// none.
-NodeId base_of_power(const Tape&, NodeId f);
+/// g with {f = 0} = {g = 0} for a node f that is a product of powers, times or over constants that are not 0:
+/// the product of their bases, each once. The gradient of f vanishes wherever a base of a power is 0, that of
+/// g need not. f itself where no base stands there more than once.
+NodeId base_of_power(Tape&, NodeId f);
 
 }  // namespace mechanics::expression

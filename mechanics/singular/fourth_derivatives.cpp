@@ -20,7 +20,7 @@ Vector values(const std::vector<Rounded>& x) {
 
 }  // namespace
 
-void SingularGroup::test_fourth(std::size_t k, const std::vector<Rounded>& q2) {
+std::vector<AddedRow> SingularGroup::test_fourth(std::size_t k, const std::vector<Rounded>& q2) {
   const Dependence& dependence = dependences_[static_cast<std::size_t>(split_.dependent[k])];
   // Σ v_j u_j + Σ ω_d row_d = 0 with ω = 1 at this dependence: then q''' drops out of
   // Σ ω_d w_d·f'''' + 4/3 Σ v_j f_j'''.
@@ -47,7 +47,7 @@ void SingularGroup::test_fourth(std::size_t k, const std::vector<Rounded>& q2) {
   const Rounded here = value(q2);
   if (!is_finite(here)) {
     undecided_ = true;
-    return;
+    return {};
   }
 
   // Other accelerations that second and third derivatives allow.
@@ -75,6 +75,7 @@ void SingularGroup::test_fourth(std::size_t k, const std::vector<Rounded>& q2) {
              negative = std::any_of(samples.begin(), samples.end(),
                                     [](Rounded x) { return !x.may_be_zero() && x.value < 0; });
   if (!here.may_be_zero()) {
+    if (std::vector<AddedRow> forms = linear_forms(dependence); alone && !forms.empty()) return forms;
     if (!is_free || (positive && negative))
       refuse(dependence,
              "second and third derivatives do not tell the acceleration, and the fourth ones contradict what "
@@ -85,13 +86,14 @@ void SingularGroup::test_fourth(std::size_t k, const std::vector<Rounded>& q2) {
         "it so that its gradient does not vanish where it holds (y = 0 for y^2 = 0), or give a velocity or "
         "move off the state");
   }
-  if (positive || negative || !is_free || !alone) return;
+  if (positive || negative || !is_free || !alone) return {};
   const auto redundant = holds_by_itself(dependence);
   if (!redundant) undecided_ = true;
   if (redundant && !*redundant)
     refuse(dependence,
            "derivatives up to the fourth do not tell the acceleration at this state; write it so that its "
            "gradient does not vanish where it holds (y = 0 for y^4 = 0), or move off the state");
+  return {};
 }
 
 /// By the constraints of the dependence, which are few, or by all of the group.

@@ -8,6 +8,7 @@ namespace mechanics {
 
 /// An equation row·q'' = rhs that third derivatives give where gradients depend on each other: Σ w_a
 /// d³f_a/dt³ = 0 with Σ w_a u_a = 0, so that q''' drops out and row = 3 Σ w_a (H_a q' + ∂u_a/∂t).
+/// Or, where f_a vanishes just where some linear forms do, one of these, row·(q - q_0), with rhs 0.
 struct AddedRow {
   std::vector<std::pair<Index, double>> weights;  ///< by constraint
   Vector row;                                     ///< n
@@ -84,7 +85,8 @@ class SingularGroup {
   void find_what_state_misses(const RowMatrix& gradients);
   void find_third_rows();
   Rounded third(std::size_t dependence, const std::vector<TimeSeries>& f) const;
-  void test_fourth(std::size_t k, const std::vector<Rounded>& q2);
+  std::vector<AddedRow> test_fourth(std::size_t k, const std::vector<Rounded>& q2);
+  std::vector<AddedRow> linear_forms(const Dependence&) const;
   std::optional<bool> holds_by_itself(const Dependence&) const;
   [[noreturn]] void refuse(const Dependence&, const std::string& what) const;
 

@@ -221,7 +221,7 @@ std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added,
         (constraints.size() == 1 ? "its gradient vanishes at this state only"
                                  : "their gradients depend on each other at this state only") +
             std::string(
-                ", and the acceleration that second derivatives give contradicts the third ones; their "
+                ", and the acceleration that second derivatives give contradicts higher ones; their "
                 "equation was added. Multipliers of these constraints grow without bound near such a "
                 "state and are not given"));
   }

@@ -71,7 +71,7 @@ std::vector<AddedRow> SingularGroup::missing(const std::vector<Rounded>& q2) {
       refuse(dependences_[static_cast<std::size_t>(d)],
              "third derivatives contradict the second ones: no motion with these velocities passes through "
              "the state; change the velocities, or the state");
-    test_fourth(k, answer);
+    for (AddedRow& row : test_fourth(k, answer)) found.push_back(std::move(row));
   }
   return found;
 }

@@ -255,6 +255,39 @@ TEST_CASE("a power that is 0 holds where its base is 0") {
             .resolution.warnings.empty());
 }
 
+TEST_CASE("a product of powers holds where one of its bases is 0") {
+  // {x² y³ = 0} = {x y = 0}: two wires, of which the velocity tells the one.
+  for (const char* product : {"x^2*y^2 = 0", "x^2*y^3 = 0", "0 = -x*y^2*x/3"}) {
+    CAPTURE(product);
+    const Answer found = answer(*particle({{"wires", product}}), tests::state({0, 0}, {1, 0}));
+    CHECK(near(found.q2(), Vector{{0, 0}}));
+  }
+}
+
+TEST_CASE("a constraint that holds at rest just where linear forms vanish is held to these") {
+  struct Valley {
+    const char* constraint;
+    std::size_t forms;
+    Vector q2;
+  };
+  for (const Valley& valley : {Valley{"x^2 + y^2 = 0", 2, Vector{{0, 0}}},
+                               {"y^2 = y^3", 1, Vector{{0, 0}}},
+                               {"(x - y)^2 + (x - y)^4 = 0", 1, Vector{{-9.81 / 2, -9.81 / 2}}},
+                               {"cosh(y - x) = 1", 1, Vector{{-9.81 / 2, -9.81 / 2}}}}) {
+    CAPTURE(std::string(valley.constraint));
+    const Answer found = answer(*particle({{"valley", valley.constraint}}), tests::state({0, 0}, {0, 0}));
+    CHECK(found.resolution.added.size() == valley.forms);
+    CHECK(near(found.q2(), valley.q2));
+  }
+  // Parabolas that touch are no line.
+  for (const char* other : {"y^2 = y*x^2", "y^2 = x^4"}) {
+    CAPTURE(std::string(other));
+    CHECK(error_of([&] {
+            answer(*particle({{"other", other}}), tests::state({0, 0}, {0, 0}));
+          }).find("constraint other") != std::string::npos);
+  }
+}
+
 TEST_CASE("a machine that rests in equilibrium at a singular position stays there") {
   const Answer crossing = answer(*particle({{"wires", "y^2 = x^2"}}, {}, "0"), tests::state({0, 0}, {0, 0}));
   CHECK(crossing.q2() == Vector{{0, 0}});
