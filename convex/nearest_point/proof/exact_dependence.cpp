@@ -36,12 +36,12 @@ IntegerVector dependence_of(const ExactProblem& exact) {
 
 namespace {
 
-bool is_two_sided(const NearestPointProblem& problem, Index a) {
+bool holds_both_ways(const NearestPointProblem& problem, Index a) {
   return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
 }
 
 /// The rows over the coordinates that they touch, as integers, A left out.
-ExactProblem integer_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+ExactProblem rows_as_integers(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   const ConstraintRows chosen = problem.U.select(rows);
   const auto k = static_cast<Index>(rows.size());
   Matrix U(k, problem.dimension());
@@ -63,7 +63,7 @@ struct ZeroSum {
 };
 
 std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  const ExactProblem exact = integer_rows(problem, rows);
+  const ExactProblem exact = rows_as_integers(problem, rows);
   // The weights are of the rows themselves; those of `exact` are theirs times row_unit.
   ZeroSum found{dependence_of(exact), {}};
   const IntegerVector& w = found.w;
@@ -91,7 +91,7 @@ std::vector<Index> with_first(Index a, const std::vector<Index>& others) {
 bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
   const auto found = zero_sum(problem, with_first(a, others));
   if (!found) return false;
-  return is_two_sided(problem, a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
+  return holds_both_ways(problem, a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
 }
 
 bool are_equalities(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
@@ -99,7 +99,7 @@ bool are_equalities(const NearestPointProblem& problem, Index a, const std::vect
   const auto found = zero_sum(problem, rows);
   if (!found || sign(found->left) != 0) return false;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (found->w[r].sign() <= 0 && !is_two_sided(problem, rows[r])) return false;
+    if (found->w[r].sign() <= 0 && !holds_both_ways(problem, rows[r])) return false;
   return true;
 }
 
@@ -111,7 +111,7 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
   const double K = static_cast<double>(k), n = static_cast<double>(problem.dimension());
   double words = K * K * n + static_cast<double>(rows.size()) * K * n;
   if (words > most_words) return false;
-  const ExactProblem exact = integer_rows(problem, all);
+  const ExactProblem exact = rows_as_integers(problem, all);
   IntegerRows columns(exact.z.size(), IntegerVector(k));
   for (std::size_t i = 0; i < exact.z.size(); ++i)
     for (std::size_t r = 0; r < k; ++r) columns[i][r] = exact.U[r][i];
@@ -131,7 +131,7 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
       if (dot(columns[i], c.numerators) != c.denominator * u[i]) return false;
     const IntegerVector bounds(exact.s.begin(), exact.s.begin() + static_cast<std::ptrdiff_t>(k));
     const int off = (dot(bounds, c.numerators) - c.denominator * exact.s[k + p]).sign();
-    if (is_two_sided(problem, rows[p]) ? off != 0 : off < 0) return false;
+    if (holds_both_ways(problem, rows[p]) ? off != 0 : off < 0) return false;
     std::size_t bits = c.denominator.bits();
     for (const Integer& numerator : c.numerators) bits = std::max(bits, numerator.bits());
     words += K * K * (2 + 2 * static_cast<double>(bits) / 62) * 2;
