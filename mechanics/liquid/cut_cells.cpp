@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/liquid/cut_walls.hpp"
 #include "mechanics/liquid/wall_level.hpp"
 
 namespace mechanics::liquid {
@@ -16,12 +17,7 @@ using convex::Index;
 constexpr double unknown_pressure = std::numeric_limits<double>::quiet_NaN();
 /// Links of a node at the boundary are cut no shorter than this part of a step.
 constexpr double shortest_link = 1e-6;
-/// A cell beyond a wall that is open to the liquid by less of a face gives what it has to a neighbour.
-constexpr double least_opening = 1e-5;
-
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
-enum class Side : std::uint8_t { inside, on, outside };
 
 class Cutting {
  public:
@@ -38,8 +34,6 @@ class Cutting {
     made_.given.assign(n, unknown_pressure);
     made_.h.assign(n, 0);
     side_.assign(n, Side::outside);
-    diagonal_ = 0;
-    for (std::size_t i = 0; i < d_; ++i) diagonal_ = std::hypot(diagonal_, made_.step[i]);
   }
 
   CutCells cut() {
@@ -52,7 +46,7 @@ class Cutting {
     for_points([&](Index k) {
       if (grid().is_unknown(k)) join(k);
     });
-    give_up_closed_cells();
+    hang_walls(made_, side_, normals_);
     for_points([&](Index k) {
       if (grid().is_unknown(k)) load(k);
     });
@@ -130,12 +124,7 @@ class Cutting {
     return false;
   }
 
-  double face_area(std::size_t axis) const {
-    double area = 1;
-    for (std::size_t i = 0; i < d_; ++i)
-      if (i != axis) area *= made_.step[i];
-    return area;
-  }
+  double face_area(std::size_t axis) const { return made_.face_area(axis); }
   double cell_volume() const { return face_area(3); }
 
   /// The parts of the faces that are open, low and high by axis, of the cells near walls; volumes; pieces.
@@ -270,90 +259,6 @@ class Cutting {
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
   }
 
-  /// Cells beyond walls that nothing of the liquid's side reaches are taken out.
-  void give_up_closed_cells() {
-    std::vector<Index> closed;
-    for_points([&](Index k) {
-      if (grid().kind[at(k)] != CutPoint::free) return;
-      double widest = 0;
-      for (std::size_t axis = 0; axis < d_; ++axis)
-        for (const int by : {-1, 1}) {
-          const Index other = k + by * grid().stride(axis);
-          if (grid().kind[at(other)] == CutPoint::bounded)
-            widest = std::max(widest,
-                              grid().link[axis][at(by > 0 ? k : other)] * made_.step[axis] / face_area(axis));
-        }
-      if (widest < least_opening) closed.push_back(k);
-    });
-    for (const Index k : closed) {
-      grid().kind[at(k)] = CutPoint::beyond;
-      for (std::size_t axis = 0; axis < d_; ++axis) {
-        grid().link[axis][at(k)] = 0;
-        grid().link[axis][at(k - grid().stride(axis))] = 0;
-      }
-    }
-    std::vector<WallPiece> kept;
-    for (std::size_t a = 0; a < made_.walls.size(); ++a) {
-      WallPiece piece = made_.walls[a];
-      const Index behind = nearest_inside(piece, normals_[a]);
-      if (!grid().is_unknown(piece.point)) {
-        if (behind < 0) continue;
-        piece.point = behind;
-      }
-      hang(piece, normals_[a], behind);
-      kept.push_back(piece);
-    }
-    made_.walls.swap(kept);
-  }
-
-  double distance(Index k, const WallPiece& piece, const Point& normal) const {
-    const Point x = made_.at(k);
-    double along = 0;
-    for (std::size_t i = 0; i < d_; ++i) along += (piece.at[i] - x[i]) * normal[i];
-    return along;
-  }
-
-  /// The node inside, next to the piece's or itself, straight behind the wall; -1 where there is none.
-  Index nearest_inside(const WallPiece& piece, const Point& normal) const {
-    if (side_[at(piece.point)] != Side::outside) return piece.point;
-    Index best = -1;
-    double straightest = 0;
-    const auto place = made_.place(piece.point);
-    for (int code = 0; code < 27; ++code) {
-      const std::array<Index, 3> by{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
-      Index k = piece.point;
-      double along = 0, square = 0;
-      bool is_there = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (i >= d_) {
-          is_there = is_there && by[i] == 0;
-          continue;
-        }
-        const Index there = place[i] + by[i];
-        is_there = is_there && there >= 0 && there < made_.grid.points[i];
-        k += by[i] * made_.grid.stride(i);
-        const double step = static_cast<double>(by[i]) * made_.step[i];
-        along -= step * normal[i];
-        square += step * step;
-      }
-      if (!is_there || !(square > 0) || made_.grid.kind[at(k)] != CutPoint::bounded) continue;
-      if (along / std::sqrt(square) > straightest) {
-        straightest = along / std::sqrt(square);
-        best = k;
-      }
-    }
-    return best;
-  }
-
-  /// The load of a piece, and its pendant where the node behind it is off the wall.
-  void hang(WallPiece& piece, const Point& normal, Index behind) {
-    grid().load[at(piece.point)] += piece.load;
-    if (behind < 0 || side_[at(behind)] == Side::on || !(piece.area > 0)) return;
-    const double away = std::max(distance(behind, piece, normal), 1e-3 * diagonal_);
-    piece.pendant = static_cast<std::ptrdiff_t>(grid().pendants.size());
-    grid().pendants.push_back({behind, piece.area / away, piece.load / piece.area * away});
-  }
-
   void load(Index k) {
     Point x = made_.at(k);
     if (side_[at(k)] == Side::outside) x = domain_.foot(x);
@@ -371,10 +276,16 @@ class Cutting {
   std::vector<std::ptrdiff_t> open_;
   std::vector<Opening> openings_;
   std::vector<Point> normals_;
-  double diagonal_ = 0;
 };
 
 }  // namespace
+
+double CutCells::face_area(std::size_t axis) const {
+  double area = 1;
+  for (std::size_t i = 0; i < grid.dimension; ++i)
+    if (i != axis) area *= step[i];
+  return area;
+}
 
 Point CutCells::at(Index k) const {
   const auto i = place(k);

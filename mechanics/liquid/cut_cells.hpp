@@ -38,6 +38,8 @@ struct CutCells {
   std::vector<double> h;  ///< at unknowns
 
   Point at(convex::Index k) const;
+  /// Of a whole cell across an axis; the volume for any other number.
+  double face_area(std::size_t axis) const;
   std::array<convex::Index, 3> place(convex::Index k) const;
 };
 

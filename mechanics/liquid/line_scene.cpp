@@ -237,7 +237,8 @@ std::optional<LineScene> as_line(const LiquidScene& scene) {
   return line;
 }
 
-LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line) {
+LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
+                                const LiquidAccuracy& accuracy) {
   const std::size_t d = scene.dimension();
   LiquidSolution found;
   found.method = line.radial ? "radial" : "line";
@@ -259,6 +260,8 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line)
   if (solution.high_parts && !(solution.low_parts && line.low == line.high))
     found.parted_walls.push_back(line.high->name);
   found.error_bound = solution.error_bound;
+  if (!(found.error_bound <= accuracy.part() * found.largest) && found.error_bound > 0)
+    found.status = LiquidSolution::Status::inaccurate;
   found.p = [line, solution](const Point& x) { return solution.p(line.variable(x)); };
   found.in_cavity = [line, pieces = solution.pieces()](const Point& x) {
     const double r = line.variable(x);

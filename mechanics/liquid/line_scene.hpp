@@ -25,7 +25,7 @@ struct LineScene {
 /// InvalidInput. The LineScene refers to the scene.
 std::optional<LineScene> as_line(const LiquidScene&);
 
-LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&);
+LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&, const LiquidAccuracy&);
 
 /// The least value of the pressure without the obstacle, below 0 if and only if cavitation has begun; where
 /// no pressure is given, minus what the walls lack.

@@ -26,7 +26,7 @@ void require_no_divergence(const LiquidScene& scene, const LineScene& line, cons
 LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
   const std::optional<LineScene> line = as_line(scene);
   if (!line) return solve_grid_scene(scene, accuracy);
-  LiquidSolution found = solve_line_scene(scene, *line);
+  LiquidSolution found = solve_line_scene(scene, *line, accuracy);
   if (found.status != LiquidSolution::Status::infeasible) require_no_divergence(scene, *line, found);
   return found;
 }

@@ -9,6 +9,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/gauss_solution.hpp"
 #include "mechanics/lagrangian_system.hpp"
+#include "mechanics/liquid/liquid_solution.hpp"
 
 // The claim: whatever the bytes of a problem file, reading and solving it ends in an answer or in
 // InvalidInput.
@@ -17,6 +18,7 @@ namespace {
 /// Larger problems are right to be slow; they only cost the fuzzer its speed.
 constexpr convex::Index most_coordinates = 60, most_contacts = 60, most_entries = 12;
 constexpr std::size_t most_digits_of_a_bound = 3;
+constexpr long coarse_cells = 12;
 
 /// A family, or a sum, of a thousand members or more.
 bool is_large(const std::string& text) {
@@ -54,9 +56,16 @@ void solve(const cli::DecompositionProblem& problem) {
   convex::decompose(f, problem.z, problem.W);
 }
 
+void solve(const cli::LiquidProblem& problem) {
+  mechanics::liquid::LiquidText text = problem.text;
+  text.cells = coarse_cells;
+  mechanics::liquid::solve_liquid(mechanics::liquid::read_scene(text));
+}
+
 void run(const std::string& text) {
   const cli::Problem problem = cli::read_problem(text, "/nowhere");
   if (const auto* system = std::get_if<cli::SystemProblem>(&problem.content)) solve(*system);
+  if (const auto* liquid = std::get_if<cli::LiquidProblem>(&problem.content)) solve(*liquid);
   if (const auto* numbers = std::get_if<cli::ProjectionProblem>(&problem.content)) solve(numbers->problem);
   if (const auto* split = std::get_if<cli::DecompositionProblem>(&problem.content)) solve(*split);
 }

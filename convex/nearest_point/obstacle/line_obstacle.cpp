@@ -13,7 +13,9 @@ constexpr Index first_cells = 128;
 constexpr double shortest_part = 0x1p-44;
 /// What a sum of terms of this absolute size may be off.
 constexpr double rounding = 16 * unit_roundoff;
-constexpr int most_rounds = 400;
+constexpr int most_rounds = 400, most_steps = 1000;
+/// An h that varies faster than so many cells resolve is given up; the error bound says so.
+constexpr std::size_t most_cells = 20000;
 
 using Kind = LineEnd::Kind;
 
@@ -117,7 +119,7 @@ class LineCells {
 
   /// Primal-dual active sets; ends after finitely many steps, for the equations have an M-matrix.
   void solve_obstacle() {
-    for (std::size_t step = 0; step < 10 * r.size(); ++step) {
+    for (int step = 0; step < most_steps; ++step) {
       solve();
       if (!one_sided_) return;
       bool changed = false;
@@ -165,6 +167,7 @@ class LineCells {
       }
     }
     if (first() == 1 && !is_zero(1) && value(0, 0) < -rounding_) mark(0);
+    if (cells.size() > most_cells) return false;
     if (std::none_of(halve.begin(), halve.end(), [](bool b) { return b; })) return false;
     std::vector<double> old_r;
     std::vector<CellLoad> old_cells;
@@ -192,18 +195,9 @@ class LineCells {
   }
 
   /// p in a cell, which may be that of the centre.
-  double value(std::size_t cell, double at) const { return line_value(problem_, r, p, flux, cell, at); }
-  static double line_value(const LineObstacle& problem, const std::vector<double>& r,
-                           const std::vector<double>& p, const std::vector<double>& flux, std::size_t cell,
-                           double at) {
-    const LineWeight w{problem.power};
-    if (cell == 0 && problem.at_low.kind == Kind::centre) {
-      const double inside = at > 0 ? cell_load(problem.h, w, 0, at).load * w.resistance(at, r[1]) : 0;
-      return p[1] + inside + cell_load(problem.h, w, at, r[1]).moment;
-    }
-    return p[cell] + flux[cell] * w.resistance(r[cell], at) - cell_load(problem.h, w, r[cell], at).moment;
+  double value(std::size_t cell, double at) const {
+    return LineSolution::between(problem_, r, p, flux, cell, at);
   }
-
   bool is_zero(std::size_t k) const { return zero[k] || (is_value_end(k) && !(known_value(k) > 0)); }
   bool is_known(std::size_t k) const { return is_value_end(k) || zero[k]; }
   bool is_value_end(std::size_t k) const {
@@ -240,7 +234,7 @@ class LineCells {
     const bool is_exact =
         std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment &&
         std::abs(whole.load - load) * (b - a) <= (resolved_ + rounding * whole.absolute * (b - a)) * w_(b);
-    if (is_exact || b - a <= shortest_) {
+    if (is_exact || b - a <= shortest_ || cells.size() > most_cells) {
       cells.push_back(whole);
       r.push_back(b);
       unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);
@@ -304,50 +298,5 @@ LineSolution solve_line(const LineObstacle& problem, bool one_sided) {
   }
   return found;
 }
-
-double LineSolution::p(double at) const {
-  const auto above = std::upper_bound(r_.begin() + 1, r_.end() - 1, at);
-  const auto cell = static_cast<std::size_t>(above - r_.begin()) - 1;
-  if (held_[cell] && held_[cell + 1]) return 0;
-  return LineCells::line_value(problem_, r_, p_, flux_, cell, at);
-}
-
-std::vector<LinePiece> LineSolution::pieces() const {
-  std::vector<LinePiece> found;
-  for (std::size_t k = 0; k + 1 < r_.size(); ++k) {
-    const bool positive =
-        !(held_[k] && held_[k + 1]) || !(cell_load(problem_.h, {problem_.power}, r_[k], r_[k + 1]).load < 0);
-    if (found.empty() || found.back().positive != positive)
-      found.push_back({r_[k], r_[k + 1], positive});
-    else
-      found.back().high = r_[k + 1];
-  }
-  return found;
-}
-
-LineSolution::Extreme LineSolution::extreme(double sign) const {
-  const bool centre = problem_.at_low.kind == Kind::centre;
-  Extreme best{centre ? LineCells::line_value(problem_, r_, p_, flux_, 0, 0) : p_[0], r_[0]};
-  const auto offer = [&](double value, double at) {
-    if (sign * value > sign * best.value) best = {value, at};
-  };
-  const LineWeight w{problem_.power};
-  for (std::size_t k = centre ? 1 : 0; k < r_.size(); ++k) {
-    offer(p_[k], r_[k]);
-    if (k + 1 == r_.size() || (held_[k] && held_[k + 1])) continue;
-    const double end = flux_[k] - cell_load(problem_.h, w, r_[k], r_[k + 1]).load;
-    if (!(sign * flux_[k] > 0 && sign * end < 0)) continue;
-    double a = r_[k], b = r_[k + 1];  // the flux turns its sign between
-    for (int halving = 0; halving < 60; ++halving) {
-      const double middle = 0.5 * (a + b);
-      (sign * (flux_[k] - cell_load(problem_.h, w, r_[k], middle).load) > 0 ? a : b) = middle;
-    }
-    offer(LineCells::line_value(problem_, r_, p_, flux_, k, a), a);
-  }
-  return best;
-}
-
-LineSolution::Extreme LineSolution::largest() const { return extreme(1); }
-LineSolution::Extreme LineSolution::least() const { return extreme(-1); }
 
 }  // namespace convex

@@ -51,6 +51,10 @@ class LineSolution {
   Extreme largest() const;
   Extreme least() const;
 
+  /// p in a cell from the values and fluxes at its ends; the first cell may be that of the centre.
+  static double between(const LineObstacle&, const std::vector<double>& r, const std::vector<double>& p,
+                        const std::vector<double>& flux, std::size_t cell, double at);
+
  private:
   friend LineSolution solve_line(const LineObstacle&, bool);
   Extreme extreme(double sign) const;

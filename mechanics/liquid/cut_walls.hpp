@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mechanics/liquid/cut_cells.hpp"
+
+namespace mechanics::liquid {
+
+/// Where a node of a grid is: in the domain, on its boundary, or outside.
+enum class Side : std::uint8_t { inside, on, outside };
+
+/// Takes out the cells beyond walls that nothing of the liquid's side reaches, and gives each piece of a wall
+/// its load and, where the node behind it is off the wall, its pendant. normals: of the pieces.
+void hang_walls(CutCells&, const std::vector<Side>&, const std::vector<Point>& normals);
+
+}  // namespace mechanics::liquid
