@@ -47,7 +47,7 @@ double difference(const CutCells& fine, const CutSolution& p, const CutCells& co
 
 /// From the differences of three grids: their ratio tells the order, which tells what is left.
 double estimated_error(const GridLevels& levels, const std::vector<CutSolution>& found, double largest) {
-  constexpr double safety = 3, least_order = 0.5, best_order = 2, digits = 1e-9;
+  constexpr double safety = 2, least_order = 0.5, best_order = 2, digits = 1e-9;
   if (levels.count() < 2) return std::numeric_limits<double>::infinity();
   const double last = difference(levels.level(0), found[0], levels.level(1), found[1]);
   double order = 1;
