@@ -248,6 +248,10 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
     why = "at t = " + number_text(state.t) + ": no acceleration satisfies all contacts";
     return;
   }
+  for (const Index a : expansion_.in_doubt())
+    remark("whether " + constraint_name(a) +
+           " stays closed hangs on a number so small beside its terms that rounding may have made it, or "
+           "hidden it");
   persist_ = answer->persist;
   for (const auto& [a, order] : answer->open) zeros_of_f_[static_cast<std::size_t>(a)] = order;
   for (const Index a : persist_) {

@@ -17,6 +17,13 @@ namespace {
 /// derivative decides.
 constexpr double undecided_part = 1e-11;
 
+/// Within this factor of it, either way, rounding may have made the number or hidden it: that is said.
+constexpr double factor_in_doubt = 100;
+
+bool is_in_doubt(double part) {
+  return part > undecided_part / factor_in_doubt && part < undecided_part * factor_in_doubt;
+}
+
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
 
@@ -211,6 +218,9 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   for (std::size_t a = persist.size(); a < rows.size(); ++a) {
     const auto at = static_cast<Index>(a);
     const double length = A_->dual_norm(U.row(at).transpose());
+    if (is_in_doubt(solution.slack[at] / (std::abs(problem.s[at]) + length * scale)) ||
+        is_in_doubt(solution.lambda[at] * length / scale))
+      in_doubt_.push_back(rows[a]);
     if (solution.slack[at] > undecided_part * (std::abs(problem.s[at]) + length * scale)) {
       answer.open.push_back({rows[a], k + 2});
     } else if (solution.lambda[at] * length > undecided_part * scale) {
@@ -244,6 +254,7 @@ HeldRows::Answer Expansion::acceleration(const HeldRows& rows, const std::vector
 
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   ContactAnswer answer;
+  in_doubt_.clear();
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   std::vector<Index> persist = contacts.held, open = contacts.open;
   pushing_ = persist;

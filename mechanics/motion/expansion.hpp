@@ -67,6 +67,8 @@ class Expansion {
 
   /// q'' at the state while the rows given are held: `rows` are those of `held`.
   HeldRows::Answer acceleration(const HeldRows& rows, const std::vector<Index>& held);
+  /// Open contacts of the last question whose slack or multiplier was neither clearly 0 nor clearly not.
+  const std::vector<Index>& in_doubt() const { return in_doubt_; }
   /// The higher coefficients, and who persists.
   ContactAnswer expand(const ContactQuestion& contacts);
 
@@ -117,7 +119,8 @@ class Expansion {
   std::vector<double> columns_;  // the same, several at once
   std::vector<double> lambda_;   // by constraint and order
   std::vector<double> f_;        // likewise
-  std::vector<Index> pushing_;   // the constraints with a multiplier so far
+  std::vector<Index> in_doubt_;
+  std::vector<Index> pushing_;  // the constraints with a multiplier so far
   double force_norm_ = 0;
 };
 
