@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 
+#include "cli/commands/branch_event.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/json_writer.hpp"
 
@@ -13,7 +15,6 @@ namespace cli {
 namespace {
 
 using convex::InvalidInput;
-using Multipliers = std::vector<std::complex<double>>;
 
 /// "w=1:0.01:3".
 struct Range {
@@ -55,76 +56,273 @@ Problem with_parameter(Problem problem, const std::string& name, double value) {
   throw InvalidInput("--over: no parameter \"" + name + "\" in the file");
 }
 
-/// What a branch passes between two orbits: a multiplier crosses the unit circle, or the impacts change.
-std::string crossing(const mechanics::Orbit& before, const mechanics::Orbit& now) {
-  if (before.impacts.size() != now.impacts.size() || !before.multipliers || !now.multipliers)
-    return "grazing";
-  const auto outside = [](const Multipliers& all, auto&& counts) {
-    long number = 0;
-    for (const auto& m : all)
-      if (std::abs(m) > 1 && counts(m)) ++number;
-    return number;
-  };
-  const auto changed = [&](auto&& counts) {
-    return outside(*before.multipliers, counts) != outside(*now.multipliers, counts);
-  };
-  if (changed([](const auto& m) { return m.imag() != 0; })) return "torus";
-  if (changed([](const auto& m) { return m.imag() == 0 && m.real() < 0; })) return "flip";
-  if (changed([](const auto& m) { return m.imag() == 0 && m.real() > 0; })) return "fold";
-  return "";
+/// An orbit of the branch, at a value of the parameter.
+struct Station {
+  double value = 0;
+  mechanics::Orbit orbit;
+};
+
+/// The state between, or beyond, two orbits of a branch, in proportion to the parameter.
+mechanics::State in_proportion(const Station& a, const Station& b, double value) {
+  const double part = (value - a.value) / (b.value - a.value);
+  mechanics::State state = a.orbit.start;
+  state.q += part * (b.orbit.start.q - a.orbit.start.q);
+  state.v += part * (b.orbit.start.v - a.orbit.start.v);
+  return state;
 }
+
+/// Follows a branch of orbits over a parameter, with the values at which something happens on it.
+class Branch {
+ public:
+  Branch(const Problem& problem, const mechanics::OrbitQuestion& asked, const OrbitOptions& options,
+         Range range)
+      : problem_(problem), asked_(asked), options_(options), range_(std::move(range)) {}
+
+  /// Why it ends before the range does, or nothing.
+  std::string follow() {
+    const Problem first = with_parameter(problem_, range_.parameter, range_.first);
+    const auto& text = std::get<SystemProblem>(first.content);
+    const mechanics::State guess = mechanics::lagrangian_system(text.system)->state(text.state);
+    constexpr int most_turns = 16;
+    int turns = 0;
+    for (long k = 0; k >= 0 && k < range_.count(); k += forward_) {
+      const double value = range_.value(k);
+      const std::optional<Station> next =
+          stations_.empty() ? attempt(value, guess, 0) : attempt_from_last(value);
+      if (next && stations_.empty()) trail_ = {*next};
+      if (next) {
+        arrive(*next);
+      } else if (++turns <= most_turns && trail_.size() > 1 && turn(value)) {
+        forward_ = -forward_;
+        if (!begin_behind_fold(range_.value(k + forward_)))
+          return fmt::format("the branch turns at {} = {}; its other side is not found", range_.parameter,
+                             fold_);
+      } else {
+        return fmt::format("the branch ends before {} = {}: {}", range_.parameter, value, why_);
+      }
+    }
+    return "";
+  }
+  const std::string& table() const { return table_; }
+  long count() const { return static_cast<long>(stations_.size()); }
+
+ private:
+  std::optional<Station> attempt(double value, const mechanics::State& guess, double period) {
+    const Problem at = with_parameter(problem_, range_.parameter, value);
+    const auto system = mechanics::lagrangian_system(std::get<SystemProblem>(at.content).system);
+    mechanics::OrbitQuestion question = asked_;
+    question.period = question.is_free ? period
+                                       : value_of(at, *system, *options_.period, "--period") *
+                                             static_cast<double>(options_.periods);
+    try {
+      Station found{value, mechanics::find_orbit(*system, guess, question)};
+      if (found.orbit.is_found) return found;
+      why_ = found.orbit.why;
+    } catch (const InvalidInput& error) {
+      why_ = error.what();
+    }
+    return std::nullopt;
+  }
+
+  /// Whether an orbit is where the last two lead; if not, Newton's method went to another branch.
+  bool follows(const Station& next) const {
+    if (trail_.size() < 2) return true;
+    const Station &last = trail_.back(), &before = trail_[trail_.size() - 2];
+    const auto distance = [](const Station& x, const Station& y) {
+      return std::hypot((x.orbit.start.q - y.orbit.start.q).norm(),
+                        (x.orbit.start.v - y.orbit.start.v).norm());
+    };
+    const double usual =
+        distance(last, before) * std::abs((next.value - last.value) / (last.value - before.value));
+    constexpr double factor = 4, least = 1e-6;  // 2.4 into a fold
+    const double size = std::hypot(last.orbit.start.q.norm(), last.orbit.start.v.norm());
+    const double away = distance(next, last);
+    if (away <= least * size) return true;
+    const double onward =  // a branch does not turn about between two values
+        (next.orbit.start.q - last.orbit.start.q).dot(last.orbit.start.q - before.orbit.start.q) +
+        (next.orbit.start.v - last.orbit.start.v).dot(last.orbit.start.v - before.orbit.start.v);
+    const bool same_way = (next.value - last.value) * (last.value - before.value) > 0;
+    return away <= factor * usual + least * size && (same_way ? onward > 0 : onward < 0);
+  }
+
+  /// The orbit at a value from the last ones, with shorter steps between where these lead elsewhere.
+  std::optional<Station> attempt_from_last(double value, int depth = 0) {
+    constexpr int deepest = 8;
+    const Station last = trail_.back();
+    std::optional<Station> found;
+    if (trail_.size() > 1) {
+      found = attempt(value, in_proportion(trail_[trail_.size() - 2], last, value), last.orbit.period);
+      if (found && !follows(*found)) found.reset();
+    }
+    if (!found) found = attempt(value, last.orbit.start, last.orbit.period);
+    if (found && !follows(*found)) {
+      why_ = "the nearest orbit there is of another branch";
+      found.reset();
+    }
+    if (!found && depth < deepest && trail_.size() > 1) {
+      const std::vector<Station> kept = trail_;
+      if (attempt_from_last(0.5 * (last.value + value), depth + 1))
+        found = attempt_from_last(value, depth + 1);
+      if (!found) trail_ = kept;
+      return found;
+    }
+    if (found) {
+      trail_.push_back(*found);
+      constexpr std::size_t enough = 2;
+      if (trail_.size() > enough) trail_.erase(trail_.begin());
+    }
+    return found;
+  }
+
+  void row(const Station& at, const std::string& event) {
+    const mechanics::Orbit& orbit = at.orbit;
+    table_ += fmt::format("{},{},{},{},{},{}\n", at.value, orbit.period,
+                          orbit.multipliers ? (orbit.is_stable ? "1" : "0") : "",
+                          orbit.multipliers ? fmt::format("{}", std::abs(orbit.multipliers->front())) : "",
+                          orbit.impacts.size(), event);
+  }
+
+  /// The next orbit, and before it those at which something happens on the way, each in a row of its own.
+  void arrive(const Station& next) {
+    constexpr int most_events_in_step = 4;
+    std::string event;
+    if (!stations_.empty()) {
+      Station from = stations_.back();
+      for (int i = 0; i < most_events_in_step; ++i) {
+        event = event_between(from.orbit, next.orbit);
+        if (event.empty()) break;
+        const std::optional<Station> there = locate(from, next, event);
+        if (!there) break;  // told in the row after it
+        row(*there, event);
+        from = *there;
+        event.clear();
+      }
+    }
+    row(next, event);
+    stations_.push_back(next);
+  }
+
+  /// The orbit just past an event between two, by bisection; `event` is the first one.
+  std::optional<Station> locate(Station a, Station b, std::string& event) {
+    constexpr double close = 1e-11;
+    const double step = std::abs(range_.step);
+    bool is_located = false;
+    while (std::abs(b.value - a.value) > close * step) {
+      const double middle = 0.5 * (a.value + b.value);
+      if (middle == a.value || middle == b.value) break;
+      auto found = attempt(middle, in_proportion(a, b, middle), 0.5 * (a.orbit.period + b.orbit.period));
+      if (!found) found = attempt(middle, a.orbit.start, a.orbit.period);
+      if (!found) break;
+      const std::string here = event_between(a.orbit, found->orbit);
+      if (here.empty()) {
+        a = std::move(*found);
+      } else {
+        event = here;
+        b = std::move(*found);
+        is_located = true;
+      }
+    }
+    constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
+    if (!is_located && std::abs(b.value - a.value) > near * step) return std::nullopt;
+    return b;
+  }
+
+  static double distance_of_multiplier_from_1(const mechanics::Orbit& orbit) {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (orbit.multipliers)
+      for (const auto& m : *orbit.multipliers) nearest = std::min(nearest, std::abs(m - 1.0));
+    return nearest;
+  }
+
+  /// Whether the branch turns around before a value at which it has no orbit: near a fold, states and the
+  /// distance of a multiplier from 1 go with the root of the distance from its value. If so, the fold is
+  /// told, and `other_` is what finds orbits behind it.
+  bool turn(double beyond) {
+    if (asked_.is_free) return false;  // one multiplier is 1 anyhow
+    Station near = trail_.back();
+    double none = beyond;
+    for (int i = 0; i < 24; ++i) {
+      const double middle = 0.5 * (near.value + none);
+      if (auto found = attempt_from_last(middle))
+        near = std::move(*found);
+      else
+        none = middle;
+    }
+    // Not too near: there a multiplier is 1 by rounding.
+    const double sign = way();
+    const double reach = 1e-3 * std::abs(range_.step);
+    const auto one = attempt(near.value - sign * reach, near.orbit.start, near.orbit.period);
+    if (!one) return false;
+    const auto four = attempt(near.value - sign * 4 * reach, one->orbit.start, one->orbit.period);
+    if (!four) return false;
+    const double s1 = std::pow(distance_of_multiplier_from_1(one->orbit), 2),
+                 s4 = std::pow(distance_of_multiplier_from_1(four->orbit), 2);
+    constexpr double least = 2, largest = 6;  // 4 at a fold
+    if (!(s4 > least * s1 && s4 < largest * s1)) return false;
+    const double fold = one->value + (one->value - four->value) * s1 / (s4 - s1);
+    Station at = near;
+    at.value = fold;
+    row(at, "fold");
+    const double d1 = std::sqrt(std::abs(fold - one->value)), d4 = std::sqrt(std::abs(fold - four->value));
+    fold_ = fold;
+    side_ = one->orbit.start;
+    side_.q = (four->orbit.start.q - one->orbit.start.q) / (d4 - d1);
+    side_.v = (four->orbit.start.v - one->orbit.start.v) / (d4 - d1);
+    top_ = one->orbit.start;
+    top_.q -= d1 * side_.q;
+    top_.v -= d1 * side_.v;
+    return true;
+  }
+
+  /// An orbit on the other side of the fold.
+  std::optional<Station> behind_fold(double value) {
+    mechanics::State guess = top_;
+    const double away = std::sqrt(std::abs(fold_ - value));
+    guess.q -= away * side_.q;
+    guess.v -= away * side_.v;
+    auto found = attempt(value, guess, 0);
+    const auto along = [&](const mechanics::State& state) {
+      return (state.q - top_.q).dot(side_.q) + (state.v - top_.v).dot(side_.v);
+    };
+    if (found && along(found->orbit.start) > 0) found.reset();  // the side that we came from
+    return found;
+  }
+
+  /// Two orbits on the other side, so near the fold that the root leads to them, and no further than `value`.
+  bool begin_behind_fold(double value) {
+    const double reach = std::min(std::abs(fold_ - value), 0.05 * std::abs(range_.step));
+    const auto one = behind_fold(fold_ + way() * 0.25 * reach), four = behind_fold(fold_ + way() * reach);
+    if (!one || !four) return false;
+    trail_ = {*one, *four};
+    stations_.push_back(*four);
+    return true;
+  }
+
+  /// In which direction the parameter goes.
+  double way() const { return range_.step > 0 ? forward_ : -forward_; }
+
+  const Problem& problem_;
+  const mechanics::OrbitQuestion& asked_;
+  const OrbitOptions& options_;
+  Range range_;
+  std::vector<Station> stations_;  // in the table
+  std::vector<Station> trail_;     // the last two, those between values of the range too
+  std::string table_, why_;
+  int forward_ = 1;  // -1 behind a fold
+  double fold_ = 0;
+  mechanics::State top_, side_;  // near the fold states are top_ + side_ root(distance)
+};
 
 }  // namespace
 
 Answer orbit_branch(const std::string& file, const Problem& problem, const mechanics::OrbitQuestion& asked,
                     const OrbitOptions& options) {
   const Range range = parse_range(*options.over);
-  std::string table = range.parameter + ",period,stable,largest_multiplier,impacts,event\n";
-  std::optional<mechanics::Orbit> before;
-  std::optional<mechanics::State> last, last_but_one;
-  long found = 0;
-  std::string why;
-  for (long k = 0; k < range.count(); ++k) {
-    const Problem at = with_parameter(problem, range.parameter, range.value(k));
-    const auto& text = std::get<SystemProblem>(at.content);
-    const auto system = mechanics::lagrangian_system(text.system);
-    mechanics::OrbitQuestion question = asked;
-    if (question.is_free)
-      question.period = before ? before->period : 0;
-    else
-      question.period =
-          value_of(at, *system, *options.period, "--period") * static_cast<double>(options.periods);
-    mechanics::State guess = last ? *last : system->state(text.state);
-    const auto attempt = [&](const mechanics::State& from) -> mechanics::Orbit {
-      try {
-        return mechanics::find_orbit(*system, from, question);
-      } catch (const InvalidInput& error) {
-        mechanics::Orbit none;
-        none.why = error.what();
-        return none;
-      }
-    };
-    mechanics::Orbit orbit;
-    if (last_but_one) {  // along the branch
-      mechanics::State ahead = guess;
-      ahead.q += guess.q - last_but_one->q;
-      ahead.v += guess.v - last_but_one->v;
-      orbit = attempt(ahead);
-    }
-    if (!orbit.is_found) orbit = attempt(guess);
-    if (!orbit.is_found) {
-      why = fmt::format("the branch ends before {} = {}: {}", range.parameter, range.value(k), orbit.why);
-      break;
-    }
-    table += fmt::format("{},{},{},{},{},{}\n", range.value(k), orbit.period,
-                         orbit.multipliers ? (orbit.is_stable ? "1" : "0") : "",
-                         orbit.multipliers ? fmt::format("{}", std::abs(orbit.multipliers->front())) : "",
-                         orbit.impacts.size(), before ? crossing(*before, orbit) : "");
-    ++found;
-    last_but_one = last;
-    last = orbit.start;
-    before = std::move(orbit);
-  }
+  Branch branch(problem, asked, options, range);
+  const std::string why = branch.follow();
+  const std::string table =
+      range.parameter + ",period,stable,largest_multiplier,impacts,event\n" + branch.table();
+  const long found = branch.count();
   if (options.output) {
     std::ofstream out(*options.output, std::ios::binary);
     out << table;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "mechanics/motion/orbit.hpp"
+
+namespace cli {
+
+/// What a branch passes between two orbits: "fold", "flip" or "torus" where multipliers cross the unit circle
+/// at 1, at -1 or as a pair, "grazing" where the number of impacts changes, "" where nothing happens.
+std::string event_between(const mechanics::Orbit& before, const mechanics::Orbit& now);
+
+}  // namespace cli

@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+
+namespace {
+
+struct Row {
+  double value, period, largest;
+  bool stable;
+  int impacts;
+  std::string event;
+};
+
+std::vector<Row> branch(const std::string& text, const std::vector<std::string>& arguments, int code = 0) {
+  const Folder folder;
+  const std::string csv = folder.path("b.csv");
+  std::vector<std::string> all{"orbit", folder.write("o.toml", text), "--output", csv};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const Outcome outcome = run(all);
+  CAPTURE(outcome.err);
+  CHECK(outcome.code == code);
+  std::vector<Row> rows;
+  std::ifstream file(csv);
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::istringstream cells(line + ",");
+    std::vector<std::string> cell;
+    for (std::string one; std::getline(cells, one, ',');) cell.push_back(one);
+    rows.push_back({std::stod(cell[0]), std::stod(cell[1]), cell[3].empty() ? 0 : std::stod(cell[3]),
+                    cell[2] == "1", std::stoi(cell[4]), cell[5]});
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("a branch is followed through its folds, to the other end of the range") {
+  // Duffing's oscillator: three orbits where the resonance overhangs.
+  const std::string duffing =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2 + x^4/4\"\n"
+      "[system.parameters]\nw = 1.3\n[system.forces]\nx = \"0.5*cos(w*t) - 0.1*x'\"\n"
+      "[state]\nposition = { x = 1.1 }\n";
+  const std::vector<Row> rows = branch(duffing, {"--period", "2*pi/w", "--over", "w=1.3:0.1:2.4"});
+  REQUIRE(rows.size() > 20);
+  CHECK(rows.back().value == doctest::Approx(2.4));
+  std::vector<double> folds;
+  std::map<long, int> orbits_at;
+  for (const Row& row : rows) {
+    CAPTURE(row.value);
+    if (row.event == "fold") {
+      folds.push_back(row.value);
+      CHECK(std::abs(row.largest - 1) <= 0.1);
+      continue;
+    }
+    CHECK(row.event.empty());
+    ++orbits_at[std::lround(10 * row.value)];
+    // Liouville: the product of the multipliers is exp(-0.1 T); a stable pair is complex.
+    if (row.stable)
+      CHECK(std::abs(row.largest - std::exp(-0.05 * row.period)) <= 1e-9);
+    else
+      CHECK(folds.size() == 1);
+  }
+  REQUIRE(folds.size() == 2);
+  CHECK(folds[0] > 2.2);
+  CHECK(folds[1] < 1.5);
+  CHECK(orbits_at[18] == 3);
+  CHECK(orbits_at[13] == 1);
+  CHECK(orbits_at[24] == 1);
+}
+
+TEST_CASE("a flip is told where the multiplier of the closed form is -1") {
+  // A ball on a shaken table, once a period: with the flight time T = 2 pi/w the relative speed after an
+  // impact is g T/(1 + e) ... e g T/(1 + e), and the trace of the map is 1 + e^2 - (1 + e)^2 A w^2
+  // sin(phase)/g.
+  const double g = 9.81, e = 0.5, A = 0.01, pi = std::acos(-1.0);
+  const auto cosine = [&](double w) { return (1 - e) / (1 + e) * pi * g / (A * w * w); };
+  const auto gap_to_flip = [&](double w) {
+    const double sine = std::sqrt(1 - cosine(w) * cosine(w));
+    return 1 + e * e + (1 + e * e - (1 + e) * (1 + e) * A * w * w * sine / g);
+  };
+  double low = 33, high = 45;
+  for (int i = 0; i < 100; ++i) (gap_to_flip(0.5 * (low + high)) > 0 ? low : high) = 0.5 * (low + high);
+  const double w = 33, phase = std::acos(cosine(w)), t = phase / w,
+               up = A * w * std::cos(phase) + e * g * 2 * pi / w / (1 + e);
+  std::ostringstream text;
+  text.precision(17);
+  text << "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\npotential = "
+          "\"9.81*y\"\n[system.parameters]\nw = 33\n"
+       << "[system.constraints]\ntable = \"y >= 0.01*sin(w*t)\"\n[simulate]\nrestitution = 0.5\n[state]\nt = "
+          "0.1\n"
+       << "position = { y = " << A * std::sin(phase) + up * (0.1 - t) - g / 2 * (0.1 - t) * (0.1 - t)
+       << " }\n"
+       << "velocity = { y = " << up - g * (0.1 - t) << " }\n";
+  const std::vector<Row> rows = branch(text.str(), {"--period", "2*pi/w", "--over", "w=33:0.5:38"});
+  bool is_told = false;
+  for (const Row& row : rows) {
+    CHECK((row.event.empty() || row.event == "flip"));
+    CHECK(row.impacts == 1);
+    if (row.event != "flip") continue;
+    is_told = true;
+    CHECK(std::abs(row.value - low) <= 1e-7);
+    CHECK(std::abs(row.largest - 1) <= 1e-6);
+  }
+  CHECK(is_told == (low < 38));
+}
