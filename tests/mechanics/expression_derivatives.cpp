@@ -58,6 +58,16 @@ const std::vector<Sample>& samples() {
       {"x^y", [](R x, R y) { return pow(x, y); }},
       {"2^x*y", [](R x, R y) { return pow(R{2}, x) * y; }},
       {"-(x - y)*(x + y)", [](R x, R y) { return -(x - y) * (x + y); }},
+      {"min(x*y, 2)*y", [](R x, R y) { return x * y * y; }},
+      {"max(x, y^2, 1)", [](R, R y) { return y * y; }},
+      {"ln(x)*hypot(x, y)", [](R x, R y) { return std::log(x) * std::sqrt(x * x + y * y); }},
+      {"if(x < y, x*y^2, sqrt(x - y))", [](R x, R y) { return x * y * y; }},
+      {"if(x >= y, sqrt(x - y), exp(x))*y", [](R x, R y) { return std::exp(x) * y; }},
+      {"sign(x - y)*x^2 + step(y - x)*y^3", [](R x, R y) { return -x * x + y * y * y; }},
+      {"abs(x - y)^3", [](R x, R y) { return pow(y - x, R{3}); }},
+      // Through (0, 0), (1, 1), (2, 0): y'' = -3 at 1, so that it is 3u/2 - u³/2 up to there.
+      {"table(x*y, [0, 1, 2], [0, 1, 0])", [](R x, R y) { return R{1.5} * x * y - pow(x * y, R{3}) / 2; }},
+      {"table(x + y, [0, 1, 2.5], [0, 0, 0])*y", [](R, R) { return R{0}; }},
       {"-(-x)^3*y", [](R x, R y) { return pow(x, R{3}) * y; }},
   };
   return table;

@@ -1,0 +1,97 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "mechanics/assembly.hpp"
+#include "tests/mechanics/system_text.hpp"
+
+using namespace tests;
+using mechanics::Assembly;
+using mechanics::AssemblyStatus;
+
+namespace {
+
+const SystemText ring{{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"ring", "x^2 + y^2 = 25"}}};
+
+}  // namespace
+
+TEST_CASE(
+    "the nearest point of a circle is on the ray through the guess, and the nearest velocity is tangent") {
+  const auto s = system(ring);
+  const Assembly found = mechanics::assemble(*s, state({3.3, 4.4}, {1, 1}), {});
+  CHECK(found.status == AssemblyStatus::solved);
+  CHECK(found.state.q[0] == doctest::Approx(3).epsilon(1e-15));
+  CHECK(found.state.q[1] == doctest::Approx(4).epsilon(1e-15));
+  CHECK(found.moved == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(found.state.v[0] == doctest::Approx(1 - 1.4 * 0.6).epsilon(1e-14));  // less its part along (0.6, 0.8)
+  CHECK(found.state.v[1] == doctest::Approx(1 - 1.4 * 0.8).epsilon(1e-14));
+  CHECK(found.residual <= 1e-15);
+}
+
+TEST_CASE("nearness is that of the kinetic metric") {
+  const auto s = system({{"x", "y"}, "4*x'^2/2 + y'^2/2", "", {}, {}, {}, {{"line", "x + y = 5"}}});
+  const Assembly found = mechanics::assemble(*s, state({0, 0}, {0, 0}), {});
+  // The change is along A^-1 (1, 1): (1/4, 1).
+  CHECK(found.state.q[0] == doctest::Approx(1));
+  CHECK(found.state.q[1] == doctest::Approx(4));
+  CHECK(found.moved == doctest::Approx(std::sqrt(4 * 1 + 16)));
+}
+
+TEST_CASE("a state that satisfies everything is left as it is") {
+  const auto s = system(ring);
+  const Assembly found = mechanics::assemble(*s, state({3, 4}, {-4, 3}), {});
+  CHECK(found.moved == 0);
+  CHECK(found.state.q == state({3, 4}, {0, 0}).q);
+  CHECK((found.state.v - state({0, 0}, {-4, 3}).v).norm() <= 1e-14);
+}
+
+TEST_CASE("a contact named closes, one that is not named is at most not violated") {
+  const SystemText text{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"floor", "y >= 0"}, {"wall", "x >= 2"}}};
+  const auto s = system(text);
+  const Assembly free = mechanics::assemble(*s, state({1, 3}, {-1, -1}), {});
+  CHECK(free.state.q == state({2, 3}, {0, 0}).q);
+  CHECK(free.state.v == state({0, 0}, {0, -1}).v);
+  const Assembly held = mechanics::assemble(*s, state({1, 3}, {-1, -1}), {{0}, {}});
+  CHECK(held.state.q == state({2, 0}, {0, 0}).q);
+  CHECK(held.state.v == state({0, 0}, {0, 0}).v);
+}
+
+TEST_CASE("a coordinate held keeps its position and its velocity") {
+  const auto s = system(ring);
+  const Assembly found = mechanics::assemble(*s, state({3, 4.4}, {2, 0}), {{}, {0}});
+  CHECK(found.state.q[0] == 3);
+  CHECK(found.state.q[1] == doctest::Approx(4).epsilon(1e-15));
+  CHECK(found.state.v[0] == 2);
+  CHECK(found.state.v[1] == doctest::Approx(-1.5).epsilon(1e-14));
+}
+
+TEST_CASE("constraints that exclude each other are named, and no other") {
+  const auto s =
+      system({{"x", "y"},
+              "(x'^2 + y'^2)/2",
+              "",
+              {},
+              {},
+              {},
+              {{"roof", "y <= 10"}, {"rod", "x^2 + y^2 = 4"}, {"line", "y = 0.1"}, {"wall", "x >= 3"}}});
+  const Assembly found = mechanics::assemble(*s, state({2, 0.5}, {0, 0}), {});
+  CHECK(found.status == AssemblyStatus::infeasible);
+  CHECK(found.fighting == std::vector<mechanics::Index>{1, 3});
+}
+
+TEST_CASE("a four-bar closes from a guess that is a tenth off") {
+  const auto s = system({{"a", "b", "c"},
+                         "(0.4*a'^2 + 1.1*b'^2 + 0.7*c'^2)/2",
+                         "",
+                         {},
+                         {},
+                         {},
+                         {{"loop_x", "cos(a) + 3*cos(b) - 2.5*cos(c) = 3.2"},
+                          {"loop_y", "sin(a) + 3*sin(b) - 2.5*sin(c) = 0"}}});
+  const Assembly found = mechanics::assemble(*s, state({1.1, 0.35, 1.3}, {2, -0.5, 0}), {{}, {0}});
+  CHECK(found.status == AssemblyStatus::solved);
+  CHECK(found.state.q[0] == 1.1);
+  CHECK(s->constraint_rates(found.state).f.norm() <= 1e-14);
+  CHECK(s->constraint_rates(found.state).df.norm() <= 1e-13);
+}
