@@ -4,6 +4,7 @@
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
+#include "mechanics/expression/state_nodes.hpp"
 #include "mechanics/expression/sweeps.hpp"
 
 namespace mechanics {
@@ -26,6 +27,19 @@ RoundedState rounded_state(const State& state, const StateRadii& radii) {
   return rounded;
 }
 
+/// How far the numbers of some nodes may be from the values; what is not given is 0, and exact.
+Vector radii_of_values(const std::vector<NodeId>& nodes, const std::vector<Rounded>& numbers,
+                       const Vector& values) {
+  Vector radii = Vector::Zero(values.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i] == no_node) continue;
+    const auto k = static_cast<Index>(i);
+    const Rounded number = numbers[nodes[i]];
+    radii[k] = known(number.radius + std::abs(number.value - values[k]));
+  }
+  return radii;
+}
+
 /// The radii of a table of the state; what is missing there is 0, and exact.
 Vector table_radii(const LagrangianModel& model, const std::vector<NamedText>& texts,
                    const std::string& table, Rounded t, const Vector& values) {
@@ -40,15 +54,7 @@ Vector table_radii(const LagrangianModel& model, const std::vector<NamedText>& t
     for (std::uint32_t member = 0; member < family.members.size(); ++member)
       if (const std::uint32_t entry = given.entry_of[family.first + member]; entry != no_entry)
         nodes[family.first + member] = expansion.node(given.entries[entry].value, family.members[member]);
-  const std::vector<Rounded> numbers = rounded_nodes(tape, t);
-  Vector radii = Vector::Zero(values.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i] == no_node) continue;
-    const auto k = static_cast<Index>(i);
-    const Rounded number = numbers[nodes[i]];
-    radii[k] = known(number.radius + std::abs(number.value - values[k]));
-  }
-  return radii;
+  return radii_of_values(nodes, rounded_nodes(tape, t), values);
 }
 
 /// The program of T, V and Q run with radii, and its reverse sweep from T - V.
@@ -131,6 +137,13 @@ StateRadii state_radii(const LagrangianSystem& system, const StateText& text, co
     t = rounded_nodes(tape)[node];
     radii.t = t.radius = known(t.radius + std::abs(t.value - state.t));
     t.value = state.t;
+  }
+  if (refers_to_state(model, text)) {
+    const StateNodes nodes = state_nodes(model, text);
+    const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, t);
+    radii.q = radii_of_values(nodes.q, numbers, state.q);
+    radii.v = radii_of_values(nodes.v, numbers, state.v);
+    return radii;
   }
   radii.q = table_radii(model, text.position, "position", t, state.q);
   radii.v = table_radii(model, text.velocity, "velocity", t, state.v);

@@ -7,6 +7,7 @@
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/exact_jet.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/expression/state_nodes.hpp"
 
 namespace mechanics {
 
@@ -42,6 +43,20 @@ bool read_values(const LagrangianModel& model, const std::vector<NamedText>& tex
   return true;
 }
 
+/// Values that use each other.
+std::optional<ExactState> read_nodes_exactly(const StateNodes& nodes, long precision, ExactState state) {
+  const ExactState instant{state.t, {}, {}};
+  ExactEvaluation evaluate(nodes.tape, instant, precision, JetPart::rates);
+  for (std::size_t i = 0; i < nodes.q.size(); ++i)
+    for (const auto& [node, to] : {std::pair{nodes.q[i], &state.q[i]}, std::pair{nodes.v[i], &state.v[i]}}) {
+      if (node == no_node) continue;
+      const auto& jet = evaluate(node);
+      if (!jet) return std::nullopt;
+      *to = jet->value;
+    }
+  return state;
+}
+
 std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const StateText& text,
                                              long precision) {
   const std::size_t n = model.coordinates.size();
@@ -58,6 +73,7 @@ std::optional<ExactState> read_state_exactly(const LagrangianModel& model, const
     if (!jet) return std::nullopt;
     state.t = jet->value;
   }
+  if (refers_to_state(model, text)) return read_nodes_exactly(state_nodes(model, text), precision, state);
   if (!read_values(model, text.position, "position", state.t, precision, state.q) ||
       !read_values(model, text.velocity, "velocity", state.t, precision, state.v))
     return std::nullopt;

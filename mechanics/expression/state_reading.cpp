@@ -2,6 +2,8 @@
 
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/expression/rounded_nodes.hpp"
+#include "mechanics/expression/state_nodes.hpp"
 
 namespace mechanics::expression {
 namespace {
@@ -26,6 +28,25 @@ Vector read_values(const LagrangianModel& model, const std::vector<NamedText>& t
   return values;
 }
 
+/// Values that use each other, definitions and '.
+Vector values_of(const std::vector<NodeId>& nodes, const StateText& text, const std::vector<Rounded>& numbers,
+                 const std::string& table, const LagrangianModel& model, std::vector<Index>& missing) {
+  Vector values = Vector::Zero(static_cast<Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto k = static_cast<Index>(i);
+    if (nodes[i] == no_node) {
+      missing.push_back(k);
+      continue;
+    }
+    values[k] = numbers[nodes[i]].value;
+    if (!std::isfinite(values[k]))
+      throw convex::InvalidInput(
+          table + " of " + model.coordinates[i] + ": its value is not finite here; correct the expression",
+          text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
+  }
+  return values;
+}
+
 }  // namespace
 
 State read_state(const LagrangianModel& model, const StateText& text) {
@@ -38,7 +59,15 @@ State read_state(const LagrangianModel& model, const StateText& text) {
     state.t = expansion.number(parse_expression(source, {&model.names, Vocabulary::instant, {}}), {});
   }
   std::vector<Index> missing, at_rest;
-  state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
+  const bool refers = refers_to_state(model, text);
+  if (refers) {
+    const StateNodes nodes = state_nodes(model, text);
+    const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, state.t);
+    state.q = values_of(nodes.q, text, numbers, "position", model, missing);
+    state.v = values_of(nodes.v, text, numbers, "velocity", model, at_rest);
+  } else {
+    state.q = read_values(model, text.position, "position", state.t, sources, expansion, missing);
+  }
   if (!missing.empty()) {
     constexpr std::size_t most_named = 5;
     std::string list;
@@ -49,7 +78,7 @@ State read_state(const LagrangianModel& model, const StateText& text) {
         "position: " + list + " missing; give every coordinate",
         text.position_table ? std::optional(text.position_table->begin) : std::nullopt);
   }
-  state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
+  if (!refers) state.v = read_values(model, text.velocity, "velocity", state.t, sources, expansion, at_rest);
   return state;
 }
 
