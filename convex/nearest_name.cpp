@@ -7,7 +7,7 @@ namespace convex {
 namespace {
 
 constexpr std::size_t longest_compared = 64;  // bytes; longer names are no slips of the finger
-constexpr std::size_t shortest_beginning = 3;
+constexpr std::size_t shortest_beginning = 3, shortest_word = 5;
 constexpr std::size_t most_listed = 12;
 
 std::string lower(std::string_view text) {
@@ -35,12 +35,23 @@ std::size_t slips(const std::string& a, const std::string& b) {
   return d.back();
 }
 
+/// The words that hyphens and underscores make of a name, when there are several.
+std::vector<std::string> words_of(const std::string& name) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at <= name.size();) {
+    const std::size_t end = std::min(name.find_first_of("-_", at), name.size());
+    words.push_back(name.substr(at, end - at));
+    at = end + 1;
+  }
+  return words.size() > 1 ? words : std::vector<std::string>{};
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view unknown, const std::vector<std::string>& known) {
   const std::string given = lower(unknown);
-  std::string nearest, begun;
-  std::size_t least = (given.size() + 1) / 3 + 1, beginnings = 0;
+  std::string nearest, begun, by_word;
+  std::size_t least = (given.size() + 1) / 3 + 1, nearest_word = least, beginnings = 0;
   for (const std::string& name : known) {
     if (name.size() > longest_compared) continue;
     const std::string other = lower(name);
@@ -48,13 +59,22 @@ std::string nearest_name(std::string_view unknown, const std::vector<std::string
       begun = name;
       ++beginnings;
     }
+    if (given.size() >= shortest_word)
+      for (const std::string& word : words_of(other)) {
+        if (word.size() >= given.size() + nearest_word) continue;
+        const std::size_t distance = slips(given, word);
+        if (distance >= nearest_word || 2 * distance > word.size()) continue;
+        nearest_word = distance;
+        by_word = name;
+      }
     if (name.size() >= given.size() + least) continue;
     const std::size_t distance = slips(given, other);
     if (distance >= least || distance >= std::max(given.size(), other.size())) continue;
     least = distance;
     nearest = name;
   }
-  return nearest.empty() && beginnings == 1 ? begun : nearest;
+  if (!nearest.empty()) return nearest;
+  return beginnings == 1 ? begun : by_word;
 }
 
 std::string suggestion(std::string_view unknown, const std::vector<std::string>& known,

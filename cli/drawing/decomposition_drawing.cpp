@@ -196,6 +196,7 @@ struct Words {
 void draw_rows(Page& page, const SolvedScene& solved, const PlaneSection& section, const Window& window,
                std::vector<std::string>& elsewhere) {
   std::vector<std::pair<Polygon, std::string>> named;
+  for (const Index row : section.without_line) elsewhere.push_back(solved.scene.contact_name(row));
   for (const PlaneSection::Row& row : section.rows) {
     const Polygon line = visible_part(row, window);
     const std::string& name = solved.scene.contact_name(row.row);
@@ -218,9 +219,8 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
   const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
   if (scene.problem.dimension() > 2)
     say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
-        scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the others held at their values");
+        scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
   if (ellipses) say("ellipses: circles of the kinetic metric");
-  if (!elsewhere.empty()) say("outside of the picture: " + listed(elsewhere));
   constexpr std::size_t longest = 100;
   const auto shortened = [](std::string line) {
     if (line.size() > longest) {
@@ -231,7 +231,8 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
     }
     return line;
   };
-  return shortened(text) + (below.empty() ? "" : "\n" + shortened(below));
+  text = shortened(text) + (below.empty() ? "" : "\n" + shortened(below));
+  return text + (elsewhere.empty() ? "" : "\n" + shortened("outside of the picture: " + listed(elsewhere)));
 }
 
 }  // namespace
@@ -287,8 +288,16 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   if (moved) page.label({(free + x) / 2, (2 * free + x) / 3, (free + 2 * x) / 3}, words.reaction, "#b04a00");
   if (!generators.empty()) {
     Polygon inside;
-    for (const double part : {0.25, 0.15, 0.35})
-      for (const Point& g : generators) inside.push_back(x + part * window.size() * g.normalized());
+    Point middle = Point::Zero();
+    for (const Point& g : generators) middle += g.normalized();
+    // Within the cone; of one ray, where the reaction does not lie on it.
+    if (generators.size() == 1 && moved)
+      for (const double part : {0.2, 0.35, 0.5, 0.1}) inside.push_back(free + part * (free - x));
+    for (const double part : {0.3, 0.4, 0.5, 0.6, 0.2})
+      if (inside.size() < 4 && middle.norm() > 1e-9)
+        inside.push_back(x + part * window.size() * middle.normalized());
+    if (inside.empty())
+      for (const Point& g : generators) inside.push_back(x + 0.25 * window.size() * g.normalized());
     page.label(inside, words.cone, "#b04a00");
   }
   if (admissible.size() > 2) {

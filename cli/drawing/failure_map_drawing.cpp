@@ -17,7 +17,7 @@ namespace {
 /// Pixels: of a page 700 wide, the names of methods, a row of cells, and of each diagram what is above its
 /// cells (its title) and below them (settings, what they set, room).
 constexpr int most_columns = 3, names_width = 136, page_width = 700, gap = 12, row_height = 14,
-              title_height = 24, settings_height = 58, legend_height = 66;
+              title_height = 24, settings_height = 52, legend_height = 66;
 
 /// Digits of accuracy on a scale whose lightness alone orders it (after viridis: van der Walt and Smith
 /// 2015).
@@ -26,7 +26,7 @@ constexpr std::array scale{"#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c"
 constexpr double most_digits = 16;
 
 double digits_of(double error) {
-  return error > 0 ? std::clamp(-std::log10(error), 0.0, most_digits) : most_digits;
+  return error > 0 ? std::clamp(-std::log10(error), 0.0, most_digits) + 0.0 : most_digits;  // no -0
 }
 
 std::string colour(double error) {
@@ -78,8 +78,18 @@ class FamilyPanel {
 
   std::string script(bool named) {
     for (const StressTrial& t : here_) add(t);
-    add("boxes", boxes_,
-        "using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 border lc rgb \"#ffffff\" lc rgb variable notitle");
+    std::string filled, borders;
+    for (const Box& box : boxes_)
+      filled += fmt::format("{} {} {} {} {} {} 0x{}\n", (box.from + box.to) / 2, box.y, box.from, box.to,
+                            box.y - 0.5, box.y + 0.5, box.fill.substr(1));
+    for (std::size_t k = 1; k < settings_.size(); ++k)
+      borders += fmt::format("{0} -0.5\n{0} {1}\n\n", static_cast<double>(k) - 0.5,
+                             static_cast<double>(methods_.size()) - 0.5);
+    for (std::size_t k = 1; k < methods_.size(); ++k)
+      borders += fmt::format("-0.5 {0}\n{1} {0}\n\n", static_cast<double>(k) - 0.5,
+                             static_cast<double>(settings_.size()) - 0.5);
+    add("boxes", filled, "using 1:2:3:4:5:6:7 with boxxyerror fs solid 1 noborder lc rgb variable notitle");
+    add("borders", borders, "using 1:2 with lines lc rgb \"#ffffff\" lw 0.7 notitle");
     add("digits", digits_, "using 1:2:3:4 with labels font \",7\" tc rgb variable notitle");
     for (std::size_t k = 0; k < marks.size(); ++k)
       add(fmt::format("mark{}_", k), points_[k],
@@ -95,7 +105,7 @@ class FamilyPanel {
                        "set title {} offset 0,-0.7 font \",10\"\nset xrange [-0.5:{}]\nset yrange [-0.5:{}]\n"
                        "set xtics ({}) rotate by 60 right font \",7\" scale 0 offset 0,0.2\n"
                        "set ytics ({}) font \",8\" scale 0\nset label 1 {} at graph 0.5, graph 0 center "
-                       "offset 0,-3.1 "
+                       "offset 0,-2.75 "
                        "font \",8\"\nplot {}\n",
                        quoted(here_.front().family), static_cast<double>(settings_.size()) - 0.5,
                        static_cast<double>(methods_.size()) - 0.5, xtics, ytics, quoted(here_.front().knob),
@@ -120,8 +130,10 @@ class FamilyPanel {
       digits_ += fmt::format("{} {} \"{}\" 0x{}\n", x, y, error > 0 ? fmt::format("{:.0f}", right) : "=",
                              right >= light_from ? "000000" : "ffffff");
     }
-    boxes_ +=
-        fmt::format("{} {} {} {} {} {} 0x{}\n", x, y, x - 0.5, x + 0.5, y - 0.5, y + 0.5, fill.substr(1));
+    if (!boxes_.empty() && boxes_.back().y == y && boxes_.back().to == x - 0.5 && boxes_.back().fill == fill)
+      boxes_.back().to = x + 0.5;
+    else
+      boxes_.push_back({x - 0.5, x + 0.5, y, fill});
   }
 
   void add(const std::string& name, const std::string& data, const std::string& how) {
@@ -134,7 +146,13 @@ class FamilyPanel {
   const std::vector<std::string>& methods_;
   std::vector<StressTrial> here_;
   std::vector<double> settings_;
-  std::string boxes_, digits_, data_, plots_;
+  /// Neighbours of one colour, for the size of the file.
+  struct Box {
+    double from, to, y;
+    std::string fill;
+  };
+  std::vector<Box> boxes_;
+  std::string digits_, data_, plots_;
   std::array<std::string, marks.size()> points_;
 };
 

@@ -8,8 +8,7 @@
 namespace cli {
 
 /// The failure map: a panel for each family, a row for each method, a column for each difficulty; digits of
-/// accuracy as colour, marks for what was wrong, gave up, was too slow or crashed; white where a method does
-/// not apply.
+/// accuracy as colour and number, marks for what was wrong, gave up, was too slow, crashed or does not apply.
 Drawing failure_map_drawing(const std::vector<StressTrial>&);
 
 }  // namespace cli

@@ -92,7 +92,10 @@ PlaneSection plane_section(const SolvedScene& solved, const std::optional<std::s
         a,
         std::find(tight.begin(), tight.end(), a) != tight.end(),
         std::find(problem.two_sided.begin(), problem.two_sided.end(), a) != problem.two_sided.end()};
-    if (row.u.isZero(0)) continue;
+    if (row.u.isZero(0)) {
+      section.without_line.push_back(a);
+      continue;
+    }
     row.s = problem.s[a] - (u.dot(q) - row.u.dot(section.truth));
     section.rows.push_back(row);
   }

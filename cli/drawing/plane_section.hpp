@@ -22,7 +22,8 @@ struct PlaneSection {
     convex::Index row = 0;
     bool tight = false, two_sided = false;
   };
-  std::vector<Row> rows;  ///< without those that no acceleration of the plane changes
+  std::vector<Row> rows;
+  std::vector<convex::Index> without_line;  ///< rows that no acceleration of the plane changes
 };
 
 /// `plane`: "x,y", two names of coordinates; without it the two of the scene, or of more the two that the

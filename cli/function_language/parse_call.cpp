@@ -95,7 +95,8 @@ class Parser {
       cursor_.fail(quoted + " is no number; write one, or inf or -inf", place);
     if (name == "Inf" || name == "INF" || name == "infinity" || name == "Infinity")
       cursor_.fail(quoted + " is no name; an infinite number is inf or -inf", place);
-    if (convex::find_entry(name) == nullptr && cursor_.peek() != '\0')
+    constexpr std::size_t longest_variable = 2;
+    if (name.size() <= longest_variable && convex::find_entry(name) == nullptr && cursor_.peek() != '\0')
       cursor_.fail("\"" + quoted +
                        "\": functions are written without their variable; give numbers, vectors, matrices or "
                        "other functions, or nothing, as in norm1()",

@@ -21,7 +21,9 @@ std::string unknown_key(const CatalogueEntry& entry, const std::string& key) {
   std::vector<std::string> names;
   for (const Parameter& parameter : entry.parameters) names.emplace_back(parameter.name);
   return std::string(entry.name) + ": there is no argument \"" + key + "\"; " +
-         (names.empty() ? "it takes none" : suggestion(key, names));
+         (names.empty()       ? "it takes none"
+          : names.size() == 1 ? "its one argument is \"" + names.front() + "\""
+                              : suggestion(key, names));
 }
 
 double number_of(std::string_view text) {

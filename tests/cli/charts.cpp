@@ -223,12 +223,11 @@ TEST_CASE("pictures are drawn by gnuplot, and without it they are refused before
 
 TEST_CASE("what cannot be drawn or is not there is refused before any work") {
   const Folder folder;
-  const std::string three =
-      folder.write("three.toml", "[projection]\nA = [[1,0,0],[0,1,0],[0,0,1]]\nz = [0,0,0]\n");
+  const std::string one = folder.write("one.toml", "[projection]\nA = [[1]]\nz = [0]\n");
   for (const auto& [arguments, words] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"solve", three, "--plot", folder.path("x.svg")}, "a picture needs two"},
-           {{"solve", three, "--plot", folder.path("x.gif")}, "named .svg or .png"},
-           {{"chart", "--output", "x.pdf"}, "named .svg or .png"},
+           {{"solve", one, "--plot", folder.path("x.svg")}, "a picture of the decomposition needs two"},
+           {{"solve", one, "--plot", folder.path("x.gif")}, "named .svg, .png or .pdf"},
+           {{"chart", "--output", "x.gif"}, "named .svg, .png or .pdf"},
            {{"chart", "--method", "simplex"}, "there is no such method"},
            {{"stress", "paralell"}, "did you mean"},
            {{"chart", "no-such-file.toml"}, "no-such-file.toml"}}) {

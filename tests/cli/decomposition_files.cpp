@@ -95,7 +95,7 @@ TEST_CASE("wrong decompositions are refused where they are wrong") {
       {f(""), "3:6", {"name(arguments)"}},
       {f("norm2"), "3:6", {"norm2()"}},
       {f("norm22()"), "3:6", {"norm22", "did you mean \"norm2\""}},
-      {f("norm2(wait=2)"), "3:12", {"wait", "did you mean \"weight\""}},
+      {f("norm2(wait=2)"), "3:12", {"wait", "its one argument is \"weight\""}},
       {f("norm2(1, 2)"), "3:15", {"too many"}},
       {f("norm2(1, weight=2)"), "3:15", {"twice"}},
       {f("norm2([1, 2])"), "3:12", {"norm2(weight)", "number"}},

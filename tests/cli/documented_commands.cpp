@@ -295,3 +295,15 @@ TEST_CASE("numbers that a page tells of a scene are those of the program") {
     CHECK(alike(told.value, found.at(Json::json_pointer(told.key))));
   }
 }
+
+TEST_CASE("the gallery names every problem of the library, and its pictures are there") {
+  const std::string page = contents(root / "docs/gallery.md");
+  for (const auto& entry : fs::directory_iterator(root / "docs/problems")) {
+    if (entry.path().extension() != ".toml") continue;
+    CAPTURE(entry.path().filename().string());
+    CHECK(page.find("(problems/" + entry.path().filename().string() + ")") != std::string::npos);
+  }
+  const std::regex picture(R"(!\[[^\]]*\]\(([^)]+)\))");
+  for (std::sregex_iterator it(page.begin(), page.end(), picture), end; it != end; ++it)
+    CHECK(fs::exists(root / "docs" / (*it)[1].str()));
+}

@@ -160,7 +160,8 @@ TEST_CASE("a function of the catalogue is found by the name that other programs 
        "functions, or nothing, as in norm1()"},
       {prox_of("l0()"), "",
        "\"l0\" is not convex; use norm1(), which is the largest convex function below it on the cube"},
-      {prox_of("norm1(wieght=2)"), "", "norm1: there is no argument \"wieght\"; did you mean \"weight\"?"},
+      {prox_of("norm1(wieght=2)"), "",
+       "norm1: there is no argument \"wieght\"; its one argument is \"weight\""},
   });
 }
 
