@@ -10,6 +10,7 @@
 #include "cli/report/cone_report.hpp"
 #include "cli/report/decomposition_report.hpp"
 #include "cli/report/explanation.hpp"
+#include "cli/report/liquid_report.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/resolved_scene.hpp"
 
@@ -75,6 +76,12 @@ Explained explained(const std::string& file, const ExplainOptions& options) {
     const SplitPoint split = split_point(*decomposition, problem.solve, options);
     return {exit_code(split.split.status), document_of_lines(title, split_text(split))};
   }
+  if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content)) {
+    LiquidRequest request;
+    request.tolerance = problem.solve.tolerance;
+    const SolvedLiquid solved = solve_liquid_text(liquid->text, request);
+    return {solved.exit(), document_of_lines(title, liquid_text(solved))};
+  }
   if (const auto* cone = std::get_if<ConeProblem>(&problem.content))
     return {Exit::solved, document_of_lines(title, cone_text(solve_cone(*cone)))};
   return explain_scene(std::move(problem), file, options);
@@ -110,6 +117,7 @@ void add_explain(CLI::App& program, Work& chosen) {
       add_command(program, "explain", "the reasoning behind an answer, step by step, on its numbers", chosen,
                   [options] { return explain_files(*options); });
   command.add_option("FILE", options->files, "problem files; - is standard input")->required();
+  add_overrides(command, *options);
   command.add_flag("--quiet", options->quiet, "no text; the exit code tells");
   command.add_flag("--markdown", options->markdown, "as Markdown, formulas between dollars");
   command.add_flag("--latex", options->latex, "as a LaTeX file");

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cli/commands/command_line.hpp"
-#include "cli/drawing/decomposition_drawing.hpp"
+#include "cli/drawing/mechanism_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/report/cone_report.hpp"
 #include "cli/report/decomposition_report.hpp"
@@ -28,7 +28,7 @@ struct SolveOptions : FileOptions, SceneOptions {
   LiquidRequest liquid;
 };
 
-Answer solve_scene(Scene scene, const SolveOptions& options) {
+Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const SolveOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const bool proved = scene.solve.method->name == "exact" || options.certify;
   std::optional<SolveProgress> progress(std::in_place);
@@ -55,7 +55,7 @@ Answer solve_scene(Scene scene, const SolveOptions& options) {
   if (found.text) solved.text = &*found.text;
   solved.warnings = std::move(resolved.warnings);
   for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
-  if (options.plot) draw(*options.plot, decomposition_drawing(solved, options.plane));
+  if (options.plot) draw(*options.plot, scene_drawing(solved, *drawn, options.plane));
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)
     exit = std::max(exit, Exit::inaccurate);
@@ -96,7 +96,9 @@ Answer solve_file(const std::string& file, const SolveOptions& options) {
     return {Exit::solved,
             options.json ? cone_json(solved, file) + "\n" : heading(problem.title, file) + cone_text(solved)};
   }
-  return solve_scene(make_scene(std::move(problem), file, options), options);
+  std::optional<DrawnScene> drawn;
+  if (options.plot) drawn.emplace(problem);
+  return solve_scene(make_scene(std::move(problem), file, options), drawn, options);
 }
 
 Exit solve_files(const SolveOptions& options) {

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "cli/drawing/label_placement.hpp"
+#include "cli/drawing/labelled_page.hpp"
 #include "cli/drawing/plane_section.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
@@ -17,8 +17,6 @@ namespace {
 
 using convex::Index;
 using convex::Vector;
-using Point = Eigen::Vector2d;
-using Polygon = std::vector<Point>;
 
 /// The part of the polygon where a·p >= b (Sutherland and Hodgman 1974).
 Polygon cut(const Polygon& polygon, const Point& a, double b) {
@@ -32,89 +30,6 @@ Polygon cut(const Polygon& polygon, const Point& a, double b) {
   }
   return kept;
 }
-
-/// The page: 700 pixels wide, with a square of accelerations in it.
-constexpr int page_size = 700;
-constexpr double frame_left = 92, frame_size = 580, frame_bottom = 56;
-constexpr double font_size = 11.5;
-
-/// The window: both ends of every arrow with room around; where all is one point, what is near it.
-struct Window {
-  Point low, high;
-  Window(const Polygon& points, double otherwise) : low(points.front()), high(points.front()) {
-    for (const Point& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    double size = (high - low).maxCoeff();
-    if (!(size > 1e-9 * otherwise)) size = otherwise;
-    const Point middle = (low + high) / 2;
-    const double half = 0.95 * size;
-    low = middle.array() - half;
-    high = middle.array() + half;
-  }
-  Polygon frame() const { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
-  double size() const { return (high - low).maxCoeff(); }
-  PagePoint pixel(const Point& p) const {
-    return PagePoint(frame_left, frame_bottom) + frame_size / size() * (p - low);
-  }
-};
-
-std::string rows(const Polygon& points) {
-  std::string text;
-  for (const Point& p : points) fmt::format_to(std::back_inserter(text), "{} {}\n", p.x(), p.y());
-  return text;
-}
-
-/// Draws a page: data blocks first, then what is plotted of them, arrows, and labels where there is room.
-class Page {
- public:
-  explicit Page(const Window& window)
-      : window_(window),
-        labels_({frame_left, frame_bottom}, {frame_left + frame_size, frame_bottom + frame_size}) {}
-
-  void add(const Polygon& points, const std::string& how) {
-    if (points.empty()) return;
-    fmt::format_to(std::back_inserter(blocks_), "$d{} << EOD\n{}EOD\n", count_, rows(points));
-    plots_ += fmt::format("{}$d{} using 1:2 {}", count_ > 0 ? ", \\\n  " : "", count_, how);
-    ++count_;
-  }
-  /// The same, as something that labels keep off.
-  void line(const Polygon& points, const std::string& how) {
-    add(points, how);
-    std::vector<PagePoint> corners;
-    for (const Point& p : points) corners.push_back(window_.pixel(p));
-    labels_.avoid_line(std::move(corners));
-  }
-  void point(const Point& p, const std::string& how) {
-    add({p}, how);
-    constexpr double radius = 5;
-    labels_.avoid_point(window_.pixel(p), radius);
-  }
-  void arrow(const Point& from, const Point& to, const char* style) {
-    fmt::format_to(std::back_inserter(blocks_), "set arrow from {},{} to {},{} {} front\n", from.x(),
-                   from.y(), to.x(), to.y(), style);
-    labels_.avoid_line({window_.pixel(from), window_.pixel(to)});
-  }
-  /// Whether there was room for it.
-  bool label(const Polygon& anchors, const std::string& text, const char* tint) {
-    std::vector<PagePoint> pixels;
-    for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
-    const auto placed = labels_.place(pixels, text, font_size);
-    if (!placed) return false;
-    fmt::format_to(std::back_inserter(blocks_),
-                   "set label {} at screen {},{} {} front font \",11\" tc rgb \"{}\"\n", quoted(text),
-                   placed->at.x() / page_size, placed->at.y() / page_size, placed->aligned, tint);
-    return true;
-  }
-  std::string script(const std::string& top) const { return top + blocks_ + "plot " + plots_ + "\n"; }
-
- private:
-  const Window& window_;
-  LabelPlacement labels_;
-  std::string blocks_, plots_;
-  int count_ = 0;
-};
 
 /// {p : (p - centre)·A(p - centre) = radius²}.
 Polygon ellipse(const Eigen::Matrix2d& A, const Point& centre, double radius) {
@@ -131,7 +46,7 @@ Polygon ellipse(const Eigen::Matrix2d& A, const Point& centre, double radius) {
 }
 
 /// The cone at x of directions d with n_k·d >= 0 as its two edges say, cut to the window.
-Polygon cone_at(const Point& x, const Polygon& generators, const Window& window) {
+Polygon cone_at(const Point& x, const Polygon& generators, const PageWindow& window) {
   Polygon corners;
   const double far = 4 * window.size();
   for (const Point& g : generators) corners.push_back(x + far * g.normalized());
@@ -156,7 +71,7 @@ Polygon cone_at(const Point& x, const Polygon& generators, const Window& window)
 }
 
 /// The part of the line u·p = s that the window shows; empty when none.
-Polygon visible_part(const PlaneSection::Row& row, const Window& window) {
+Polygon visible_part(const PlaneSection::Row& row, const PageWindow& window) {
   const Polygon frame = window.frame();
   Polygon ends;
   for (std::size_t k = 0; k < frame.size(); ++k) {
@@ -193,8 +108,8 @@ struct Words {
              *truth = "q'' = A⁻¹x, x = proj_C z", *reaction = "A⁻¹R, R the reaction", *allowed = "A⁻¹C";
 };
 
-void draw_rows(Page& page, const SolvedScene& solved, const PlaneSection& section, const Window& window,
-               std::vector<std::string>& elsewhere) {
+void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection& section,
+               const PageWindow& window, std::vector<std::string>& elsewhere) {
   std::vector<std::pair<Polygon, std::string>> named;
   for (const Index row : section.without_line) elsewhere.push_back(solved.scene.contact_name(row));
   for (const PlaneSection::Row& row : section.rows) {
@@ -221,23 +136,15 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
     say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
         scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
   if (ellipses) say("ellipses: circles of the kinetic metric");
-  constexpr std::size_t longest = 100;
-  const auto shortened = [](std::string line) {
-    if (line.size() > longest) {
-      line.resize(longest);
-      while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
-      line.pop_back();
-      line += "…";
-    }
-    return line;
-  };
-  text = shortened(text) + (below.empty() ? "" : "\n" + shortened(below));
-  return text + (elsewhere.empty() ? "" : "\n" + shortened("outside of the picture: " + listed(elsewhere)));
+  text = heading_line(text) + (below.empty() ? "" : "\n" + heading_line(below));
+  return text +
+         (elsewhere.empty() ? "" : "\n" + heading_line("outside of the picture: " + listed(elsewhere)));
 }
 
 }  // namespace
 
-Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std::string>& plane) {
+Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std::string>& plane,
+                              PageArea area) {
   const Scene& scene = solved.scene;
   const PlaneSection section = plane_section(solved, plane);
   const Point &free = section.free, &x = section.truth;
@@ -253,9 +160,9 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   const bool near = different && (*section.classical - x).norm() <=
                                      farthest * (moved ? (x - free).norm() : fallback_size(section));
   if (near) shown.push_back(*section.classical);
-  const Window window(shown, fallback_size(section));
+  const PageWindow window(shown, fallback_size(section));
 
-  Page page(window);
+  LabelledPage page(window, area);
   Polygon admissible = window.frame(), generators;
   for (const PlaneSection::Row& row : section.rows) {
     admissible = cut(admissible, row.u, row.s);
@@ -305,18 +212,10 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
     for (const Point& p : admissible) middle += p / static_cast<double>(admissible.size());
     page.label({middle, (2 * middle + x) / 3}, words.allowed, "#00507d");
   }
-  const auto fraction = [](double pixels) { return pixels / page_size; };
-  const std::string top = fmt::format(
-      "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen "
-      "{}\n"
-      "set clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xlabel {}\nset ylabel {}\nset title {}\n"
-      "set border lw 0.7 lc rgb \"#444444\"\nset tics font \",9\"\nunset key\n",
-      fraction(frame_left), fraction(frame_left + frame_size), fraction(frame_bottom),
-      fraction(frame_bottom + frame_size), window.low.x(), window.high.x(), window.low.y(), window.high.y(),
-      quoted("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])]),
-      quoted("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])]),
-      quoted(heading_of(solved, section, moved, elsewhere)));
-  return {page.script(top), page_size};
+  return {page.script("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])],
+                      "acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])],
+                      heading_of(solved, section, moved, elsewhere)),
+          page_size, area.page_width};
 }
 
 }  // namespace cli

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/drawing/gnuplot.hpp"
+#include "cli/drawing/labelled_page.hpp"
 #include "cli/report/solve_report.hpp"
 
 namespace cli {
@@ -14,6 +15,7 @@ namespace cli {
 /// contacts that persist), the acceleration of the classical hypothesis, and the circles of the kinetic
 /// metric about A⁻¹z: ellipses, of which the outer touches A⁻¹C at q''. Nothing is labelled that is not
 /// drawn. Throws InvalidInput as `plane_section` does.
-Drawing decomposition_drawing(const SolvedScene&, const std::optional<std::string>& plane);
+Drawing decomposition_drawing(const SolvedScene&, const std::optional<std::string>& plane,
+                              PageArea area = {});
 
 }  // namespace cli

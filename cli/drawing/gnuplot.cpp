@@ -105,7 +105,7 @@ void require_drawable(const std::string& file) {
 }
 
 void draw(const std::string& file, const Drawing& drawing) {
-  const ScriptFile script(terminal_text(file, picture_width, drawing.height) + drawing.script);
+  const ScriptFile script(terminal_text(file, drawing.width, drawing.height) + drawing.script);
   FILE* program = popen(("gnuplot " + script.path() + " 2>&1").c_str(), "r");
   if (program == nullptr) throw InvalidInput(std::string("gnuplot does not start; ") + gnuplot_advice);
   std::string said;

@@ -14,10 +14,10 @@ void require_drawable(const std::string& file);
 /// A string in gnuplot's double quotes, its markup switched off.
 std::string quoted(const std::string& text);
 
-/// A picture: the script without its terminal, and its height in pixels when it is 700 wide.
+/// A picture: the script without its terminal, and its height in pixels when it is so wide.
 struct Drawing {
   std::string script;
-  int height = 0;
+  int height = 0, width = 700;
 };
 
 /// Draws the picture into the file. Throws InvalidInput with gnuplot's words when it does not end well.

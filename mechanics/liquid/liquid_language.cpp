@@ -101,9 +101,7 @@ double LiquidLanguage::parameter(const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw convex::InvalidInput("no parameter \"" + name + "\" in [liquid.parameters]" +
-                               (names.empty()
-                                    ? "; give it there"
-                                    : "; did you mean \"" + convex::nearest_name(name, names) + "\"?"));
+                               (names.empty() ? "; give it there" : "; " + convex::suggestion(name, names)));
   return tape_.constant(expansion_.parameter(static_cast<std::uint32_t>(found - names.begin())));
 }
 

@@ -204,6 +204,15 @@ TEST_CASE(
   });
 }
 
+TEST_CASE("what is set, swept or assembled by a name that there is not is told the names that there are") {
+  expect_messages({
+      {{"explain", "FILE", "--set", "mm"}, point_on_floor(), "no key and value; write --set \"m=3\""},
+      {{"check", "--quiet", "FILE", "--plot", "a.svg"},
+       point_on_floor(),
+       "check has no option --plot; see `moreau check --help`"},
+  });
+}
+
 TEST_CASE("a long list says how many more there are") {
   std::string constraints;
   for (int k = 0; k < 12; ++k) constraints += "far" + std::to_string(k) + " = \"y >= -1\"\n";

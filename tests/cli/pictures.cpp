@@ -115,6 +115,21 @@ TEST_CASE("a plane of two coordinates is drawn of more, and both are named") {
                     [](const SvgText& t) { return t.text == "acceleration of a"; }));
 }
 
+TEST_CASE("a scene with [draw] is drawn with the force of each contact on it, beside the decomposition") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string scene = point_on_floor({{14,
+                                             "[draw]\npoints = { ball = [\"x\", \"y\"] }\nsegments = { "
+                                             "ground = [[\"-1\", \"0\"], [\"1\", \"0\"]] }"}});
+  const std::string picture = folder.path("a.svg");
+  CHECK(run({"solve", "--quiet", folder.write("a.toml", scene), "--plot", picture}).code == 0);
+  const std::string svg = picture_bytes(picture);
+  check_legible(svg);
+  const std::vector<SvgText> texts = svg_texts(svg);
+  CHECK(times_named(texts, "floor 19.62") == 1);  // the arrow, m g
+  CHECK(times_named(texts, "floor") == 1);        // its line in the plane of accelerations
+}
+
 TEST_CASE("a picture is written as PDF and as PNG too") {
   if (!cli::has_gnuplot()) return;
   const Folder folder;

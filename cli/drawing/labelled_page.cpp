@@ -1,0 +1,106 @@
+#include "cli/drawing/labelled_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "cli/drawing/gnuplot.hpp"
+
+namespace cli {
+namespace {
+
+/// Pixels of the square of numbers in the picture, and of letters.
+constexpr double frame_left = 92, frame_size = 580, frame_bottom = 56, label_size = 11.5;
+
+std::string number_rows(const Polygon& points) {
+  std::string text;
+  for (const Point& p : points) fmt::format_to(std::back_inserter(text), "{} {}\n", p.x(), p.y());
+  return text;
+}
+
+}  // namespace
+
+PageWindow::PageWindow(const Polygon& points, double otherwise) : low(points.front()), high(points.front()) {
+  for (const Point& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  double size = (high - low).maxCoeff();
+  if (!(size > 1e-9 * otherwise)) size = otherwise;
+  const Point middle = (low + high) / 2;
+  const double half = 0.95 * size;
+  low = middle.array() - half;
+  high = middle.array() + half;
+}
+
+PagePoint PageWindow::pixel(const Point& p) const {
+  return PagePoint(frame_left, frame_bottom) + frame_size / size() * (p - low);
+}
+
+LabelledPage::LabelledPage(const PageWindow& window, PageArea area)
+    : window_(window),
+      area_(area),
+      labels_({frame_left, frame_bottom}, {frame_left + frame_size, frame_bottom + frame_size}) {}
+
+void LabelledPage::add(const Polygon& points, const std::string& how) {
+  if (points.empty()) return;
+  // Of two pictures on one page each has data of its own.
+  const std::string name = fmt::format("$d{}_{}", area_.left, count_);
+  fmt::format_to(std::back_inserter(blocks_), "{} << EOD\n{}EOD\n", name, number_rows(points));
+  plots_ += fmt::format("{}{} using 1:2 {}", count_ > 0 ? ", \\\n  " : "", name, how);
+  ++count_;
+}
+
+void LabelledPage::line(const Polygon& points, const std::string& how) {
+  add(points, how);
+  std::vector<PagePoint> corners;
+  for (const Point& p : points) corners.push_back(window_.pixel(p));
+  labels_.avoid_line(std::move(corners));
+}
+
+void LabelledPage::point(const Point& p, const std::string& how) {
+  add({p}, how);
+  constexpr double radius = 5;
+  labels_.avoid_point(window_.pixel(p), radius);
+}
+
+void LabelledPage::arrow(const Point& from, const Point& to, const char* style) {
+  fmt::format_to(std::back_inserter(blocks_), "set arrow from {},{} to {},{} {} front\n", from.x(), from.y(),
+                 to.x(), to.y(), style);
+  labels_.avoid_line({window_.pixel(from), window_.pixel(to)});
+}
+
+bool LabelledPage::label(const Polygon& anchors, const std::string& text, const char* tint) {
+  std::vector<PagePoint> pixels;
+  for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
+  const auto placed = labels_.place(pixels, text, label_size);
+  if (!placed) return false;
+  fmt::format_to(std::back_inserter(blocks_),
+                 "set label {} at screen {},{} {} front font \",11\" tc rgb \"{}\"\n", quoted(text),
+                 across(placed->at.x()), placed->at.y() / page_size, placed->aligned, tint);
+  return true;
+}
+
+std::string LabelledPage::script(const std::string& x, const std::string& y, const std::string& title) const {
+  return fmt::format(
+             "unset label\nunset arrow\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at "
+             "screen {}\nset tmargin at screen {}\nset clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset "
+             "xlabel {}\nset ylabel {}\nset title {}\nset border lw 0.7 lc rgb \"#444444\"\nset tics font "
+             "\",9\"\nunset key\n",
+             across(frame_left), across(frame_left + frame_size), frame_bottom / page_size,
+             (frame_bottom + frame_size) / page_size, window_.low.x(), window_.high.x(), window_.low.y(),
+             window_.high.y(), quoted(x), quoted(y), quoted(title)) +
+         blocks_ + "plot " + plots_ + "\n";
+}
+
+std::string heading_line(std::string line) {
+  constexpr std::size_t longest = 100;
+  if (line.size() <= longest) return line;
+  line.resize(longest);
+  while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xC0U) == 0x80U) line.pop_back();
+  line.pop_back();
+  return line + "…";
+}
+
+}  // namespace cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/drawing/label_placement.hpp"
+
+namespace cli {
+
+/// A point or a curve in the units of a picture.
+using Point = Eigen::Vector2d;
+using Polygon = std::vector<Point>;
+
+/// Pixels: a square picture with its axes and its title, and where it stands on a page of several.
+inline constexpr int page_size = 700;
+struct PageArea {
+  int left = 0, page_width = page_size;
+};
+
+/// The window: all points with room around; where all are one, `otherwise` is its size.
+struct PageWindow {
+  Point low, high;
+  PageWindow(const Polygon& points, double otherwise);
+  Polygon frame() const { return {low, {high.x(), low.y()}, high, {low.x(), high.y()}}; }
+  double size() const { return (high - low).maxCoeff(); }
+  /// In pixels from the lower left corner of the picture.
+  PagePoint pixel(const Point& p) const;
+};
+
+/// A picture: data blocks first, then what is plotted of them, arrows, and labels where there is room.
+class LabelledPage {
+ public:
+  LabelledPage(const PageWindow& window, PageArea area);
+
+  /// Plots the points, `how` in gnuplot's words.
+  void add(const Polygon& points, const std::string& how);
+  /// The same, as something that labels keep off.
+  void line(const Polygon& points, const std::string& how);
+  void point(const Point& p, const std::string& how);
+  void arrow(const Point& from, const Point& to, const char* style);
+  /// Whether there was room for it.
+  bool label(const Polygon& anchors, const std::string& text, const char* tint);
+  /// The whole, with the names of its axes and its title.
+  std::string script(const std::string& x, const std::string& y, const std::string& title) const;
+
+ private:
+  double across(double pixel) const { return (area_.left + pixel) / area_.page_width; }
+
+  const PageWindow& window_;
+  PageArea area_;
+  LabelPlacement labels_;
+  std::string blocks_, plots_;
+  int count_ = 0;
+};
+
+/// A line of a title, cut to what the page holds.
+std::string heading_line(std::string line);
+
+}  // namespace cli

@@ -1,0 +1,110 @@
+#include "cli/drawing/mechanism_drawing.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "cli/drawing/contact_arrows.hpp"
+#include "cli/drawing/decomposition_drawing.hpp"
+#include "cli/report/readable_numbers.hpp"
+#include "cli/report/text_table.hpp"
+#include "cli/report/verdict_text.hpp"
+
+namespace cli {
+namespace {
+
+using convex::Index;
+using convex::Vector;
+
+Polygon drawn_circle(const Point& centre, double radius) {
+  constexpr int corners = 90;
+  Polygon points;
+  for (int k = 0; k <= corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    points.push_back(centre + radius * Point(std::cos(angle), std::sin(angle)));
+  }
+  return points;
+}
+
+/// The corners of a shape, as what is drawn of it.
+Polygon outline(const DrawnScene::Shape& shape, const Vector& values) {
+  const auto place = [&](std::size_t k) {
+    return Point(values[shape.numbers[k]], values[shape.numbers[k + 1]]);
+  };
+  switch (shape.kind) {
+    case DrawnShape::Kind::point:
+      return {place(0)};
+    case DrawnShape::Kind::segment:
+      return {place(0), place(2)};
+    case DrawnShape::Kind::circle:
+      return drawn_circle(place(0), values[shape.numbers[2]]);
+  }
+  return {};
+}
+
+std::vector<ContactArrow> arrows_of(const SolvedScene& solved, const DrawnScene& drawn,
+                                    const Vector& values) {
+  Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
+  const Vector readable = readable_numbers(solved, most_rows).lambda;
+  lambda.head(readable.size()) = readable;
+  return ContactArrows(*solved.scene.system, drawn).at(solved.scene.state, values, lambda);
+}
+
+}  // namespace
+
+Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, PageArea area) {
+  const Scene& scene = solved.scene;
+  const Vector values = drawn.values(scene.state);
+  Polygon all;
+  std::vector<Polygon> outlines;
+  for (const DrawnScene::Shape& shape : drawn.shapes()) {
+    outlines.push_back(outline(shape, values));
+    all.insert(all.end(), outlines.back().begin(), outlines.back().end());
+  }
+  const PageWindow window(all, 1);
+  LabelledPage page(window, area);
+  for (std::size_t k = 0; k < outlines.size(); ++k) {
+    if (drawn.shapes()[k].kind == DrawnShape::Kind::point)
+      page.point(outlines[k].front(), "with points pt 7 ps 0.9 lc rgb \"#222222\" notitle");
+    else
+      page.line(outlines[k], "with lines lc rgb \"#222222\" lw 2.2 notitle");
+  }
+  const std::vector<ContactArrow> arrows = arrows_of(solved, drawn, values);
+  double longest = 0;
+  for (const ContactArrow& arrow : arrows)
+    longest = std::max(longest, std::hypot(arrow.force[0], arrow.force[1]));
+  constexpr double longest_part = 0.28;  // of the picture
+  std::set<Index> named;
+  for (const ContactArrow& arrow : arrows) {
+    const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
+    const Point tip = at + longest_part * window.size() / longest * force;
+    page.arrow(at, tip, "lc rgb \"#d55e00\" lw 2");
+  }
+  std::vector<std::string> unnamed;
+  for (const ContactArrow& arrow : arrows) {
+    if (!named.insert(arrow.constraint).second) continue;
+    const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
+    const Point step = longest_part * window.size() / longest * force;
+    const std::string& name = scene.constraints[static_cast<std::size_t>(arrow.constraint)];
+    if (!page.label({at + step, at + step / 2, at}, name + " " + number_text(force.norm()), "#b04a00"))
+      unnamed.push_back(name);
+  }
+  for (const Index a : scene.contacts)
+    if (named.count(a) == 0) unnamed.push_back(scene.constraints[static_cast<std::size_t>(a)]);
+  std::string title = heading_line(scene.title.empty() ? scene.file : scene.title);
+  if (!arrows.empty()) title += "\nforces of contacts, the longest " + number_text(longest);
+  if (!unnamed.empty()) title += "\n" + heading_line("in contact, without an arrow: " + listed(unnamed));
+  return {page.script("", "", title), page_size, area.page_width};
+}
+
+Drawing scene_drawing(const SolvedScene& solved, const DrawnScene& drawn,
+                      const std::optional<std::string>& plane) {
+  if (drawn.shapes().empty() || !solved.has_answer()) return decomposition_drawing(solved, plane);
+  if (solved.scene.problem.dimension() < 2) return mechanism_drawing(solved, drawn, {});
+  constexpr int both = 2 * page_size;
+  const Drawing left = mechanism_drawing(solved, drawn, {0, both}),
+                right = decomposition_drawing(solved, plane, {page_size, both});
+  return {"set multiplot\n" + left.script + right.script + "unset multiplot\n", page_size, both};
+}
+
+}  // namespace cli
