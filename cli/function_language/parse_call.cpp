@@ -23,12 +23,11 @@ class Parser {
   Call only_call() {
     cursor_.skip_spaces();
     const Place place = cursor_.place();
-    const std::string_view name = cursor_.take_name();
-    if (name.empty()) {
+    if (!number_begins(cursor_) && !begins_name(cursor_.peek())) {
       if (cursor_.at_end()) cursor_.fail(std::string("empty; write ") + form, place);
       cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form, place);
     }
-    Call call = call_of(name, place, 1);
+    Call call = sum_from(term(1), place, 1);
     require_end();
     return call;
   }
@@ -37,8 +36,9 @@ class Parser {
   void require_end() const {
     if (cursor_.at_end()) return;
     std::string advice = "a call ends with its )";
-    if (cursor_.peek() == '+') advice = "a sum of functions is sum(f, g)";
-    if (cursor_.peek() == '*') advice = "a multiple of a function is scale(f, alpha)";
+    if (cursor_.peek() == '-')
+      advice = "a difference of convex functions need not be convex; give one that is";
+    if (cursor_.peek() == '/') advice = "a multiple of a function is written before it, 1/2*norm1()";
     cursor_.fail(cursor_.shown_next() + " behind the end; " + advice);
   }
 
@@ -63,9 +63,63 @@ class Parser {
     }
   }
 
+  /// 2*f(), f()*2 or f(), as scale(f(), alpha=2) or f().
+  Call term(int depth) {
+    const Place place = cursor_.place();
+    if (number_begins(cursor_)) {
+      const double alpha = take_number(cursor_);
+      return multiple(alpha, place, depth);
+    }
+    const std::string_view name = cursor_.take_name();
+    if (name.empty())
+      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form,
+                   cursor_.place());
+    return scaled_behind(call_of(name, place, depth), place);
+  }
+
+  /// The rest of alpha * f(), from the * on.
+  Call multiple(double alpha, Place place, int depth) {
+    cursor_.skip_spaces();
+    if (!cursor_.take('*'))
+      cursor_.fail(
+          "a number where a function should be; write 2*norm1() for a multiple, constant(2) for the constant",
+          place);
+    const Place begin = cursor_.place();
+    const std::string_view name = cursor_.take_name();
+    if (name.empty())
+      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form, begin);
+    return scaled(call_of(name, begin, depth), alpha, place);
+  }
+
+  Call scaled_behind(Call f, Place place) {
+    if (!cursor_.take('*')) return f;
+    if (!number_begins(cursor_))
+      cursor_.fail("a product of functions; only multiples by a number are convex, 2*norm1()", place);
+    const double alpha = take_number(cursor_);
+    cursor_.skip_spaces();
+    return scaled(std::move(f), alpha, place);
+  }
+
+  static Call scaled(Call f, double alpha, Place place) {
+    return Call{
+        "scale", {{"", std::make_shared<const Call>(std::move(f)), place}, {"", alpha, place}}, place};
+  }
+
+  /// f(), or sum(f(), g(), …) where + follows.
+  Call sum_from(Call first, Place place, int depth) {
+    if (cursor_.peek() != '+') return first;
+    Call sum{"sum", {}, place};
+    sum.arguments.push_back({"", std::make_shared<const Call>(std::move(first)), place});
+    while (cursor_.take('+')) {
+      const Place begin = cursor_.place();
+      sum.arguments.push_back({"", std::make_shared<const Call>(term(depth)), begin});
+    }
+    return sum;
+  }
+
   NamedArgument argument(int depth) {
     const Place place = cursor_.place();
-    if (number_begins(cursor_)) return {"", take_number(cursor_), place};
+    if (number_begins(cursor_)) return {"", value(depth), place};
     const std::string_view name = cursor_.take_name();
     if (name.empty()) return {"", value(depth), place};
     cursor_.skip_spaces();
@@ -76,7 +130,12 @@ class Parser {
   Argument value(int depth) {
     const Place place = cursor_.place();
     if (cursor_.peek() == '[') return take_list(cursor_);
-    if (number_begins(cursor_)) return take_number(cursor_);
+    if (number_begins(cursor_)) {
+      const double number = take_number(cursor_);
+      cursor_.skip_spaces();
+      if (cursor_.peek() != '*') return number;
+      return std::make_shared<const Call>(sum_from(multiple(number, place, depth + 1), place, depth + 1));
+    }
     const std::string_view name = cursor_.take_name();
     if (name.empty())
       cursor_.fail(cursor_.shown_next() +
@@ -86,7 +145,8 @@ class Parser {
   }
 
   Argument nested(std::string_view name, Place place, int depth) {
-    return std::make_shared<const Call>(call_of(name, place, depth + 1));
+    Call f = scaled_behind(call_of(name, place, depth + 1), place);
+    return std::make_shared<const Call>(sum_from(std::move(f), place, depth + 1));
   }
 
   [[noreturn]] void fail_bare(std::string_view name, Place place) const {

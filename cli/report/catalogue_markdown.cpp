@@ -20,6 +20,7 @@ What may stand in `f` of a `[decomposition]` ([problem-files.md](problem-files.m
   matrix `[[1, 2], [3, 4]]` by rows, a set or a function. Where a vector is wanted a number stands for equal entries; where a function
   is wanted a set stands for its indicator. `a=1` below is a default.
 - A function that is not convex, closed and proper is refused, and so is an empty set.
+- `2*norm1() + norm2()` is `sum(scale(norm1(), 2), norm2())`, also as an argument. A difference, which need not be convex, is refused.
 - Numbers in a call are plain coordinates, whatever the metric, and so are the norms in names. The metric's product (x|y) = x·Wy enters
   in `conjugate`, `envelope`, `support` and `proximal_average` alone. Inside `separable` these take the diagonal block of the metric,
   inside `precompose` the identity.

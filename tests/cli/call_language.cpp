@@ -94,15 +94,36 @@ TEST_CASE("a name may begin with inf") {
   CHECK(parse("f(infinite=1)").arguments[0].key == "infinite");
 }
 
+TEST_CASE("a sum and a multiple between functions are the calls of sum and scale") {
+  const std::vector<std::pair<const char*, const char*>> table{
+      {"2*norm1()", "scale(norm1(), 2)"},
+      {" norm1()*2 ", "scale(norm1(), 2)"},
+      {"1/2 * norm1() + norm2()", "sum(scale(norm1(), 1/2), norm2())"},
+      {"norm1()+2*norm2()+3*hinge()", "sum(norm1(), scale(norm2(), 2), scale(hinge(), 3))"},
+      {"conjugate(norm1() + 2*norm2())", "conjugate(sum(norm1(), scale(norm2(), 2)))"},
+      {"envelope(3*norm1() + indicator(orthant()), gamma=2)",
+       "envelope(sum(scale(norm1(), 3), indicator(orthant())), gamma=2)"},
+      {"inf_convolution(f=2*norm1(), g=norm2() + norm1())",
+       "inf_convolution(f=scale(norm1(), 2), g=sum(norm2(), norm1()))"},
+  };
+  for (const auto& [written, meant] : table) {
+    CAPTURE(written);
+    CHECK(convex::to_text(parse(written)) == convex::to_text(parse(meant)));
+  }
+}
+
 TEST_CASE("what is no call is refused where it goes wrong, with what to do") {
   const std::vector<Refusal> table{
       {"", 1, 1, "name(arguments)"},
       {"   ", 1, 4, "name(arguments)"},
       {"norm1", 1, 1, "norm1()"},
       {"indicator(orthant)", 1, 11, "orthant()"},
-      {"2*norm1()", 1, 1, "name"},
-      {"norm1()*2", 1, 8, "scale(f, alpha)"},
-      {"norm1() + norm2()", 1, 9, "sum(f, g)"},
+      {"2", 1, 1, "constant(2)"},
+      {"2*3", 1, 3, "name"},
+      {"norm1()*norm2()", 1, 1, "product"},
+      {"norm1() - norm2()", 1, 9, "difference"},
+      {"norm1() +", 1, 10, "name"},
+      {"norm1()/2", 1, 8, "1/2*norm1()"},
       {"norm1())", 1, 8, "behind the end"},
       {"norm1(", 1, 1, "no ) closes norm1("},
       {"sum(norm1(), norm2()", 1, 1, "no ) closes sum("},
