@@ -59,7 +59,7 @@ std::unique_ptr<const LagrangianSystem> three_cranks() {
                          {"middle_across", "sin(a) + sin(k) = sin(c)"}}});
 }
 
-bool near(const Vector& x, const Vector& y, double tolerance = 1e-12) {
+bool is_near_state(const Vector& x, const Vector& y, double tolerance = 1e-12) {
   return (x - y).norm() <= tolerance * std::max(1.0, y.norm());
 }
 
@@ -85,9 +85,9 @@ TEST_CASE("a bead that passes a crossing of two wires moves as on the wire it is
     const Answer found = answer(*crossing, state), expected = answer(*alone, state);
     REQUIRE(found.resolution.added.size() == 1);
     CHECK(expected.resolution.added.empty());
-    CHECK(near(found.q2(), expected.q2(), 1e-11));
+    CHECK(is_near_state(found.q2(), expected.q2(), 1e-11));
     CHECK(found.solution.primal.status == convex::Status::solved);
-    CHECK(near(found.solution.reaction, expected.solution.reaction, 1e-11));
+    CHECK(is_near_state(found.solution.reaction, expected.solution.reaction, 1e-11));
     REQUIRE(found.resolution.warnings.size() == 1);
     CHECK(found.resolution.warnings[0].kind == Warning::Kind::singular);
   }
@@ -116,8 +116,8 @@ TEST_CASE("surfaces that touch each other let pass what their crossing curve let
     const auto touch = in_space({{"g", g + " = 0"}, {"touch", "2.5*" + g + " + " + a + "*" + b + " = 0"}});
     const State state = along_curve(*curve, {std::stod(place[0]), std::stod(place[1]), std::stod(place[2])});
     const Answer found = answer(*touch, state), expected = answer(*curve, state);
-    CHECK(near(found.q2(), expected.q2(), 1e-9));
-    CHECK(near(found.solution.reaction, expected.solution.reaction, 1e-9));
+    CHECK(is_near_state(found.q2(), expected.q2(), 1e-9));
+    CHECK(is_near_state(found.solution.reaction, expected.solution.reaction, 1e-9));
     touching += found.resolution.added.size();
   }
   CHECK(touching == 60);
@@ -144,7 +144,7 @@ TEST_CASE("a constraint that others imply changes nothing, at rest and in motion
     if (trial % 2 == 0) state.v.setZero();
     const Answer found = answer(*all, state), expected = answer(*fewer, state);
     CHECK(found.resolution.added.empty());
-    CHECK(near(found.q2(), expected.q2(), 1e-10));
+    CHECK(is_near_state(found.q2(), expected.q2(), 1e-10));
   }
 }
 
@@ -154,7 +154,7 @@ TEST_CASE(
   const State state = tests::state({0, 0, 0}, {5, 5, 0});
   const Answer found = answer(*cranks(3), state);
   REQUIRE(found.resolution.added.size() == 1);
-  CHECK(near(found.q2(), Vector{{3, 3, 0}}));
+  CHECK(is_near_state(found.q2(), Vector{{3, 3, 0}}));
   const AddedRow& row = found.resolution.added[0];
   // d³(along)/dt³ = -3 (a' a'' - b' b'') at k = k' = 0.
   CHECK(row.weights == std::vector<std::pair<Index, double>>{{0, 1.0}});
@@ -190,7 +190,7 @@ TEST_CASE("loops that are redundant everywhere pass: nothing is added, nothing i
     const Answer found = answer(*three, tests::state({angle, angle, angle, 0}, {5, 5, 5, 0}));
     CHECK(found.resolution.added.empty());
     CHECK(found.resolution.warnings.empty());
-    CHECK(near(found.q2(), Vector{{2, 2, 2, 0}}));
+    CHECK(is_near_state(found.q2(), Vector{{2, 2, 2, 0}}));
   }
 
   for (const char* always : {"sin(x)^2 + cos(x)^2 = 1", "x - x = 0", "x*y = 0", "exp(x) = 1"}) {
@@ -199,14 +199,14 @@ TEST_CASE("loops that are redundant everywhere pass: nothing is added, nothing i
         answer(*particle({{"slot", "x = 0"}, {"always", always}}), tests::state({0, 0.7}, {0, 2}));
     CHECK(found.resolution.added.empty());
     CHECK(found.resolution.warnings.empty());
-    CHECK(near(found.q2(), Vector{{0, -9.81}}));
+    CHECK(is_near_state(found.q2(), Vector{{0, -9.81}}));
   }
 }
 
 TEST_CASE("a third crank on a flat parallelogram takes its part of the torque as well") {
   const auto three = three_cranks();
   const Answer found = answer(*three, tests::state({0, 0, 0, 0}, {5, 5, 5, 0}));
-  CHECK(near(found.q2(), Vector{{2, 2, 2, 0}}));
+  CHECK(is_near_state(found.q2(), Vector{{2, 2, 2, 0}}));
   CHECK_FALSE(found.resolution.added.empty());
 }
 
@@ -241,7 +241,7 @@ TEST_CASE("a power that is 0 holds where its base is 0") {
         {"(x^2 + y^2 - 1)^2 = 0", Vector{{1, 0}}, Vector{{0, 2}}, Vector{{-4, -9.81}}}}) {
     CAPTURE(std::string(power.constraint));
     const Answer found = answer(*particle({{"power", power.constraint}}), State{0, power.q, power.v});
-    CHECK(near(found.q2(), power.q2));
+    CHECK(is_near_state(found.q2(), power.q2));
     REQUIRE(found.resolution.warnings.size() == 1);
     CHECK(found.resolution.warnings[0].constraints == std::vector<Index>{0});
     CHECK(found.resolution.warnings[0].message.find("vanishes wherever it holds") != std::string::npos);
@@ -260,7 +260,7 @@ TEST_CASE("a product of powers holds where one of its bases is 0") {
   for (const char* product : {"x^2*y^2 = 0", "x^2*y^3 = 0", "0 = -x*y^2*x/3"}) {
     CAPTURE(product);
     const Answer found = answer(*particle({{"wires", product}}), tests::state({0, 0}, {1, 0}));
-    CHECK(near(found.q2(), Vector{{0, 0}}));
+    CHECK(is_near_state(found.q2(), Vector{{0, 0}}));
   }
 }
 
@@ -277,7 +277,7 @@ TEST_CASE("a constraint that holds at rest just where linear forms vanish is hel
     CAPTURE(std::string(valley.constraint));
     const Answer found = answer(*particle({{"valley", valley.constraint}}), tests::state({0, 0}, {0, 0}));
     CHECK(found.resolution.added.size() == valley.forms);
-    CHECK(near(found.q2(), valley.q2));
+    CHECK(is_near_state(found.q2(), valley.q2));
   }
   // Parabolas that touch are no line.
   for (const char* other : {"y^2 = y*x^2", "y^2 = x^4"}) {
@@ -306,7 +306,7 @@ TEST_CASE("gradients that vanish but for the rounding of pi are seen to vanish")
   const double pi = 3.14159265358979323846;
   const Answer turned = answer(*cranks(3), tests::state({pi, pi, 0}, {5, 5, 0}));
   REQUIRE(turned.resolution.added.size() == 1);
-  CHECK(near(turned.q2(), Vector{{3, 3, 0}}));
+  CHECK(is_near_state(turned.q2(), Vector{{3, 3, 0}}));
 }
 
 TEST_CASE("one-sided contacts are solved together with the equations that third derivatives add") {
@@ -314,7 +314,7 @@ TEST_CASE("one-sided contacts are solved together with the equations that third 
   const Answer stopped =
       answer(*particle({{"wires", "y^2 = x^2"}, {"stop", "x >= t"}}), tests::state({0, 0}, {1, 1}));
   REQUIRE(stopped.resolution.added.size() == 1);
-  CHECK(near(stopped.q2(), Vector{{0, 0}}));
+  CHECK(is_near_state(stopped.q2(), Vector{{0, 0}}));
   CHECK(stopped.solution.multipliers.least_norm[1] == doctest::Approx(9.81));
 }
 
@@ -353,7 +353,7 @@ TEST_CASE("a redundant loop typed with ten digits counts as redundant, and is sa
   const auto three = three_cranks();
   const Answer found =
       answer(*three, tests::state({1.0471975512, 1.0471975509, 1.0471975516, 0}, {5, 5, 5.0000000002, 0}));
-  CHECK(near(found.q2(), Vector{{2, 2, 2, 0}}, 1e-6));
+  CHECK(is_near_state(found.q2(), Vector{{2, 2, 2, 0}}, 1e-6));
   REQUIRE(found.resolution.warnings.size() == 1);
   CHECK(found.resolution.warnings[0].kind == Warning::Kind::singular);
   CHECK(found.resolution.warnings[0].message.find("more digits") != std::string::npos);

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "convex/decomposition.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "convex/invalid_input.hpp"
 #include "tests/convex/operations/samples.hpp"
 
