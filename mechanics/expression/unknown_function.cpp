@@ -11,10 +11,9 @@ struct Saying {
   std::string_view unknown, here;
 };
 constexpr std::string_view two_constraints =
-    "in a constraint write two: max(a, b) <= c is a <= c and b <= c, min(a, b) >= c is a >= c and b >= c";
+    "write max(a, b) or min(a, b); smoother, in a constraint, are two: max(a, b) <= c is a <= c and b <= c, "
+    "min(a, b) >= c is a >= c and b >= c";
 constexpr Saying sayings[] = {
-    {"max", two_constraints},
-    {"min", two_constraints},
     {"fmax", two_constraints},
     {"fmin", two_constraints},
     {"pow", "write x^p for pow(x, p)"},
@@ -22,9 +21,7 @@ constexpr Saying sayings[] = {
     {"sqr", "write x^2"},
     {"square", "write x^2"},
     {"cbrt", "write x^(1/3)"},
-    {"hypot", "write sqrt(x^2 + y^2)"},
     {"norm", "write sqrt(x^2 + y^2)"},
-    {"ln", "write log(x), the natural logarithm"},
     {"log10", "write log(x)/log(10)"},
     {"log2", "write log(x)/log(2)"},
     {"fabs", "write abs(x)"},
@@ -43,10 +40,8 @@ constexpr Saying sayings[] = {
     {"ddt", "the time derivative is x'"},
     {"dot", "the time derivative is x'"},
     {"Sum", "write sum(i in 1..N, ...)"},
-    {"sgn",
-     "it jumps at 0; a force that jumps is not in this language, write tanh(x/small) for a smooth one"},
-    {"sign",
-     "it jumps at 0; a force that jumps is not in this language, write tanh(x/small) for a smooth one"},
+    {"sgn", "write sign(x)"},
+    {"heaviside", "write step(x)"},
     {"floor", "it jumps, and motions need derivatives"},
     {"ceil", "it jumps, and motions need derivatives"},
     {"round", "it jumps, and motions need derivatives"},
@@ -59,7 +54,7 @@ std::string instead_of_function(std::string_view unknown) {
   for (const Saying& saying : sayings)
     if (saying.unknown == unknown) return std::string(saying.here);
   std::vector<std::string> known = function_names();
-  known.emplace_back("sum");
+  for (const char* other : {"sign", "hypot", "step", "if", "table", "sum"}) known.emplace_back(other);
   const std::string nearest = convex::nearest_name(unknown, known);
   if (!nearest.empty()) return "did you mean \"" + nearest + "\"?";
   std::string list = "the functions are ";
