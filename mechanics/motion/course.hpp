@@ -39,4 +39,15 @@ class Motion::Course {
   void note_penetration(Index a, double f, double scale);
 };
 
+/// A motion that is not begun, and why.
+class Motion::NotBegun final : public Motion::Course {
+ public:
+  NotBegun(const LagrangianSystem& of, const State& at, MotionOptions chosen, std::string reason)
+      : Course(of, std::move(chosen)) {
+    state = at;
+    stop(std::move(reason));
+  }
+  bool advance(double) override { return false; }
+};
+
 }  // namespace mechanics

@@ -28,9 +28,6 @@ constexpr double weakest_multiplier = 1e-12;
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
-/// Rows of contacts are held in full: so many numbers of them are the most that is tried.
-constexpr double most_numbers_of_rows = 2e7;
-
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
@@ -62,11 +59,6 @@ void Motion::EventDriven::begin(const State& at) {
     zeros_of_f_[static_cast<std::size_t>(a)] = 1;
     if (found.rates.df[a] > options.contact_tolerance[a] * found.rates.df_scale[a]) opening.push_back(a);
   }
-  const std::size_t asked = touching.size() + found.closing.size();
-  if (static_cast<double>(asked) * static_cast<double>(state.q.size()) > most_numbers_of_rows)
-    return stop("at t = " + number_text(state.t) + ": " + std::to_string(asked) + " contacts of " +
-                std::to_string(state.q.size()) +
-                " coordinates are too many to be followed event by event; take method = \"time-stepping\"");
   if (!found.closing.empty()) {
     opening.insert(opening.end(), touching.begin(), touching.end());
     collide(found.closing, opening, switches);

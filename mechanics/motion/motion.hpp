@@ -110,6 +110,7 @@ class Motion {
  private:
   class Course;
   class EventDriven;
+  class NotBegun;
   class TimeStepping;
   std::unique_ptr<Course> course_;
 };

@@ -67,16 +67,18 @@ Motion::TimeStepping::TimeStepping(const LagrangianSystem& of, const State& at, 
 bool Motion::TimeStepping::advance(double until) {
   if (!may_advance(until)) return false;
   const double before = state.t;
-  double end = origin_ + static_cast<double>(count_ + 1) * options.step;
+  // The same length for all steps, to the last digit: what is at rest is then the same problem again.
+  double h = options.step, end = origin_ + static_cast<double>(count_ + 1) * options.step;
   // What is left of the last step may be a rounding of it.
   constexpr double least_part = 1e-6;
   if (end > until - least_part * options.step) {
     end = until;
+    h = end - before;
     origin_ = until;
     count_ = -1;
   }
   try {
-    take_step(end - before, end);
+    take_step(h, end);
   } catch (const convex::InvalidInput& error) {
     stop("at t = " + number_text(state.t) + ": " + error.what());
   }

@@ -216,7 +216,8 @@ TEST_CASE("time-stepping writes what following events writes, as means over its 
   const MotionJson found = MotionJson::parse(outcome.out);
   CHECK(found["method"] == "time-stepping");
   CHECK(found["steps"] == 1000);
-  const MotionJson exact = MotionJson::parse(run({"simulate", "--json", file, "--method", "event-driven"}).out);
+  const MotionJson exact =
+      MotionJson::parse(run({"simulate", "--json", file, "--method", "event-driven"}).out);
   CHECK(exact["method"] == "event-driven");
   CHECK(std::abs(found["position"]["x"].get<double>() - exact["position"]["x"].get<double>()) <= 1e-2);
   CHECK(found["impacts"] == exact["impacts"]);
@@ -226,4 +227,19 @@ TEST_CASE("time-stepping writes what following events writes, as means over its 
   std::size_t count = 0;
   for (std::string line; std::getline(lines, line); ++count) CHECK(MotionJson::parse(line).contains("kind"));
   CHECK(found["events"] == count);
+}
+
+TEST_CASE("a scene with too many contacts to follow each event is stopped at once, with the method to take") {
+  const Folder folder;
+  const std::string file = folder.write(
+      "grid.toml",
+      "[system]\ncoordinates = [\"x[1..N]\"]\nkinetic = \"sum(i in 1..N, x[i]'^2/2)\"\n"
+      "[system.parameters]\nN = 6000\n[system.constraints]\n\"floor[i in 1..N]\" = \"x[i] >= 0\"\n"
+      "[state]\nposition = { \"x[i]\" = 0 }\n[simulate]\nuntil = 1\nstep = 0.25\n");
+  const Outcome outcome = run({"simulate", "--json", file});
+  CHECK(outcome.code == 3);
+  const MotionJson found = MotionJson::parse(outcome.out);
+  CHECK(found["status"] == "stopped");
+  CHECK(found["why"].get<std::string>().find("time-stepping") != std::string::npos);
+  CHECK(run({"simulate", "--json", file, "--method", "time-stepping"}).code == 0);
 }
