@@ -65,10 +65,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   cli::Work chosen;
-  for (const auto add :
-       {cli::add_solve, cli::add_check, cli::add_derive, cli::add_explain, cli::add_assemble, cli::add_sweep,
-        cli::add_simulate, cli::add_orbit, cli::add_convert, cli::add_prox, cli::add_conjugate,
-        cli::add_functions, cli::add_methods, cli::add_gallery, cli::add_chart, cli::add_stress})
+  for (const auto add : {cli::add_solve, cli::add_check, cli::add_derive, cli::add_explain, cli::add_assemble,
+                         cli::add_sweep, cli::add_simulate, cli::add_orbit, cli::add_convert, cli::add_schema,
+                         cli::add_prox, cli::add_conjugate, cli::add_functions, cli::add_methods,
+                         cli::add_gallery, cli::add_chart, cli::add_stress})
     add(app, chosen);
 
   if (argc > 1)

@@ -56,6 +56,30 @@ class Sweep {
     const auto [place, is_new] = adjoint_.emplace(operand, amount);
     if (!is_new) place->second = binary(Operation::add, place->second, amount);
   }
+  /// f of an adjoint, where conditions stay outermost: 0 times what is undefined on a branch that is not
+  /// taken would be undefined too.
+  template <class Function>
+  NodeId behind_conditions(NodeId adjoint, Function f) {
+    const Operation operation = tape_->operation(adjoint);
+    const NodeId a = tape_->a(adjoint), b = tape_->b(adjoint);
+    if (is_where(operation)) return binary(operation, a, behind_conditions(b, f));
+    if (operation == Operation::add && (has_condition(a) || has_condition(b)))
+      return binary(operation, behind_conditions(a, f), behind_conditions(b, f));
+    return f(adjoint);
+  }
+  bool has_condition(NodeId sum) const {
+    while (tape_->operation(sum) == Operation::add) {
+      if (has_condition(tape_->b(sum))) return true;
+      sum = tape_->a(sum);
+    }
+    return is_where(tape_->operation(sum));
+  }
+  NodeId times(NodeId adjoint, NodeId factor) {
+    return behind_conditions(adjoint, [&](NodeId mine) { return product(mine, factor); });
+  }
+  NodeId turned(NodeId adjoint) {
+    return behind_conditions(adjoint, [&](NodeId mine) { return negative(mine); });
+  }
   NodeId slope(NodeId node);
   void give_power(NodeId node, NodeId mine);
 
@@ -73,11 +97,11 @@ void Sweep::give_power(NodeId node, NodeId mine) {
     if (exponent != 0 && exponent != 1) {
       const NodeId reduced =
           exponent == 2 ? a : binary(Operation::power, a, binary(Operation::subtract, b, one()));
-      give(a, product(mine, binary(Operation::multiply, b, reduced)));
+      give(a, times(mine, binary(Operation::multiply, b, reduced)));
     }
   }
   if (!tape_->is_constant(b))
-    give(b, product(mine, binary(Operation::multiply, node, unary(Operation::log, a))));
+    give(b, times(mine, binary(Operation::multiply, node, unary(Operation::log, a))));
 }
 
 /// f' of a function of one argument; no_node where it is 0 everywhere.
@@ -131,28 +155,29 @@ void Sweep::pass_down(NodeId node) {
     case time:
       return;
     case negate:
-      return give(a, negative(mine));
+      return give(a, turned(mine));
     case Operation::add:
       give(a, mine);
       return give(b, mine);
     case subtract:
       give(a, mine);
-      return give(b, negative(mine));
+      return give(b, turned(mine));
     case multiply:
-      give(a, product(mine, b));
-      return give(b, product(mine, a));
+      give(a, times(mine, b));
+      return give(b, times(mine, a));
     case divide: {
-      const NodeId share = binary(divide, mine, b);
+      const NodeId share = behind_conditions(mine, [&](NodeId m) { return binary(divide, m, b); });
       give(a, share);
-      if (!tape_->is_constant(b)) give(b, negative(binary(multiply, share, node)));
+      if (!tape_->is_constant(b)) give(b, turned(times(share, node)));
       return;
     }
     case Operation::power:
       return give_power(node, mine);
     case atan2: {  // (a' b - a b') / (a² + b²)
-      const NodeId share = binary(divide, mine, binary(Operation::add, square(a), square(b)));
-      give(a, binary(multiply, share, b));
-      return give(b, negative(binary(multiply, share, a)));
+      const NodeId square_sum = binary(Operation::add, square(a), square(b));
+      const NodeId share = behind_conditions(mine, [&](NodeId m) { return binary(divide, m, square_sum); });
+      give(a, times(share, b));
+      return give(b, turned(times(share, a)));
     }
     case min:
     case max: {
@@ -164,7 +189,7 @@ void Sweep::pass_down(NodeId node) {
     case where_negative:
       return give(b, binary(tape_->operation(node), a, mine));
     default:
-      if (const NodeId rate = slope(node); rate != no_node) give(a, product(mine, rate));
+      if (const NodeId rate = slope(node); rate != no_node) give(a, times(mine, rate));
   }
 }
 
