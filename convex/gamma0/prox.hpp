@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "convex/functions/value.hpp"
+#include "convex/gamma0/value.hpp"
 #include "convex/nearest_point/solution.hpp"
 #include "convex/vector.hpp"
 

@@ -1,4 +1,4 @@
-#include "convex/functions/value.hpp"
+#include "convex/gamma0/value.hpp"
 
 #include <cmath>
 
