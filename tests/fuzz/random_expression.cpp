@@ -243,7 +243,7 @@ class Draw {
 
  private:
   std::string diagonal(int n) {
-    std::string text = "[";
+    std::string text = "diagonal [";
     static constexpr std::array<const char*, 5> entries{"0.03125", "0.5", "1", "2", "10"};
     for (int i = 0; i < n; ++i) text += (i ? "," : "") + std::string(any(entries));
     return text + "]";
