@@ -158,7 +158,7 @@ TEST_CASE("what is wrong in a liquid is named, with its place") {
       {tank({{3, "domain = \"{(x^2 - 1)^2 + y^2 <= 0.5}\""}, {9, "low = [-2, -1]\nhigh = [2, 1]"}}),
        "1:1",
        {"not connected"}},
-      {tank({{3, "domain = \"polygon(vertices=[[0, 0], [2, 1], [1, 0], [0, 1]])\""}}), "3:11", {"cross"}},
+      {tank({{3, "domain = \"polygon(vertices=[[0, 0], [2, 2], [2, 0], [0, 1]])\""}}), "3:11", {"cross"}},
       {tank({{4, "density = 0"}}), "4:11", {"above 0"}},
       {tank({{7, "free = { top = { where = \"y\", pressure = \"p0\" } }"}}), "7:27", {"relation"}},
       {tank({{7, "free = { top = { where = \"z >= 1\", pressure = \"p0\" } }"}}), "7:27", {"unknown"}},

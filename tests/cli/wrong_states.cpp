@@ -68,9 +68,10 @@ TEST_CASE("a missing position is an error, a missing velocity is zero") {
   CHECK(run_on("solve", point_on_floor({{12, ""}})).code == 0);
 }
 
-TEST_CASE("values of the state may use parameters and t, and no coordinates") {
+TEST_CASE("values of the state may use parameters, t and the coordinates that are given") {
   CHECK(run_on("solve", point_on_floor({{11, "t = \"m/2\"\nposition = { x = \"g*sin(t)\", y = 0 }"}})).code ==
         0);
-  expect_refusal({position("{ x = \"y\", y = 0 }"), "11:19", {"\"y\"", "coordinate"}});
+  CHECK(run_on("solve", point_on_floor({{11, "position = { x = \"2*y\", y = 0 }"}})).code == 0);
+  expect_refusal({position("{ x = \"y\" }"), "11:12", {"\"y\"", "not given"}});
   expect_refusal({point_on_floor({{12, "t = \"t\""}}), "12:6", {"\"t\""}});
 }

@@ -58,7 +58,7 @@ TEST_CASE("what is wrong in a system is named, with its place") {
       {[](auto& s) { s.kinetic = "x'^2*y'"; }, "2:105", {"not quadratic"}},
       {[](auto& s) { s.kinetic = "x'^0.5"; }, "2:103", {"not quadratic"}},
       {[](auto& s) { s.kinetic = "x'^m*x'"; }, "2:105", {"not quadratic"}},
-      {[](auto& s) { s.kinetic = "abs(x')^2"; }, "2:101", {"not quadratic", "abs(x')"}},
+      {[](auto& s) { s.kinetic = "abs(x')*x'"; }, "2:101", {"not quadratic", "abs(x')"}},
       {[](auto& s) { s.kinetic = "floor"; }, "2:101", {"\"floor\" is a constraint"}},
       {[](auto& s) { s.kinetic = "z'^2"; }, "2:101", {"\"z\" is a family", "z[i]"}},
       {[](auto& s) { s.kinetic = "x[1]'^2"; }, "2:101", {"\"x\" has no index"}},
@@ -271,9 +271,7 @@ TEST_CASE("what is wrong in a state is named, with its place") {
   expect(error({{"x", "0"}, {"z[2]", "0"}}), "59:1", {"y, z[1], z[3] missing"});
   expect(error({{"x", "0"}, {"yy", "0"}}), "61:1", {"\"yy\" is no coordinate", "\"y\""});
   expect(error(all, {{"h", "1"}}), "70:1", {"velocity", "\"h\" is a definition"});
-  expect(error({{"x", "y"}}), "60:101", {"\"y\" is a coordinate"});
-  expect(error({{"x", "h"}}), "60:101", {"\"h\" is a definition"});
-  expect(error({{"x", "x'"}}), "60:101", {"\"x\" is a coordinate"});
+  expect(error({{"x", "y"}}), "59:1", {"\"y\" is used and not given"});
   expect(error({{"x", "1/0"}}), "60:102", {"position of x", "not finite"});
   expect(error({{"x", "log(-m)"}}), "60:101", {"not finite"});
   expect(error({{"z[i in 1..4]", "1"}}), "60:1", {"z[4] does not exist"});

@@ -36,7 +36,7 @@ TEST_CASE("an argument may be given by position or by name") {
 }
 
 TEST_CASE("a wrong argument is refused with its name and the nearest known one") {
-  CHECK(contains(message_of({"norm2", {argument("wieght", 2.0)}}), "did you mean \"weight\"?"));
+  CHECK(contains(message_of({"norm2", {argument("wieght", 2.0)}}), "its one argument is \"weight\""));
   CHECK(contains(message_of({"norm3"}), "did you mean \"norm"));
   CHECK(contains(message_of({"norm2", {{"", 1.0, {}}, {"", 1.0, {}}}}), "too many"));
   CHECK(contains(message_of({"norm2", {{"", 1.0, {}}, argument("weight", 1.0)}}), "given twice"));
