@@ -223,9 +223,14 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
                                            (std::size_t{1} << j)))
         branch = -branch;
     }
-    if (!switches.empty()) expansion_.set(state);
-    ContactAnswer answer = expansion_.expand(question);
-    if (!answer.excluding.empty() || is_consistent(switches)) return answer;
+    try {
+      if (!switches.empty()) expansion_.set(state);
+      ContactAnswer answer = expansion_.expand(question);
+      if (!answer.excluding.empty() || is_consistent(switches)) return answer;
+    } catch (
+        const convex::InvalidInput&) {  // a branch beyond which nothing is defined, such as a table's end
+      if (switches.empty()) throw;
+    }
   }
   return std::nullopt;
 }

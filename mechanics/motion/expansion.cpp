@@ -59,8 +59,20 @@ void Expansion::set(const State& state) {
   series_[program.time()][0] = state.t;
   series_[program.time()][1] = 1;
   for (std::size_t group = 0; group < 3; ++group) series_.advance(group, 0);
+  if (!has_branches_) take_branches();
   check_finite(0);
   find_inertia();
+}
+
+/// The first state decides the branches: before that, one that is not taken may be undefined.
+void Expansion::take_branches() {
+  has_branches_ = true;
+  for (std::size_t k = 0; k < switches(); ++k) {  // an argument may contain the switches before it
+    const double argument = switch_argument(k)[0];
+    if (!(argument < 0)) continue;
+    branch(k) = -1;
+    for (std::size_t group = 0; group < 3; ++group) series_.advance(group, 0);
+  }
 }
 
 /// Something that enters coefficient k is not finite: the model says what, or says that a derivative is.

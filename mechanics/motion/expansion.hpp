@@ -98,6 +98,7 @@ class Expansion {
   }
   static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
   void find_inertia();
+  void take_branches();
   void check_finite(int k) const;
   void begin_order(int k);
   Vector free_part(int k) const;
@@ -114,6 +115,7 @@ class Expansion {
   int order_;
   TaylorSeries series_;
   State state_;
+  bool has_branches_ = false;
   std::optional<convex::Metric> A_;
   std::vector<double> change_;   // of every series, when velocities of highest order change
   std::vector<double> columns_;  // the same, several at once

@@ -1,0 +1,50 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "mechanics/motion/motion.hpp"
+#include "tests/mechanics/system_text.hpp"
+
+using namespace tests;
+
+namespace {
+
+/// x and x' of a unit mass at a time, started at x with x' = v.
+std::pair<double, double> moved(const std::string& force, double x, double v, double until,
+                                const std::string& potential = "") {
+  const auto s = system({{"x"}, "x'^2/2", potential, {}, {}, {{"x", force}}, {}});
+  mechanics::Motion motion(*s, state({x}, {v}), {});
+  while (motion.advance(until)) {
+  }
+  return {motion.state().q[0], motion.state().v[0]};
+}
+
+}  // namespace
+
+TEST_CASE("a motion goes over the edges of its forces at the instant when it comes to them") {
+  // From -1/2 with acceleration 1 to 0 at t = 1, half a swing of sin(2s)/2, and back to -1/2 at 2 + π/2.
+  const auto [x, v] = moved("-4*max(x, 0) + if(x < 0, 1, 0)", -0.5, 0, 2 + std::numbers::pi / 2);
+  CHECK(x == doctest::Approx(-0.5).epsilon(1e-12));
+  CHECK(std::abs(v) <= 1e-11);
+}
+
+TEST_CASE("a branch that is not taken may be undefined all along a motion") {
+  CHECK(moved("if(x >= 0, sqrt(x), 0)", -2, 1, 1).first == doctest::Approx(-1).epsilon(1e-14));
+  CHECK(moved("0", -2, 1, 1, "if(x >= 0, sqrt(x), x)").first == doctest::Approx(-1.5).epsilon(1e-14));
+}
+
+TEST_CASE("a motion along a table knows its knots and stops at its end") {
+  // y'' of the spline through (0, 0), (1, 1), (2, 0) is -3t up to 1 and -3(2 - t) from there.
+  const auto [x, v] = moved("table(t, [0, 1, 2], [0, 1, 0])", 0, 0, 1.5);
+  // ∫∫ (3t/2 - t³/2) to 1: 1/4 - 1/40, slope 3/4 - 1/8; then with u = 2 - t, by symmetry.
+  const auto inner = [](double u) { return 0.75 * u * u - u * u * u * u / 8; };
+  CHECK(v == doctest::Approx(2 * inner(1) - inner(0.5)).epsilon(1e-12));
+  const auto outer = [](double u) { return u * u * u / 4 - std::pow(u, 5) / 40; };
+  CHECK(x == doctest::Approx(outer(1) + 2 * inner(1) * 0.5 - (outer(1) - outer(0.5))).epsilon(1e-12));
+  const auto s = system({{"x"}, "x'^2/2", "", {}, {}, {{"x", "table(t, [0, 1, 2], [0, 1, 0])"}}, {}});
+  mechanics::Motion motion(*s, state({0}, {0}), {});
+  while (motion.advance(3)) {
+  }
+  CHECK(motion.state().t == doctest::Approx(2));
+}
