@@ -63,7 +63,10 @@ Polygon cone_at(const Point& x, const Polygon& generators, const PageWindow& win
         second = j;
       }
     }
+  // Where the two nearly oppose each other, the chord between them would cut the cone off in the window.
+  const Point between = generators[first].normalized() + generators[second].normalized();
   Polygon cone{x, corners[first], corners[second]};
+  if (between.norm() > 0) cone.insert(cone.begin() + 2, x + far * between.normalized());
   cone = cut(cone, {1, 0}, window.low.x());
   cone = cut(cone, {-1, 0}, -window.high.x());
   cone = cut(cone, {0, 1}, window.low.y());
