@@ -120,15 +120,24 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
     if (in_cavity) fmt::format_to(std::back_inserter(cavity), "{} {}\n", x, found.largest);
   }
   const bool hatched = !cavity.empty();
-  return {
-      "$p << END\n" + curve + "END\n" + (hatched ? "$cavity << END\n" + cavity + "END\n" : "") +
-          fmt::format(
-              "set title {}\nset xlabel {}\nset ylabel 'p'\nset yrange [0:*]\nunset key\nplot {}$p with "
-              "lines "
-              "lw 2 lc rgb '#0060a0'\n",
-              cli::quoted(liquid_title(found)), cli::quoted(scene.coordinates[0]),
-              hatched ? "$cavity with filledcurves y1=0 fs transparent pattern 5 lc rgb '#808080', " : ""),
-      420};
+  std::string parted;  // the ends at which the liquid leaves a wall, clear of the frame
+  for (const double x : {scene.domain.low[0], scene.domain.high[0]}) {
+    const BoundaryPart* part = scene.part_at({x, 0, 0});
+    const auto& names = found.parted_walls;
+    if (part != nullptr && std::find(names.begin(), names.end(), part->name) != names.end())
+      fmt::format_to(std::back_inserter(parted), "{} 0\n", x);
+  }
+  const double room = 0.02 * (scene.domain.high[0] - scene.domain.low[0]);
+  return {"$p << END\n" + curve + "END\n" + (hatched ? "$cavity << END\n" + cavity + "END\n" : "") +
+              (parted.empty() ? "" : "$parted << END\n" + parted + "END\n") +
+              fmt::format(
+                  "set title {}\nset xlabel {}\nset ylabel 'p'\nset xrange [{}:{}]\nset yrange [0:*]\nunset "
+                  "key\nplot {}$p with lines lw 2 lc rgb '#0060a0'{}\n",
+                  cli::quoted(liquid_title(found)), cli::quoted(scene.coordinates[0]),
+                  scene.domain.low[0] - room, scene.domain.high[0] + room,
+                  hatched ? "$cavity with filledcurves y1=0 fs transparent pattern 5 lc rgb '#808080', " : "",
+                  parted.empty() ? "" : ", $parted with points pt 7 ps 1.2 lc rgb '#d00000'"),
+          420};
 }
 
 }  // namespace
@@ -151,7 +160,8 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found) {
   script += fmt::format(
       "set title {}\nset xlabel {}\nset ylabel {}\nset size ratio -1\nunset key\nset tics out\nset xrange "
       "[{}:{}]\nset "
-      "yrange [{}:{}]\nset cblabel 'p'\nset palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.7 '#6baed6', 1 "
+      "yrange [{}:{}]\nset cblabel 'p'\nset rmargin 10\nset palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.7 "
+      "'#6baed6', 1 "
       "'#2171b5')\nset cbrange [0:{}]\n",
       cli::quoted(heading), cli::quoted(scene.coordinates[0]), cli::quoted(scene.coordinates[1]),
       section.low(0) - room, section.low(0) + section.side(0) + room, section.low(1) - room,
