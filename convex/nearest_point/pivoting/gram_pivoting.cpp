@@ -11,9 +11,6 @@ constexpr Index few_rows = 32;
 /// Places for rows that come in later: so many per coordinate, and for blocks of eight that are not filled.
 constexpr Index rooms = 2, rooms_up_to_200 = 3, unfilled = 128;
 
-/// A smaller violation than this part of the scale does not count.
-constexpr double violation = 1e-12;
-
 /// Where no more than one row in so many changes, the factor is brought up to date; else it is made anew.
 constexpr Index most_changes = 6;
 
@@ -192,7 +189,7 @@ bool GramPivoting::pivot_at_once() {
 }
 
 double GramPivoting::counted_violation() const {
-  return violation * (force_norm_ + std::sqrt(std::abs(energy_)));
+  return least_violation * (force_norm_ + std::sqrt(std::abs(energy_)));
 }
 
 /// Lists the rows in that state that the point found violates.

@@ -16,6 +16,8 @@ class GramPivoting {
   /// A row held of which less than this part, squared, lies outside the span of the others: nearly dependent,
   /// left to an orthogonal factor; or dependent as far as doubles tell, and left out of the rows held.
   static constexpr double near_dependence = 1e-11, dependence = 1e-13;
+  /// A smaller violation than this part of the scale does not count in doubles.
+  static constexpr double least_violation = 1e-12;
 
   /// w_free = L⁻¹z, padded; row_scale: ||u_a||_(D⁻¹), D the diagonal of A, by which violations are compared.
   GramPivoting(const NearestPointProblem& problem, Arena& arena, const double* w_free,

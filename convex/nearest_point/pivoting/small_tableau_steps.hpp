@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/dense/pack_kernels.hpp"
+#include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 
 namespace convex {
@@ -10,9 +11,6 @@ namespace convex {
 /// A row entering of which less than this part, squared, lies outside the span of those held is nearly
 /// dependent, and left to `GramSolve`.
 inline constexpr double nearly_dependent = 1e-6;
-
-/// So little of it is rounding: it depends on them as far as doubles tell, and may contradict them.
-inline constexpr double dependent = 1e-13;
 
 /// `SmallKernels`, to be compiled for a processor family each. Packs: one when n and m are at most 8, so that
 /// loops over packs vanish; 4 otherwise.
@@ -90,7 +88,7 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
     if (!t.held[k] && !(pivot > nearly_dependent * t.square[k])) {
-      if (!(pivot > dependent * t.square[k])) t.dependent = k;
+      if (!(pivot > GramPivoting::dependence * t.square[k])) t.dependent = k;
       return false;
     }
     const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
@@ -184,7 +182,6 @@ struct SmallTableauSteps : Kernels<W, Fused> {
   /// Sweeps until no multiplier b that may leave is negative and no row that may enter is violated. norm:
   /// ||·|| of the whitened force that the load is of.
   MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
-    constexpr double violation = 1e-12;  // as in `GramPivoting`
     const Index patience = t.steps + 4 * t.m + 8;
     for (;; ++t.steps) {
       alignas(64) double out[SmallTableau::most], in[SmallTableau::most];
@@ -198,8 +195,8 @@ struct SmallTableauSteps : Kernels<W, Fused> {
       Index a = largest(out, stride(t));
       if (!(out[a] >= 0)) {
         a = largest(in, stride(t));
-        if (!(in[a] > violation * norm)) break;
-        const double scale = violation * (norm + std::sqrt(std::abs(P::total(energy))));
+        if (!(in[a] > GramPivoting::least_violation * norm)) break;
+        const double scale = GramPivoting::least_violation * (norm + std::sqrt(std::abs(P::total(energy))));
         if (!(in[a] > scale)) break;
       }
       if (t.steps == patience || !sweep(t, a)) return false;
