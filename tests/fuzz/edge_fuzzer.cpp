@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -90,6 +91,14 @@ Outcome outcome(const NearestPointProblem& problem, const Solution& found, std::
   if (found.status != Status::solved) {
     why = std::string(found.undecided);
     return Outcome::refused;
+  }
+  for (Index a = 0; a < found.lambda.size(); ++a) {
+    const bool two_sided = std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
+    if (two_sided ||
+        (found.lambda[a] >= 0 && found.slack[a] >= 0 && !(found.lambda[a] > 0 && found.slack[a] > 0)))
+      continue;
+    why = "a multiplier or slack of the wrong sign";
+    return Outcome::wrong;
   }
   RationalPoint truth;
   if (!find_truth(problem, found.basis, truth)) {
