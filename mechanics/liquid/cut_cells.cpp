@@ -21,11 +21,10 @@ std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
 class Cutting {
  public:
-  Cutting(const LiquidScene& scene, const std::array<Index, 3>& cells)
-      : scene_(scene), domain_(scene.domain), d_(scene.dimension()), wall_level_(scene) {
-    std::array<Index, 3> points{1, 1, 1};
-    for (std::size_t i = 0; i < d_; ++i) points[i] = cells[i] + 1;
-    made_.grid = CutGrid(d_, points);
+  Cutting(const LiquidScene& scene, const std::array<Index, 3>& cells, const Window& window)
+      : scene_(scene), domain_(scene.domain), d_(scene.dimension()), wall_level_(scene), cells_(cells) {
+    made_.grid = CutGrid(d_, window.points);
+    made_.first = window.first;
     made_.low = domain_.low;
     for (std::size_t i = 0; i < d_; ++i)
       made_.step[i] = (domain_.high[i] - domain_.low[i]) / static_cast<double>(cells[i]);
@@ -156,7 +155,8 @@ class Cutting {
     double part_of_volume = 1;
     std::array<int, 3> end{};  // which side of the box the node is on
     for (std::size_t i = 0; i < d_; ++i) {
-      end[i] = place[i] == 0 ? -1 : place[i] == grid().points[i] - 1 ? 1 : 0;
+      const Index whole = place[i] + made_.first[i];
+      end[i] = whole == 0 ? -1 : whole == cells_[i] ? 1 : 0;
       if (end[i] == 0) continue;
       part_of_volume *= 0.5;
       (end[i] < 0 ? opening.low : opening.high)[i] = 0;
@@ -271,6 +271,7 @@ class Cutting {
   const Domain& domain_;
   std::size_t d_;
   WallLevel wall_level_;
+  std::array<Index, 3> cells_;
   CutCells made_;
   std::vector<Side> side_;
   std::vector<std::ptrdiff_t> open_;
@@ -291,7 +292,7 @@ Point CutCells::at(Index k) const {
   const auto i = place(k);
   Point x{};
   for (std::size_t axis = 0; axis < grid.dimension; ++axis)
-    x[axis] = low[axis] + step[axis] * static_cast<double>(i[axis]);
+    x[axis] = low[axis] + step[axis] * static_cast<double>(first[axis] + i[axis]);
   return x;
 }
 
@@ -305,7 +306,13 @@ std::array<Index, 3> CutCells::place(Index k) const {
 }
 
 CutCells cut_cells(const LiquidScene& scene, const std::array<Index, 3>& cells) {
-  return Cutting(scene, cells).cut();
+  Window whole;
+  for (std::size_t i = 0; i < scene.dimension(); ++i) whole.points[i] = cells[i] + 1;
+  return cut_cells(scene, cells, whole);
+}
+
+CutCells cut_cells(const LiquidScene& scene, const std::array<Index, 3>& cells, const Window& window) {
+  return Cutting(scene, cells, window).cut();
 }
 
 }  // namespace mechanics::liquid

@@ -31,6 +31,7 @@ struct WallPiece {
 struct CutCells {
   convex::CutGrid grid;
   Point low{}, step{};
+  std::array<convex::Index, 3> first{};  ///< of a window: the place of its first node on the whole grid
   std::vector<double> volume;            ///< of the cell of each point, cut by walls
   std::vector<double> given;             ///< the pressure at fixed points that lie on the boundary, else NaN
   std::vector<GivenPressure> pressures;  ///< at cut links and fixed points
@@ -40,10 +41,21 @@ struct CutCells {
   Point at(convex::Index k) const;
   /// Of a whole cell across an axis; the volume for any other number.
   double face_area(std::size_t axis) const;
+  /// In the window.
   std::array<convex::Index, 3> place(convex::Index k) const;
+};
+
+/// A part of a grid: nodes first to first + points - 1 by axis.
+struct Window {
+  std::array<convex::Index, 3> first{}, points{1, 1, 1};
+  /// What a window must have around a node, by axis, so that the node has the row that it has on the whole
+  /// grid.
+  static constexpr convex::Index margin = 4;
 };
 
 /// `cells`: by axis. Throws InvalidInput where a boundary point lies in no part.
 CutCells cut_cells(const LiquidScene&, const std::array<convex::Index, 3>& cells);
+/// Of this part of the grid only.
+CutCells cut_cells(const LiquidScene&, const std::array<convex::Index, 3>& cells, const Window&);
 
 }  // namespace mechanics::liquid

@@ -40,38 +40,44 @@ void GridLevels::require_memory(const LiquidScene& scene, long cells) {
   throw convex::InvalidInput(std::string(numbers) + "; give fewer cells, or leave them out");
 }
 
-GridLevels::GridLevels(const LiquidScene& scene, long cells) : scene_(scene) {
-  require_memory(scene, cells);
+std::array<Index, 3> GridNesting::cells(long times) const {
+  std::array<Index, 3> n{1, 1, 1};
+  for (std::size_t i = 0; i < 3; ++i) n[i] = coarsest[i] << times;
+  return n;
+}
+
+GridNesting nest_grids(const LiquidScene& scene, long cells) {
   double shortest = scene.domain.longest();
   for (std::size_t i = 0; i < scene.dimension(); ++i)
     shortest = std::min(shortest, scene.domain.high[i] - scene.domain.low[i]);
   // The coarsest grid has a cell or more across the shortest side and four or more along the longest.
   const double least = std::max(4.0, std::min(std::ceil(scene.domain.longest() / shortest), 64.0));
   constexpr long most = 40;  // beyond it, odd numbers of cells are rounded up
-  long coarsest = std::max(cells, static_cast<long>(least)), doublings = 0;
+  GridNesting made;
+  long coarsest = std::max(cells, static_cast<long>(least));
   while (coarsest % 2 == 0 && static_cast<double>(coarsest / 2) >= least) {
     coarsest /= 2;
-    ++doublings;
+    ++made.doublings;
   }
   while (coarsest > most && static_cast<double>(coarsest) >= 2 * least) {
     coarsest = (coarsest + 1) / 2;
-    ++doublings;
+    ++made.doublings;
   }
   for (std::size_t i = 0; i < scene.dimension(); ++i)
-    coarsest_[i] = std::max<Index>(
+    made.coarsest[i] = std::max<Index>(
         1, std::lround(static_cast<double>(coarsest) * (scene.domain.high[i] - scene.domain.low[i]) /
                        scene.domain.longest()));
-  for (long k = 0; k <= doublings; ++k) refine();
+  return made;
 }
 
-std::array<Index, 3> GridLevels::counts(std::size_t doublings) const {
-  std::array<Index, 3> n{1, 1, 1};
-  for (std::size_t i = 0; i < scene_.dimension(); ++i) n[i] = coarsest_[i] << doublings;
-  return n;
+GridLevels::GridLevels(const LiquidScene& scene, long cells)
+    : scene_(scene), nesting_((require_memory(scene, cells), nest_grids(scene, cells))) {
+  for (long k = 0; k <= nesting_.doublings; ++k) refine();
 }
 
 void GridLevels::refine() {
-  levels_.insert(levels_.begin(), std::make_unique<CutCells>(cut_cells(scene_, counts(levels_.size()))));
+  const auto times = static_cast<long>(levels_.size());
+  levels_.insert(levels_.begin(), std::make_unique<CutCells>(cut_cells(scene_, nesting_.cells(times))));
 }
 
 long GridLevels::cells() const {

@@ -74,16 +74,7 @@ double content(const LiquidScene& scene, const CutCells& cells) {
   double cell_volume = 1;
   for (std::size_t i = 0; i < domain.dimension; ++i) cell_volume *= cells.step[i];
   for_nodes(cells, [&](Index k, const std::array<Index, 3>&) {
-    CellLevels cell;
-    cell.dimension = domain.dimension;
-    const Point x = cells.at(k);
-    for (unsigned code = 0; code < 1U << domain.dimension; ++code) {
-      Point corner = x;
-      for (std::size_t i = 0; i < domain.dimension; ++i)
-        corner[i] += ((code >> i & 1U) != 0 ? 0.5 : -0.5) * cells.step[i];
-      cell.at[code] = domain.level(corner);
-    }
-    sum += cell_volume * cell.fraction();
+    sum += cell_volume * part_in_domain(scene.domain, cells.at(k), cells.step);
   });
   return sum;
 }
@@ -248,6 +239,18 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
 }
 
 }  // namespace
+
+double part_in_domain(const Domain& domain, const Point& node, const Point& step) {
+  CellLevels cell;
+  cell.dimension = domain.dimension;
+  for (unsigned code = 0; code < 1U << domain.dimension; ++code) {
+    Point corner = node;
+    for (std::size_t i = 0; i < domain.dimension; ++i)
+      corner[i] += ((code >> i & 1U) != 0 ? 0.5 : -0.5) * step[i];
+    cell.at[code] = domain.level(corner);
+  }
+  return cell.fraction();
+}
 
 LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
   const std::size_t axis = scene.dimension() - 1;

@@ -8,10 +8,22 @@
 
 namespace mechanics::liquid {
 
+/// Nested grids: cells by axis of the coarsest, and how many times they are doubled.
+struct GridNesting {
+  std::array<convex::Index, 3> coarsest{1, 1, 1};
+  long doublings = 0;
+  std::array<convex::Index, 3> cells(long times) const;
+};
+
+/// Of about so many cells along the longest side; exactly so many where that can be halved often enough.
+GridNesting nest_grids(const LiquidScene&, long cells);
+
+/// How much of the cell around a node lies in the domain, to second order in the step.
+double part_in_domain(const Domain&, const Point& node, const Point& step);
+
 /// A scene on nested grids, each of twice as many cells a side as the next.
 class GridLevels {
  public:
-  /// Of about so many cells along the longest side; exactly so many where that can be halved often enough.
   GridLevels(const LiquidScene&, long cells);
   /// Twice as many cells.
   void refine();
@@ -31,9 +43,8 @@ class GridLevels {
   long cells() const;
 
  private:
-  std::array<convex::Index, 3> counts(std::size_t doublings) const;
   const LiquidScene& scene_;
-  std::array<convex::Index, 3> coarsest_{1, 1, 1};
+  GridNesting nesting_;
   std::vector<std::unique_ptr<CutCells>> levels_;
 };
 
