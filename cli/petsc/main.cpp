@@ -69,21 +69,56 @@ void write_text(const Request& request, const DistributedPressure& found, int ra
       seconds, found.bytes_of_a_rank * 1e-6);
 }
 
-int solve(const Request& request) {
-  int rank = 0, ranks = 1;
+int rank_of_this() {
+  int rank = 0;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
-  const double start = MPI_Wtime();
+  return rank;
+}
+
+LiquidScene read(const Request& request) {
   const cli::Problem problem = cli::read_problem_file(request.file, request.set);
   const auto* liquid = std::get_if<cli::LiquidProblem>(&problem.content);
   if (liquid == nullptr) throw convex::InvalidInput("the file has no [liquid]; solve it by `moreau solve`");
-  const LiquidScene scene = mechanics::liquid::read_scene(liquid->text);
+  return mechanics::liquid::read_scene(liquid->text);
+}
+
+int solve(const Request& request, const LiquidScene& scene, double start) {
+  int ranks = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &ranks);
   const long cells = request.cells > 0 ? request.cells : scene.cells.value_or(256);
   const DistributedPressure found = cli::petsc::solve_distributed(scene, cells, request.files);
-  if (rank == 0)
+  if (rank_of_this() == 0)
     request.json ? write_json(request, scene, found, ranks, MPI_Wtime() - start)
                  : write_text(request, found, ranks, MPI_Wtime() - start);
   return found.has_converged ? solved : not_converged;
+}
+
+void tell(const Request& request, const std::exception& error) {
+  std::string place = request.file;
+  if (const auto* input = dynamic_cast<const convex::InvalidInput*>(&error);
+      input != nullptr && input->place())
+    place += ":" + std::to_string(input->place()->line) + ":" + std::to_string(input->place()->column);
+  std::fprintf(stderr, "moreau_petsc: %s: %s\n", place.c_str(), error.what());
+}
+
+/// What all processes read alike is told by the first. What one meets on its part of the grid it tells, and
+/// ends the others, which may wait for it.
+int answer(const Request& request) {
+  const double start = MPI_Wtime();
+  LiquidScene scene;
+  try {
+    scene = read(request);
+  } catch (const std::exception& error) {
+    if (rank_of_this() == 0) tell(request, error);
+    return wrong_input;
+  }
+  try {
+    return solve(request, scene, start);
+  } catch (const std::exception& error) {
+    tell(request, error);
+    MPI_Abort(PETSC_COMM_WORLD, wrong_input);
+  }
+  return wrong_input;
 }
 
 }  // namespace
@@ -125,15 +160,7 @@ int main(int argc, char** argv) {
   if (PetscInitializeNoArguments() != 0 || PetscOptionsInsertString(nullptr, petsc_settings) != 0 ||
       PetscOptionsInsert(nullptr, &count, &arguments, nullptr) != 0)
     return wrong_input;
-  int outcome = wrong_input;
-  try {
-    outcome = solve(request);
-  } catch (const std::exception& error) {
-    int rank = 0;
-    MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
-    std::fprintf(stderr, "moreau_petsc: %s: %s\n", request.file.c_str(), error.what());
-    MPI_Abort(PETSC_COMM_WORLD, wrong_input);  // the others may wait for this one
-  }
+  const int outcome = answer(request);
   PetscFinalize();
   return outcome;
 }

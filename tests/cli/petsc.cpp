@@ -1,0 +1,107 @@
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+
+namespace {
+
+/// A rotating liquid in a corner of walls under a free surface, with a cavity, on a domain that is no box.
+constexpr const char* corner = R"toml([liquid]
+coordinates = ["x", "y"]
+domain = "polygon(vertices=[[0, 0], [1, 0], [1, 0.7], [0.5, 1], [0, 1]])"
+density = 1
+velocity = ["-w*(y - 0.4)", "w*(x - 0.5)"]
+free = { roof = { where = "y + 0.6*x > 1.2999 or y > 0.9999", pressure = 0.3 } }
+walls = { rest = { where = "true", acceleration = 0 } }
+cells = 64
+[liquid.parameters]
+w = 1.5
+)toml";
+
+constexpr const char* ball = R"toml([liquid]
+coordinates = ["x", "y", "z"]
+domain = "ball(center=[0, 0, 0], radius=1)"
+density = 1
+force = ["x", "2*y", "3*z"]
+free = { rim = { where = "true", pressure = "0.4 + 0.1*x" } }
+cells = 16
+)toml";
+
+using PressureTable = std::map<std::vector<long>, double>;
+
+/// p by coordinates, in millionths. Columns after p are passed over.
+PressureTable pressures(const std::string& file, std::size_t dimension) {
+  PressureTable table;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    std::vector<long> at;
+    for (std::size_t i = 0; i < dimension && std::getline(cells, cell, ','); ++i)
+      at.push_back(std::lround(std::stod(cell) * 1e6));
+    if (std::getline(cells, cell, ',') && !cell.empty()) table[at] = std::stod(cell);
+  }
+  return table;
+}
+
+int run_petsc(int ranks, const std::string& arguments) {
+  const std::string program = std::string(MOREAU_PROGRAM) + "_petsc";
+  return std::system(
+      ("mpirun --oversubscribe -n " + std::to_string(ranks) + " " + program + " " + arguments).c_str());
+}
+
+}  // namespace
+
+TEST_SUITE("petsc") {
+  TEST_CASE("the pressure on two processes is that on one and that of the embedded solver") {
+    const Folder folder;
+    for (const auto& [text, dimension] : {std::pair<std::string, std::size_t>{corner, 2}, {ball, 3}}) {
+      CAPTURE(text);
+      const std::string file = folder.write("liquid.toml", text);
+      const std::string one = folder.path("one.csv"), two = folder.path("two.csv"),
+                        own = folder.path("own.csv");
+      REQUIRE(run_petsc(1, "solve " + file + " --data " + one + " > /dev/null") == 0);
+      REQUIRE(run_petsc(2, "solve " + file + " --json --data " + two + " > " + folder.path("two.json")) == 0);
+      const Outcome embedded = run({"solve", "--json", file, "--data", own});
+      CHECK((embedded.code == 0 || embedded.code == 3));
+      const auto told = nlohmann::json::parse(std::ifstream(folder.path("two.json")));
+      const auto ours = nlohmann::json::parse(embedded.out);
+      CHECK(told["petsc"]["ranks"] == 2);
+      CHECK(told["unknowns"] == ours["unknowns"]);
+      const double largest = ours["pressure"]["max"];
+      CHECK(told["pressure"]["max"].get<double>() == doctest::Approx(largest).epsilon(1e-3));
+      CHECK(told["cavity"]["fraction"].get<double>() > 0);
+      const PressureTable first = pressures(one, dimension), second = pressures(two, dimension),
+                          third = pressures(own, dimension);
+      CHECK(first.size() > 1000);
+      CHECK(first.size() == second.size());
+      std::size_t shared = 0;
+      for (const auto& [at, p] : first) {
+        REQUIRE(second.contains(at));
+        CHECK(std::abs(second.at(at) - p) <= 1e-9 * largest);
+        if (const auto found = third.find(at); found != third.end()) {
+          CHECK(std::abs(found->second - p) <= 1e-8 * largest);
+          ++shared;
+        }
+      }
+      CHECK(shared > 50);
+    }
+  }
+
+  TEST_CASE("a file without a liquid is refused on many processes with the reason") {
+    const Folder folder;
+    const std::string file = folder.write("p.toml", "[projection]\nz = [1]\nU = [[1]]\n"),
+                      said = folder.path("said");
+    CHECK(run_petsc(2, "solve " + file + " > /dev/null 2> " + said) != 0);
+    std::ostringstream text;
+    text << std::ifstream(said).rdbuf();
+    CHECK(text.str().find("has no [liquid]") != std::string::npos);
+  }
+}
