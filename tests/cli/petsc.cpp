@@ -97,7 +97,7 @@ TEST_SUITE("petsc") {
 
   TEST_CASE("a file without a liquid is refused on many processes with the reason") {
     const Folder folder;
-    const std::string file = folder.write("p.toml", "[projection]\nz = [1]\nU = [[1]]\n"),
+    const std::string file = folder.write("p.toml", "[projection]\nA = [[1]]\nz = [1]\nU = [[1]]\ns = [0]\n"),
                       said = folder.path("said");
     CHECK(run_petsc(2, "solve " + file + " > /dev/null 2> " + said) != 0);
     std::ostringstream text;
