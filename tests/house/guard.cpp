@@ -106,10 +106,13 @@ TEST_CASE("the top level holds the rooms and nothing else") {
 }
 
 TEST_CASE("every header of the library compiles alone") {
+  // These include Ceres' and PETSc's own.
+  const auto needs_more = [](const std::string& path) {
+    return path == "mechanics/jet_system.hpp" || path.starts_with("cli/petsc/");
+  };
   std::vector<std::string> headers;
   for (const SourceFile& file : tests::source_files())
-    if (file.is_header() && file.room != "tests" && file.path != "mechanics/jet_system.hpp")
-      headers.push_back(file.path);
+    if (file.is_header() && file.room != "tests" && !needs_more(file.path)) headers.push_back(file.path);
   // Eigen is precompiled: it is most of the time, and what lacks convex/vector.hpp shows all the same.
   const fs::path eigen = fs::temp_directory_path() / ("moreau_house_" + std::to_string(getpid()) + ".hpp");
   std::ofstream(eigen) << "#include <Eigen/Core>\n#include <Eigen/SparseCore>\n";
