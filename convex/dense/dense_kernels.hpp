@@ -38,6 +38,8 @@ struct DenseKernels {
   void (*backward)(Index n, Index ld, const double* T, const double* inverse, double* x);
   /// X := L⁻¹X for eight vectors side by side.
   void (*forward_pack)(Index n, Index ld, const double* T, const double* inverse, double* X);
+  /// X := L⁻ᵀX.
+  void (*backward_pack)(Index n, Index ld, const double* T, const double* inverse, double* X);
   /// into[l·stride + k] := X_k·Y_l, k, l < 8.
   void (*gram)(Index n, const double* X, const double* Y, double* into, Index stride);
   /// into_k := X_k·y, k < 8.

@@ -135,6 +135,30 @@ struct TriangleKernels : Packs<W, Fused> {
       P::store(X + 8 * i, P::times(sum, reciprocal(i)));
     }
   }
+
+  MOREAU_INLINE void backward_pack(Index n, Index ld, const double* T, const double* inverse, double* X) {
+    const auto reciprocal = [&](Index i) { return inverse[i / 8 * 128 + i % 8 * 9]; };
+    Index i = n;
+    for (; i >= 4; i -= 4) {
+      Pack sum[4];
+      const double* column = T + (i - 4) * ld;
+      for (int r = 0; r < 4; ++r) sum[r] = P::load(X + 8 * (i - 4 + r));
+      for (Index j = i; j < n; ++j) {
+        const Pack x = P::load(X + 8 * j);
+        for (int r = 0; r < 4; ++r) P::subtract_product(sum[r], x, column[r * ld + j]);
+      }
+      for (int r = 3; r >= 0; --r) {
+        for (int c = 3; c > r; --c) P::subtract_product(sum[r], sum[c], column[r * ld + i - 4 + c]);
+        sum[r] = P::times(sum[r], reciprocal(i - 4 + r));
+        P::store(X + 8 * (i - 4 + r), sum[r]);
+      }
+    }
+    while (i-- > 0) {
+      Pack sum = P::load(X + 8 * i);
+      for (Index j = i + 1; j < n; ++j) P::subtract_product(sum, P::load(X + 8 * j), T[i * ld + j]);
+      P::store(X + 8 * i, P::times(sum, reciprocal(i)));
+    }
+  }
 };
 
 }  // namespace convex

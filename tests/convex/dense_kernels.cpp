@@ -69,6 +69,8 @@ std::vector<double> outcome(const DenseKernels& kernels, const Data& data) {
   keep(Vector(into.head(8)));
   kernels.forward_pack(n, ld, T.data(), inverse.data(), X.data());
   keep(X);
+  kernels.backward_pack(n, ld, T.data(), inverse.data(), X.data());
+  keep(X);
   kernels.gram(n, X.data(), X.data(), G.data(), 8);
   keep(G);
   kernels.slacks(m, n, data.U.data(), data.x.data(), data.s.data(), into.data());
@@ -110,6 +112,15 @@ TEST_CASE("a dense factor times its transpose is the matrix, and solves with it 
     const Vector y = x;
     kernels.backward(n, ld, T.data(), inverse.data(), x.data());
     CHECK((L.transpose() * x.head(n) - y.head(n)).norm() <= 1e-14 * L.norm() * x.norm());
+    Matrix B(8, n);
+    for (Index i = 0; i < n; ++i)
+      for (Index k = 0; k < 8; ++k) B(k, i) = data.U(k % data.U.rows(), i);
+    Matrix X = B;
+    kernels.forward_pack(n, ld, T.data(), inverse.data(), X.data());
+    CHECK((L * X.transpose() - B.transpose()).norm() <= 1e-14 * L.norm() * X.norm());
+    const Matrix Y = X;
+    kernels.backward_pack(n, ld, T.data(), inverse.data(), X.data());
+    CHECK((L.transpose() * X.transpose() - Y.transpose()).norm() <= 1e-14 * L.norm() * X.norm());
   }
 }
 

@@ -81,9 +81,19 @@ bool SlackOnEdge::cancels(Index p, double whole) {
   for (const auto& [a, c] : terms_) sum += std::abs(c);
   if (grid_ > 0 && sum <= most_terms) {
     const RowMatrix& U = problem_.U.dense();
-    rest_.noalias() = -whole * U.row(p).transpose();
-    for (const auto& [a, c] : terms_) rest_.noalias() += c * U.row(a).transpose();
-    return (rest_.array() == 0).all();
+    constexpr Index part = 64;  // so many entries at a time: most that are no sums show it soon
+    double rest[part];
+    for (Index first = 0; first < U.cols(); first += part) {
+      const Index count = std::min(part, U.cols() - first);
+      const double* const u = U.data() + p * U.cols() + first;
+      for (Index i = 0; i < count; ++i) rest[i] = -whole * u[i];
+      for (const auto& [a, c] : terms_) {
+        const double* const v = U.data() + a * U.cols() + first;
+        for (Index i = 0; i < count; ++i) rest[i] += c * v[i];
+      }
+      if (std::any_of(rest, rest + count, [](double x) { return x != 0; })) return false;
+    }
+    return true;
   }
   for (Index i = 0; i < problem_.dimension(); ++i) {
     ExactSum rest;

@@ -29,7 +29,6 @@ class SlackOnEdge {
   const NearestPointProblem& problem_;
   const double* row_scale_;
   std::vector<std::pair<Index, double>> terms_;
-  Vector rest_;
   double grid_ =
       -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
 };

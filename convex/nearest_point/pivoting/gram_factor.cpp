@@ -116,6 +116,11 @@ void GramFactor::solve(double* x) const {
   kernels_.backward(size_, ld_, L_, inverse_, x);
 }
 
+void GramFactor::solve_pack(double* X) const {
+  kernels_.forward_pack(size_, ld_, L_, inverse_, X);
+  kernels_.backward_pack(size_, ld_, L_, inverse_, X);
+}
+
 void GramFactor::solve_upper(double* x) const {
   if (size_ > 0) kernels_.backward(size_, ld_, L_, inverse_, x);
 }

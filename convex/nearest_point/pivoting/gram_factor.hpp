@@ -57,6 +57,8 @@ class GramFactor {
 
   /// x := (VᵀV)⁻¹x; padded.
   void solve(double* x) const;
+  /// The same for eight vectors side by side.
+  void solve_pack(double* X) const;
   /// x := L⁻ᵀx.
   void solve_upper(double* x) const;
   double pivot(Index j) const { return L_[j * (ld_ + 1)]; }

@@ -69,6 +69,7 @@ class GramPivoting {
 
   /// x := (VᵀV)⁻¹x over the rows held; padded.
   void solve(double* x) const { set_.solve(x); }
+  void solve_pack(double* X) const { set_.solve_pack(X); }
   /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
   void point(double* w, double* q) const;
   /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.

@@ -33,8 +33,10 @@ bool GramPivoting::drop_most_negative() {
   Index worst = -1;
   double lowest = 0;
   for (Index j = 0; j < set_.size(); ++j) {
-    const double push = lambda_[set_.place(j)] * std::sqrt(rows_.square(set_.place(j)));
-    if (state_[row(j)] != held || !(push < lowest)) continue;
+    const Index place = set_.place(j);
+    if (!(lambda_[place] < 0) || state_[row(j)] != held) continue;
+    const double push = lambda_[place] * std::sqrt(rows_.square(place));
+    if (!(push < lowest)) continue;
     lowest = push;
     worst = j;
   }
@@ -67,8 +69,10 @@ bool GramPivoting::raise(Index a) {
     double partial = infinity;
     Index blocking = -1;
     for (Index j = 0; j < set_.size(); ++j) {
-      const double length = std::sqrt(rows_.square(set_.place(j)) / square);
-      if (state_[row(j)] != held || !(r[j] * length > zero_coefficient)) continue;
+      // r_j ||u_j|| is no more than rounding beside ||u_a||
+      if (!(r[j] > 0) || state_[row(j)] != held ||
+          !(r[j] * r[j] * rows_.square(set_.place(j)) > zero_coefficient * zero_coefficient * square))
+        continue;
       const double ratio = std::max(0.0, lambda_[set_.place(j)]) / r[j];
       if (ratio < partial) {
         partial = ratio;

@@ -179,15 +179,15 @@ bool GramSolve::is_independent(Index a) {
 
 /// dual_ := A⁻¹u_j of the rows held, by eights side by side.
 void GramSolve::find_dual_rows() {
-  for (Index j = 0; j < padded(set_->size()); ++j) {
-    double* const into = dual_ + j / 8 * 8 * n_ + j % 8;
-    if (j < set_->size()) {
-      const double* const from = set_->rows().whitened() + set_->place(j) / 8 * 8 * n_ + set_->place(j) % 8;
-      fill_packs(ld_, 0, dq_);
-      for (Index i = 0; i < n_; ++i) dq_[i] = from[8 * i];
-      kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  const Index k = set_->size();
+  for (Index first = 0; first < k; first += 8) {
+    double* const into = dual_ + first * n_;
+    for (Index l = 0; l < 8; ++l) {
+      const Index place = first + l < k ? set_->place(first + l) : 0;
+      const double* const from = set_->rows().whitened() + place / 8 * 8 * n_ + place % 8;
+      for (Index i = 0; i < n_; ++i) into[8 * i + l] = first + l < k ? from[8 * i] : 0;
     }
-    for (Index i = 0; i < n_; ++i) into[8 * i] = j < set_->size() ? dq_[i] : 0;
+    kernels_.backward_pack(n_, ld_, A_.T, A_.inverse, into);
   }
 }
 
@@ -202,12 +202,11 @@ Index GramSolve::leave_sums_of_rows_held(Index count) {
   for (Index first = 0; first < count; first += 8) {
     const Index rows = std::min<Index>(8, count - first);
     set_->rows().copy_rows(close_ + first, rows, pack_);
-    for (Index j = 0; j < padded(k); j += 8)
-      kernels_.gram(n_, dual_ + j * n_, pack_, products_ + j, padded(k));
+    for (Index j = 0; j < k; j += 8) kernels_.gram(n_, pack_, dual_ + j * n_, products_ + 8 * j, 8);
+    set_->solve_pack(products_);
     for (Index l = 0; l < rows; ++l) {
-      double* const coefficients = products_ + l * padded(k);
-      set_->solve(coefficients);
-      const std::optional<int> sign = edge_->sign(close_[first + l], rows_, k, coefficients);
+      for (Index j = 0; j < k; ++j) load_[j] = products_[8 * j + l];
+      const std::optional<int> sign = edge_->sign(close_[first + l], rows_, k, load_);
       if (sign && *sign < 0) return -1;
       if (!sign) close_[left++] = close_[first + l];
     }
@@ -249,6 +248,15 @@ double GramSolve::rise(Index a) const {
   return up;
 }
 
+/// ||u_a||_(A⁻¹).
+double GramSolve::length_of(Index a) {
+  if (const Index place = set_->rows().place(a); place >= 0) return std::sqrt(set_->rows().square(place));
+  fill_packs(ld_, 0, dw_);
+  std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
+  kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
+  return std::sqrt(kernels_.dot(ld_, dw_, dw_));
+}
+
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
 /// what is known.
 double GramSolve::violation_of_touched_rows(double known) {
@@ -259,10 +267,7 @@ double GramSolve::violation_of_touched_rows(double known) {
     // ||u||_(A⁻¹) is at least this
     const double shortest = row_scale_[a] / std::sqrt(static_cast<double>(n_));
     if (!(violation > known * (s + shortest * acceleration_norm_))) continue;
-    fill_packs(ld_, 0, dw_);
-    std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
-    kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
-    const double length = std::sqrt(kernels_.dot(ld_, dw_, dw_)), size = s + length * acceleration_norm_;
+    const double length = length_of(a), size = s + length * acceleration_norm_;
     known = std::max(known, violation / (size > 0 ? size : length * known_.scale));
   }
   return known;
