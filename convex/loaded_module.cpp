@@ -13,7 +13,7 @@ LoadedModule load_symbol(const std::string& built, const std::string& installed,
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
   std::string reason;
   for (const fs::path& folder :
-       {program, program.parent_path() / "lib", fs::path(installed), file_as_built.parent_path()}) {
+       {program, program.parent_path() / "lib/moreau", fs::path(installed), file_as_built.parent_path()}) {
     const fs::path file = folder / file_as_built.filename();
     if (!fs::exists(file, ignored)) continue;
     if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)

@@ -11,7 +11,7 @@ struct LoadedModule {
 };
 
 /// The symbol `name` of the shared module that was built as the file `built`: looked for beside the program,
-/// in the library folder of an installation (`installed`, or lib beside the program's folder), and where it
+/// in the folder of an installation (lib/moreau beside the program's folder, or `installed`), and where it
 /// was built.
 LoadedModule load_symbol(const std::string& built, const std::string& installed, const char* name);
 

@@ -34,6 +34,9 @@ void add_assemble(CLI::App& program, Work& chosen);
 void add_sweep(CLI::App& program, Work& chosen);
 void add_convert(CLI::App& program, Work& chosen);
 void add_schema(CLI::App& program, Work& chosen);
+void add_new(CLI::App& program, Work& chosen);
+void add_help(CLI::App& program, Work& chosen);
+void add_completions(CLI::App& program, Work& chosen);
 
 /// `moreau check --catalogue`: the laws over every set, function and operation of the language.
 Exit check_catalogue(const Printing&);

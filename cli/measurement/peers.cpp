@@ -28,8 +28,8 @@ SolveLcp loaded() {
   const fs::path built(MOREAU_SICONOS_MODULE);
   std::error_code ignored;
   const fs::path program = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  for (const fs::path& folder :
-       {program, program.parent_path() / "lib", fs::path(MOREAU_SICONOS_FOLDER), built.parent_path()}) {
+  for (const fs::path& folder : {program, program.parent_path() / "lib/moreau",
+                                 fs::path(MOREAU_SICONOS_FOLDER), built.parent_path()}) {
     const fs::path file = folder / built.filename();
     if (!fs::exists(file, ignored)) continue;
     if (void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL); handle != nullptr)
