@@ -35,7 +35,7 @@ std::string with_checks(const convex::LawReport& report, const WriteSolve& write
 
 Answer check_decomposition(const DecompositionProblem& problem, const Problem& file_content,
                            const std::string& file, const CheckOptions& options) {
-  require_applicable(file_content.solve, options, false);
+  require_applicable(file_content.solve, options);
   const SplitPoint split = split_point(problem, file_content.solve, options);
   const convex::Function f = convex::make_function(problem.f, {problem.W});
   const convex::LawReport report = convex::laws(f, {problem.z}, {{"given", problem.W}});

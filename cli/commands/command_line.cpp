@@ -76,6 +76,10 @@ void add_function(CLI::App& command, FunctionOptions& options, bool needs_point)
       ->type_name("MATRIX");
 }
 
+void add_proof(CLI::App& command, bool& certify) {
+  command.add_flag("--certify", certify, "a proved error bound; exit 3 without proof");
+}
+
 void add_measurement(CLI::App& command, MeasurementOptions& options, const char* columns) {
   command.add_option("--method", options.method, "this method alone")->type_name("NAME");
   command.add_option("--output", options.output, "the picture: F.svg, F.png or F.pdf (drawn by gnuplot)")

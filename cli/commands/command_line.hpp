@@ -69,8 +69,12 @@ struct FunctionOptions : Printing, AccuracyOptions {
   std::string expression;             ///< a call of the language of functions
   std::optional<std::string> at;      ///< a vector
   std::optional<std::string> metric;  ///< a matrix, or "diagonal [1, 2]"
+  bool certify = false;               ///< a proved error bound
 };
 void add_function(CLI::App& command, FunctionOptions&, bool needs_point);
+
+/// --certify.
+void add_proof(CLI::App& command, bool& certify);
 
 /// A measurement with its picture and its table.
 struct MeasurementOptions : Printing {

@@ -18,7 +18,7 @@ using convex::InvalidInput;
 /// The point and the metric of the command line; `source` tells which is being read.
 DecompositionProblem read_problem(const FunctionOptions& options, Source& source) {
   source = {"--method", options.method.value_or("")};
-  require_applicable({}, options, false);
+  require_applicable({}, options);
   source = {"--at", *options.at};
   convex::Vector z = parse_vector(*options.at, "z");
   if (z.size() == 0) throw InvalidInput("z: empty; give at least one number");
@@ -32,19 +32,25 @@ DecompositionProblem read_problem(const FunctionOptions& options, Source& source
           fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), z.size()));
   }
   source = {"f", options.expression};
-  return {std::move(z), std::move(W), parse_call(options.expression, "f")};
+  convex::Call f = parse_call(options.expression, "f");
+  auto exact = [f, options, W] {
+    convex::Fractions point = written_numbers(*options.at);
+    return convex::SplitQuestion{
+        f, std::move(point), options.metric ? parse_exact_metric(*options.metric) : convex::exact_gram(W)};
+  };
+  return {std::move(z), std::move(W), std::move(f), std::move(exact)};
 }
 
 Exit split_at(const FunctionOptions& options) {
   Source source;
   return answered(options, source, [&] {
     const DecompositionProblem problem = read_problem(options, source);
-    const SplitPoint split = split_point(problem, {}, options);
+    const SplitPoint split = split_point(problem, {}, options, options.certify);
     if (options.json)
       fmt::print("{}\n", split_json(split, ""));
     else if (!options.quiet)
       fmt::print("{}", split_text(split));
-    return exit_code(split.split.status);
+    return split.exit();
   });
 }
 
@@ -56,6 +62,7 @@ void add_prox(CLI::App& program, Work& chosen) {
       program, "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f", chosen,
       [options] { return split_at(*options); });
   add_function(command, *options, true);
+  add_proof(command, options->certify);
   add_accuracy(command, *options);
   add_printing(command, *options);
 }

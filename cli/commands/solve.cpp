@@ -85,9 +85,9 @@ Answer solve_file(const std::string& file, const SolveOptions& options) {
   if (options.plot && !is_scene)
     throw convex::InvalidInput("--plot: a picture is drawn of [system] and [projection]; leave --plot out");
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
-    require_applicable(problem.solve, options, options.certify);
-    const SplitPoint split = split_point(*decomposition, problem.solve, options);
-    return {exit_code(split.split.status),
+    require_applicable(problem.solve, options);
+    const SplitPoint split = split_point(*decomposition, problem.solve, options, options.certify);
+    return {split.exit(),
             options.json ? split_json(split, file) + "\n" : heading(problem.title, file) + split_text(split)};
   }
   if (const auto* cone = std::get_if<ConeProblem>(&problem.content)) {
@@ -135,7 +135,7 @@ void add_solve(CLI::App& program, Work& chosen) {
                    "a basis of the changes of multipliers that no motion feels, in --json");
   command.add_flag("--sensitivity", options->sensitivity,
                    "with --json: derivatives by forces and bounds, and margins of the contacts");
-  command.add_flag("--certify", options->certify, "a proved error bound; exit 3 without proof");
+  add_proof(command, options->certify);
   command
       .add_option(
           "--plot", options->plot,

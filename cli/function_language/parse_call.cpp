@@ -67,8 +67,7 @@ class Parser {
   Call term(int depth) {
     const Place place = cursor_.place();
     if (number_begins(cursor_)) {
-      const double alpha = take_number(cursor_);
-      return multiple(alpha, place, depth);
+      return multiple(take_number(cursor_), place, depth);
     }
     const std::string_view name = cursor_.take_name();
     if (name.empty())
@@ -78,7 +77,7 @@ class Parser {
   }
 
   /// The rest of alpha * f(), from the * on.
-  Call multiple(double alpha, Place place, int depth) {
+  Call multiple(const WrittenNumber& alpha, Place place, int depth) {
     cursor_.skip_spaces();
     if (!cursor_.take('*'))
       cursor_.fail(
@@ -95,14 +94,16 @@ class Parser {
     if (!cursor_.take('*')) return f;
     if (!number_begins(cursor_))
       cursor_.fail("a product of functions; only multiples by a number are convex, 2*norm1()", place);
-    const double alpha = take_number(cursor_);
+    const WrittenNumber alpha = take_number(cursor_);
     cursor_.skip_spaces();
     return scaled(std::move(f), alpha, place);
   }
 
-  static Call scaled(Call f, double alpha, Place place) {
+  static Call scaled(Call f, const WrittenNumber& alpha, Place place) {
     return Call{
-        "scale", {{"", std::make_shared<const Call>(std::move(f)), place}, {"", alpha, place}}, place};
+        "scale",
+        {{"", std::make_shared<const Call>(std::move(f)), place}, {"", alpha.value, place, {alpha.text}}},
+        place};
   }
 
   /// f(), or sum(f(), g(), …) where + follows.
@@ -119,29 +120,34 @@ class Parser {
 
   NamedArgument argument(int depth) {
     const Place place = cursor_.place();
-    if (number_begins(cursor_)) return {"", value(depth), place};
+    if (number_begins(cursor_)) return named("", value(depth), place);
     const std::string_view name = cursor_.take_name();
-    if (name.empty()) return {"", value(depth), place};
+    if (name.empty()) return named("", value(depth), place);
     cursor_.skip_spaces();
     if (!cursor_.take('=')) return {"", nested(name, place, depth), place};
-    return {std::string(name), value(depth), place};
+    return named(std::string(name), value(depth), place);
   }
 
-  Argument value(int depth) {
+  static NamedArgument named(std::string key, WrittenList read, Place place) {
+    return {std::move(key), std::move(read.value), place, std::move(read.written)};
+  }
+
+  WrittenList value(int depth) {
     const Place place = cursor_.place();
     if (cursor_.peek() == '[') return take_list(cursor_);
     if (number_begins(cursor_)) {
-      const double number = take_number(cursor_);
+      const WrittenNumber number = take_number(cursor_);
       cursor_.skip_spaces();
-      if (cursor_.peek() != '*') return number;
-      return std::make_shared<const Call>(sum_from(multiple(number, place, depth + 1), place, depth + 1));
+      if (cursor_.peek() != '*') return {number.value, {number.text}};
+      return {std::make_shared<const Call>(sum_from(multiple(number, place, depth + 1), place, depth + 1)),
+              {}};
     }
     const std::string_view name = cursor_.take_name();
     if (name.empty())
       cursor_.fail(cursor_.shown_next() +
                    " where an argument should be; write a number, a vector [1, 2], a matrix [[1, 2], [3, 4]] "
                    "or name(arguments)");
-    return nested(name, place, depth);
+    return {nested(name, place, depth), {}};
   }
 
   Argument nested(std::string_view name, Place place, int depth) {
@@ -173,11 +179,11 @@ class Parser {
   Cursor& cursor_;
 };
 
-Argument only_list(std::string_view text, std::string_view what, Place begin, const char* example) {
+WrittenList only_list(std::string_view text, std::string_view what, Place begin, const char* example) {
   Cursor cursor(text, what, begin);
   cursor.skip_spaces();
   if (cursor.peek() != '[') cursor.fail(cursor.shown_next() + " where a [ should be; write " + example);
-  Argument list = take_list(cursor);
+  WrittenList list = take_list(cursor);
   if (!cursor.at_end()) cursor.fail(cursor.shown_next() + " behind the end; write " + std::string(example));
   return list;
 }
@@ -191,16 +197,23 @@ Call parse_call(std::string_view text, std::string_view what, Place begin) {
 
 convex::Vector parse_vector(std::string_view text, std::string_view what, Place begin) {
   constexpr const char* example = "a vector, such as [1, -2, 1/3]";
-  const Argument list = only_list(text, what, begin, example);
+  const Argument list = only_list(text, what, begin, example).value;
   if (const auto* x = std::get_if<convex::Vector>(&list)) return *x;
   throw convex::InvalidInput(std::string(what) + ": a matrix; write " + example, begin);
 }
 
 convex::Matrix parse_matrix(std::string_view text, std::string_view what, Place begin) {
   constexpr const char* example = "a matrix, such as [[2, 1], [1, 2]]";
-  const Argument list = only_list(text, what, begin, example);
+  const Argument list = only_list(text, what, begin, example).value;
   if (const auto* M = std::get_if<convex::Matrix>(&list)) return *M;
   throw convex::InvalidInput(std::string(what) + ": a vector; write " + example, begin);
+}
+
+std::vector<convex::Fraction> written_numbers(std::string_view list) {
+  std::vector<convex::Fraction> numbers;
+  for (const std::string& text : only_list(list, "list", {}, "[1, 2]").written)
+    numbers.push_back(convex::read_fraction(text).value());
+  return numbers;
 }
 
 }  // namespace cli

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "convex/exact/fraction.hpp"
 #include "convex/gamma0/call.hpp"
 
 namespace cli {
@@ -18,5 +19,9 @@ convex::Call parse_call(std::string_view text, std::string_view what, convex::Pl
 /// Reads a vector, or a matrix, that stands alone. An empty list is a vector.
 convex::Vector parse_vector(std::string_view text, std::string_view what, convex::Place begin = {});
 convex::Matrix parse_matrix(std::string_view text, std::string_view what, convex::Place begin = {});
+
+/// The numbers of a list that has been read, as they are written: "0.1" is a tenth. Of a vector, row by row
+/// of a matrix.
+std::vector<convex::Fraction> written_numbers(std::string_view list);
 
 }  // namespace cli

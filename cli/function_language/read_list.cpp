@@ -25,25 +25,27 @@ void take_entries(Cursor& cursor, const TakeEntry& take_entry) {
   }
 }
 
-convex::Vector take_numbers(Cursor& cursor) {
+convex::Vector take_numbers(Cursor& cursor, std::vector<std::string>& written) {
   std::vector<double> entries;
   take_entries(cursor, [&] {
     if (!number_begins(cursor))
       cursor.fail(cursor.shown_next() +
                   " where a number should be; a list holds numbers, as [1, 2], or "
                   "rows, as [[1, 2], [3, 4]]");
-    entries.push_back(take_number(cursor));
+    WrittenNumber number = take_number(cursor);
+    entries.push_back(number.value);
+    written.push_back(std::move(number.text));
   });
   return Eigen::Map<const convex::Vector>(entries.data(), static_cast<Index>(entries.size()));
 }
 
-convex::Matrix take_rows(Cursor& cursor) {
+convex::Matrix take_rows(Cursor& cursor, std::vector<std::string>& written) {
   std::vector<convex::Vector> rows;
   take_entries(cursor, [&] {
     const convex::Place place = cursor.place();
     if (cursor.peek() != '[')
       cursor.fail(cursor.shown_next() + " where a row should be; a matrix holds rows, as [[1, 2], [3, 4]]");
-    rows.push_back(take_numbers(cursor));
+    rows.push_back(take_numbers(cursor, written));
     if (rows.back().size() != rows.front().size())
       cursor.fail("row " + std::to_string(rows.size()) + " has length " + std::to_string(rows.back().size()) +
                       ", the first " + std::to_string(rows.front().size()) + "; give rows of one length",
@@ -56,13 +58,17 @@ convex::Matrix take_rows(Cursor& cursor) {
 
 }  // namespace
 
-convex::Argument take_list(Cursor& cursor) {
+WrittenList take_list(Cursor& cursor) {
   std::size_t ahead = 1;
   while (cursor.peek(ahead) == ' ' || cursor.peek(ahead) == '\t' || cursor.peek(ahead) == '\n' ||
          cursor.peek(ahead) == '\r')
     ++ahead;
-  if (cursor.peek(ahead) == '[') return take_rows(cursor);
-  return take_numbers(cursor);
+  WrittenList list;
+  if (cursor.peek(ahead) == '[')
+    list.value = take_rows(cursor, list.written);
+  else
+    list.value = take_numbers(cursor, list.written);
+  return list;
 }
 
 }  // namespace cli

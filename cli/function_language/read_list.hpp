@@ -5,8 +5,14 @@
 
 namespace cli {
 
+/// A vector or matrix, and its numbers as they were written, row by row.
+struct WrittenList {
+  convex::Argument value;
+  std::vector<std::string> written;
+};
+
 /// Takes a list: of numbers, a vector [1, 2]; of such lists, the rows of a matrix [[1, 2], [3, 4]]. An empty
 /// list is a vector. Throws InvalidInput when rows differ in length.
-convex::Argument take_list(Cursor& cursor);
+WrittenList take_list(Cursor& cursor);
 
 }  // namespace cli

@@ -46,14 +46,16 @@ bool number_begins(const Cursor& cursor) {
   return is_digit(c) || c == '.' || c == '-' || c == '+' || infinity_begins(cursor, 0);
 }
 
-double take_number(Cursor& cursor) {
+WrittenNumber take_number(Cursor& cursor) {
   const convex::Place place = cursor.place();
   const bool negative = cursor.peek() == '-';
   const std::size_t sign = negative || cursor.peek() == '+' ? 1 : 0;
   if (infinity_begins(cursor, sign)) {
     cursor.advance(sign + 3);
     cursor.skip_spaces();
-    return negative ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (negative) return {-infinity, "-inf"};
+    return {infinity, "inf"};
   }
   std::size_t length = decimal_length(cursor, sign);
   if (length == 0) {
@@ -77,7 +79,7 @@ double take_number(Cursor& cursor) {
     cursor.fail(
         "the number " + shown(digits) + " is too large for a double; write inf, or choose other units",
         place);
-  return *value;
+  return {*value, std::move(digits)};
 }
 
 }  // namespace cli

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "cli/function_language/cursor.hpp"
 
 namespace cli {
@@ -7,7 +9,13 @@ namespace cli {
 /// Does a number begin here: a digit, a point, a sign, or inf?
 bool number_begins(const Cursor& cursor);
 
+/// A number as it was written, and the double nearest to it.
+struct WrittenNumber {
+  double value = 0;
+  std::string text;
+};
+
 /// Takes a number: 2, -0.5, 1e-3, 1/3 (rounded once), inf, -inf. Throws InvalidInput.
-double take_number(Cursor& cursor);
+WrittenNumber take_number(Cursor& cursor);
 
 }  // namespace cli

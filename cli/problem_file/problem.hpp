@@ -10,6 +10,7 @@
 #include "convex/cones/exact_metric.hpp"
 #include "convex/gamma0/call.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
+#include "convex/proved_prox/proved_split.hpp"
 #include "mechanics/lagrangian_text.hpp"
 #include "mechanics/liquid/liquid_text.hpp"
 
@@ -50,6 +51,7 @@ struct DecompositionProblem {
   convex::Vector z;
   convex::Metric W;
   convex::Call f;
+  std::function<convex::SplitQuestion()> exact = {};  ///< the same with its numbers as they are written
 };
 
 /// `[cone]`: a polyhedral cone in n dimensions, and a point to split between it and its polar in the metric

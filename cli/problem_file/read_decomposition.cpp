@@ -8,6 +8,34 @@ namespace cli {
 
 using convex::InvalidInput;
 
+namespace {
+
+convex::Fractions fractions_of(const convex::ExactVector& x) {
+  convex::Fractions made;
+  for (std::size_t i = 0; i < x.numerators.size(); ++i) made.push_back(convex::entry(x, i));
+  return made;
+}
+
+/// The metric as it is written; of a matrix file, its doubles.
+convex::ExactGram exact_metric_of(const TomlValue& value, const convex::Metric& W) {
+  std::vector<convex::Fractions> rows;
+  if (value.kind != TomlValue::Kind::table) {
+    for (const convex::ExactVector& row : read_exact_matrix(value, "metric", W.dimension(), ""))
+      rows.push_back(fractions_of(row));
+    return convex::exact_gram(rows);
+  }
+  const TomlValue* diagonal = value.find("diagonal");
+  if (diagonal == nullptr) return convex::exact_gram(W);
+  const convex::Fractions d = fractions_of(read_exact_vector(*diagonal, "metric.diagonal"));
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    rows.emplace_back(d.size());
+    rows.back()[i] = d[i];
+  }
+  return convex::exact_gram(rows);
+}
+
+}  // namespace
+
 DecompositionProblem read_decomposition(const TomlValue& table, const std::string& directory) {
   require_known_keys(table, "decomposition", {"z", "f", "metric"});
   const TomlValue *z = table.find("z"), *f = table.find("f"), *metric = table.find("metric");
@@ -21,7 +49,14 @@ DecompositionProblem read_decomposition(const TomlValue& table, const std::strin
       metric == nullptr
           ? convex::Metric::identity(n)
           : read_metric(*metric, {"decomposition", "metric", directory, n, "one per entry of z"});
-  return {std::move(point), std::move(W), parse_call(require_string(*f, "f"), "f", f->content)};
+  convex::Call call = parse_call(require_string(*f, "f"), "f", f->content);
+  // The document outlives no reading: what proofs need of it is copied.
+  const std::optional<TomlValue> gram = metric == nullptr ? std::nullopt : std::optional(*metric);
+  auto exact = [call, z = *z, gram, W] {
+    return convex::SplitQuestion{call, fractions_of(read_exact_vector(z, "z")),
+                                 gram ? exact_metric_of(*gram, W) : convex::exact_gram(W)};
+  };
+  return {std::move(point), std::move(W), std::move(call), std::move(exact)};
 }
 
 }  // namespace cli

@@ -15,8 +15,99 @@ namespace {
 using convex::Index;
 using convex::InvalidInput;
 
-/// The only method that applies: a function knows how its prox is found.
-constexpr const char* own_method = "auto";
+/// A function knows how its prox is found; fractions are the other way.
+constexpr std::string_view own_method = "auto", in_fractions = "exact";
+
+std::string chosen_method(const SolveSettings& settings, const AccuracyOptions& options) {
+  return options.method.value_or(settings.method.value_or(std::string(own_method)));
+}
+
+const char* name(convex::ProofLevel level) {
+  switch (level) {
+    case convex::ProofLevel::none:
+      return "none";
+    case convex::ProofLevel::enclosure:
+      return "enclosure";
+    case convex::ProofLevel::exact:
+      return "exact";
+  }
+  return "";
+}
+
+void write(JsonWriter& json, const char* key, const convex::ProvedInterval& interval) {
+  json.key(key).begin_array().value(interval.low).value(interval.high).end_array();
+}
+
+void write_fractions(JsonWriter& json, const char* key, const convex::Fractions& x) {
+  json.key(key).begin_array();
+  for (const convex::Fraction& entry : x) json.value(convex::text(entry));
+  json.end_array();
+}
+
+void write_certificate(JsonWriter& json, const SplitPoint& solved) {
+  json.key("certificate").begin_object();
+  if (!solved.proof) {
+    json.key("level").value("estimate").key("error_bound").value(solved.split.error_bound).end_object();
+    return;
+  }
+  const convex::ProvedSplit& proof = *solved.proof;
+  json.key("level").value(name(proof.level));
+  const bool proved = proof.level != convex::ProofLevel::none;
+  json.key("error_bound").value(proved ? proof.error_bound() : solved.split.error_bound);
+  if (!proved) {
+    json.key("why").value(proof.why_none).end_object();
+    return;
+  }
+  json.key("x").value(proof.x_bound).key("y").value(proof.y_bound);
+  write(json, "f_x", proof.f_x);
+  write(json, "g_y", proof.g_y);
+  write(json, "inner", proof.inner);
+  json.key("sum").value(proof.sum_miss).end_object();
+}
+
+void write_exact(JsonWriter& json, const convex::ExactSplit& exact) {
+  json.key("exact").begin_object();
+  write_fractions(json, "x", exact.x);
+  write_fractions(json, "y", exact.y);
+  json.key("f_x").value(convex::text(exact.f_x)).key("g_y").value(convex::text(exact.g_y));
+  json.key("inner").value(convex::text(exact.inner)).end_object();
+}
+
+std::string proof_text(const SplitPoint& solved) {
+  const convex::ProvedSplit& proof = *solved.proof;
+  if (proof.level == convex::ProofLevel::none) return "NOT proved: " + proof.why_none + ".\n";
+  std::string text = fmt::format(
+      "Proved{}: the error of x is at most {:.1e}, that of y at most {:.1e}; each was proved by itself, and "
+      "their sum misses z by {:.1e} at most.\n",
+      proof.level == convex::ProofLevel::exact ? " in rational arithmetic" : "", proof.x_bound, proof.y_bound,
+      proof.sum_miss);
+  const auto line = [&](const char* what, const convex::ProvedInterval& interval) {
+    text += interval.low == interval.high
+                ? fmt::format("{} = {}\n", what, number_text(interval.low))
+                : fmt::format("{} lies in [{:.17g}, {:.17g}]\n", what, interval.low, interval.high);
+  };
+  line("f(x*)", proof.f_x);
+  line("g(y*)", proof.g_y);
+  line("(x*|y*)", proof.inner);
+  return text;
+}
+
+/// Fractions longer than this are left to --json.
+constexpr std::size_t longest_fraction = 60;
+
+std::string fraction_text(const convex::Fraction& a) {
+  std::string text = convex::text(a);
+  return text.size() > longest_fraction ? std::to_string(text.size()) + " digits" : text;
+}
+
+std::string exact_text(const convex::ExactSplit& exact) {
+  TextTable table({"exact", "x", "y"});
+  for (std::size_t i = 0; i < std::min(exact.x.size(), static_cast<std::size_t>(most_rows)); ++i)
+    table.add({fmt::format("[{}]", i), fraction_text(exact.x[i]), fraction_text(exact.y[i])});
+  return "\n" + table.text() +
+         fmt::format("f(x) = {}, g(y) = {}, (x|y) = {}; x + y = z without rounding.\n",
+                     fraction_text(exact.f_x), fraction_text(exact.g_y), fraction_text(exact.inner));
+}
 
 const char* name(convex::ProxRoute route) {
   switch (route) {
@@ -41,27 +132,51 @@ std::string how(const convex::Prox& prox) {
 
 }  // namespace
 
-void require_applicable(const SolveSettings& settings, const AccuracyOptions& options, bool certify) {
+void require_applicable(const SolveSettings& settings, const AccuracyOptions& options) {
   const bool from_file = !options.method && settings.method;
-  if (const std::string method = options.method.value_or(settings.method.value_or(own_method));
-      method != own_method)
+  if (const std::string method = chosen_method(settings, options);
+      method != own_method && method != in_fractions)
     throw InvalidInput("method \"" + method +
                            "\" does not apply to a decomposition: each function has its own way to its prox; "
-                           "leave the method out",
+                           "leave the method out, or ask for exact",
                        from_file ? std::optional(settings.method_place) : std::nullopt);
-  if (certify) throw InvalidInput("--certify proves answers to [system] and [projection] only; leave it out");
   if (settings.contact_tolerance || !settings.contact_tolerances.empty())
     throw InvalidInput("solve.contact_tolerance: goes with [system] only; take it out",
                        settings.contact_tolerance_place);
 }
 
+Exit SplitPoint::exit() const {
+  const bool unproved = proof && proof->level == convex::ProofLevel::none;
+  return unproved ? std::max(exit_code(split.status), Exit::inaccurate) : exit_code(split.status);
+}
+
 SplitPoint split_point(const DecompositionProblem& problem, const SolveSettings& settings,
-                       const AccuracyOptions& options) {
+                       const AccuracyOptions& options, bool certify) {
   constexpr double default_tolerance = 1e-9;
   const double tolerance = options.tolerance.value_or(settings.tolerance.value_or(default_tolerance));
+  const bool exactly = chosen_method(settings, options) == in_fractions;
   const convex::Function f = convex::make_function(problem.f, {problem.W});
   const auto start = std::chrono::steady_clock::now();
-  SplitPoint made{problem, convex::decompose(f, problem.z, problem.W, tolerance), 0};
+  SplitPoint made{problem, {}, 0};
+  if (exactly || certify) {
+    const convex::SplitQuestion question = problem.exact();
+    if (exactly) {
+      made.exact = convex::exact_split(question);
+      made.split = convex::rounded(*made.exact, question);
+      made.proof = convex::proof_of(*made.exact, made.split, question);
+    } else {
+      made.split = convex::decompose(f, problem.z, problem.W, tolerance);
+      made.proof = convex::prove(question, made.split);
+    }
+    if (made.proof->level != convex::ProofLevel::none) {
+      const double size = std::max({1.0, problem.W.norm(problem.z), problem.W.norm(made.split.x.x)});
+      made.split.error_bound = made.proof->error_bound();
+      made.split.status =
+          made.split.error_bound <= tolerance * size ? convex::Status::solved : convex::Status::inaccurate;
+    }
+  } else {
+    made.split = convex::decompose(f, problem.z, problem.W, tolerance);
+  }
   made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;
 }
@@ -74,8 +189,8 @@ void write_split(JsonWriter& json, const SplitPoint& solved, const std::string& 
   json.key("f_x").value(split.f_x).key("g_y").value(split.g_y).key("inner").value(split.inner);
   json.key("fenchel_gap").value(split.fenchel_gap).key("residual").value(split.residual);
   json.key("route").begin_object().key("x").value(how(split.x)).key("y").value(how(split.y)).end_object();
-  json.key("certificate").begin_object().key("level").value("estimate");
-  json.key("error_bound").value(split.error_bound).end_object();
+  write_certificate(json, solved);
+  if (solved.exact) write_exact(json, *solved.exact);
   json.key("seconds").value(solved.seconds);
 }
 
@@ -101,6 +216,10 @@ std::string split_text(const SplitPoint& solved) {
                       split.fenchel_gap);
   text += fmt::format("x: {}. y: {}. Their sum misses z by {:.1e}.\n", how(split.x), how(split.y),
                       split.residual);
+  if (solved.exact) text += exact_text(*solved.exact);
+  if (solved.proof) text += proof_text(solved);
+  const bool proved = solved.proof && solved.proof->level != convex::ProofLevel::none;
+  if (proved && split.status == convex::Status::solved) return text;
   text += fmt::format(
       "{}: error of x and of y at most about {:.1e}.\n",
       split.status == convex::Status::solved ? "Solved" : "NOT solved to the accuracy that was asked for",

@@ -24,6 +24,8 @@ struct NamedArgument {
   std::string key;
   Argument value;
   std::optional<Place> place;
+  /// The numbers of the value as they were written, row by row, when it was read from text: "1/3", "0.1".
+  std::vector<std::string> written = {};
 };
 
 struct Call {

@@ -1,0 +1,122 @@
+#include "convex/exact_program/linear_equations.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+
+#include "convex/exact/integer_system.hpp"
+
+namespace convex {
+namespace {
+
+/// Full systems from this size on are lifted modulo a prime (Dixon 1982).
+constexpr std::size_t least_lifted = 24;
+
+std::size_t nonzeros(const std::vector<ExactEquation>& equations) {
+  return std::accumulate(equations.begin(), equations.end(), std::size_t{0},
+                         [](std::size_t sum, const ExactEquation& one) { return sum + one.row.size(); });
+}
+
+/// The unique solution of a square system; none when it is singular.
+std::optional<Fractions> lifted(const std::vector<ExactEquation>& equations, std::size_t n) {
+  IntegerRows M;
+  IntegerVector right;
+  for (const ExactEquation& equation : equations) {
+    Fractions entries(n + 1);
+    for (const auto& [j, value] : equation.row) entries[j] = value;
+    entries[n] = equation.right;
+    ExactVector row = exact_vector(entries);
+    right.push_back(row.numerators.back());
+    row.numerators.pop_back();
+    M.push_back(std::move(row.numerators));
+  }
+  const auto system = IntegerSystem::prepared(M);
+  if (!system) return std::nullopt;
+  const ExactVector solution = system->solve(right);
+  Fractions u(n);
+  for (std::size_t i = 0; i < n; ++i) u[i] = entry(solution, i);
+  return u;
+}
+
+class Elimination {
+ public:
+  Elimination(std::vector<ExactEquation> equations, std::size_t n)
+      : equations_(std::move(equations)), in_rows_(n), waiting_(equations_.size()) {
+    for (std::size_t a = 0; a < equations_.size(); ++a) {
+      waiting_[a] = a;
+      for (const auto& [j, value] : equations_[a].row) in_rows_[j].insert(a);
+    }
+  }
+
+  /// False when an equation reads 0 = something else.
+  bool run() {
+    while (!waiting_.empty()) {
+      const auto shortest = std::min_element(waiting_.begin(), waiting_.end(), [&](auto a, auto b) {
+        return equations_[a].row.size() < equations_[b].row.size();
+      });
+      const std::size_t a = *shortest;
+      waiting_.erase(shortest);
+      const ExactEquation& chosen = equations_[a];
+      if (chosen.row.empty()) {
+        if (sign(chosen.right) != 0) return false;
+        continue;
+      }
+      const std::size_t pivot = rarest(chosen.row);
+      for (const auto& [j, value] : chosen.row) in_rows_[j].erase(a);
+      const std::set<std::size_t> others = in_rows_[pivot];
+      for (std::size_t b : others) subtract(chosen, pivot, b);
+      solved_.emplace_back(pivot, a);
+    }
+    return true;
+  }
+
+  Fractions back_substituted(Fractions u) const {
+    for (auto step = solved_.rbegin(); step != solved_.rend(); ++step) {
+      const auto& [pivot, a] = *step;
+      const ExactEquation& equation = equations_[a];
+      u[pivot] = {};
+      u[pivot] = (equation.right - dot(equation.row, u)) / equation.row.at(pivot);
+    }
+    return u;
+  }
+
+ private:
+  std::size_t rarest(const ExactRow& row) const {
+    return std::min_element(row.begin(), row.end(),
+                            [&](const auto& one, const auto& other) {
+                              return in_rows_[one.first].size() < in_rows_[other.first].size();
+                            })
+        ->first;
+  }
+
+  void subtract(const ExactEquation& chosen, std::size_t pivot, std::size_t b) {
+    ExactEquation& other = equations_[b];
+    const Fraction factor = -(other.row.at(pivot) / chosen.row.at(pivot));
+    for (const auto& [j, value] : chosen.row) {
+      add(other.row, j, value * factor);
+      if (other.row.contains(j))
+        in_rows_[j].insert(b);
+      else
+        in_rows_[j].erase(b);
+    }
+    other.right = other.right + chosen.right * factor;
+  }
+
+  std::vector<ExactEquation> equations_;
+  std::vector<std::set<std::size_t>> in_rows_;  ///< of an unknown: the waiting equations that have it
+  std::vector<std::size_t> waiting_;
+  std::vector<std::pair<std::size_t, std::size_t>> solved_;  ///< unknown, equation
+};
+
+}  // namespace
+
+std::optional<Fractions> solve_near(std::vector<ExactEquation> equations, const Fractions& guess) {
+  const std::size_t n = guess.size();
+  if (equations.size() == n && n >= least_lifted && 4 * nonzeros(equations) > n * n)
+    if (auto u = lifted(equations, n)) return u;
+  Elimination elimination(std::move(equations), n);
+  if (!elimination.run()) return std::nullopt;
+  return elimination.back_substituted(guess);
+}
+
+}  // namespace convex

@@ -1,0 +1,114 @@
+#include "convex/proved_prox/proved_metric.hpp"
+
+#include <cmath>
+
+#include "convex/exact_program/linear_equations.hpp"
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+
+namespace convex {
+namespace {
+
+/// A full W of so many entries is solved with in fractions.
+constexpr std::size_t most_exact_entries = 16;
+
+/// Elimination without a pivot that is not positive.
+bool is_definite(std::vector<ExactRow> W) {
+  for (std::size_t k = 0; k < W.size(); ++k) {
+    const auto pivot = W[k].find(k);
+    if (pivot == W[k].end() || sign(pivot->second) <= 0) return false;
+    const Fraction d = pivot->second;
+    const ExactRow row = W[k];
+    for (const auto& [i, value] : row)
+      if (i > k) add(W[i], row, -(value / d));
+  }
+  return true;
+}
+
+/// Tried as parts of an estimate of the least eigenvalue.
+constexpr double parts_of_estimate[] = {0.9, 0.5, 0.1};
+
+/// Cholesky's method in place, the lower half; false at a pivot that is not positive.
+bool has_factor(Matrix L) {
+  for (Index j = 0; j < L.cols(); ++j) {
+    const double pivot = L(j, j);
+    if (!(pivot > 0)) return false;
+    const Index below_j = L.rows() - j - 1;
+    L.col(j).tail(below_j) /= pivot;
+    for (Index k = j + 1; k < L.cols(); ++k)
+      L.col(k).tail(L.rows() - k) -= (pivot * L(k, j)) * L.col(j).tail(L.rows() - k);
+  }
+  return true;
+}
+
+}  // namespace
+
+double least_eigenvalue_below(const Matrix& W) {
+  const Index n = W.rows();
+  if (n == 0 || !is_ordinary(W)) return 0;
+  const double trace = above(W.diagonal().cwiseAbs().sum());
+  // Each entry of the exact matrix may be off its double by half a unit, and the shifted diagonal by another.
+  const double lost = above(8 * gamma(n + 2) * trace);
+  const Metric metric = Metric::dense(W);
+  // Inverse iteration: an estimate, nothing more.
+  Vector q = Vector::LinSpaced(n, 1, 2).normalized();
+  double estimate = 0;
+  constexpr int iterations = 6;
+  for (int k = 0; k < iterations; ++k) {
+    q = metric.solve(q);
+    estimate = 1 / q.norm();
+    q *= estimate;
+  }
+  for (const double part : parts_of_estimate) {
+    const double shift = part * estimate;
+    if (shift > 2 * lost && has_factor(W - shift * Matrix::Identity(n, n))) return below(shift - lost);
+  }
+  return 0;
+}
+
+Vector nearest(const Fractions& x) {
+  Vector made(static_cast<Index>(x.size()));
+  for (std::size_t i = 0; i < x.size(); ++i) made[static_cast<Index>(i)] = nearest_double(x[i]);
+  return made;
+}
+
+Fractions fractions(const Vector& x) {
+  Fractions made;
+  for (const double entry : x) made.push_back(fraction(entry));
+  return made;
+}
+
+Fractions difference(const Fractions& a, const Fractions& b) {
+  Fractions made(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) made[i] = a[i] - b[i];
+  return made;
+}
+
+ProvedMetric::ProvedMetric(ExactGram W)
+    : W_(std::move(W)),
+      doubles_(rounded(W_)),
+      is_exact_(W_.is_diagonal || W_.dimension() <= most_exact_entries) {
+  if (is_exact_)
+    positive_ = is_definite(W_.rows);
+  else
+    least_ = least_eigenvalue_below(doubles_.dense_gram());
+}
+
+double ProvedMetric::norm_above(const Fractions& x) const { return root_above(squared_norm(W_, x)); }
+
+double ProvedMetric::dual_norm_above(const Fractions& c) const {
+  if (!is_proved_definite()) return INFINITY;
+  if (is_exact_) return root_above(dot(c, solve(c)));
+  Fraction square;
+  const Fractions e = fractions(doubles_.solve(nearest(c)));
+  const Fractions left = difference(c, multiply(W_, e));
+  for (const Fraction& entry : left) square = square + entry * entry;
+  return above(norm_above(e) + above(root_above(square) / below(std::sqrt(least_))));
+}
+
+Fractions ProvedMetric::solve(const Fractions& c) const {
+  std::vector<ExactEquation> equations;
+  for (std::size_t i = 0; i < c.size(); ++i) equations.push_back({W_.rows[i], c[i]});
+  return solve_near(std::move(equations), Fractions(c.size())).value();
+}
+
+}  // namespace convex

@@ -1,0 +1,180 @@
+#include "convex/proved_prox/proved_split.hpp"
+
+#include <cmath>
+
+#include "convex/exact_program/program_of_call.hpp"
+#include "convex/exact_program/program_operations.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/invariant.hpp"
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/proved_prox/pair_of_call.hpp"
+
+namespace convex {
+namespace {
+
+ProvedInterval outwards(const Fraction& low, const Fraction& high) {
+  ProvedInterval made{nearest_double(low), nearest_double(high)};
+  if (low < fraction(made.low)) made.low = std::nextafter(made.low, -INFINITY);
+  if (fraction(made.high) < high) made.high = std::nextafter(made.high, INFINITY);
+  return made;
+}
+
+/// A pair, and how far x* and y* are from its x and W⁻¹v at most.
+struct Proof {
+  std::optional<ProofPair> pair;
+  double radius = INFINITY;
+  std::string why_none;
+};
+
+Proof judged(PairSearch search, const ProvedMetric& W, const Fractions& z) {
+  if (!search.pair) return {std::nullopt, INFINITY, std::move(search.why_none)};
+  const double radius = proved_radius(W, z, *search.pair);
+  if (!std::isfinite(radius)) return {std::nullopt, INFINITY, "the metric is not proved positive definite"};
+  return {std::move(search.pair), radius, {}};
+}
+
+bool usable(const Vector& v, const Vector& z) { return v.size() == z.size() && v.allFinite(); }
+
+/// x* is within `radius` of pair.x, y* of W⁻¹pair.v. f(x*) >= v·x* - f*(v), g(y*) >= x·Wy* - f(x), and both
+/// add up to (x*|y*).
+void enclose_values(const ProvedMetric& W, const Proof& proof, ProvedSplit& made) {
+  const ProofPair& pair = *proof.pair;
+  const Fraction radius = fraction(proof.radius), product = dot(pair.x, pair.v),
+                 X = fraction(W.norm_above(pair.x)), Y = fraction(W.dual_norm_above(pair.v));
+  const Fraction of_inner = radius * (X + Y + radius), f_low = product - Y * radius - pair.f_v.high,
+                 g_low = product - X * radius - pair.f_x.high;
+  made.inner = outwards(product - of_inner, product + of_inner);
+  made.f_x = outwards(f_low, product + of_inner - g_low);
+  made.g_y = outwards(g_low, product + of_inner - f_low);
+}
+
+/// The graph point of a pair search that doubles did not put right, from the exact prox.
+PairSearch exact_pair(const ExactProgram& f, const ProvedMetric& W, const Fractions& z) {
+  if (ExactMinimum found = exact_prox(f, W.gram(), z); found.at)
+    return {proof_pair(std::move(*found.at)), {}};
+  return {std::nullopt, "its quadratic program has no minimum in fractions"};
+}
+
+}  // namespace
+
+double proved_radius(const ProvedMetric& W, const Fractions& z, const ProofPair& pair) {
+  const Fractions residual = difference(multiply(W.gram(), difference(z, pair.x)), pair.v);
+  const double miss = W.dual_norm_above(residual);
+  const double gap = root_above(lowest_terms(gap_above(pair) * Fraction{2}));
+  return above(std::hypot(miss, gap));
+}
+
+ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
+  ProvedSplit made;
+  const Vector &x = split.x.x, &y = split.y.x;
+  if (x.size() != static_cast<Index>(question.z.size()) || !x.allFinite() || !usable(y, x)) {
+    made.why_none = "there is no point to prove anything of";
+    return made;
+  }
+  const ProvedMetric W(question.W);
+  const Metric& in_doubles = W.in_doubles();
+  const Vector z = nearest(question.z);
+  const Vector of_x = usable(split.x.v, x) ? split.x.v : in_doubles.multiply(z - x);
+  const Vector of_y = usable(split.y.v, y) ? split.y.v : in_doubles.multiply(z - y);
+  Proof first, second;
+  if (const auto program = exact_program(question.f, question.W)) {
+    const ExactProgram dual = exact_programs::conjugate(*program);
+    PairSearch near_x, near_y;
+    if (auto at = near_graph_point(*program, x + of_x)) near_x.pair = proof_pair(std::move(*at));
+    first = near_x.pair ? judged(std::move(near_x), W, question.z)
+                        : judged(exact_pair(*program, W, question.z), W, question.z);
+    if (auto at = near_graph_point(dual, in_doubles.multiply(y) + in_doubles.solve(of_y)))
+      near_y.pair = turned_round(proof_pair(std::move(*at)));
+    if (!near_y.pair) {  // the prox of g in W: y, and a covector Wx of it
+      const ExactProgram g = exact_programs::conjugate(*program, question.W);
+      if (ExactMinimum found = exact_prox(g, question.W, question.z); found.at) {
+        near_y.pair = ProofPair{difference(question.z, found.at->x),
+                                multiply(question.W, found.at->x),
+                                {found.at->f_v, found.at->f_v},
+                                {found.at->f_x, found.at->f_x},
+                                true};
+      }
+    }
+    second = judged(std::move(near_y), W, question.z);
+  } else {
+    first = judged(pair_of_call(question.f, question.W, x, of_x), W, question.z);
+    second = judged(pair_of_call(question.f, question.W, in_doubles.solve(of_y), in_doubles.multiply(y)), W,
+                    question.z);
+  }
+  if (!first.pair || !second.pair) {
+    made.why_none = first.pair ? second.why_none : first.why_none;
+    return made;
+  }
+  made.x_bound = above(W.norm_above(difference(fractions(x), first.pair->x)) + first.radius);
+  made.y_bound = above(W.dual_norm_above(difference(multiply(question.W, fractions(y)), second.pair->v)) +
+                       second.radius);
+  const Fractions missing = difference(difference(question.z, fractions(x)), fractions(y));
+  made.sum_miss = W.norm_above(missing);
+  enclose_values(W, first.radius <= second.radius ? first : second, made);
+  // Two balls that do not meet would be a contradiction: nothing is claimed then.
+  if (!(made.sum_miss <= above(made.x_bound + made.y_bound)) || !std::isfinite(made.error_bound())) {
+    made.x_bound = made.y_bound = INFINITY;
+    made.why_none = "what was proved of x and of y contradicts their sum";
+    return made;
+  }
+  const bool is_rational = W.is_exact() && first.pair->is_rational && second.pair->is_rational;
+  made.level = is_rational ? ProofLevel::exact : ProofLevel::enclosure;
+  return made;
+}
+
+ExactSplit exact_split(const SplitQuestion& question) {
+  const auto program = exact_program(question.f, question.W);
+  if (!program)
+    throw InvalidInput(
+        "method \"exact\" solves piecewise linear-quadratic functions in fractions, and this is none; leave "
+        "the method out, or ask for --certify");
+  if (!ProvedMetric(question.W).is_proved_definite())
+    throw InvalidInput("metric: not proved positive definite; give a better conditioned one");
+  const ExactMinimum x = exact_prox(*program, question.W, question.z);
+  const ExactMinimum y = exact_prox(exact_programs::conjugate(*program, question.W), question.W, question.z);
+  invariant(x.at && y.at, "the prox of a convex function exists, and is found in fractions");
+  for (std::size_t i = 0; i < question.z.size(); ++i)
+    invariant(x.at->x[i] + y.at->x[i] == question.z[i], "prox_f z + prox_g z is z in fractions");
+  const Fraction inner = dot(x.at->x, multiply(question.W, y.at->x));
+  invariant(x.at->f_x + y.at->f_x == inner, "f(x) + g(y) is (x|y) in fractions");
+  return {x.at->x, y.at->x, x.at->f_x, y.at->f_x, inner};
+}
+
+ProvedSplit proof_of(const ExactSplit& exact, const Decomposition& split, const SplitQuestion& question) {
+  const ProvedMetric W(question.W);
+  const Fractions x = fractions(split.x.x), y = fractions(split.y.x);
+  ProvedSplit made;
+  made.level = ProofLevel::exact;
+  made.x_bound = W.norm_above(difference(x, exact.x));
+  made.y_bound = W.norm_above(difference(y, exact.y));
+  made.f_x = outwards(exact.f_x, exact.f_x);
+  made.g_y = outwards(exact.g_y, exact.g_y);
+  made.inner = outwards(exact.inner, exact.inner);
+  made.sum_miss = W.norm_above(difference(difference(question.z, x), y));
+  return made;
+}
+
+Decomposition rounded(const ExactSplit& exact, const SplitQuestion& question) {
+  Decomposition made;
+  const ProvedMetric W(question.W);
+  const auto part = [&](const Fractions& point, const Fractions& other) {
+    Prox prox;
+    prox.x = nearest(point);
+    prox.v = nearest(multiply(question.W, other));
+    prox.error_bound = W.norm_above(difference(point, fractions(prox.x)));
+    prox.route = ProxRoute::active_set;
+    prox.method = "in fractions";
+    return prox;
+  };
+  made.x = part(exact.x, exact.y);
+  made.y = part(exact.y, exact.x);
+  made.f_x = nearest_double(exact.f_x);
+  made.g_y = nearest_double(exact.g_y);
+  made.inner = nearest_double(exact.inner);
+  made.residual = W.in_doubles().norm(nearest(question.z) - made.x.x - made.y.x);
+  made.error_bound = std::max(made.x.error_bound, made.y.error_bound);
+  made.status = Status::solved;
+  return made;
+}
+
+}  // namespace convex
