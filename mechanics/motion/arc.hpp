@@ -21,7 +21,9 @@ struct Arc {
   Vector velocity(double tau) const;
   Vector acceleration(double tau) const;
   Vector multipliers(double tau) const;
-  State state(double tau) const { return {t + tau, position(tau), velocity(tau)}; }
+  State state(double tau) const;
+  /// The same in memory that is there.
+  void state(double tau, State& at) const;
 };
 
 /// Row a of coefficients.

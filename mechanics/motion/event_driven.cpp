@@ -84,31 +84,37 @@ bool Motion::EventDriven::advance(double until) {
 
 /// What comes to 0 on the next arc ends it: constraints that are free, multipliers, arguments of switches.
 void Motion::EventDriven::watch() {
-  watched_.clear();
+  std::size_t count = 0;
   const auto add = [&](Zero::Of of, Index which, std::span<const double> c, int zeros, double rounding) {
-    watched_.push_back({of, which, {c.begin() + zeros, c.end()}, rounding});
+    if (count == watched_.size()) watched_.emplace_back();
+    Watched& one = watched_[count++];
+    one.of = of;
+    one.which = which;
+    one.c.assign(c.begin() + zeros, c.end());
+    one.rounding = rounding;
   };
-  std::vector<bool> held(system.constraints().size());
-  for (const Index a : persist_) held[static_cast<std::size_t>(a)] = true;
-  const convex::Metric& A = expansion_.inertia();
-  const double force = std::max(A.norm(acceleration), expansion_.force_norm());
+  is_held_.assign(system.constraints().size(), false);
+  for (const Index a : persist_) is_held_[static_cast<std::size_t>(a)] = true;
+  const double force =
+      persist_.empty() ? 0 : std::max(expansion_.norm(acceleration), expansion_.force_norm());
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const auto k = static_cast<std::size_t>(a);
     if (is_two_sided(a)) continue;
-    if (!held[k]) {
+    if (!is_held_[k]) {
       const double rounding = zeros_of_f_[k] > 0 ? 0 : 4 * epsilon * expansion_.position_scale(a);
       add(Zero::Of::constraint, a, coefficients(next.f, a), zeros_of_f_[k], rounding);
       continue;
     }
     // A contact without a multiplier has one from rounding: only what is more than that releases it.
-    const double least = weakest_multiplier * force / A.dual_norm(expansion_.row(a));
+    const double least = weakest_multiplier * force / expansion_.inertia().dual_norm(expansion_.row(a));
     add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], is_weak_[k] ? least : 0);
-    if (is_weak_[k]) watched_.back().c[0] += 10 * least;
+    if (is_weak_[k]) watched_[count - 1].c[0] += 10 * least;
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     add(Zero::Of::branch, static_cast<Index>(k), expansion_.switch_argument(k), zeros_of_switch_[k], 0);
-    for (double& c : watched_.back().c) c *= expansion_.branch(k);
+    for (double& c : watched_[count - 1].c) c *= expansion_.branch(k);
   }
+  watched_.resize(count);
 }
 
 std::vector<Zero> Motion::EventDriven::zeros_before(double end) const {
@@ -129,7 +135,7 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
       value = expansion_.f(zero.which);
     } else {
       if (is_weak_[k]) return tau;
-      const HeldRows::Answer answer = expansion_.acceleration(expansion_.held_rows(persist_), persist_);
+      const HeldRows::Answer answer = expansion_.acceleration(persist_);
       for (std::size_t a = 0; a < persist_.size(); ++a)
         if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
     }
@@ -144,21 +150,20 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
 /// does not converge, and an expression that is not analytic.
 bool Motion::EventDriven::fits(double tau) {
-  const State there = next.state(tau);
+  next.state(tau, there_);
   Vector q2;
   try {
-    expansion_.set(there);
-    q2 = expansion_.acceleration(expansion_.held_rows(persist_), persist_).x;
+    expansion_.set(there_);
+    q2 = expansion_.acceleration(persist_).x;
   } catch (const convex::InvalidInput& error) {
     obstacle_ = error.what();
     return false;
   }
-  const convex::Metric& A = expansion_.inertia();
   double moved = 0, power = tau;
-  for (Index k = 1; k < next.q.cols(); ++k, power *= tau)
-    moved = std::max(moved, A.norm(next.q.col(k)) * power);
-  const double defect = A.norm(q2 - next.acceleration(tau)) * tau * tau;
-  const double rounding = 1e4 * epsilon * (moved + (A.norm(q2) + expansion_.force_norm()) * tau * tau);
+  for (std::size_t k = 1; k < sizes_.size(); ++k, power *= tau) moved = std::max(moved, sizes_[k] * power);
+  const double size = expansion_.norm(q2);
+  const double defect = expansion_.norm(q2 - next.acceleration(tau)) * tau * tau;
+  const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
   const double orders = static_cast<double>(next.q.cols());
   return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
 }
@@ -199,10 +204,12 @@ void Motion::EventDriven::take_step(double until) {
   const double together = roundings_of_time * epsilon * (std::abs(state.t) + tau);
   std::erase_if(zeros, [&](const Zero& zero) { return zero.at > tau + together; });
   ++record.steps;
-  done = next;
+  const bool is_there = tau > 0;  // by `fits`
+  if (!is_there) next.state(tau, there_);
+  std::swap(done, next);
   done.length = tau;
-  state.q = done.position(tau);
-  state.v = done.velocity(tau);
+  state.q = there_.q;
+  state.v = there_.v;
   if (is_last && zeros.empty()) {
     state.t = until;
     low_ = 0;
@@ -210,7 +217,7 @@ void Motion::EventDriven::take_step(double until) {
     move_time(tau);
   }
   for (double& elapsed : elapsed_) elapsed += tau;
-  expansion_.set(state);
+  if (!is_there || (state.t != there_.t && expansion_.uses_time())) expansion_.set(state);
   look_for_penetration();
   if (!zeros.empty()) close_together(zeros);
   if (zeros.empty())
@@ -313,7 +320,8 @@ void Motion::EventDriven::fill_next() {
   acceleration = 2 * next.q.col(2);
   multipliers = next.lambda.col(0);
   const double tolerance = tolerance_of_step(options.tolerance);
-  step_ahead_ = step_length(next, expansion_.inertia(), tolerance);
+  expansion_.sizes(sizes_);
+  step_ahead_ = step_length(sizes_, tolerance);
   watch();
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])

@@ -57,6 +57,9 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<ImpactHistory> history_;
   std::vector<Ending> endings_;
   std::vector<Watched> watched_;  // on the next arc
+  std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
+  std::vector<bool> is_held_;     // on the next arc
+  State there_;                   // the end of the step
   double step_ahead_ = 0;
   long events_at_once_ = 0;
 };

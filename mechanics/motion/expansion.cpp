@@ -1,6 +1,7 @@
 #include "mechanics/motion/expansion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "convex/invariant.hpp"
@@ -30,8 +31,18 @@ constexpr double roundings_of_coefficients = 1 << 10;
 /// Up to so many coordinates A is written down in full.
 constexpr Index small_system = 32;
 
+/// More than any series has coefficients.
+constexpr std::size_t most_orders = 64;
+
 /// Columns of A found in one sweep.
 constexpr std::size_t lanes_at_once = 8;
+
+std::vector<Slot> asked_for(const expression::Program& program) {
+  std::vector<Slot> found;
+  for (std::size_t group = 0; group < program.groups(); ++group)
+    found.insert(found.end(), program.roots(group).begin(), program.roots(group).end());
+  return found;
+}
 
 }  // namespace
 
@@ -40,27 +51,23 @@ Expansion::Expansion(const expression::LagrangianModel& model, int order)
       equations_(model),
       steps_(equations_.tape, equations_.program),
       order_(order),
-      series_(steps_, order),
-      change_(steps_.series),
+      series_(steps_, asked_for(equations_.program), order),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))) {
-  convex::invariant(order >= 2, "a motion needs accelerations");
+  convex::invariant(order >= 2 && order < static_cast<int>(most_orders), "a motion needs accelerations");
 }
 
 void Expansion::set(const State& state) {
   state_ = state;
   const expression::Program& program = equations_.program;
   for (std::size_t i = 0; i < program.coordinates(); ++i) {
-    const double v = state.v[static_cast<Index>(i)];
-    series_[program.coordinate(i)][0] = state.q[static_cast<Index>(i)];
-    series_[program.coordinate(i)][1] = v;
-    series_[program.velocity(i)][0] = v;
+    series_.start(program.coordinate(i)) = state.q[static_cast<Index>(i)];
+    series_.start(program.velocity(i)) = state.v[static_cast<Index>(i)];
   }
-  series_[program.time()][0] = state.t;
-  series_[program.time()][1] = 1;
-  for (std::size_t group = 0; group < 3; ++group) series_.advance(group, 0);
+  series_.start(program.time()) = state.t;
+  for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
   if (!has_branches_) take_branches();
-  check_finite(0);
+  check_finite();
   find_inertia();
 }
 
@@ -71,31 +78,37 @@ void Expansion::take_branches() {
     const double argument = switch_argument(k)[0];
     if (!(argument < 0)) continue;
     branch(k) = -1;
-    for (std::size_t group = 0; group < 3; ++group) series_.advance(group, 0);
+    for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
   }
 }
 
-/// Something that enters coefficient k is not finite: the model says what, or says that a derivative is.
-void Expansion::check_finite(int k) const {
+namespace {
+
+[[noreturn]] void refuse_order(int order) {
+  throw convex::InvalidInput("a value or a derivative of order " + std::to_string(order) +
+                             " is not finite there");
+}
+
+}  // namespace
+
+/// Something that enters the equations is not finite.
+void Expansion::check_finite() const {
   double spoiled = 0;  // 0 times a number, unless it is not finite
-  const auto look = [&](Slot slot) { spoiled += 0 * series_[slot][static_cast<std::size_t>(k)]; };
+  const auto look = [&](Slot slot) { spoiled += 0 * series_[slot][0]; };
   for (const Slot slot : equations_.momentum) look(slot);
   for (const Slot slot : equations_.rate) look(slot);
   for (const auto& [i, slot] : equations_.force) look(slot);
-  if (k == 0)
-    for (const Slot slot : equations_.constraint) look(slot);
-  if (spoiled == 0) return;
-  throw convex::InvalidInput("a value or a derivative of order " + std::to_string(k + 1) +
-                             " is not finite there");
+  for (const Slot slot : equations_.constraint) look(slot);
+  if (spoiled != 0) refuse_order(1);
 }
 
 /// A = ∂p/∂q', by columns.
 void Expansion::find_inertia() {
   const Index n = coordinates();
   const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
-  columns_.assign(steps_.series * lanes, 0.0);
+  columns_.assign(series_.series() * lanes, 0.0);
   const bool is_small = n <= small_system;
-  convex::Matrix small = convex::Matrix::Zero(is_small ? n : 0, is_small ? n : 0);
+  if (is_small) small_.resize(n, n);
   std::vector<Eigen::Triplet<double>> entries;
   for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
     const Index count = std::min(static_cast<Index>(lanes), n - first);
@@ -108,24 +121,64 @@ void Expansion::find_inertia() {
     for (Index i = 0; i < n; ++i)
       for (Index l = 0; l < count; ++l)
         if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; is_small)
-          small(i, first + l) = a;
+          small_(i, first + l) = a;
         else if (a != 0)
           entries.emplace_back(i, first + l, a);
     seed(0);
   }
+  A_.reset();
+  factor_.forget();
   if (is_small) {
-    small = (0.5 * (small + small.transpose())).eval();
-    if ((small.diagonal().array() > 0).all() && small.isDiagonal(0)) {
-      A_ = convex::Metric::diagonal(small.diagonal());
-      return;
-    }
-    A_ = kinetic_metric(small.sparseView(0, 0), model_.coordinates);
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < i; ++j) small_(i, j) = small_(j, i) = 0.5 * (small_(i, j) + small_(j, i));
+    if (!factor_.make(small_)) inertia();
     return;
   }
   convex::SparseMatrix columns(n, n);
   columns.setFromTriplets(entries.begin(), entries.end());
   const convex::SparseMatrix transposed = columns.transpose();
   A_ = kinetic_metric(convex::SparseMatrix(0.5 * (columns + transposed)), model_.coordinates);
+}
+
+const convex::Metric& Expansion::inertia() const {
+  if (A_) return *A_;
+  if ((small_.diagonal().array() > 0).all() && small_.isDiagonal(0))
+    A_ = convex::Metric::diagonal(small_.diagonal());
+  else
+    A_ = kinetic_metric(small_.sparseView(0, 0), model_.coordinates);
+  return *A_;
+}
+
+double Expansion::norm(const Vector& x) const {
+  return factor_.is_made() ? factor_.norm({x.data(), static_cast<std::size_t>(x.size())}) : inertia().norm(x);
+}
+
+void Expansion::sizes(std::vector<double>& of_order) const {
+  const auto count = static_cast<std::size_t>(order_) + 1;
+  of_order.assign(count, 0.0);
+  if (!factor_.is_made()) {
+    Vector q(coordinates());
+    for (std::size_t k = 0; k < count; ++k) {
+      for (Index i = 0; i < q.size(); ++i) q[i] = position(i)[k];
+      of_order[k] = inertia().norm(q);
+    }
+    return;
+  }
+  std::array<double, most_orders> most{}, scale{}, entry;  // squares may be too large for doubles
+  for (Index i = 0; i < coordinates(); ++i)
+    for (std::size_t k = 0; k < count; ++k) most[k] = std::max(most[k], std::abs(position(i)[k]));
+  for (std::size_t k = 0; k < count; ++k) scale[k] = std::isnormal(most[k]) ? 1 / most[k] : 0;
+  for (Index j = 0; j < coordinates(); ++j) {
+    entry.fill(0);
+    for (Index i = j; i < coordinates(); ++i) {
+      const double l = factor_(i, j);
+      const double* q = position(i).data();
+      for (std::size_t k = 0; k < count; ++k) entry[k] += l * (q[k] * scale[k]);
+    }
+    for (std::size_t k = 0; k < count; ++k) of_order[k] += entry[k] * entry[k];
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    of_order[k] = scale[k] > 0 ? most[k] * std::sqrt(of_order[k]) : most[k];
 }
 
 double Expansion::drift(Index a) const { return rate(a) - row(a).dot(state_.v); }
@@ -162,46 +215,59 @@ Vector Expansion::momentum() const {
 HeldRows Expansion::held_rows(const std::vector<Index>& constraints) const {
   std::vector<Vector> U;
   for (const Index a : constraints) U.push_back(row(a));
-  return HeldRows(*A_, U);
+  return HeldRows(inertia(), U);
 }
 
+/// Coefficient k of p, F and u is known, and the velocities of order k + 1 are as if they were 0:
 /// r with A v_(k+1) = r + Uᵀ lambda_k / (k + 1).
-Vector Expansion::free_part(int k) const {
+void Expansion::begin_order(int k) {
+  const expression::Program& program = equations_.program;
   const auto order = static_cast<std::size_t>(k);
-  Vector r = Vector::Zero(coordinates());
-  for (const auto& [i, slot] : equations_.force) r[i] = series_[slot][order];
+  if (k == 0) {
+    series_.restart();
+  } else {
+    series_.find(1, k);
+    series_.finish(2, k);
+  }
+  r_.setZero(coordinates());
+  for (const auto& [i, slot] : equations_.force) r_[i] = k == 0 ? series_[slot][0] : series_.at_order(slot);
   for (const Index a : pushing_) {
     const std::span<const double> lambda = multiplier(a);
     for (const auto& [i, slot] : equations_.row[index(a)]) {
       const std::span<const double> u = series_[slot];
       double sum = 0;
       for (std::size_t j = 0; j < order; ++j) sum += lambda[j] * u[order - j];
-      r[i] += sum;
+      r_[i] += sum;
     }
   }
-  r /= k + 1;
-  for (Index i = 0; i < r.size(); ++i) r[i] -= series_[equations_.momentum[index(i)]][order + 1];
-  return r;
+  for (std::size_t i = 0; i < program.coordinates(); ++i) {
+    const Slot v = program.velocity(i);
+    series_.at_order(program.coordinate(i)) = (k == 0 ? series_[v][0] : series_.at_order(v)) / (k + 1);
+    series_.at_order(v) = 0;
+  }
+  series_.at_order(program.time()) = k == 0 ? 1 : 0;
+  series_.find(0, k + 1);
+  double spoiled = 0;  // 0 times a number, unless it is not finite
+  for (Index i = 0; i < r_.size(); ++i) {
+    r_[i] = r_[i] / (k + 1) - series_.at_order(equations_.momentum[index(i)]);
+    spoiled += 0 * r_[i];
+  }
+  for (const Slot slot : equations_.rate) spoiled += 0 * series_.at_order(slot);
+  if (spoiled != 0) refuse_order(k + 2);
 }
 
-Vector Expansion::missing_rate(const std::vector<Index>& constraints, int k) const {
+Vector Expansion::missing_rate(const std::vector<Index>& constraints) const {
   Vector s(static_cast<Index>(constraints.size()));
   for (std::size_t a = 0; a < constraints.size(); ++a)
-    s[static_cast<Index>(a)] = -series_[equations_.rate[index(constraints[a])]][static_cast<std::size_t>(k)];
+    s[static_cast<Index>(a)] = -series_.at_order(equations_.rate[index(constraints[a])]);
   return s;
 }
 
 void Expansion::give_velocity(int k, const Vector& v) {
   const expression::Program& program = equations_.program;
-  const auto order = static_cast<std::size_t>(k);
-  for (std::size_t i = 0; i < program.coordinates(); ++i) {
-    const double coefficient = v[static_cast<Index>(i)];
-    change_[program.velocity(i)] = coefficient;
-    series_[program.velocity(i)][order] = coefficient;
-    series_[program.coordinate(i)][order + 1] = coefficient / static_cast<double>(order + 1);
-  }
-  series_.carry(change_, 1);
-  series_.correct(k, change_);
+  for (std::size_t i = 0; i < program.coordinates(); ++i)
+    series_.at_order(program.velocity(i)) = v[static_cast<Index>(i)];
+  series_.find_by_velocity(k);
 }
 
 void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda) {
@@ -209,13 +275,14 @@ void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, c
     lambda_[index(constraints[a] * (order_ - 1) + k)] = lambda[static_cast<Index>(a)];
 }
 
-Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k,
-                         const Vector& r) {
+Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer,
+                         int k) {
   std::vector<Index> rows = persist;
   rows.insert(rows.end(), open.begin(), open.end());
   convex::RowMatrix U(static_cast<Index>(rows.size()), coordinates());
   for (std::size_t a = 0; a < rows.size(); ++a) U.row(static_cast<Index>(a)) = row(rows[a]).transpose();
-  convex::NearestPointProblem problem{*A_, r, convex::ConstraintRows(U), missing_rate(rows, k + 1), {}};
+  const convex::Metric& A = inertia();
+  convex::NearestPointProblem problem{A, r_, convex::ConstraintRows(U), missing_rate(rows), {}};
   for (std::size_t a = 0; a < persist.size(); ++a) problem.two_sided.push_back(static_cast<Index>(a));
   problem.radii = convex::rounding_radii(problem, roundings_of_coefficients);
   const convex::Solution solution = convex::automatic(problem);
@@ -229,7 +296,7 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   std::vector<Index> undecided;
   for (std::size_t a = persist.size(); a < rows.size(); ++a) {
     const auto at = static_cast<Index>(a);
-    const double length = A_->dual_norm(U.row(at).transpose());
+    const double length = A.dual_norm(U.row(at).transpose());
     if (is_in_doubt(solution.slack[at] / (std::abs(problem.s[at]) + length * scale)) ||
         is_in_doubt(solution.lambda[at] * length / scale))
       in_doubt_.push_back(rows[a]);
@@ -247,21 +314,22 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   return solution.q;
 }
 
-/// Velocities of order k as if they were 0, and everything else of that order.
-void Expansion::begin_order(int k) {
-  for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)
-    series_[equations_.program.velocity(i)][static_cast<std::size_t>(k + 1)] = 0;
-  series_.advance(0, k + 1);
-  if (k > 0) series_.advance(1, k);
-  check_finite(k);
+double Expansion::force_norm() const {
+  if (!factor_.is_made()) return inertia().dual_norm(force_);
+  Vector x = force_;
+  factor_.solve(x);
+  return std::sqrt(std::max(0.0, x.dot(force_)));
 }
 
-HeldRows::Answer Expansion::acceleration(const HeldRows& rows, const std::vector<Index>& held) {
+HeldRows::Answer Expansion::acceleration(const std::vector<Index>& held) {
   pushing_.clear();
   begin_order(0);
-  const Vector r = free_part(0);
-  force_norm_ = A_->dual_norm(r);
-  return rows.solve(r, missing_rate(held, 1));
+  force_ = r_;
+  if (held.empty() && factor_.is_made()) {
+    factor_.solve(r_);
+    return {r_, {}};
+  }
+  return held_rows(held).solve(r_, missing_rate(held));
 }
 
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
@@ -273,19 +341,24 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   std::optional<HeldRows> rows;
   for (int k = 0; k <= order_ - 2; ++k) {
     begin_order(k);
-    const Vector r = free_part(k);
-    if (k == 0) force_norm_ = A_->dual_norm(r);
+    if (k == 0) force_ = r_;
     if (!open.empty()) {
-      const Vector v = choose(persist, open, answer, k, r);
+      const Vector v = choose(persist, open, answer, k);
       if (!answer.excluding.empty()) return answer;
       give_velocity(k + 1, v);
-      continue;
+    } else if (persist.empty() && factor_.is_made()) {
+      factor_.solve(r_);
+      give_velocity(k + 1, r_);
+    } else {
+      if (!rows) rows.emplace(held_rows(persist));
+      const HeldRows::Answer solved = rows->solve(r_, missing_rate(persist));
+      give_multipliers(k, persist, solved.lambda * (k + 1));
+      give_velocity(k + 1, solved.x);
     }
-    if (!rows) rows.emplace(held_rows(persist));
-    const HeldRows::Answer solved = rows->solve(r, missing_rate(persist, k + 1));
-    give_multipliers(k, persist, solved.lambda * (k + 1));
-    give_velocity(k + 1, solved.x);
   }
+  series_.finish(1, order_ - 1);
+  for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)
+    series_.end(equations_.program.coordinate(i), series_.at_order(equations_.program.velocity(i)) / order_);
   answer.persist = std::move(persist);
   answer.persist.insert(answer.persist.end(), open.begin(), open.end());
   for (Index a = 0; a < constraints(); ++a) {

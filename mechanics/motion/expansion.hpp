@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/motion/held_rows.hpp"
+#include "mechanics/motion/inertia_factor.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 #include "mechanics/motion/taylor_series.hpp"
 #include "mechanics/state.hpp"
@@ -48,7 +49,13 @@ class Expansion {
   /// Coefficients 0 at a state: f, df/dt, A and what follows from them.
   void set(const State& state);
   const State& state() const { return state_; }
-  const convex::Metric& inertia() const { return *A_; }
+  const convex::Metric& inertia() const;
+  /// Whether t itself enters something.
+  bool uses_time() const { return steps_.uses_time; }
+  /// ||x||_A.
+  double norm(const Vector& x) const;
+  /// ||q_k||_A by order, in the memory given.
+  void sizes(std::vector<double>& of_order) const;
   double f(Index a) const { return series_[equations_.constraint[index(a)]][0]; }
   double rate(Index a) const { return series_[equations_.rate[index(a)]][0]; }
   /// ∂f_a/∂t = df_a/dt - u_a·v.
@@ -59,14 +66,14 @@ class Expansion {
   /// The largest of |u_i q_i| and |f|: what f is about the sum of.
   double position_scale(Index a) const;
   /// ||r||_(A⁻¹) of the forces without reactions, once `expand` was asked.
-  double force_norm() const { return force_norm_; }
+  double force_norm() const;
   /// ∂T/∂q'.
   Vector momentum() const;
   /// Rows held with equality at this state.
   HeldRows held_rows(const std::vector<Index>& constraints) const;
 
-  /// q'' at the state while the rows given are held: `rows` are those of `held`.
-  HeldRows::Answer acceleration(const HeldRows& rows, const std::vector<Index>& held);
+  /// q'' at the state, and the multipliers, while these constraints are held.
+  HeldRows::Answer acceleration(const std::vector<Index>& held);
   /// Open contacts of the last question whose slack or multiplier was neither clearly 0 nor clearly not.
   const std::vector<Index>& in_doubt() const { return in_doubt_; }
   /// The higher coefficients, and who persists.
@@ -99,15 +106,13 @@ class Expansion {
   static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
   void find_inertia();
   void take_branches();
-  void check_finite(int k) const;
+  void check_finite() const;
   void begin_order(int k);
-  Vector free_part(int k) const;
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
-  Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k,
-                const Vector& r);
+  Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
   void give_velocity(int k, const Vector& v);
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
-  Vector missing_rate(const std::vector<Index>& constraints, int k) const;
+  Vector missing_rate(const std::vector<Index>& constraints) const;
 
   const expression::LagrangianModel& model_;
   LagrangeEquations equations_;
@@ -116,14 +121,15 @@ class Expansion {
   TaylorSeries series_;
   State state_;
   bool has_branches_ = false;
-  std::optional<convex::Metric> A_;
-  std::vector<double> change_;   // of every series, when velocities of highest order change
-  std::vector<double> columns_;  // the same, several at once
+  convex::Matrix small_;  // A of few coordinates
+  InertiaFactor factor_;  // the same
+  mutable std::optional<convex::Metric> A_;
+  Vector r_, force_;             // what velocities of the order looked for are solved from; that of order 0
+  std::vector<double> columns_;  // of every series, when velocities of highest order change
   std::vector<double> lambda_;   // by constraint and order
   std::vector<double> f_;        // likewise
   std::vector<Index> in_doubt_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
-  double force_norm_ = 0;
 };
 
 }  // namespace mechanics

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/vector.hpp"
+
 namespace mechanics {
 
 double tolerance_of_step(double tolerance) {
@@ -11,8 +13,9 @@ double tolerance_of_step(double tolerance) {
 }
 
 int taylor_order(double tolerance) {
-  constexpr int least = 8, most = 28;
-  return std::clamp(static_cast<int>(std::ceil(-0.5 * std::log(tolerance) + 1)) + 2, least, most);
+  constexpr int least = 8, most = 40;
+  constexpr double orders_of_digit = 0.8;
+  return std::clamp(static_cast<int>(std::ceil(-orders_of_digit * std::log(tolerance) + 1)) + 2, least, most);
 }
 
 namespace {
@@ -20,37 +23,40 @@ namespace {
 /// The largest of the first terms is what the last ones are compared with.
 constexpr std::size_t compared_terms = 3;
 
-/// By the sizes of coefficients 0, 1, …; those before `first` do not count.
-double length(std::span<const double> size, std::size_t first, double tolerance) {
+/// By the logarithms of the sizes of coefficients 0, 1, …; those before `first` do not count. |c_k| h^k =
+/// tolerance |c_j| h^j at log h = (log tolerance + log |c_j| - log |c_k|) / (k - j).
+template <class Size>
+double length(std::size_t count, Size size, std::size_t first, double tolerance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const std::size_t last = size.size() - 1;
+  const std::size_t last = count - 1;
   std::size_t top = last;
-  while (top > 0 && size[top] == 0) --top;
+  while (top > 0 && size(top) == 0) --top;
   if (2 * top <= last) return infinite;
+  double early[compared_terms];
+  for (std::size_t j = 0; j < compared_terms; ++j) early[j] = std::log(tolerance * size(first + j));
+  if (*std::max_element(early, early + compared_terms) == -infinite) return infinite;  // nothing to compare
   double shortest = infinite;
   for (const std::size_t k : {top, top - 1}) {
-    if (size[k] == 0) continue;
-    double longest = 0;
+    if (size(k) == 0) continue;
+    const double late = std::log(size(k));
+    double longest = -infinite;
     for (std::size_t j = first; j < std::min(k, first + compared_terms); ++j)
-      longest =
-          std::max(longest, std::pow(tolerance * (size[j] / size[k]), 1.0 / static_cast<double>(k - j)));
+      longest = std::max(longest, (early[j - first] - late) / static_cast<double>(k - j));
     shortest = std::min(shortest, longest);
   }
-  return shortest;
+  return std::exp(shortest);
 }
 
 }  // namespace
 
-double step_length(const Arc& arc, const convex::Metric& A, double tolerance) {
-  std::vector<double> size;
-  for (Index k = 0; k < arc.q.cols(); ++k) size.push_back(A.norm(arc.q.col(k)));
-  return length(size, 1, tolerance);
+double step_length(std::span<const double> sizes, double tolerance) {
+  return length(
+      sizes.size(), [&](std::size_t k) { return sizes[k]; }, 1, tolerance);
 }
 
 double trusted_length(std::span<const double> c, double tolerance) {
-  std::vector<double> size;
-  for (const double x : c) size.push_back(std::abs(x));
-  return length(size, 0, tolerance);
+  return length(
+      c.size(), [&](std::size_t k) { return std::abs(c[k]); }, 0, tolerance);
 }
 
 }  // namespace mechanics

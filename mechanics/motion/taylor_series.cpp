@@ -1,7 +1,10 @@
 #include "mechanics/motion/taylor_series.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "convex/processor.hpp"
 #include "mechanics/expression/operation.hpp"
 
 namespace mechanics {
@@ -11,228 +14,266 @@ using expression::Operation;
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
-/// Σ_(j=first)^(last) x_j y_(k-j).
-double convolution(const double* x, const double* y, std::size_t first, std::size_t last, std::size_t k) {
-  double sum = 0;
-  for (std::size_t j = first; j <= last; ++j) sum += x[j] * y[k - j];
-  return sum;
-}
+/// Four coefficients at a time.
+using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
+constexpr std::size_t lanes = 4;
 
-/// Σ_(j=first)^(last) j x_j y_(k-j) / k: coefficient k of the integral of x' y, or a part of it.
-double linked(const double* x, const double* y, std::size_t first, std::size_t last, std::size_t k) {
-  double sum = 0;
-  for (std::size_t j = first; j <= last; ++j) sum += static_cast<double>(j) * (x[j] * y[k - j]);
-  return sum / static_cast<double>(k);
-}
-
-double square(const double* x, std::size_t k) {
-  double sum = 0;
-  for (std::size_t j = 0; 2 * j < k; ++j) sum += x[j] * x[k - j];
-  sum *= 2;
-  if (k % 2 == 0) sum += x[k / 2] * x[k / 2];
-  return sum;
+/// What order k of the factors adds to the orders above: R_(k+i) += x_k y_i + y_k x_i for 0 < i < k, and
+/// R_2k += x_k y_k. Factors hold zeros from order k on, which the last four reach.
+MOREAU_CLONES void add_products(const TaylorRows::Product* first, const TaylorRows::Product* last,
+                                const double* c, const double* now, double* rest, std::size_t width,
+                                std::size_t k, std::size_t order) {
+  const std::size_t count = k < 2 || k >= order ? 0 : std::min(k - 1, order - k);
+  for (; first != last; ++first) {
+    const double xk = first->scale * now[first->x], yk = first->scale * now[first->y];
+    double* R = rest + first->rest * width + k + 1;
+    const double *x = c + first->x * width + 1, *y = c + first->y * width + 1;
+    if (first->x == first->y) {
+      for (std::size_t i = 0; i < count; i += lanes) {
+        Four to, from;
+        std::memcpy(&to, R + i, sizeof to);
+        std::memcpy(&from, x + i, sizeof from);
+        to += (2 * xk) * from;
+        std::memcpy(R + i, &to, sizeof to);
+      }
+    } else {
+      for (std::size_t i = 0; i < count; i += lanes) {
+        Four to, from, with;
+        std::memcpy(&to, R + i, sizeof to);
+        std::memcpy(&from, y + i, sizeof from);
+        std::memcpy(&with, x + i, sizeof with);
+        to += xk * from + yk * with;
+        std::memcpy(R + i, &to, sizeof to);
+      }
+    }
+    if (2 * k <= order) R[k - 1] += xk * now[first->y];
+  }
 }
 
 }  // namespace
 
-TaylorSeries::TaylorSeries(const TaylorSteps& steps, int order)
+TaylorSeries::TaylorSeries(const TaylorSteps& steps, const std::vector<Slot>& kept, int order)
     : steps_(&steps),
+      rows_(steps, kept),
+      variables_(steps.variables),
       order_(order),
-      width_(static_cast<std::size_t>(order) + 1),
-      c_(steps.series * width_),
+      width_((static_cast<std::size_t>(order) + 1 + 2 * lanes) / lanes * lanes),
+      c_(rows_.series * width_),
+      rest_(rows_.rests * width_),
+      factor_(rows_.rows.size(), 1.0),
+      now_(rows_.series),
       branches_(steps.switches.size(), 1.0) {
   for (const auto& [series, value] : steps.constants) at(series)[0] = value;
+  for (const TaylorRows::Product& product : rows_.products)
+    for (const Slot factor : {product.x, product.y}) factors_.push_back(factor);
+  std::sort(factors_.begin(), factors_.end());
+  factors_.erase(std::unique(factors_.begin(), factors_.end()), factors_.end());
 }
 
-/// Coefficient 0.
-void TaylorSeries::begin(const TaylorStep& step) {
-  const double a = at(step.a)[0], b = at(step.b)[0];
-  double& f = at(step.out)[0];
-  switch (step.kind) {
-    case Kind::sine:
-      f = std::sin(a);
-      at(step.partner)[0] = std::cos(a);
-      return;
-    case Kind::sinh:
-      f = std::sinh(a);
-      at(step.partner)[0] = std::cosh(a);
-      return;
-    case Kind::tangent:
-      f = std::tan(a);
-      at(step.partner)[0] = 1 + f * f;
-      return;
-    case Kind::tanh:
-      f = std::tanh(a);
-      at(step.partner)[0] = expression::partials(Operation::tanh, a, a, f, {}).a;
-      return;
-    case Kind::exponential:
-      f = std::exp(a);
-      return;
-    case Kind::logarithm:
-      f = std::log(a);
-      return;
-    case Kind::root:
-      f = std::sqrt(a);
-      return;
-    case Kind::power:
-      f = std::pow(a, step.number);
-      return;
-    case Kind::arc:
-      f = expression::value(static_cast<Operation>(step.b), a, a);
-      return;
-    case Kind::angle:
-      f = std::atan2(a, b);
-      return;
-    default:
-      extend(step, 0);
+void TaylorSeries::begin(std::size_t group) {
+  const std::size_t first = group == 0 ? 0 : steps_->ends[group - 1];
+  for (std::size_t s = first; s < steps_->ends[group]; ++s) {
+    const TaylorStep& step = steps_->steps[s];
+    at(step.out)[0] = value(step);
+    if (const std::uint32_t row = rows_.row_of_step[s]; row != TaylorRows::none) differentiate(step, row);
   }
 }
 
-/// Coefficient k, of the functions that have a differential equation for k > 0 (Griewank and Walther 2008,
-/// section 13.2).
-void TaylorSeries::extend(const TaylorStep& step, std::size_t k) {
-  const double *a = at(step.a), *b = at(step.b);
-  double *f = at(step.out), *p = at(step.partner);
+/// Coefficient 0; that of the partner is set.
+double TaylorSeries::value(const TaylorStep& step) {
+  const double a = at(step.a)[0], b = step.kind == Kind::arc ? 0 : at(step.b)[0];
+  double& partner = at(step.partner)[0];
   switch (step.kind) {
     case Kind::sum:
-      f[k] = a[k] + b[k];
-      return;
+      return a + b;
     case Kind::difference:
-      f[k] = a[k] - b[k];
-      return;
+      return a - b;
     case Kind::negative:
-      f[k] = -a[k];
-      return;
+      return -a;
     case Kind::product:
-      f[k] = convolution(a, b, 0, k, k);
-      return;
+      return a * b;
     case Kind::multiple:
-      f[k] = step.number * b[k];
-      return;
+      return step.number * b;
     case Kind::share:
-      f[k] = a[k] / step.number;
+      return a / step.number;
+    case Kind::square:
+      return a * a;
+    case Kind::quotient:
+      return a / b;
+    case Kind::sine:
+      partner = std::cos(a);
+      return std::sin(a);
+    case Kind::sinh:
+      partner = std::cosh(a);
+      return std::sinh(a);
+    case Kind::tangent: {
+      const double f = std::tan(a);
+      partner = 1 + f * f;
+      return f;
+    }
+    case Kind::tanh: {
+      const double f = std::tanh(a);
+      partner = expression::partials(Operation::tanh, a, a, f, {}).a;
+      return f;
+    }
+    case Kind::exponential:
+      return std::exp(a);
+    case Kind::logarithm:
+      return std::log(a);
+    case Kind::root:
+      return std::sqrt(a);
+    case Kind::power:
+      return std::pow(a, step.number);
+    case Kind::arc:
+      return expression::value(static_cast<Operation>(step.b), a, a);
+    case Kind::angle:
+      return std::atan2(a, b);
+    case Kind::absolute:
+      return branch(step) * a;
+    case Kind::where_not_negative:
+      return branch(step) > 0 ? b : 0;
+    case Kind::where_negative:
+      return branch(step) < 0 ? b : 0;
+    case Kind::either:
+      return branch(step) > 0 ? a : b;
+    case Kind::sign:
+      return branch(step);
+  }
+  return 0;
+}
+
+/// The partial derivatives at order 0, from the equation of a function (Griewank and Walther 2008, section
+/// 13.2), and the factor of what lower orders add to it.
+void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
+  const double a = at(step.a)[0], b = step.kind == Kind::arc ? 0 : at(step.b)[0];
+  const double f = at(step.out)[0], p = at(step.partner)[0];
+  TaylorRows::Term* by = rows_.terms.data() + rows_.rows[row].first;
+  double* factor = factor_.data() + row;
+  switch (step.kind) {
+    case Kind::product:
+      by[0].c = b;
+      by[1].c = a;
       return;
     case Kind::square:
-      f[k] = square(a, k);
+      by[0].c = 2 * a;
       return;
-    case Kind::quotient:  // f b = a
-      f[k] = (k == 0 ? a[0] : a[k] - convolution(b, f, 1, k, k)) / b[0];
+    case Kind::quotient: {  // f b = a
+      const double inverse = 1 / b;
+      by[0].c = inverse;
+      by[1].c = -f * inverse;
+      factor[0] = -inverse;
       return;
+    }
     case Kind::root: {  // f² = a
-      double rest = 0;
-      for (std::size_t j = 1; 2 * j < k; ++j) rest += f[j] * f[k - j];
-      rest = a[k] - 2 * rest;
-      if (k % 2 == 0) rest -= f[k / 2] * f[k / 2];
-      f[k] = rest / (2 * f[0]);
+      const double inverse = 1 / (2 * f);
+      by[0].c = inverse;
+      factor[0] = -inverse;
       return;
     }
     case Kind::exponential:  // f' = f a'
-      f[k] = linked(a, f, 1, k, k);
+      by[0].c = f;
       return;
     case Kind::logarithm:  // a f' = a'
-      f[k] = (a[k] - linked(f, a, 1, k - 1, k)) / a[0];
+      by[0].c = 1 / a;
+      factor[0] = -1 / a;
       return;
     case Kind::sine:
-      f[k] = linked(a, p, 1, k, k);
-      p[k] = -linked(a, f, 1, k, k);
+      by[0].c = p;
+      by[1].c = -f;  // of the row of the partner
+      factor[1] = -1;
       return;
     case Kind::sinh:
-      f[k] = linked(a, p, 1, k, k);
-      p[k] = linked(a, f, 1, k, k);
+      by[0].c = p;
+      by[1].c = f;
       return;
     case Kind::tangent:  // f' = (1 + f²) a'
-      f[k] = linked(a, p, 1, k, k);
-      p[k] = square(f, k);
+      by[0].c = p;
+      by[1].c = 2 * f;
       return;
     case Kind::tanh:  // f' = (1 - f²) a'
-      f[k] = linked(a, p, 1, k, k);
-      p[k] = -square(f, k);
+      by[0].c = p;
+      by[1].c = -2 * f;
+      factor[1] = -1;
       return;
     case Kind::arc:  // p f' = ± a'
-      f[k] = (step.number * a[k] - linked(f, p, 1, k - 1, k)) / p[0];
+      by[0].c = step.number / p;
+      factor[0] = -1 / p;
       return;
     case Kind::angle:  // (a² + b²) f' = b a' - a b'
-      f[k] = (linked(a, b, 1, k, k) - linked(b, a, 1, k, k) - linked(f, p, 1, k - 1, k)) / p[0];
+      by[0].c = b / p;
+      by[1].c = -a / p;
+      factor[0] = 1 / p;
       return;
-    case Kind::power: {  // a f' = e f a'
-      double sum = 0;
-      for (std::size_t j = 1; j <= k; ++j)
-        sum += (step.number * static_cast<double>(j) - static_cast<double>(k - j)) * (a[j] * f[k - j]);
-      f[k] = sum / (static_cast<double>(k) * a[0]);
+    case Kind::power:  // a f' = e f a'
+      by[0].c = step.number * f / a;
+      factor[0] = 1 / a;
       return;
-    }
     case Kind::absolute:
-      f[k] = branch(step) * a[k];
+      by[0].c = branch(step);
       return;
     case Kind::where_not_negative:
-      f[k] = branch(step) > 0 ? b[k] : 0;
+      by[0] = branch(step) > 0 ? TaylorRows::Term{step.b, 1} : TaylorRows::Term{rows_.zero, 0};
       return;
     case Kind::where_negative:
-      f[k] = branch(step) < 0 ? b[k] : 0;
+      by[0] = branch(step) < 0 ? TaylorRows::Term{step.b, 1} : TaylorRows::Term{rows_.zero, 0};
       return;
     case Kind::either:
-      f[k] = branch(step) > 0 ? a[k] : b[k];
+      by[0] = {branch(step) > 0 ? step.a : step.b, 1};
       return;
-    case Kind::sign:
-      f[k] = k == 0 ? branch(step) : 0;
+    default:
       return;
   }
 }
 
-void TaylorSeries::advance(std::size_t group, int k) {
-  const std::size_t first = group == 0 ? 0 : steps_->ends[group - 1];
-  for (std::size_t s = first; s < steps_->ends[group]; ++s) {
-    if (k == 0)
-      begin(steps_->steps[s]);
-    else
-      extend(steps_->steps[s], static_cast<std::size_t>(k));
-  }
+void TaylorSeries::restart() {
+  std::fill(rest_.begin(), rest_.end(), 0.0);
+  for (const Slot factor : factors_) std::fill_n(at(factor) + 1, width_ - 1, 0.0);
 }
 
-void TaylorSeries::carry(std::vector<double>& change, std::size_t lanes) const {
-  for (const std::size_t s : steps_->by_velocity) {
-    const TaylorStep& step = steps_->steps[s];
-    const double a0 = at(step.a)[0], b0 = at(step.b)[0];
-    const double *a = change.data() + step.a * lanes, *b = change.data() + step.b * lanes;
-    double* f = change.data() + step.out * lanes;
-    for (std::size_t l = 0; l < lanes; ++l) switch (step.kind) {
-        case Kind::sum:
-          f[l] = a[l] + b[l];
-          break;
-        case Kind::difference:
-          f[l] = a[l] - b[l];
-          break;
-        case Kind::negative:
-          f[l] = -a[l];
-          break;
-        case Kind::product:
-          f[l] = a0 * b[l] + b0 * a[l];
-          break;
-        case Kind::multiple:
-          f[l] = step.number * b[l];
-          break;
-        case Kind::square:
-          f[l] = 2 * a0 * a[l];
-          break;
-        case Kind::share:
-          f[l] = a[l] / step.number;
-          break;
-        case Kind::where_not_negative:
-          f[l] = branch(step) > 0 ? b[l] : 0;
-          break;
-        case Kind::where_negative:
-          f[l] = branch(step) < 0 ? b[l] : 0;
-          break;
-        default:  // a quotient; its divisor does not depend on velocities
-          f[l] = a[l] / b0;
-      }
+void TaylorSeries::find_row(std::size_t number, int k) {
+  const TaylorRows::Row& row = rows_.rows[number];
+  double sum = 0;
+  if (row.rest != TaylorRows::none) {
+    sum = factor_[number] * rest_[row.rest * width_ + static_cast<std::size_t>(k)];
+    if (row.over_order) sum /= k;
   }
+  for (const TaylorRows::Term *term = rows_.terms.data() + row.first, *end = rows_.terms.data() + row.end;
+       term != end; ++term)
+    sum += term->c * now_[term->series];
+  now_[row.out] = sum;
 }
 
-void TaylorSeries::correct(int k, std::span<const double> change) {
-  for (const std::size_t s : steps_->by_velocity) {
-    const Slot out = steps_->steps[s].out;
-    at(out)[k] += change[out];
+void TaylorSeries::find(std::size_t group, int k) {
+  for (std::size_t r = group == 0 ? 0 : rows_.ends[group - 1].rows; r < rows_.ends[group].rows; ++r)
+    find_row(r, k);
+}
+
+void TaylorSeries::find_by_velocity(int k) {
+  for (const std::uint32_t r : rows_.by_velocity) find_row(r, k);
+}
+
+void TaylorSeries::finish(std::size_t groups, int k) {
+  const TaylorRows::Ends& end = rows_.ends[groups - 1];
+  for (std::size_t w = 0; w < end.weighted; ++w) now_[rows_.weighted[w].out] = k * now_[rows_.weighted[w].of];
+  if (k < order_)
+    add_products(rows_.products.data(), rows_.products.data() + end.products, c_.data(), now_.data(),
+                 rest_.data(), width_, static_cast<std::size_t>(k), static_cast<std::size_t>(order_));
+  const auto join = [&](Slot series) { at(series)[k] = now_[series]; };
+  for (std::size_t variable = 0; variable < variables_; ++variable) join(static_cast<Slot>(variable));
+  for (std::size_t w = 0; w < end.weighted; ++w) join(rows_.weighted[w].out);
+  for (std::size_t r = 0; r < end.rows; ++r) join(rows_.rows[r].out);
+}
+
+void TaylorSeries::carry(std::vector<double>& change, std::size_t count) const {
+  for (const std::uint32_t r : rows_.by_velocity) {
+    const TaylorRows::Row& row = rows_.rows[r];
+    double* f = change.data() + row.out * count;
+    std::fill(f, f + count, 0.0);
+    for (std::uint32_t t = row.first; t < row.end; ++t) {
+      const TaylorRows::Term& term = rows_.terms[t];
+      const double* a = change.data() + term.series * count;
+      for (std::size_t l = 0; l < count; ++l) f[l] += term.c * a[l];
+    }
   }
 }
 

@@ -3,52 +3,73 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/motion/taylor_steps.hpp"
+#include "mechanics/motion/taylor_rows.hpp"
 
 namespace mechanics {
 
 /// The Taylor coefficients of the slots of a program along a motion, found order by order (Jorba and Zou
 /// 2005): f(t + τ) = Σ c_k τ^k.
+///
+/// The coefficients of one order lie together while that order is looked for (`at_order`); once all are
+/// known, what they add to higher orders of products is added at once, and they join their series. A product
+/// then costs one pass over contiguous numbers an order, which no later number waits for.
 class TaylorSeries {
  public:
   using Slot = expression::Slot;
 
-  /// Coefficients 0 to `order` of what `steps` computes.
-  TaylorSeries(const TaylorSteps& steps, int order);
+  /// Coefficients 0 to `order` of the slots `kept` of what `steps` computes.
+  TaylorSeries(const TaylorSteps& steps, const std::vector<Slot>& kept, int order);
 
   int order() const { return order_; }
-  std::span<double> operator[](Slot series) {
-    return {c_.data() + series * width_, static_cast<std::size_t>(width_)};
-  }
   std::span<const double> operator[](Slot series) const {
-    return {c_.data() + series * width_, static_cast<std::size_t>(width_)};
+    return {at(series), static_cast<std::size_t>(order_) + 1};
   }
+  /// Coefficient 0 of a variable, which `begin` starts from.
+  double& start(Slot variable) { return at(variable)[0]; }
+  /// The coefficient of the order looked for.
+  double& at_order(Slot series) { return now_[series]; }
+  double at_order(Slot series) const { return now_[series]; }
   /// The branch of each switch of the steps: 1 or -1.
   std::vector<double>& branches() { return branches_; }
   const std::vector<double>& branches() const { return branches_; }
 
-  /// Coefficient k of all series of a group, those of the variables being known to order k.
-  void advance(std::size_t group, int k);
+  /// Coefficient 0 of all series of a group, and their partial derivatives.
+  void begin(std::size_t group);
+  /// Forgets the orders above 0.
+  void restart();
+  /// Coefficient k >= 1 of all series of a group, from those of the variables.
+  void find(std::size_t group, int k);
+  /// The same for the series of group 0 that depend on velocities.
+  void find_by_velocity(int k);
+  /// Order k of the first groups is complete.
+  void finish(std::size_t groups, int k);
+  /// The last coefficient of a variable, which nothing depends on any more.
+  void end(Slot variable, double coefficient) { at(variable)[order_] = coefficient; }
 
-  /// The highest coefficients of velocities enter coefficient k of the series of group 0 in a linear way:
+  /// The highest coefficients of velocities enter those of the series of group 0 in a linear way:
   /// `change`, filled in for the velocities, is filled in for the series that depend on them.
-  /// `lanes` changes at once, so many numbers a series.
+  /// `lanes` changes at once, so many numbers a series; 0 for series that do not depend on velocities.
   void carry(std::vector<double>& change, std::size_t lanes) const;
-  /// Adds a change found by `carry` to coefficient k.
-  void correct(int k, std::span<const double> change);
-  std::size_t series() const { return steps_->series; }
+  std::size_t series() const { return rows_.series; }
 
  private:
   double* at(Slot series) { return c_.data() + series * width_; }
   const double* at(Slot series) const { return c_.data() + series * width_; }
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
-  void begin(const TaylorStep& step);
-  void extend(const TaylorStep& step, std::size_t k);
+  double value(const TaylorStep& step);
+  void differentiate(const TaylorStep& step, std::uint32_t row);
+  void find_row(std::size_t row, int k);
 
   const TaylorSteps* steps_;
+  TaylorRows rows_;
+  std::size_t variables_;  // those of the program
   int order_;
   std::size_t width_;
-  std::vector<double> c_;
+  std::vector<double> c_;       // by series
+  std::vector<double> rest_;    // R, by rest
+  std::vector<double> factor_;  // ρ, by row
+  std::vector<double> now_;     // of the order looked for, by series
+  std::vector<Slot> factors_;   // series in products
   std::vector<double> branches_;
 };
 

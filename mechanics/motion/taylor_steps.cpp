@@ -1,6 +1,8 @@
 #include "mechanics/motion/taylor_steps.hpp"
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
@@ -21,11 +23,16 @@ class Translation {
   Translation(const Tape& tape, const Program& program, TaylorSteps& to)
       : tape_(tape), program_(program), to_(to), depends_(program.size()) {
     for (std::size_t i = 0; i < program.coordinates(); ++i) depends_[program.velocity(i)] = true;
+    for (Slot slot = program.begin(); slot < program.size(); ++slot)
+      if (const Operation operation = program[slot].operation; has_partner(operation))
+        found_.emplace(std::pair(operation, program[slot].a), slot);
   }
 
   void translate(Slot slot) {
+    if (is_written_.count(slot) > 0) return;
     const auto& [operation, active, a, b] = program_[slot];
     const std::size_t first = to_.steps.size();
+    to_.uses_time = to_.uses_time || a == program_.time() || (arity(operation) == 2 && b == program_.time());
     const bool depends = depends_[a] || (arity(operation) == 2 && depends_[b]);
     write(operation, active, slot, a, b);
     depends_[slot] = depends;
@@ -52,6 +59,21 @@ class Translation {
     const Slot out = extra();
     add(kind, out, a, b);
     return out;
+  }
+  static bool has_partner(Operation operation) {
+    return operation == Operation::sin || operation == Operation::cos || operation == Operation::sinh ||
+           operation == Operation::cosh;
+  }
+  /// sin and cos of one argument are one step, wherever in the program the other is.
+  void pair(Kind kind, Operation first, Operation second, Slot a) {
+    const auto slot = [&](Operation operation) {
+      const auto at = found_.find({operation, a});
+      if (at == found_.end()) return extra();
+      is_written_.insert(at->second);
+      return at->second;
+    };
+    const Slot out = slot(first), partner = slot(second);
+    add(kind, out, a, 0, partner);
   }
   double value(Slot slot) const { return tape_.constant(program_.node(slot)); }
 
@@ -121,11 +143,8 @@ class Translation {
       case Operation::power:
         return power(active, out, a, b);
       case Operation::sin:
-        return add(Kind::sine, out, a, 0, extra());
-      case Operation::cos: {
-        const Slot sine = extra();
-        return add(Kind::sine, sine, a, 0, out);
-      }
+      case Operation::cos:
+        return pair(Kind::sine, Operation::sin, Operation::cos, a);
       case Operation::tan:
         return add(Kind::tangent, out, a, 0, extra());
       case Operation::asin:
@@ -139,11 +158,8 @@ class Translation {
       case Operation::atan2:
         return add(Kind::angle, out, a, b, made(Kind::sum, made(Kind::square, a), made(Kind::square, b)));
       case Operation::sinh:
-        return add(Kind::sinh, out, a, 0, extra());
-      case Operation::cosh: {
-        const Slot sinh = extra();
-        return add(Kind::sinh, sinh, a, 0, out);
-      }
+      case Operation::cosh:
+        return pair(Kind::sinh, Operation::sinh, Operation::cosh, a);
       case Operation::tanh:
         return add(Kind::tanh, out, a, 0, extra());
       case Operation::exp:
@@ -175,7 +191,9 @@ class Translation {
   const Tape& tape_;
   const Program& program_;
   TaylorSteps& to_;
-  std::vector<bool> depends_;  // on velocities, by series
+  std::vector<bool> depends_;                         // on velocities, by series
+  std::map<std::pair<Operation, Slot>, Slot> found_;  // sin a, cos a, … in the program
+  std::set<Slot> is_written_;                         // as the partner of another
 };
 
 /// Whether the highest coefficient of the result is linear in those of what depends on velocities, given the
@@ -188,13 +206,15 @@ bool is_affine(Kind kind) {
 
 }  // namespace
 
-TaylorSteps::TaylorSteps(const Tape& tape, const Program& program) : series(program.size()) {
+TaylorSteps::TaylorSteps(const Tape& tape, const Program& program)
+    : series(program.size()), variables(program.time() + std::size_t{1}) {
   for (Slot slot = program.time() + 1; slot < program.begin(); ++slot)
     constants.emplace_back(slot, tape.constant(program.node(slot)));
   Translation translation(tape, program, *this);
   Slot slot = program.begin();
   for (std::size_t group = 0; group < program.groups(); ++group) {
     for (; slot < program.end(group); ++slot) translation.translate(slot);
+    for (const Slot root : program.roots(group)) uses_time = uses_time || root == program.time();
     ends.push_back(steps.size());
     if (group > 0) continue;
     for (const std::size_t k : by_velocity)

@@ -53,7 +53,8 @@ struct TaylorSteps {
   std::vector<TaylorStep> steps;
   std::vector<std::size_t> ends;  ///< by group of the program, in `steps`
   std::vector<Switch> switches;
-  std::size_t series = 0;
+  std::size_t series = 0, variables = 0;  ///< the variables come first: q, v, t
+  bool uses_time = false;
   std::vector<std::pair<expression::Slot, double>> constants;  ///< series that do not vary
   /// The steps of group 0 whose result depends on velocities: they are linear in those of highest order.
   std::vector<std::size_t> by_velocity;

@@ -1,0 +1,201 @@
+#include "mechanics/motion/taylor_rows.hpp"
+
+#include <map>
+
+namespace mechanics {
+namespace {
+
+using expression::Slot;
+using Kind = TaylorStep::Kind;
+using Form = std::vector<TaylorRows::Term>;
+
+/// A step of two operands that is linear, with numbers as coefficients: (by a, by b).
+struct LinearStep {
+  bool is_linear = false;
+  double a = 0, b = 0;
+};
+
+LinearStep linear(const TaylorStep& step) {
+  switch (step.kind) {
+    case Kind::sum:
+      return {true, 1, 1};
+    case Kind::difference:
+      return {true, 1, -1};
+    case Kind::negative:
+      return {true, -1, 0};
+    case Kind::multiple:
+      return {true, 0, step.number};
+    case Kind::share:
+      return {true, 1 / step.number, 0};
+    default:
+      return {};
+  }
+}
+
+bool has_two_operands(Kind kind) {
+  return kind == Kind::product || kind == Kind::quotient || kind == Kind::angle || kind == Kind::either;
+}
+bool reads_second(Kind kind) {
+  return has_two_operands(kind) || kind == Kind::where_not_negative || kind == Kind::where_negative;
+}
+bool reads_first(Kind kind) {
+  return kind != Kind::where_not_negative && kind != Kind::where_negative && kind != Kind::sign;
+}
+bool reads_partner(Kind kind) { return kind == Kind::arc || kind == Kind::angle; }
+
+class Rows {
+ public:
+  Rows(const TaylorSteps& from, const std::vector<Slot>& kept, TaylorRows& to)
+      : steps_(from),
+        to_(to),
+        is_kept_(from.series),
+        is_constant_(from.series),
+        uses_(from.series),
+        form_(from.series),
+        depends_(from.series) {
+    for (const auto& [slot, value] : from.constants) is_constant_[slot] = true;
+    for (const Slot slot : kept) is_kept_[slot] = true;
+    for (const Switch& one : from.switches) is_kept_[one.argument] = true;
+    for (const std::size_t s : from.by_velocity) depends_[from.steps[s].out] = true;
+    for (const TaylorStep& step : from.steps) count_uses(step);
+    to_.series = from.series;
+    to_.zero = static_cast<Slot>(to_.series++);
+  }
+
+  void write() {
+    std::size_t s = 0;
+    for (const std::size_t end : steps_.ends) {
+      for (; s < end; ++s) {
+        to_.row_of_step.push_back(TaylorRows::none);
+        write(steps_.steps[s]);
+      }
+      to_.ends.push_back({to_.rows.size(), to_.products.size(), to_.weighted.size()});
+    }
+  }
+
+ private:
+  void count_uses(const TaylorStep& step) {
+    const LinearStep by = linear(step);
+    if (by.is_linear) {
+      if (by.a != 0) ++uses_[step.a];
+      if (by.b != 0) ++uses_[step.b];
+      return;
+    }
+    if (reads_first(step.kind)) is_kept_[step.a] = true;
+    if (reads_second(step.kind)) is_kept_[step.b] = true;
+    if (reads_partner(step.kind)) is_kept_[step.partner] = true;
+  }
+
+  void add_to(Form& form, Slot operand, double c) {
+    if (c == 0 || is_constant_[operand]) return;
+    if (form_[operand].empty()) {
+      form.push_back({operand, c});
+      return;
+    }
+    if (form.empty() && uses_[operand] == 1) {
+      form = std::move(form_[operand]);
+      for (auto& term : form) term.c *= c;
+      return;
+    }
+    for (const auto& term : form_[operand]) form.push_back({term.series, c * term.c});
+  }
+
+  void write_linear(const TaylorStep& step, const LinearStep& by) {
+    Form form;
+    add_to(form, step.a, by.a);
+    add_to(form, step.b, by.b);
+    if (!form.empty() && !is_kept_[step.out] && (uses_[step.out] <= 1 || form.size() == 1)) {
+      form_[step.out] = std::move(form);
+      return;
+    }
+    begin_row(step.out);
+    for (const auto& term : form) to_.terms.push_back(term);
+    end_row();
+  }
+
+  void begin_row(Slot out, std::uint32_t rest = TaylorRows::none, bool over_order = false) {
+    const auto first = static_cast<std::uint32_t>(to_.terms.size());
+    to_.rows.push_back({out, first, first, rest, over_order});
+  }
+  void end_row() {
+    TaylorRows::Row& row = to_.rows.back();
+    row.end = static_cast<std::uint32_t>(to_.terms.size());
+    if (depends_[row.out] && to_.ends.empty())
+      to_.by_velocity.push_back(static_cast<std::uint32_t>(to_.rows.size() - 1));
+  }
+  void row(Slot out, std::initializer_list<Slot> terms) {
+    begin_row(out);
+    for (const Slot slot : terms) to_.terms.push_back({slot, 0});
+    end_row();
+  }
+  void row(Slot out, std::initializer_list<Slot> terms, bool over_order,
+           std::initializer_list<TaylorRows::Product> products) {
+    const auto rest = static_cast<std::uint32_t>(to_.rests++);
+    begin_row(out, rest, over_order);
+    for (const Slot slot : terms) to_.terms.push_back({slot, 0});
+    end_row();
+    for (const auto& product : products) to_.products.push_back({product.x, product.y, rest, product.scale});
+  }
+  Slot weighted(Slot of) {
+    const auto [at, is_new] = weighted_.try_emplace(of, static_cast<Slot>(to_.series));
+    if (is_new) to_.weighted.push_back({static_cast<Slot>(to_.series++), of});
+    return at->second;
+  }
+
+  void write(const TaylorStep& step) {
+    if (const LinearStep by = linear(step); by.is_linear) return write_linear(step, by);
+    to_.row_of_step.back() = static_cast<std::uint32_t>(to_.rows.size());
+    const Slot f = step.out, p = step.partner, a = step.a, b = step.b;
+    switch (step.kind) {
+      case Kind::product:
+        return row(f, {a, b}, false, {{a, b, 0, 1}});
+      case Kind::square:
+        return row(f, {a}, false, {{a, a, 0, 1}});
+      case Kind::quotient:
+        return row(f, {a, b}, false, {{b, f, 0, 1}});
+      case Kind::root:
+        return row(f, {a}, false, {{f, f, 0, 1}});
+      case Kind::exponential:
+        return row(f, {a}, true, {{weighted(a), f, 0, 1}});
+      case Kind::logarithm:
+        return row(f, {a}, true, {{weighted(f), a, 0, 1}});
+      case Kind::sine:
+      case Kind::sinh:
+        row(f, {a}, true, {{weighted(a), p, 0, 1}});
+        return row(p, {a}, true, {{weighted(a), f, 0, 1}});
+      case Kind::tangent:
+      case Kind::tanh:
+        row(f, {a}, true, {{weighted(a), p, 0, 1}});
+        return row(p, {f}, false, {{f, f, 0, 1}});
+      case Kind::arc:
+        return row(f, {a}, true, {{weighted(f), p, 0, 1}});
+      case Kind::angle:
+        return row(f, {a, b}, true,
+                   {{weighted(a), b, 0, 1}, {weighted(b), a, 0, -1}, {weighted(f), p, 0, -1}});
+      case Kind::power:
+        return row(f, {a}, true, {{weighted(a), f, 0, step.number}, {weighted(f), a, 0, -1}});
+      case Kind::sign:
+        return row(f, {});
+      case Kind::absolute:
+        return row(f, {a});
+      default:  // a choice of branches
+        return row(f, {to_.zero});
+    }
+  }
+
+  const TaylorSteps& steps_;
+  TaylorRows& to_;
+  std::vector<bool> is_kept_, is_constant_;
+  std::vector<int> uses_;   // by linear steps
+  std::vector<Form> form_;  // of linear series without a row
+  std::vector<bool> depends_;
+  std::map<Slot, Slot> weighted_;
+};
+
+}  // namespace
+
+TaylorRows::TaylorRows(const TaylorSteps& steps, const std::vector<Slot>& kept) {
+  Rows(steps, kept, *this).write();
+}
+
+}  // namespace mechanics

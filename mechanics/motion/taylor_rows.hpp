@@ -1,0 +1,55 @@
+#pragma once
+
+#include "mechanics/motion/taylor_steps.hpp"
+
+namespace mechanics {
+
+/// The recurrences of `TaylorSteps` beyond order 0. Coefficient k of each is linear in those of the same
+/// order, with the partial derivatives at order 0, and has a rest from lower orders:
+///   out_k = Σ c_i a_(i,k) + ρ R_k,     R_k = Σ_(j=1)^(k-1) x_j y_(k-j), summed over products, or that over
+///   k.
+/// Sums, differences and multiples that nothing but another row needs are part of that row.
+struct TaylorRows {
+  using Slot = expression::Slot;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+  struct Term {
+    Slot series;
+    double c;  ///< of a step that is not linear: from order 0 on
+  };
+  struct Row {
+    Slot out;
+    std::uint32_t first, end;  ///< its terms
+    std::uint32_t rest;        ///< which R, or none
+    bool over_order;           ///< R_k / k: the step has a differential equation
+  };
+  /// scale · x y, a part of the R named.
+  struct Product {
+    Slot x, y;
+    std::uint32_t rest;
+    double scale;
+  };
+  /// Series out_k = k of_k, for products with a derivative.
+  struct Weighted {
+    Slot out, of;
+  };
+  /// Where a group ends in the lists.
+  struct Ends {
+    std::size_t rows = 0, products = 0, weighted = 0;
+  };
+
+  /// `kept`: the series that are asked for.
+  TaylorRows(const TaylorSteps& steps, const std::vector<Slot>& kept);
+
+  std::vector<Row> rows;
+  std::vector<Term> terms;
+  std::vector<Product> products;
+  std::vector<Weighted> weighted;
+  std::vector<Ends> ends;                  ///< by group
+  std::vector<std::uint32_t> row_of_step;  ///< the first row of a step; none where it has none
+  std::vector<std::uint32_t> by_velocity;  ///< rows of group 0 that depend on velocities
+  std::size_t series = 0, rests = 0;
+  Slot zero = 0;  ///< a series that is 0
+};
+
+}  // namespace mechanics
