@@ -32,6 +32,7 @@ void add_chart(CLI::App& program, Work& chosen);
 void add_stress(CLI::App& program, Work& chosen);
 void add_assemble(CLI::App& program, Work& chosen);
 void add_sweep(CLI::App& program, Work& chosen);
+void add_atlas(CLI::App& program, Work& chosen);
 void add_convert(CLI::App& program, Work& chosen);
 void add_schema(CLI::App& program, Work& chosen);
 void add_new(CLI::App& program, Work& chosen);

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cli/drawing/gnuplot.hpp"
+#include "cli/report/atlas_report.hpp"
+#include "cli/scene.hpp"
+
+namespace cli {
+
+/// The map of an atlas over two forces: its regions by their contacts, hatched where dropping negative
+/// multipliers is wrong; in the larger ones, and at the file's force, the free acceleration A⁻¹z and the true
+/// one as arrows, each of the two components to the scale of its largest.
+Drawing atlas_drawing(const SolvedAtlas&, const Scene&);
+
+}  // namespace cli

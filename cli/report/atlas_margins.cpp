@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "cli/report/atlas_report.hpp"
+#include "convex/exact/fraction_arithmetic.hpp"
+
+namespace cli {
+
+using convex::atlas::Probability;
+using convex::atlas::Wall;
+
+std::vector<std::string> SolvedAtlas::names(const convex::atlas::Cell& cell) const {
+  std::vector<std::string> found;
+  for (const std::size_t a : cell.rows) found.push_back(contacts[a]);
+  return found;
+}
+
+Probability SolvedAtlas::sum() const {
+  Probability total;
+  for (const Probability& p : probabilities) add(total, 1, p);
+  return total;
+}
+
+bool SolvedAtlas::is_accurate() const {
+  return std::all_of(probabilities.begin(), probabilities.end(),
+                     [this](const Probability& p) { return p.error <= tolerance; });
+}
+
+std::vector<AtlasMargin> margins(const SolvedAtlas& solved) {
+  std::vector<AtlasMargin> found;
+  if (solved.here.empty()) return found;
+  const std::size_t here = solved.here.front();
+  const auto& cells = solved.atlas.cells;
+  for (const std::size_t w : cells[here].walls) {
+    const Wall& wall = solved.atlas.walls[w];
+    AtlasMargin margin;
+    margin.cell = wall.tighter == here ? wall.looser : wall.tighter;
+    const convex::Fraction side = convex::atlas::side(wall, solved.z);
+    margin.distance = std::sqrt(convex::nearest_double(side * side / wall.squared_length));
+    const auto &now = cells[here].rows, &then = cells[margin.cell].rows;
+    std::set_difference(then.begin(), then.end(), now.begin(), now.end(), std::back_inserter(margin.closing));
+    std::set_difference(now.begin(), now.end(), then.begin(), then.end(), std::back_inserter(margin.opening));
+    found.push_back(std::move(margin));
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const AtlasMargin& a, const AtlasMargin& b) { return a.distance < b.distance; });
+  return found;
+}
+
+}  // namespace cli
