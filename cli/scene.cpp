@@ -127,7 +127,10 @@ Vector Scene::over_constraints(const Vector& over_contacts) const {
 }
 
 Problem read_problem_file(const std::string& file, const Overrides& overrides) {
-  TomlValue document = read_document(file);
+  return read_problem_document(read_document(file), file, overrides);
+}
+
+Problem read_problem_document(TomlValue document, const std::string& file, const Overrides& overrides) {
   apply_settings(document, parsed_settings(overrides.settings));
   Problem problem = read_problem(document, directory_of(file));
   assemble_declared(problem, file);

@@ -54,6 +54,8 @@ std::string directory_of(const std::string& file);
 /// Reads a problem file, with what is set in it; its matrix files are looked for beside it. A state that
 /// declares contacts is assembled, and what that moved is told on standard error.
 Problem read_problem_file(const std::string& file, const Overrides& overrides);
+/// The same of what was read of `file`, or is called so.
+Problem read_problem_document(TomlValue document, const std::string& file, const Overrides& overrides);
 
 /// The scene of a [system] or a [projection]; options of the command line win over the file's [solve].
 Scene make_scene(Problem, const std::string& file, const SceneOptions& options);

@@ -5,28 +5,17 @@
 #include <optional>
 
 #include "cli/commands/command_line.hpp"
+#include "cli/commands/solve.hpp"
 #include "cli/drawing/mechanism_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/report/cone_report.hpp"
 #include "cli/report/decomposition_report.hpp"
-#include "cli/report/liquid_report.hpp"
 #include "cli/report/singular_report.hpp"
 #include "cli/report/solve_progress.hpp"
 #include "cli/resolved_scene.hpp"
 
 namespace cli {
 namespace {
-
-/// What `moreau solve` is told.
-struct SolveOptions : FileOptions, SceneOptions {
-  bool sensitivity = false;
-  bool verbose = false;              ///< how the answer was found
-  bool null_space = false;           ///< of the multipliers, in JSON
-  bool certify = false;              ///< a proved error bound, or that there is no solution
-  std::optional<std::string> plot;   ///< a picture to write
-  std::optional<std::string> plane;  ///< its two coordinates
-  LiquidRequest liquid;
-};
 
 Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const SolveOptions& options) {
   const auto start = std::chrono::steady_clock::now();
@@ -74,9 +63,9 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
                                       : heading(problem.title, file) + liquid_text(solved)};
 }
 
-Answer solve_file(const std::string& file, const SolveOptions& options) {
-  if (options.plot) require_drawable(*options.plot);
-  Problem problem = read_problem_file(file, options);
+}  // namespace
+
+Answer solve_problem(Problem problem, const std::string& file, const SolveOptions& options) {
   if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content))
     return solve_liquid_file(*liquid, problem, file, options);
   require_no_liquid_request(options.liquid);
@@ -99,6 +88,13 @@ Answer solve_file(const std::string& file, const SolveOptions& options) {
   std::optional<DrawnScene> drawn;
   if (options.plot) drawn.emplace(problem);
   return solve_scene(make_scene(std::move(problem), file, options), drawn, options);
+}
+
+namespace {
+
+Answer solve_file(const std::string& file, const SolveOptions& options) {
+  if (options.plot) require_drawable(*options.plot);
+  return solve_problem(read_problem_file(file, options), file, options);
 }
 
 Exit solve_files(const SolveOptions& options) {

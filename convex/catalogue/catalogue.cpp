@@ -12,20 +12,25 @@ const CatalogueEntry& entry_of(const Call& call) {
   throw InvalidInput(unknown_entry(call.name), call.place);
 }
 
+/// f, checked to take the entries of the space.
+Function fitting(Function f, const Call& call, const Space& space) {
+  if (f.dimension() != 0 && f.dimension() != space.dimension())
+    throw InvalidInput(call.name + ": it takes " + std::to_string(f.dimension()) +
+                           " entries, the space has " + std::to_string(space.dimension()) +
+                           "; give data of that size",
+                       call.place);
+  f.node().require_size(space.dimension());
+  return f;
+}
+
 /// Makes it, with the place of the call on errors that have none, and the size of the space checked.
 Function make(const CatalogueEntry& entry, const Call& call, const Space& space) {
   const Arguments arguments(entry, call, space);
-  const auto at = [&](const std::string& message) { return InvalidInput(message, call.place); };
   try {
-    const Function f = entry.make(arguments);
-    if (f.dimension() != 0 && f.dimension() != space.dimension())
-      throw at(call.name + ": it takes " + std::to_string(f.dimension()) + " entries, the space has " +
-               std::to_string(space.dimension()) + "; give data of that size");
-    f.node().require_size(space.dimension());
-    return f;
+    return fitting(entry.make(arguments), call, space);
   } catch (const InvalidInput& error) {
     if (error.place() || !call.place) throw;
-    throw at(error.what());
+    throw InvalidInput(error.what(), call.place);
   }
 }
 
@@ -48,14 +53,17 @@ const CatalogueEntry* find_entry(std::string_view name) {
   return found == entries.end() ? nullptr : &*found;
 }
 
-Function make_function(const Call& call, const Space& space) { return make(entry_of(call), call, space); }
+Function make_function(const Call& call, const Space& space) {
+  if (call.made) return fitting(Function(call.made), call, space);
+  return make(entry_of(call), call, space);
+}
 
 Set make_set(const Call& call, const Space& space) {
-  const CatalogueEntry& entry = entry_of(call);
-  if (entry.kind != EntryKind::set)
+  const CatalogueEntry* const entry = call.made ? nullptr : &entry_of(call);
+  if (entry == nullptr || entry->kind != EntryKind::set)
     throw InvalidInput(call.name + ": a function where a set is wanted; give a set such as box(0, 1)",
                        call.place);
-  const Function indicator = make(entry, call, space);
+  const Function indicator = make(*entry, call, space);
   const Call made = indicator.call();
   // A node knows its set by the call indicator(set); what does not is named as it was written.
   if (made.name == "indicator" && made.arguments.size() == 1)

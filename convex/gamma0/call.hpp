@@ -15,6 +15,7 @@ namespace convex {
 /// A set, function or operation as it is written: name(key=value, …), the language of docs/functions.md. A
 /// function knows the call that makes it again, so that conjugates print as expressions of the same language.
 struct Call;
+class FunctionNode;
 
 /// What stands for a parameter: a number (inf allowed), a vector, a matrix, or another call.
 using Argument = std::variant<double, Vector, Matrix, std::shared_ptr<const Call>>;
@@ -32,6 +33,8 @@ struct Call {
   std::string name;
   std::vector<NamedArgument> arguments = {};
   std::optional<Place> place = {};
+  /// The function itself, where a user wrote it and no text makes it again; the name is then for readers.
+  std::shared_ptr<const FunctionNode> made = {};
 };
 
 /// An argument by position that is a call itself, and one by name: Call{"ball2", {argument("radius", 2.0)}}.

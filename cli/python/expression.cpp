@@ -1,0 +1,35 @@
+#include "cli/python/expression.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace python {
+namespace {
+
+/// Entries whose meaning depends on the product (docs/functions.md).
+bool takes_the_product(const convex::Call& call) {
+  constexpr std::array<std::string_view, 4> names{"conjugate", "envelope", "support", "proximal_average"};
+  if (std::find(names.begin(), names.end(), call.name) != names.end()) return true;
+  return std::any_of(call.arguments.begin(), call.arguments.end(), [](const convex::NamedArgument& argument) {
+    const auto* nested = std::get_if<std::shared_ptr<const convex::Call>>(&argument.value);
+    return nested && takes_the_product(**nested);
+  });
+}
+
+}  // namespace
+
+Expression::Expression(convex::Call call)
+    : call_(std::move(call)), depends_on_product_(takes_the_product(call_)) {}
+
+convex::Function Expression::in(const convex::Metric& W) const {
+  const bool kept = !depends_on_product_ || W.kind() == convex::MetricKind::identity;
+  if (kept && last_ && last_entries_ == W.dimension()) return *last_;
+  convex::Function made = convex::make_function(call_, {W});
+  if (kept) {
+    last_ = made;
+    last_entries_ = W.dimension();
+  }
+  return made;
+}
+
+}  // namespace python

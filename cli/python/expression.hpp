@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "convex/catalogue/catalogue.hpp"
+
+namespace python {
+
+/// A set or function as it is written in the language of docs/functions.md, or by a user. What it means may
+/// depend on the product of the space and on the number of entries, so that it is made where these are known.
+class Expression {
+ public:
+  explicit Expression(convex::Call call);
+  virtual ~Expression() = default;
+
+  const convex::Call& call() const { return call_; }
+  /// The function in the space with the product of W. Throws InvalidInput as `make_function`.
+  convex::Function in(const convex::Metric& W) const;
+
+ private:
+  convex::Call call_;
+  bool depends_on_product_;
+  mutable std::optional<convex::Function> last_;  ///< of `last_entries_`, where only their number matters
+  mutable convex::Index last_entries_ = -1;
+};
+
+/// The indicator of a set.
+class SetExpression : public Expression {
+  using Expression::Expression;
+};
+
+}  // namespace python

@@ -1,0 +1,110 @@
+import os
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .catalogue import *
+from .functions import Inaccurate as Inaccurate
+from .motion import Event as Event, Motion as Motion, Trajectory as Trajectory
+from .problems import Result as Result, SceneWarning as SceneWarning, Solutions as Solutions
+
+Vector = NDArray[np.float64]
+Status = Literal["solved", "inaccurate", "infeasible", "gave-up"]
+__version__: str
+
+class InvalidInput(ValueError):
+    line: int | None
+    column: int | None
+
+class Metric:
+    def __init__(self, W: Any) -> None: ...
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def gram(self) -> Vector: ...
+    @property
+    def step(self) -> float: ...
+    def multiply(self, x: ArrayLike) -> Vector: ...
+    def solve(self, c: ArrayLike) -> Vector: ...
+    def inner(self, x: ArrayLike, y: ArrayLike) -> float: ...
+    def norm(self, x: ArrayLike) -> float: ...
+
+class Function:
+    text: str
+    name: str
+    is_user: bool
+    def __call__(self, x: ArrayLike, W: Any = None) -> float: ...
+    def __add__(self, other: Function | float) -> Function: ...
+    def __radd__(self, other: float) -> Function: ...
+    def __sub__(self, other: float) -> Function: ...
+    def __mul__(self, alpha: float) -> Function: ...
+    def __rmul__(self, alpha: float) -> Function: ...
+    def __truediv__(self, alpha: float) -> Function: ...
+    def __matmul__(self, A: ArrayLike) -> Function: ...
+    def conjugate(self, W: Any = None) -> Function: ...
+
+class Set(Function):
+    def __contains__(self, x: ArrayLike) -> bool: ...
+    def __and__(self, other: Set) -> Function: ...
+
+class Solution:
+    status: Status
+    acceleration: Vector
+    multipliers: Vector
+    multipliers_unique: bool
+    multiplier_ranges: Vector | None
+    reaction: Vector
+    slack: Vector
+    active: list[int]
+    gauss: float
+    residuals: dict[str, float]
+    error_bound: float
+    method: str
+    steps: int
+    farkas: Vector | None
+    result: Result
+
+class Decomposition:
+    z: Vector
+    x: Vector
+    y: Vector
+    f: str
+    f_x: float
+    g_y: float
+    inner: float
+    fenchel_gap: float
+    residual: float
+    error_bound: float
+    status: Status
+    route: dict[str, str]
+
+class Check:
+    name: str
+    value: float
+    bound: float
+    passed: bool
+    counterexample: str
+
+class LawReport:
+    checks: list[Check]
+    no_evidence: list[str]
+    passed: bool
+    def __bool__(self) -> bool: ...
+
+@overload
+def solve(problem: str | os.PathLike[str] | dict[str, Any], /, *, method: str | None = None,
+          tolerance: float | None = None, set: dict[str, Any] | None = None, **options: Any) -> Result: ...
+@overload
+def solve(*, A: Any = None, z: ArrayLike, U: Any = None, s: ArrayLike | None = None,
+          two_sided: Sequence[int] | None = None, method: str | None = None,
+          tolerance: float | None = None) -> Solution | Solutions: ...
+def prox(f: Function, z: ArrayLike, W: Any = None) -> Vector: ...
+def decompose(f: Function, z: ArrayLike, W: Any = None, tolerance: float = 1e-9) -> Decomposition: ...
+def conjugate(f: Function, W: Any = None) -> Function: ...
+def function(text: str) -> Function: ...
+def user_function(value: Callable[[Vector], float], prox: Callable[[Vector, Metric], ArrayLike], n: int = 0,
+                  name: str = "user_function", check: int = 3) -> Function: ...
+def laws(f: Function, n: int = 3) -> LawReport: ...
+def methods() -> dict[str, str]: ...

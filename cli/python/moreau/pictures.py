@@ -1,0 +1,119 @@
+"""What a notebook shows of results."""
+
+import html
+import os
+import tempfile
+
+import numpy as np
+
+from . import _moreau
+from .motion import Motion
+from .problems import Result, Solutions
+
+_MOST_ROWS = 40
+
+
+def _number(x):
+    return x if isinstance(x, str) else "-" if x is None else f"{x:.6g}"
+
+
+def _table(heading, rows):
+    cells = lambda row, tag: "<tr>" + "".join(f"<{tag}>{html.escape(_number(cell))}</{tag}>" for cell in row) + "</tr>"
+    more = f"<p>... and {len(rows) - _MOST_ROWS} more rows</p>" if len(rows) > _MOST_ROWS else ""
+    return "<table>" + cells(heading, "th") + "".join(cells(row, "td") for row in rows[:_MOST_ROWS]) + f"</table>{more}"
+
+
+def _svg_of(document, options):
+    """The picture of `moreau solve --plot`; None where there is none, or no gnuplot."""
+    if not _moreau.can_draw():
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "picture.svg")
+        try:
+            document.draw(file, options)
+        except _moreau.InvalidInput:  # one coordinate, no answer: nothing to draw
+            return None
+        with open(file, encoding="utf-8") as stream:
+            return stream.read()
+
+
+def _result_html(result):
+    if "acceleration" not in result:
+        return f"<pre>{html.escape(result.text)}</pre>"
+    bound = result["certificate"]["error_bound"]
+    told = f"<p>{result['status']}: error of the acceleration at most {_number(bound)} ({result['certificate']['level']})</p>"
+    states = result["constraints"]
+    contacts = [(name, states[name]["state"], states[name]["ddf"], result["multipliers"][name]) for name in states]
+    motions = [(name, q, result["reaction"][name]) for name, q in result["acceleration"].items()]
+    return (told + _table(("constraint", "state", "d\u00b2f/dt\u00b2", "\u03bb"), contacts)
+            + _table(("coordinate", "acceleration", "reaction"), motions))
+
+
+def _solution_html(solution):
+    if solution.status == "infeasible":
+        return f"<p>infeasible; Farkas weights {html.escape(np.array2string(solution.farkas))}</p>"
+    told = f"<p>{solution.status}: error of q'' at most about {solution.error_bound:.1e}</p>"
+    active = solution.active
+    rows = [(f"c[{a}]", "persists" if a in active else "opens", slack, multiplier)
+            for a, (slack, multiplier) in enumerate(zip(solution.slack, solution.multipliers))]
+    motions = [(f"q[{i}]", *pair) for i, pair in enumerate(zip(solution.acceleration, solution.reaction))]
+    return told + _table(("row", "state", "u.q'' - s", "\u03bb"), rows) + _table(("", "q''", "R"), motions)
+
+
+def _split_html(split):
+    rows = [(f"[{i}]", *row) for i, row in enumerate(zip(split.z, split.x, split.y))]
+    told = (f"<p>{split.status}: error of x and of y at most {split.error_bound:.1e}; f(x) + g(y) - (x|y) = "
+            f"{split.fenchel_gap:.1e}</p>")
+    return f"<p><code>{html.escape(split.f)}</code></p>{told}" + _table(("", "z", "x = prox_f z", "y = prox_g z"), rows)
+
+
+def _split_svg(split):
+    """z = x + y in the plane of two entries, drawn as arrows."""
+    if len(split.z) != 2:
+        return None
+    points = np.array([[0, 0], split.z, split.x, split.y])
+    low, high = points.min(axis=0), points.max(axis=0)
+    scale = 240 / max(float((high - low).max()), 1e-300)
+    at = lambda p: (30 + (p[0] - low[0]) * scale, 270 - (p[1] - low[1]) * scale)
+    lines = []
+    for name, begin, end, colour in (("z", points[0], split.z, "#555555"), ("x", points[0], split.x, "#1b6ca8"),
+                                     ("y", split.x, split.z, "#c0392b")):
+        (x1, y1), (x2, y2) = at(begin), at(end)
+        lines.append(f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{colour}" '
+                     f'stroke-width="2" marker-end="url(#tip)"/><text x="{(x1 + x2) / 2 + 6:.1f}" '
+                     f'y="{(y1 + y2) / 2 - 6:.1f}" fill="{colour}">{name}</text>')
+    return ('<svg xmlns="http://www.w3.org/2000/svg" width="300" height="300" font-family="Helvetica" font-size="14">'
+            '<defs><marker id="tip" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto">'
+            '<path d="M0,0 L8,4 L0,8 z" fill="#333333"/></marker></defs>' + "".join(lines) + "</svg>")
+
+
+def _solution_repr(solution):
+    if solution.status == "infeasible":
+        return f"Solution(status='infeasible', farkas={solution.farkas})"
+    return (f"Solution(status={solution.status!r}, acceleration={solution.acceleration}, active={solution.active}, "
+            f"error_bound={solution.error_bound:.1e})")
+
+
+def _solution_result(solution):
+    """The answer in full, as `moreau solve` gives it of a [projection]: a Result."""
+    return Result(_moreau.document_of(solution), {"method": solution.method})
+
+
+def attach():
+    """Gives the results their looks in a notebook."""
+    solution, split, report = _moreau.Solution, _moreau.Decomposition, _moreau.LawReport
+    solution.__repr__, solution._repr_html_ = _solution_repr, _solution_html
+    solution._repr_svg_ = lambda self: _svg_of(_moreau.document_of(self), {})
+    solution.result = property(_solution_result)
+    split.__repr__ = lambda self: f"Decomposition(f={self.f!r}, x={self.x}, y={self.y}, status={self.status!r})"
+    split._repr_html_, split._repr_svg_ = _split_html, _split_svg
+    report._repr_html_ = lambda self: f"<pre>{html.escape(repr(self))}</pre>"
+    Result._repr_html_ = _result_html
+    Result._repr_svg_ = lambda self: _svg_of(self._document, self._options)
+    Solutions._repr_html_ = lambda self: f"<p>{html.escape(repr(self))}</p>"
+    Motion._repr_html_ = _motion_html
+
+
+def _motion_html(motion):
+    rows = [(event.t, event.kind, ", ".join(event.constraints)) for event in motion.events]
+    return f"<p>{html.escape(repr(motion))}</p>" + _table(("t", "event", "constraints"), rows)
