@@ -157,11 +157,13 @@ class TouchedPoints {
 /// ||c||_(A⁻¹) of fields without a factor of A.
 class GridNorm {
  public:
-  explicit GridNorm(const GridOperator& A) : A_(A), multigrid_(A) { multigrid_.set_free(all_points(A)); }
+  GridNorm(const GridOperator& A, GridMultigrid& multigrid) : A_(A), multigrid_(multigrid) {
+    multigrid_.set_free(all_points(A));
+  }
 
-  /// To the square of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
+  /// To the fourth power of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
   double dual(const Vector& c) {
-    constexpr double close = 1e-4;
+    constexpr double close = 1e-3;
     Vector u, r = A_.field(), correction;
     multigrid_.solve(c, close, u);
     for (Index j = 0; j < A_.height; ++j) {
@@ -178,7 +180,7 @@ class GridNorm {
 
  private:
   const GridOperator& A_;
-  GridMultigrid multigrid_;
+  GridMultigrid& multigrid_;
 };
 
 }  // namespace
@@ -186,7 +188,8 @@ class GridNorm {
 std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const Accuracy& accuracy) {
   const std::optional<ObstacleGrid> grid = grid_problem(problem);
   if (!grid) return std::nullopt;
-  ObstaclePoint point = solve_obstacle_grid(*grid);
+  GridMultigrid multigrid(grid->A);
+  ObstaclePoint point = solve_obstacle_grid(*grid, multigrid);
   if (!point.ended) return std::nullopt;
   const bool decided = TouchedPoints(*grid, point).decide();
   const Index n = problem.dimension(), width = grid->A.width;
@@ -216,7 +219,7 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   }
   found.steps = point.steps;
   found.acceleration_norm = problem.A.norm(found.q);
-  GridNorm norm(grid->A);
+  GridNorm norm(grid->A, multigrid);
   found.force_norm = norm.dual(grid->z);
   KnownParts known{std::move(length), found.slack, {}, found.acceleration_norm, found.force_norm};
   known.dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };

@@ -22,8 +22,8 @@ constexpr double enough = 0x1p-58;
 
 class GridSolver {
  public:
-  GridSolver(const ObstacleGrid& grid, bool sharp)
-      : grid_(grid), A_(grid.A), sharp_(sharp), multigrid_(grid.A), free_(A_.field()), row_(A_.width) {
+  GridSolver(const ObstacleGrid& grid, GridMultigrid& multigrid, bool sharp)
+      : grid_(grid), A_(grid.A), sharp_(sharp), multigrid_(multigrid), free_(A_.field()), row_(A_.width) {
     point_.q = DoubleDoubleVector(A_.size());
     point_.rest = A_.field();
     for (Vector* colour : {&even_, &odd_}) *colour = Vector::Zero(A_.width + 1);
@@ -66,7 +66,8 @@ class GridSolver {
           coarse.lower[here] = grid_.lower[there];
           if (grid_.holds(there)) coarse.held[here] = 1;
         }
-      const ObstaclePoint below = GridSolver(coarse, false).solve();
+      GridMultigrid coarse_multigrid(coarse.A);
+      const ObstaclePoint below = GridSolver(coarse, coarse_multigrid, false).solve();
       point_.steps = below.steps;
       interpolate(coarse.A, below.q.hi, A_, point_.q.hi);
     }
@@ -169,13 +170,15 @@ class GridSolver {
   const ObstacleGrid& grid_;
   const GridOperator& A_;
   const bool sharp_;
-  GridMultigrid multigrid_;
+  GridMultigrid& multigrid_;
   ObstaclePoint point_;
   Vector free_, correction_, row_, even_, odd_;
 };
 
 }  // namespace
 
-ObstaclePoint solve_obstacle_grid(const ObstacleGrid& grid) { return GridSolver(grid, true).solve(); }
+ObstaclePoint solve_obstacle_grid(const ObstacleGrid& grid, GridMultigrid& multigrid) {
+  return GridSolver(grid, multigrid, true).solve();
+}
 
 }  // namespace convex

@@ -26,6 +26,7 @@ struct ObstaclePoint {
 /// Primal-dual active sets (Hintermüller, Ito and Kunisch 2003), which end after finitely many steps for
 /// M-matrices, nested from a grid of 8 points to the one given, after projected sweeps that bring the set
 /// close; refined with residuals in twice the working precision, after which the signs are checked again.
-ObstaclePoint solve_obstacle_grid(const ObstacleGrid&);
+/// multigrid: of its operator; the free points of the answer are set in it then.
+ObstaclePoint solve_obstacle_grid(const ObstacleGrid&, GridMultigrid& multigrid);
 
 }  // namespace convex
