@@ -54,6 +54,7 @@ bool rule_is_right(const ExactProblem& problem, const IntegerVector& z) {
 TEST_CASE("the rule is right on a cell exactly where its part says so") {
   std::mt19937 random(11);
   std::uniform_int_distribution<int> number(-40, 40);
+  int right = 0, wrong = 0;
   for (const ExactProblem& problem : {tests::atlas_problem({{2, 1}, {1, 2}}, {{1, 0}, {0, 1}}, {0, 0}),
                                       tests::atlas_problem({{2, 1}, {1, 1}}, {{1, 0}, {1, 1}}, {1, -2}),
                                       tests::atlas_problem({{3, 1, 1}, {1, 2, 1}, {1, 1, 4}},
