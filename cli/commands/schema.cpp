@@ -39,10 +39,12 @@ constexpr const char* schema_of_problem_files = R"({
                 {"type": "object", "additionalProperties": {"$ref": "#/$defs/number"}}]
     }
   },
+  "if": {"required": ["system"], "not": {"required": ["bodies"]}},
+  "then": {"properties": {"system": {"required": ["coordinates", "kinetic"]}}},
   "properties": {
     "title": {"type": "string"},
     "system": {
-      "type": "object", "required": ["coordinates", "kinetic"], "additionalProperties": false,
+      "type": "object", "additionalProperties": false,
       "properties": {
         "coordinates": {"type": "array", "items": {"type": "string"}},
         "kinetic": {"$ref": "#/$defs/expression"},
@@ -61,6 +63,16 @@ constexpr const char* schema_of_problem_files = R"({
               "restitution": {"$ref": "#/$defs/number"}
             }
           }
+        }
+      }
+    },
+    "bodies": {
+      "type": "object",
+      "additionalProperties": {
+        "type": "object", "required": ["mass", "inertia"], "additionalProperties": false,
+        "properties": {
+          "mass": {"$ref": "#/$defs/expression"},
+          "inertia": {"type": "array", "items": {"$ref": "#/$defs/expression"}, "minItems": 3, "maxItems": 3}
         }
       }
     },

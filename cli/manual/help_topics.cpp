@@ -22,6 +22,8 @@ constexpr std::string_view system_text = R"text([system]
 [system.forces]       x = "-3*x'"      Q by coordinate; what is missing is 0
 [system.constraints]  floor = "x >= h" >= and <= are one-sided, = is two-sided
 [system.looseness]    mesh = { between = ["a", "2*x"], gap = 0.01 }   play
+[bodies.top]          mass = 2.0, inertia = [1, 1, 2]: a rigid body in space; makes the coordinates top_x
+                      top_y top_z top_e0 ... top_e3 (Euler's parameters) and the constraint top_unit
 [state]               see `moreau help state`
 [solve]               method, tolerance, contact_tolerance
 [simulate]            until, method, tolerance, step, restitution, samples, impact_law
@@ -49,6 +51,8 @@ min max hypot(x, y) sign(x) step(x)
 if(a >= b, c, d)                 c where the comparison holds, else d
 table(x, [x1, ...], [y1, ...])   a cubic spline; table(x, "F.csv") takes two columns of a file
 sum(i in 1..N, m*x[i]^2)         over a family
+dot(u, v) norm(u) cross(u, v)[k] of vectors: r for "r[1..3]", lists [a, b, c], sums and multiples
+point(BODY, a, b, c, k)          the k-th coordinate in space of a point of a body
 x'                               the velocity of x; (l*sin(a))' the rate of anything
 )text";
 

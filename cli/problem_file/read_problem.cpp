@@ -43,7 +43,7 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   const TomlValue& document = *kept;
   require_known_keys(document, "",
                      {"title", "system", "state", "projection", "decomposition", "cone", "liquid", "solve",
-                      "simulate", "draw"});
+                      "simulate", "draw", "bodies"});
   Problem problem;
   if (const TomlValue* title = document.find("title")) problem.title = shown(require_string(*title, "title"));
   if (const TomlValue* settings = document.find("solve")) problem.solve = read_solve_settings(*settings);
@@ -57,6 +57,9 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   const TomlValue* draw = document.find("draw");
   if (content.key != "system" && draw != nullptr)
     throw InvalidInput("[draw] goes with [system] only; take it out", draw->place);
+  const TomlValue* bodies = document.find("bodies");
+  if (content.key != "system" && bodies != nullptr)
+    throw InvalidInput("[bodies] goes with [system] only; take it out", bodies->place);
   if (draw != nullptr) problem.draw = read_draw(*draw);
   if (content.key == "system") {
     problem.content = read_system(document, directory);

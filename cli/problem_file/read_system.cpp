@@ -33,27 +33,30 @@ std::vector<NamedText> named(const TomlValue* table, const std::string& where) {
   return entries;
 }
 
-mechanics::LagrangianText read_lagrangian(const TomlValue& table) {
+mechanics::LagrangianText read_lagrangian(const TomlValue& table, const TomlValue* bodies) {
   require_known_keys(table, "system",
                      {"coordinates", "kinetic", "potential", "parameters", "definitions", "forces",
                       "constraints", "looseness"});
   mechanics::LagrangianText system;
   const TomlValue* coordinates = table.find("coordinates");
-  if (coordinates == nullptr || coordinates->kind != TomlValue::Kind::array)
+  const bool needed = bodies == nullptr;
+  if (coordinates == nullptr ? needed : coordinates->kind != TomlValue::Kind::array)
     throw InvalidInput("system.coordinates: no list of names; write coordinates = [\"x\", \"y\"]",
                        coordinates == nullptr ? table.place : coordinates->place);
-  for (const TomlValue& name : coordinates->array)
-    system.coordinates.push_back(string_text(name, "system.coordinates"));
+  if (coordinates != nullptr)
+    for (const TomlValue& name : coordinates->array)
+      system.coordinates.push_back(string_text(name, "system.coordinates"));
   const TomlValue* kinetic = table.find("kinetic");
-  if (kinetic == nullptr)
+  if (kinetic == nullptr && needed)
     throw InvalidInput("system.kinetic: no kinetic energy; write kinetic = \"m/2*x'^2\"", table.place);
-  system.kinetic = expression(*kinetic, "system.kinetic");
+  if (kinetic != nullptr) system.kinetic = expression(*kinetic, "system.kinetic");
   if (const TomlValue* potential = table.find("potential"))
     system.potential = expression(*potential, "system.potential");
   system.parameters = named(table.find("parameters"), "system.parameters");
   system.definitions = named(table.find("definitions"), "system.definitions");
   system.forces = named(table.find("forces"), "system.forces");
   system.constraints = named(table.find("constraints"), "system.constraints");
+  if (bodies != nullptr) add_bodies(*bodies, system);
   return system;
 }
 
@@ -130,7 +133,7 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
 SystemProblem read_system(const TomlValue& document, const std::string& directory) {
   const TomlValue& system = *document.find("system");
   const TomlValue* state = document.find("state");
-  SystemProblem problem{read_lagrangian(system), {}, {}};
+  SystemProblem problem{read_lagrangian(system, document.find("bodies")), {}, {}};
   if (state == nullptr)
     throw InvalidInput("no [state]; give the position of every coordinate, position = { x = 0.0 }",
                        system.place);

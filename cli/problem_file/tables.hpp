@@ -9,6 +9,9 @@ namespace cli {
 /// `directory`.
 SystemProblem read_system(const TomlValue& document, const std::string& directory);
 
+/// `[bodies]`: rigid bodies in space, by their coordinates, their part of T and |e| = 1.
+void add_bodies(const TomlValue& bodies, mechanics::LagrangianText& system);
+
 /// `[projection]`; matrix files are looked for in `directory`.
 ProjectionProblem read_projection(const TomlValue& table, const std::string& directory);
 

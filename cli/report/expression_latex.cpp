@@ -151,7 +151,12 @@ class ExpressionWriter {
                "\\bigr)";
       }
     }
+    if (name == "dot" || name == "cross") {
+      const std::string u = factor(sequence(',')), v = factor(sequence(')'));
+      return "(" + u + (name == "dot" ? " \\cdot " : " \\times ") + v + ")";
+    }
     const std::string inside = sequence(')');
+    if (name == "norm") return "\\lVert " + inside + "\\rVert ";
     if (name == "sqrt") return "\\sqrt{" + inside + "}";
     if (name == "abs") return "\\lvert " + inside + "\\rvert ";
     std::string called = "\\operatorname{" + name + "}";
@@ -159,6 +164,12 @@ class ExpressionWriter {
       if (name == function.name) called = function.latex;
     called.erase(std::remove(called.begin(), called.end(), '_'), called.end());
     return called + "(" + inside + ")";
+  }
+
+  /// Within parentheses where it is a sum.
+  static std::string factor(const std::string& term) {
+    const bool is_sum = term.find(" + ") != std::string::npos || term.find(" - ") != std::string::npos;
+    return is_sum ? "(" + term + ")" : term;
   }
 
   const std::string& text_;

@@ -17,7 +17,8 @@ struct Instruction {
     time,           ///< push
     index,          ///< push the index in slot `operand`
     parameter,      ///< push the parameter `operand`
-    coordinate,     ///< pop `count` indices, push the member of the family `operand`
+    coordinate,     ///< pop `count` indices, push the member of the family `operand`; `number` is 3 where
+                    ///< it has to be a vector, and have the members 1, 2, 3
     definition,     ///< likewise
     apply,          ///< pop the operands, push the result of `operation`
     construct,      ///< pop `number` arguments, push what the Construction `operand` makes of them

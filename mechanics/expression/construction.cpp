@@ -34,6 +34,33 @@ class Builder {
     return d;
   }
 
+  /// x + R(e) (a, b, c), its coordinate `row` from 0; R(e) has the columns e (i, j, k) conj(e) (Euler's
+  /// parameters, e0 first; Goldstein, Poole and Safko 2002, section 4.5), and is a rotation where |e| = 1.
+  NodeId point(std::span<const NodeId> x_e_abc, std::size_t row) {
+    const auto e = [&](std::size_t i) { return x_e_abc[3 + i]; };
+    const auto square = [&](std::size_t i) { return binary(Operation::power, e(i), number("2", 2)); };
+    const auto twice = [&](NodeId node) { return binary(Operation::multiply, number("2", 2), node); };
+    const auto product = [&](std::size_t i, std::size_t j) {
+      return binary(Operation::multiply, e(i), e(j));
+    };
+    NodeId sum_of_terms = x_e_abc[row];
+    for (std::size_t column = 0; column < 3; ++column) {
+      NodeId entry = no_node;
+      if (row == column) {
+        entry = sum(square(0), square(row + 1));
+        for (std::size_t other = 0; other < 3; ++other)
+          if (other != row) entry = difference(entry, square(other + 1));
+      } else {
+        const std::size_t third = 3 - row - column;  // e_row e_column -+ e_0 e_third
+        const bool next = (row + 1) % 3 == column;
+        const NodeId mixed = product(row + 1, column + 1), turned = product(0, third + 1);
+        entry = twice(next ? difference(mixed, turned) : sum(mixed, turned));
+      }
+      sum_of_terms = sum(sum_of_terms, binary(Operation::multiply, entry, x_e_abc[7 + column]));
+    }
+    return sum_of_terms;
+  }
+
   /// The pieces `first` to `last` of a spline, by bisection of the knots.
   NodeId pieces(const CubicSpline& spline, NodeId x, std::span<const NodeId> knots,
                 std::span<const NodeId> values, std::size_t first, std::size_t last) {
@@ -88,6 +115,8 @@ std::optional<Construction> construction_named(std::string_view name) {
   return std::nullopt;
 }
 
+bool is_component(double number) { return number == 1 || number == 2 || number == 3; }
+
 NodeId constructed(Tape& tape, Construction what, std::span<const NodeId> arguments, Origin origin) {
   Builder build(tape, origin);
   const NodeId a = arguments[0];
@@ -116,6 +145,16 @@ NodeId constructed(Tape& tape, Construction what, std::span<const NodeId> argume
       }
       return build.unary(Operation::sqrt, squares);
     }
+    case Construction::component:
+      return arguments[static_cast<std::size_t>(tape.constant(arguments[3])) - 1];
+    case Construction::point:
+      return build.point(arguments, static_cast<std::size_t>(tape.constant(arguments[10])) - 1);
+    case Construction::point_x:
+      return build.point(arguments, 0);
+    case Construction::point_y:
+      return build.point(arguments, 1);
+    case Construction::point_z:
+      return build.point(arguments, 2);
     case Construction::table:
       break;
   }
@@ -140,6 +179,8 @@ double constructed(Construction what, std::span<const double> arguments) {
       const std::size_t n = (arguments.size() - 1) / 2;
       return natural_cubic_spline(arguments.subspan(1, n), arguments.subspan(1 + n, n))(a);
     }
+    case Construction::component:
+      return arguments[static_cast<std::size_t>(arguments[3]) - 1];
     default:
       return holds(what, a, arguments[1]) ? arguments[2] : arguments[3];
   }
@@ -159,6 +200,18 @@ NodeId spline_node(Tape& tape, NodeId x, std::span<const NodeId> knots, std::spa
   const NodeId inside = build.pieces(spline, x, knots, values, 0, spline.slope.size() - 1);
   const NodeId below_end = build.branches(build.difference(knots.back(), x), inside, outside);
   return build.branches(build.difference(x, knots.front()), below_end, outside);
+}
+
+NodeId squared_length(const Tape& tape, NodeId node) {
+  if (tape.operation(node) != Operation::sqrt) return no_node;
+  const auto is_square = [&](NodeId term) {
+    return tape.operation(term) == Operation::power && tape.is_constant(tape.b(term)) &&
+           tape.constant(tape.b(term)) == 2;
+  };
+  NodeId rest = tape.a(node);
+  for (; tape.operation(rest) == Operation::add; rest = tape.a(rest))
+    if (!is_square(tape.b(rest))) return no_node;
+  return is_square(rest) ? tape.a(node) : no_node;
 }
 
 NodeId absolute_power(Tape& tape, NodeId x, NodeId exponent, Origin origin) {

@@ -16,14 +16,22 @@ enum class Construction : std::uint8_t {
   if_more,
   if_at_most,
   if_less,
-  sign,   ///< -1, 0 or 1
-  step,   ///< 0 where the argument is negative, else 1
-  hypot,  ///< the root of a sum of squares
-  table,  ///< table(x, [x1, …], [y1, …])
+  sign,       ///< -1, 0 or 1
+  step,       ///< 0 where the argument is negative, else 1
+  hypot,      ///< the root of a sum of squares
+  table,      ///< table(x, [x1, …], [y1, …])
+  component,  ///< the k-th of three: the three, k
+  point,      ///< the k-th coordinate in space of a point of a body: x, y, z, e0 … e3, a, b, c, k
+  point_x,    ///< the same for k = 1, without k
+  point_y,
+  point_z,
 };
 
 /// The functions of this kind that have a name of their own.
 std::optional<Construction> construction_named(std::string_view name);
+
+/// Whether `number` is 1, 2 or 3, the number of a coordinate in space.
+bool is_component(double number);
 
 /// As nodes. Conditions that are constant are decided at once. The arguments of a table: x, the knots, the
 /// values.
@@ -36,6 +44,9 @@ double constructed(Construction what, std::span<const double> arguments);
 /// of its numbers.
 NodeId spline_node(Tape& tape, NodeId x, std::span<const NodeId> knots, std::span<const NodeId> values,
                    Origin origin);
+
+/// x1^2 + x2^2 + … where `node` is the root of such a sum, so that its square is smooth at 0; else no_node.
+NodeId squared_length(const Tape& tape, NodeId node);
 
 /// |x|^e for a constant e: branches where e is not even, smooth at 0 where e > 2.
 NodeId absolute_power(Tape& tape, NodeId x, NodeId exponent, Origin origin);

@@ -167,6 +167,9 @@ void Expansion::apply(const Instruction& instruction) {
     push_number(instruction, value(instruction.operation, a, b));
   } else {
     const NodeId last = pop_node(), a = binary ? pop_node() : last;
+    if (instruction.operation == Operation::power && tape_->is_constant(last) && tape_->constant(last) == 2)
+      if (const NodeId squares = squared_length(*tape_, a); squares != no_node)
+        return nodes_.push_back(squares);
     const bool of_absolute = instruction.operation == Operation::power && tape_->is_constant(last) &&
                              tape_->constant(last) > 1 && tape_->operation(a) == Operation::abs;
     nodes_.push_back(of_absolute ? absolute_power(*tape_, tape_->a(a), last, origin(instruction))
@@ -223,6 +226,11 @@ void Expansion::push_member(const Instruction& instruction) {
   const bool is_coordinate = instruction.step == Instruction::Step::coordinate;
   const auto& families = is_coordinate ? meanings_->coordinate_families : meanings_->definition_families;
   const Family& family = families[instruction.operand];
+  if (instruction.number == 3 &&
+      (family.members.size() != 3 || family.members.low(0) != 1 || family.members.high(0) != 3))
+    fail(instruction, quoted(family.name) + " is no vector, it runs over " + family.name + "[" +
+                          (family.members.size() == 0 ? "" : family.members.range()) +
+                          "]; a vector has the members 1, 2 and 3");
   std::int64_t tuple[8];
   const std::size_t first = numbers_.size() - instruction.count;
   for (std::size_t k = 0; k < instruction.count; ++k)

@@ -13,6 +13,8 @@ void Expansion::construct(const Instruction& instruction) {
       if (const auto fault = fault_of_table(arguments.subspan(1, n), arguments.subspan(1 + n)))
         fail(instruction, "table " + *fault);
     }
+    if (what == Construction::component && !is_component(arguments[3]))
+      fail(instruction, "the component " + count_text(arguments[3]) + " of a vector; it is 1, 2 or 3");
     const double result = constructed(what, arguments);
     numbers_.resize(numbers_.size() - count);
     return push_number(instruction, result);
@@ -20,6 +22,13 @@ void Expansion::construct(const Instruction& instruction) {
   const std::vector<NodeId> arguments(nodes_.end() - static_cast<std::ptrdiff_t>(count), nodes_.end());
   nodes_.resize(nodes_.size() - count);
   if (what == Construction::table) check_table(instruction, arguments);
+  if (what == Construction::component || what == Construction::point) {
+    const NodeId k = arguments.back();
+    if (!tape_->is_constant(k))
+      fail(instruction, "the number of a component is no constant; write it with numbers and indices");
+    if (!is_component(tape_->constant(k)))
+      fail(instruction, "the component " + count_text(tape_->constant(k)) + " of a vector; it is 1, 2 or 3");
+  }
   nodes_.push_back(constructed(*tape_, what, arguments, origin(instruction)));
 }
 

@@ -50,9 +50,9 @@ std::string Names::suggestion(std::string_view unknown, const std::vector<Name::
   if (candidates.empty() && !language) return "; there is none";
   const std::size_t known = candidates.size();
   if (language)
-    for (const char* name : {"sin",  "cos",  "tan",   "asin", "acos", "atan", "atan2", "sinh", "cosh",
-                             "tanh", "exp",  "log",   "sqrt", "abs",  "sum",  "pi",    "t",    "min",
-                             "max",  "sign", "hypot", "ln",   "step", "if",   "table"})
+    for (const char* name : {"sin",   "cos", "tan",  "asin", "acos",  "atan", "atan2", "sinh", "cosh", "tanh",
+                             "exp",   "log", "sqrt", "abs",  "sum",   "pi",   "t",     "min",  "max",  "sign",
+                             "hypot", "ln",  "step", "if",   "table", "dot",  "cross", "norm", "point"})
       candidates.emplace_back(name);
   const std::string nearest = convex::nearest_name(unknown, candidates);
   if (!nearest.empty()) return "; did you mean " + quoted(nearest) + "?";

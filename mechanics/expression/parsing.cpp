@@ -2,25 +2,10 @@
 
 #include <algorithm>
 
+#include "mechanics/expression/parsing_numbers.hpp"
 #include "mechanics/expression/unknown_function.hpp"
 
 namespace mechanics::expression {
-
-/// One level of nesting, for as long as it lives.
-class Parsing::Nested {
- public:
-  explicit Nested(Parsing& parsing) : depth_(parsing.depth_) {
-    if (++depth_ > deepest_nesting)
-      parsing.source_->fail(parsing.token_.offset,
-                            "nested more than 256 deep; name a part of it under [system.definitions]");
-  }
-  ~Nested() { --depth_; }
-  Nested(const Nested&) = delete;
-  Nested& operator=(const Nested&) = delete;
-
- private:
-  int& depth_;
-};
 
 Parsing::Parsing(const Source& source, const Scope& scope)
     : source_(&source), names_(scope.names), vocabulary_(scope.vocabulary), lexer_(source) {
@@ -103,8 +88,10 @@ void Parsing::sum() {
   product();
   while (token_.kind == Kind::plus || token_.kind == Kind::minus) {
     const Token sign = token_;
+    const bool was_vector = is_vector_;
     advance();
     product();
+    refuse_vectors(is_vector_ != was_vector, sign.offset, "the sum of a vector and a number");
     apply(sign.kind == Kind::plus ? Operation::add : Operation::subtract, sign.offset);
   }
 }
@@ -113,8 +100,14 @@ void Parsing::product() {
   unary();
   while (token_.kind == Kind::times || token_.kind == Kind::over) {
     const Token sign = token_;
+    const bool was_vector = is_vector_;
     advance();
     unary();
+    const bool divides = sign.kind == Kind::over && is_vector_;
+    refuse_vectors(
+        divides || (is_vector_ && was_vector), sign.offset,
+        divides ? "a division by a vector" : "a product of two vectors; write dot(u, v) or cross(u, v)");
+    is_vector_ = is_vector_ || was_vector;
     apply(sign.kind == Kind::times ? Operation::multiply : Operation::divide, sign.offset);
   }
 }
@@ -133,8 +126,10 @@ void Parsing::power() {
   if (token_.kind != Kind::power) return;
   const Nested nested(*this);
   const Token sign = token_;
+  const bool was_vector = is_vector_;
   advance();
   unary();
+  refuse_vectors(is_vector_ || was_vector, sign.offset, "a power of a vector; norm(u)^2 is dot(u, u)");
   apply(Operation::power, sign.offset);
 }
 
@@ -149,6 +144,8 @@ void Parsing::postfix() {
 
 void Parsing::primary() {
   const Token token = token_;
+  is_vector_ = false;
+  if (token.kind == Kind::open_index && component_ > 0) return vector_list(token);
   if (token.kind == Kind::number) {
     advance();
     emit(Step::literal, token.offset, static_cast<std::uint32_t>(token.text.size())).number = token.number;
@@ -168,10 +165,15 @@ void Parsing::primary() {
 void Parsing::named(const Token& name) {
   if (name.text == "sum") return indexed_sum(name);
   if (const auto function = function_named(name.text);
-      function && (token_.kind == Kind::open || is_reserved(name.text)))
+      function && (token_.kind == Kind::open || is_reserved(name.text))) {
+    const Numbers only(*this);
     return call(*function, name);
-  if (const auto what = construction_named(name.text); what && token_.kind == Kind::open)
+  }
+  if (const auto what = construction_named(name.text); what && token_.kind == Kind::open) {
+    const Numbers only(*this);
     return construct(*what, name);
+  }
+  if (is_vector_function(name)) return vector_function(name);
   if (name.text == "pi") return void(emit(Step::pi, name.offset));
   if (name.text == "in") source_->fail(name.offset, "\"in\" belongs to sum(i in a..b, …); it is no value");
   if (name.text == "t") {
@@ -240,6 +242,7 @@ void Parsing::call(Operation function, const Token& name) {
 
 void Parsing::number_in(Vocabulary vocabulary, void (Parsing::*part)()) {
   const Vocabulary outer = vocabulary_;
+  const Numbers only(*this);
   vocabulary_ = vocabulary;
   (this->*part)();
   vocabulary_ = outer;
@@ -247,7 +250,13 @@ void Parsing::number_in(Vocabulary vocabulary, void (Parsing::*part)()) {
 
 void Parsing::member(const Name& meaning, const Token& name) {
   std::uint32_t given = 0;
-  if (token_.kind == Kind::open_index) {
+  const bool is_vector = component_ > 0 && meaning.indices == 1 && token_.kind != Kind::open_index;
+  if (is_vector) {
+    Instruction& k = emit(Step::literal, name.offset);
+    k.number = component_;
+    k.numeric = true;
+    given = 1;
+  } else if (token_.kind == Kind::open_index) {
     const Nested nested(*this);
     advance();
     do {
@@ -264,8 +273,10 @@ void Parsing::member(const Name& meaning, const Token& name) {
     source_->fail(name.offset, quoted(name.text) + counts);
   }
   const bool is_coordinate = meaning.kind == Name::Kind::coordinate;
-  emit(is_coordinate ? Step::coordinate : Step::definition, name.offset, meaning.index).count =
-      static_cast<std::uint8_t>(given);
+  Instruction& push = emit(is_coordinate ? Step::coordinate : Step::definition, name.offset, meaning.index);
+  push.count = static_cast<std::uint8_t>(given);
+  push.number = is_vector ? 3 : 0;
+  is_vector_ = is_vector;
 }
 
 bool Parsing::at_index_declaration() const {

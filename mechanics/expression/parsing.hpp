@@ -46,6 +46,24 @@ class Parsing {
   double list(const Token& name);
   void comma_of(const Token& name, const char* form);
   void indexed_sum(const Token& name);
+
+  struct Mark {  // where the parsing stood
+    Lexer lexer;
+    Token token, ahead;
+  };
+  class Numbers;
+  Mark mark() const { return {lexer_, token_, ahead_}; }
+  void back_to(const Mark& mark);
+  bool is_vector_function(const Token& name) const;
+  void vector_function(const Token& name);
+  void vector_component(int k);
+  void dot_product(const Token& name);
+  void length(const Token& name);
+  void cross_product(const Token& name);
+  void component_of_cross(const Mark& start, int k);
+  void point(const Token& name);
+  void vector_list(const Token& bracket);
+  void refuse_vectors(bool refused, std::size_t offset, const char* what) const;
   bool at_index_declaration() const;
   void member(const Name& meaning, const Token& name);
   void number_in(Vocabulary vocabulary, void (Parsing::*part)());
@@ -65,7 +83,9 @@ class Parsing {
   std::uint32_t key_slots_ = 0, slots_ = 0;
   Lexer lexer_;
   Token token_, ahead_;
-  int depth_ = 0, branches_ = 0;
+  int depth_ = 0, branches_ = 0, vector_depth_ = 0;
+  int component_ = 0;       // within a vector: which of its components is written out; 0: numbers
+  bool is_vector_ = false;  // what was read last
   std::vector<Instruction> steps_;
 };
 

@@ -12,6 +12,7 @@ bool refers(const Names& names, const Text& text) {
   for (Token token = lexer.next(); token.kind != Token::Kind::end; token = lexer.next()) {
     if (token.kind == Token::Kind::prime) return true;
     if (token.kind != Token::Kind::name) continue;
+    if (token.text == "point") return true;  // of a body, whose coordinates it uses
     const Name* meaning = names.find(token.text);
     if (meaning != nullptr && meaning->kind != Name::Kind::parameter) return true;
   }

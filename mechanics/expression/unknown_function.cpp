@@ -21,7 +21,6 @@ constexpr Saying sayings[] = {
     {"sqr", "write x^2"},
     {"square", "write x^2"},
     {"cbrt", "write x^(1/3)"},
-    {"norm", "write sqrt(x^2 + y^2)"},
     {"log10", "write log(x)/log(10)"},
     {"log2", "write log(x)/log(2)"},
     {"fabs", "write abs(x)"},
@@ -38,7 +37,6 @@ constexpr Saying sayings[] = {
     {"diff", "the time derivative is x'"},
     {"der", "the time derivative is x'"},
     {"ddt", "the time derivative is x'"},
-    {"dot", "the time derivative is x'"},
     {"Sum", "write sum(i in 1..N, ...)"},
     {"sgn", "write sign(x)"},
     {"heaviside", "write step(x)"},
@@ -54,7 +52,8 @@ std::string instead_of_function(std::string_view unknown) {
   for (const Saying& saying : sayings)
     if (saying.unknown == unknown) return std::string(saying.here);
   std::vector<std::string> known = function_names();
-  for (const char* other : {"sign", "hypot", "step", "if", "table", "sum"}) known.emplace_back(other);
+  for (const char* other : {"sign", "hypot", "step", "if", "table", "sum", "dot", "cross", "norm", "point"})
+    known.emplace_back(other);
   const std::string nearest = convex::nearest_name(unknown, known);
   if (!nearest.empty()) return "did you mean \"" + nearest + "\"?";
   std::string list = "the functions are ";

@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cctype>
+
+#include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/tables.hpp"
+
+namespace cli {
+namespace {
+
+using convex::InvalidInput;
+using mechanics::LagrangianText;
+using mechanics::Text;
+
+bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+/// How a mass or a moment of inertia stands in T: a number or a name as it is, another expression as a
+/// definition `name`, so that what is wrong with it is told at its own place.
+std::string quantity(const TomlValue& value, const std::string& where, const std::string& name,
+                     LagrangianText& system) {
+  if (value.is_number()) {
+    if (!(value.number > 0) || value.number > 1e300)
+      throw InvalidInput(where + ": " + shown(value.text) + " is not positive; give a number > 0",
+                         value.place);
+    return value.text;
+  }
+  const std::string& text = require_string(value, where);
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_letter_or_digit)) return text;
+  system.definitions.push_back({{name, value.place}, {text, value.content}});
+  return name;
+}
+
+/// The part of T of one body: its centre moves, and it turns with the angular velocity w = 2 G(e) e' in its
+/// own axes (Euler's parameters; Goldstein, Poole and Safko 2002, section 4.8). The last term is 0 where |e|
+/// = 1 is kept; without it T would not be definite in e'. Its factor is that of a ball of the same mean
+/// inertia.
+std::string kinetic_energy(const std::string& body, const std::string& mass,
+                           const std::string (&inertia)[3]) {
+  const auto q = [&](const char* suffix) { return body + "_" + suffix; };
+  const auto v = [&](const char* suffix) { return body + "_" + suffix + "'"; };
+  const auto turn = [&](const char* const(&order)[4], const char* const(&signs)[4]) {
+    std::string w;  // half of a component of w: +-e_a e_0' + e_b e_1' + ...
+    const char* const rates[4] = {"e0", "e1", "e2", "e3"};
+    for (int i = 0; i < 4; ++i) w += signs[i] + q(order[i]) + "*" + v(rates[i]);
+    return w;
+  };
+  return mass + "/2*(" + v("x") + "^2 + " + v("y") + "^2 + " + v("z") + "^2) + 2*" + inertia[0] + "*(" +
+         turn({"e1", "e0", "e3", "e2"}, {"-", " + ", " + ", " - "}) + ")^2 + 2*" + inertia[1] + "*(" +
+         turn({"e2", "e3", "e0", "e1"}, {"-", " - ", " + ", " + "}) + ")^2 + 2*" + inertia[2] + "*(" +
+         turn({"e3", "e2", "e1", "e0"}, {"-", " + ", " - ", " + "}) + ")^2 + 2*(" + inertia[0] + " + " +
+         inertia[1] + " + " + inertia[2] + ")/3*(" +
+         turn({"e0", "e1", "e2", "e3"}, {"", " + ", " + ", " + "}) + ")^2";
+}
+
+}  // namespace
+
+void add_bodies(const TomlValue& bodies, LagrangianText& system) {
+  for (const TomlEntry& entry : require_table(bodies, "bodies").table) {
+    const std::string where = "bodies." + shown(entry.key);
+    const TomlValue& body = require_table(entry.value, where);
+    require_known_keys(body, where, {"mass", "inertia"});
+    if (entry.key.empty() || !std::all_of(entry.key.begin(), entry.key.end(), is_letter_or_digit))
+      throw InvalidInput(where + ": no name; give one of letters, digits and _", entry.place);
+    const TomlValue *mass = body.find("mass"), *inertia = body.find("inertia");
+    if (mass == nullptr) throw InvalidInput(where + ".mass: missing; write mass = 2.0", entry.place);
+    if (inertia == nullptr || inertia->kind != TomlValue::Kind::array || inertia->array.size() != 3)
+      throw InvalidInput(
+          where + ".inertia: not three moments; write inertia = [Ix, Iy, Iz], about the body's own axes",
+          inertia == nullptr ? entry.place : inertia->place);
+    const std::string m = quantity(*mass, where + ".mass", entry.key + "_mass", system);
+    std::string moments[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      moments[k] = quantity(inertia->array[k], where + ".inertia",
+                            entry.key + "_I" + std::string(1, "xyz"[k]), system);
+    for (const char* suffix : {"_x", "_y", "_z", "_e0", "_e1", "_e2", "_e3"})
+      system.coordinates.push_back({entry.key + suffix, entry.place});
+    const std::string kinetic = kinetic_energy(entry.key, m, moments);
+    if (system.kinetic.text.empty())
+      system.kinetic = {kinetic, entry.place};
+    else
+      system.kinetic.text += " + " + kinetic;
+    const auto e = [&](const char* i) { return entry.key + "_e" + i + "^2"; };
+    system.constraints.push_back(
+        {{entry.key + "_unit", entry.place},
+         {e("0") + " + " + e("1") + " + " + e("2") + " + " + e("3") + " = 1", entry.place}});
+  }
+}
+
+}  // namespace cli
