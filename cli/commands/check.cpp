@@ -21,6 +21,7 @@ namespace {
 /// What `moreau check` is told.
 struct CheckOptions : FileOptions, SceneOptions {
   bool catalogue = false;  ///< the whole language instead of files
+  bool certify = false;    ///< of the catalogue: what is proved of it
 };
 
 /// An object of a solve with the checks behind its own keys.
@@ -96,10 +97,19 @@ void add_check(CLI::App& program, Work& chosen) {
   CLI::App& command = add_command(
       program, "check",
       "the decomposition theorem, numerically: laws that the answer must obey, each with its bound", chosen,
-      [options] { return options->catalogue ? check_catalogue(*options) : check_files(*options); });
+      [options] {
+        if (!options->catalogue) return check_files(*options);
+        return options->certify ? prove_catalogue(*options) : check_catalogue(*options);
+      });
   CLI::Option* files = command.add_option("FILE", options->files, "problem files; - is standard input");
-  command.add_flag("--catalogue", options->catalogue, "every set, function and operation, in four metrics")
-      ->excludes(files);
+  CLI::Option* catalogue =
+      command
+          .add_flag("--catalogue", options->catalogue, "every set, function and operation, in four metrics")
+          ->excludes(files);
+  command
+      .add_flag("--certify", options->certify,
+                "with --catalogue: which examples are proved, to how many digits; exit 3 unless all are")
+      ->needs(catalogue);
   add_accuracy(command, *options);
   add_printing(command, *options);
   command.parse_complete_callback([options] {

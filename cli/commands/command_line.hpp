@@ -41,6 +41,8 @@ void add_completions(CLI::App& program, Work& chosen);
 
 /// `moreau check --catalogue`: the laws over every set, function and operation of the language.
 Exit check_catalogue(const Printing&);
+/// `moreau check --catalogue --certify`: which examples of the language are proved, to how many digits.
+Exit prove_catalogue(const Printing&);
 
 // What several commands have.
 

@@ -16,6 +16,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/proved_prox/proved_conjugate.hpp"
 
 namespace cli {
 namespace {
@@ -26,14 +27,27 @@ using convex::Vector;
 
 struct ConjugateQuestion {
   convex::Function f;
+  convex::Call call;
   Metric W;
   std::optional<Vector> y;
 };
+
+bool in_fractions(const FunctionOptions& options) { return options.method == "exact"; }
+
+void require_applicable_to_value(const FunctionOptions& options, Source& source) {
+  source = {"--method", options.method.value_or("")};
+  if (options.method && options.method != "auto" && !in_fractions(options))
+    throw InvalidInput("method \"" + *options.method +
+                       "\" does not apply to a conjugate; leave it out, or ask for exact");
+  if ((options.certify || in_fractions(options)) && !options.at)
+    throw InvalidInput("--certify and --method exact prove a value; give the point with --at");
+}
 
 /// The function, the metric and the point of the command line; `source` tells which is being read.
 ConjugateQuestion read_question(const FunctionOptions& options, Source& source) {
   std::optional<Vector> y;
   std::optional<Metric> W;
+  require_applicable_to_value(options, source);
   if (options.at) {
     source = {"--at", *options.at};
     y = parse_vector(*options.at, "y");
@@ -50,7 +64,7 @@ ConjugateQuestion read_question(const FunctionOptions& options, Source& source) 
   source = {"f", options.expression};
   const convex::Call call = parse_call(options.expression, "f");
   if (!W) W = Metric::identity(y ? y->size() : number_of_entries(call));
-  return {convex::make_function(call, {*W}), *W, y};
+  return {convex::make_function(call, {*W}), call, *W, y};
 }
 
 /// Is the value right to the tolerance, relative to itself and at least 1? An infinite one is right when it
@@ -69,7 +83,42 @@ struct ConjugateAnswer {
   std::string domain;
   std::optional<convex::Value> value;
   convex::Status status = convex::Status::solved;
+  std::optional<convex::ProvedValue> proof = {};
+
+  Exit exit() const {
+    const bool unproved = proof && proof->level == convex::ProofLevel::none;
+    return unproved ? std::max(exit_code(status), Exit::inaccurate) : exit_code(status);
+  }
 };
+
+/// The value proved; with method exact the printed one is the fraction's nearest double.
+void prove_value(const ConjugateQuestion& question, const FunctionOptions& options, ConjugateAnswer& answer) {
+  answer.proof = convex::proved_conjugate(
+      {question.call, written_numbers(*options.at),
+       options.metric ? parse_exact_metric(*options.metric) : convex::exact_gram(question.W)});
+  const convex::ProvedValue& proof = *answer.proof;
+  if (in_fractions(options)) {
+    if (proof.level != convex::ProofLevel::exact)
+      throw InvalidInput(
+          "method \"exact\" is for piecewise linear-quadratic functions, and this is none; leave the method "
+          "out, or ask for --certify");
+    answer.value->value = proof.exact ? nearest_double(*proof.exact) : proof.interval.low;
+  }
+  if (proof.level != convex::ProofLevel::none) answer.value->error = proof.error_of(answer.value->value);
+}
+
+void write_proof(JsonWriter& json, const ConjugateAnswer& answer) {
+  const convex::ProvedValue& proof = *answer.proof;
+  json.key("certificate").begin_object().key("level").value(name(proof.level));
+  json.key("error_bound").value(answer.value->error);
+  if (proof.level == convex::ProofLevel::none)
+    json.key("why").value(proof.why_none);
+  else
+    json.key("value").begin_array().value(proof.interval.low).value(proof.interval.high).end_array();
+  json.end_object();
+  if (proof.exact)
+    json.key("exact").begin_object().key("value").value(convex::text(*proof.exact)).end_object();
+}
 
 std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAnswer& answer) {
   const convex::Function& g = answer.g;
@@ -84,6 +133,7 @@ std::string conjugate_json(const ConjugateQuestion& question, const ConjugateAns
     json.value(domain);
   if (question.y) json.key("at").numbers(*question.y).key("value").value(answer.value->value);
   if (question.y) json.key("error_bound").value(answer.value->error);
+  if (answer.proof) write_proof(json, answer);
   json.end_object();
   return json.text();
 }
@@ -101,6 +151,11 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
     std::string entries;
     for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);
     text += fmt::format("g([{}]) = {}\n", entries, number_text(answer.value->value));
+    if (answer.proof && answer.proof->exact) text += "exactly " + convex::text(*answer.proof->exact) + "\n";
+    if (answer.proof)
+      text += answer.proof->level == convex::ProofLevel::none
+                  ? "NOT proved: " + answer.proof->why_none + ".\n"
+                  : fmt::format("Proved: its error is at most {:.1e}.\n", answer.value->error);
     if (answer.status != convex::Status::solved)
       text += fmt::format("NOT known to the accuracy that was asked for: its error may be {:.1e}.\n",
                           answer.value->error);
@@ -115,12 +170,13 @@ Exit tell_conjugate(const FunctionOptions& options) {
     const convex::Function g = question.f.conjugate(question.W);
     ConjugateAnswer answer{g, domain_text(g, question.W.dimension()), std::nullopt};
     if (question.y) answer.value = g.evaluate(*question.y);
+    if (options.certify || in_fractions(options)) prove_value(question, options, answer);
     answer.status = status_of(answer.value, options);
     if (options.json)
       fmt::print("{}\n", conjugate_json(question, answer));
     else if (!options.quiet)
       fmt::print("{}", conjugate_text(question, answer));
-    return exit_code(answer.status);
+    return answer.exit();
   });
 }
 
@@ -133,6 +189,8 @@ void add_conjugate(CLI::App& program, Work& chosen) {
                   "the conjugate g of a function, as an expression; where it is finite; its value at a point",
                   chosen, [options] { return tell_conjugate(*options); });
   add_function(command, *options, false);
+  add_accuracy(command, *options);
+  add_proof(command, options->certify);
   add_printing(command, *options);
 }
 

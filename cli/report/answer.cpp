@@ -29,6 +29,18 @@ const char* name(convex::Status status) {
   return "";
 }
 
+const char* name(convex::ProofLevel level) {
+  switch (level) {
+    case convex::ProofLevel::none:
+      return "none";
+    case convex::ProofLevel::enclosure:
+      return "enclosure";
+    case convex::ProofLevel::exact:
+      return "exact";
+  }
+  return "";
+}
+
 std::string heading(const std::string& title, const std::string& file) {
   return (title.empty() ? file : title + "  (" + file + ")") + "\n\n";
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
+#include "convex/nearest_point/proof/certificate.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace cli {
@@ -21,6 +22,9 @@ Exit exit_code(convex::Status);
 
 /// "solved", "inaccurate", "infeasible", "gave-up".
 const char* name(convex::Status);
+
+/// "none", "enclosure", "exact".
+const char* name(convex::ProofLevel);
 
 /// What a readable result begins with: the title, if there is one, and the file.
 std::string heading(const std::string& title, const std::string& file);

@@ -22,18 +22,6 @@ std::string chosen_method(const SolveSettings& settings, const AccuracyOptions& 
   return options.method.value_or(settings.method.value_or(std::string(own_method)));
 }
 
-const char* name(convex::ProofLevel level) {
-  switch (level) {
-    case convex::ProofLevel::none:
-      return "none";
-    case convex::ProofLevel::enclosure:
-      return "enclosure";
-    case convex::ProofLevel::exact:
-      return "exact";
-  }
-  return "";
-}
-
 void write(JsonWriter& json, const char* key, const convex::ProvedInterval& interval) {
   json.key(key).begin_array().value(interval.low).value(interval.high).end_array();
 }

@@ -6,18 +6,6 @@ namespace {
 using convex::ExactVector;
 using convex::Fraction;
 
-const char* name(convex::ProofLevel level) {
-  switch (level) {
-    case convex::ProofLevel::none:
-      return "none";
-    case convex::ProofLevel::enclosure:
-      return "enclosure";
-    case convex::ProofLevel::exact:
-      return "exact";
-  }
-  return "";
-}
-
 void write_fractions(JsonWriter& json, const std::vector<std::string>& names, const ExactVector& x) {
   json.begin_object();
   for (std::size_t i = 0; i < names.size(); ++i) json.key(names[i]).value(convex::text(convex::entry(x, i)));

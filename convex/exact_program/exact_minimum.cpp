@@ -5,6 +5,7 @@
 #include "convex/exact_program/cgal_program.hpp"
 #include "convex/exact_program/linear_equations.hpp"
 #include "convex/exact_program/program_operations.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/linear_quadratic/minimise.hpp"
 
@@ -242,24 +243,54 @@ ExactMinimum exact_prox(const ExactProgram& f, const ExactGram& W, const Fractio
   return minimum_of(f, &W, z);
 }
 
-ExactValue exact_value(const ExactProgram& f, const Fractions& x) {
-  ExactProgram in_w(0, f.variables() - f.n);
+namespace {
+
+/// The program in w that x leaves of f, and the rows of f that are left in it; none where a row without w
+/// does not hold.
+struct Remainder {
+  ExactProgram program;
+  std::vector<std::size_t> rows;
+};
+
+std::optional<Remainder> remainder_at(const ExactProgram& f, const Fractions& x) {
   std::vector<ExactAffine> maps;
   for (std::size_t i = 0; i < f.variables(); ++i)
     maps.push_back(i < f.n ? ExactAffine{{}, x[i]} : ExactAffine{{{i - f.n, Fraction{1}}}, {}});
-  in_w = substitute(f, maps, 0, f.variables() - f.n);
-  // A row without unknowns holds or not.
+  Remainder left{substitute(f, maps, 0, f.variables() - f.n), {}};
   std::vector<ExactBound> rows;
-  for (ExactBound& bound : in_w.rows) {
+  for (std::size_t a = 0; a < f.rows.size(); ++a) {
+    ExactBound& bound = left.program.rows[a];
     if (!bound.row.empty()) {
       rows.push_back(std::move(bound));
+      left.rows.push_back(a);
     } else if (bound.two_sided ? sign(bound.limit) != 0 : sign(bound.limit) > 0) {
-      return {ProgramEnd::no_point, {}};
+      return std::nullopt;
     }
   }
-  in_w.rows = std::move(rows);
-  if (in_w.variables() == 0) return {ProgramEnd::minimum, in_w.constant};
-  const ExactMinimum found = minimum_of(in_w, nullptr, {});
+  left.program.rows = std::move(rows);
+  return left;
+}
+
+}  // namespace
+
+std::optional<GraphPoint> graph_point_at(const ExactProgram& f, const Fractions& x) {
+  const auto left = remainder_at(f, x);
+  if (!left) return std::nullopt;
+  Fractions xi = x, lambda(f.rows.size());
+  if (left->program.variables() > 0) {
+    const ExactMinimum found = minimum_of(left->program, nullptr, {});
+    if (!found.at) return std::nullopt;
+    xi.insert(xi.end(), found.at->xi.begin(), found.at->xi.end());
+    for (std::size_t k = 0; k < left->rows.size(); ++k) lambda[left->rows[k]] = found.at->lambda[k];
+  }
+  return graph_point(f, xi, lambda);
+}
+
+ExactValue exact_value(const ExactProgram& f, const Fractions& x) {
+  const auto left = remainder_at(f, x);
+  if (!left) return {ProgramEnd::no_point, {}};
+  if (left->program.variables() == 0) return {ProgramEnd::minimum, left->program.constant};
+  const ExactMinimum found = minimum_of(left->program, nullptr, {});
   if (found.end != ProgramEnd::minimum) return {found.end, {}};
   invariant(found.at.has_value(), "a minimum in fractions satisfies its conditions");
   return {ProgramEnd::minimum, found.at->f_x};

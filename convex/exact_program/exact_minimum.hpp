@@ -37,6 +37,10 @@ struct ExactMinimum {
 /// 2000). The answer is looked at in fractions either way.
 ExactMinimum exact_prox(const ExactProgram& f, const ExactGram& W, const Fractions& z);
 
+/// A graph point with this x, v one subgradient there: the multipliers of the minimum over w alone. None
+/// where f(x) is infinite.
+std::optional<GraphPoint> graph_point_at(const ExactProgram& f, const Fractions& x);
+
 /// f(x) in fractions: min over w alone.
 struct ExactValue {
   ProgramEnd end = ProgramEnd::minimum;  ///< no_point: +inf

@@ -6,14 +6,23 @@
 
 namespace convex {
 
-/// A pair near a point x and a covector v of doubles, or why there is none.
+/// A pair near a point x and a covector v, or why there is none.
 struct PairSearch {
-  std::optional<ProofPair> pair;
-  std::string why_none;
+  std::optional<ProofPair> pair = {};
+  std::string why_none = {};
 };
 
 /// For the function that a call means in the product of W: from its program in fractions where it has one,
-/// else from the formulas of f and f* in balls.
-PairSearch pair_of_call(const Call& f, const ExactGram& W, const Vector& x, const Vector& v);
+/// else from the formulas of f and f* in balls, operation by operation. x, v: as many entries as W.
+PairSearch pair_of_call(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v);
+
+/// A pair with this x exactly, v by choice: where the function is differentiable, or strictly inside a set.
+PairSearch pair_at_point(const Call& f, const ExactGram& W, const Fractions& x);
+/// A pair with this v exactly.
+PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& v);
+
+/// Of sum, intersection, inf_convolution, pointwise_max and precompose, whose parts must share a point or a
+/// covector without rounding.
+PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v);
 
 }  // namespace convex

@@ -10,7 +10,6 @@
 #include "convex/proved_prox/pair_of_call.hpp"
 
 namespace convex {
-namespace {
 
 ProvedInterval outwards(const Fraction& low, const Fraction& high) {
   ProvedInterval made{nearest_double(low), nearest_double(high)};
@@ -18,6 +17,8 @@ ProvedInterval outwards(const Fraction& low, const Fraction& high) {
   if (fraction(made.high) < high) made.high = std::nextafter(made.high, INFINITY);
   return made;
 }
+
+namespace {
 
 /// A pair, and how far x* and y* are from its x and W⁻¹v at most.
 struct Proof {
@@ -29,7 +30,10 @@ struct Proof {
 Proof judged(PairSearch search, const ProvedMetric& W, const Fractions& z) {
   if (!search.pair) return {std::nullopt, INFINITY, std::move(search.why_none)};
   const double radius = proved_radius(W, z, *search.pair);
-  if (!std::isfinite(radius)) return {std::nullopt, INFINITY, "the metric is not proved positive definite"};
+  if (!std::isfinite(radius))
+    return {std::nullopt, INFINITY,
+            W.is_proved_definite() ? "the values enclosed contradict Fenchel's inequality"
+                                   : "the metric is not proved positive definite"};
   return {std::move(search.pair), radius, {}};
 }
 
@@ -58,9 +62,11 @@ PairSearch exact_pair(const ExactProgram& f, const ProvedMetric& W, const Fracti
 }  // namespace
 
 double proved_radius(const ProvedMetric& W, const Fractions& z, const ProofPair& pair) {
+  const Fraction gap_square = gap_above(pair) * Fraction{2};
+  if (sign(gap_square) < 0) return INFINITY;  // no function and its conjugate have such values
   const Fractions residual = difference(multiply(W.gram(), difference(z, pair.x)), pair.v);
   const double miss = W.dual_norm_above(residual);
-  const double gap = root_above(lowest_terms(gap_above(pair) * Fraction{2}));
+  const double gap = root_above(gap_square);
   return above(std::hypot(miss, gap));
 }
 
@@ -97,9 +103,10 @@ ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
     }
     second = judged(std::move(near_y), W, question.z);
   } else {
-    first = judged(pair_of_call(question.f, question.W, x, of_x), W, question.z);
-    second = judged(pair_of_call(question.f, question.W, in_doubles.solve(of_y), in_doubles.multiply(y)), W,
-                    question.z);
+    first = judged(pair_of_call(question.f, question.W, fractions(x), fractions(of_x)), W, question.z);
+    second = judged(pair_of_call(question.f, question.W, fractions(in_doubles.solve(of_y)),
+                                 fractions(in_doubles.multiply(y))),
+                    W, question.z);
   }
   if (!first.pair || !second.pair) {
     made.why_none = first.pair ? second.why_none : first.why_none;

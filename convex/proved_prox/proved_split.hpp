@@ -29,6 +29,8 @@ struct ProvedInterval {
   double low = 0, high = 0;
 };
 
+ProvedInterval outwards(const Fraction& low, const Fraction& high);
+
 /// ||x - x*||_W <= x_bound and ||y - y*||_W <= y_bound for the doubles x and y as they stand: each from a
 /// pair of its own, the first near x and its covector, the second near the covector of g at y and Wy, so that
 /// neither knows of the other. f(x*), g(y*) and (x*|y*) lie in the intervals.

@@ -1,0 +1,129 @@
+#include "convex/exact_program/exact_arguments.hpp"
+#include "convex/exact_program/program_of_call.hpp"
+#include "convex/proved_prox/pair_of_call.hpp"
+#include "convex/proved_prox/pair_search.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
+
+namespace convex {
+namespace {
+
+/// The parts of a sum: those with programs as one, the others each.
+std::vector<Call> parts_of_sum(const Call& f, const ExactGram& W) {
+  const ExactArguments a(f, W.dimension());
+  Call programs{"sum", {}, {}};
+  std::vector<Call> parts;
+  for (const Call* one : a.calls()) {
+    if (exact_program(*one, W))
+      programs.arguments.push_back(argument(*one));
+    else
+      parts.push_back(*one);
+  }
+  if (!programs.arguments.empty()) parts.push_back(std::move(programs));
+  return parts;
+}
+
+/// f_1 + f_2 + …: one part takes what the gradients of the others leave of v, at a point that they share.
+PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  const std::vector<Call> parts = parts_of_sum(f, W);
+  std::vector<pairs::MaybePair> candidates;
+  for (std::size_t free = 0; free < parts.size(); ++free) {
+    const auto others_at = [&](const Fractions& point) -> pairs::MaybePair {
+      ProofPair sum{point, Fractions(x.size()), only(Fraction{}), only(Fraction{}), true};
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (k == free) continue;
+        const PairSearch at = pair_at_point(parts[k], W, point);
+        if (!at.pair) return std::nullopt;
+        sum.v = pairs::sum_of(sum.v, at.pair->v);
+        sum.f_x = sum.f_x + at.pair->f_x;
+        sum.f_v = sum.f_v + at.pair->f_v;
+        sum.is_rational = sum.is_rational && at.pair->is_rational;
+      }
+      return sum;
+    };
+    // Where the others are no functions at x itself, they say what is left of v at the point of the free one.
+    const pairs::MaybePair guess = others_at(x);
+    const Fractions left = guess ? difference(v, guess->v) : v;
+    const PairSearch own = pair_of_call(parts[free], W, x, left);
+    if (!own.pair) continue;
+    pairs::MaybePair whole = others_at(own.pair->x);
+    if (!whole) continue;
+    whole->v = pairs::sum_of(whole->v, own.pair->v);
+    whole->f_x = whole->f_x + own.pair->f_x;
+    whole->f_v = whole->f_v + own.pair->f_v;
+    whole->is_rational = whole->is_rational && own.pair->is_rational;
+    candidates.push_back(std::move(whole));
+  }
+  if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
+  return {{}, f.name + ": more than one of its parts has a corner at the point"};
+}
+
+/// f □ g at x_1 + x_2, both with the covector v.
+PairSearch pair_of_inf_convolution(const Call& f, const ExactGram& W, const Fractions& x,
+                                   const Fractions& v) {
+  const ExactArguments a(f, W.dimension());
+  const Call* parts[] = {&a.call("f"), &a.call("g")};
+  std::vector<pairs::MaybePair> candidates;
+  for (int free : {0, 1}) {
+    const PairSearch guess = pair_at_covector(*parts[1 - free], W, v);
+    if (!guess.pair) continue;
+    const PairSearch own = pair_of_call(*parts[free], W, difference(x, guess.pair->x), v);
+    if (!own.pair) continue;
+    const PairSearch other = pair_at_covector(*parts[1 - free], W, own.pair->v);
+    if (!other.pair) continue;
+    candidates.push_back(ProofPair{pairs::sum_of(own.pair->x, other.pair->x), own.pair->v,
+                                   own.pair->f_x + other.pair->f_x, own.pair->f_v + other.pair->f_v,
+                                   own.pair->is_rational && other.pair->is_rational});
+  }
+  if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
+  return {{}, f.name + ": the conjugates of both parts have a corner at the covector"};
+}
+
+/// The part that is largest at x, where it is so alone.
+PairSearch pair_of_max(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  const ExactArguments a(f, W.dimension());
+  std::vector<pairs::MaybePair> candidates;
+  for (const Call* active : a.calls()) {
+    PairSearch own = pair_of_call(*active, W, x, v);
+    if (!own.pair) continue;
+    bool is_valued = true;
+    for (const Call* other : a.calls()) {
+      if (other == active) continue;
+      const PairSearch at = pair_at_point(*other, W, own.pair->x);
+      if (!at.pair)
+        is_valued = false;
+      else if (own.pair->f_x.high < at.pair->f_x.high)
+        own.pair->f_x.high = at.pair->f_x.high;
+    }
+    if (is_valued) candidates.push_back(std::move(own.pair));
+  }
+  if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
+  return {{}, f.name + ": a part cannot be valued at the point of another"};
+}
+
+/// f(Ax + b) where f is differentiable at Ax + b: (f ∘ A)*(Aᵀu) <= f*(u) - b·u.
+PairSearch pair_of_precompose(const Call& f, const ExactGram& W, const Fractions& x) {
+  const ExactArguments a(f, W.dimension());
+  const std::vector<ExactRow> A = a.rows("A");
+  const Fractions b = a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"));
+  Fractions image(A.size());
+  for (std::size_t i = 0; i < A.size(); ++i) image[i] = dot(A[i], x) + b[i];
+  PairSearch inner = pair_at_point(a.call("f"), identity_gram(A.size()), image);
+  if (!inner.pair) return {{}, f.name + ": its function has a corner at the point"};
+  Fractions v(x.size());
+  for (std::size_t i = 0; i < A.size(); ++i)
+    for (const auto& [j, value] : A[i]) v[j] = v[j] + value * inner.pair->v[i];
+  const FractionInterval f_v = inner.pair->f_v + only(-dot(b, inner.pair->v));
+  return {ProofPair{x, std::move(v), inner.pair->f_x, f_v, inner.pair->is_rational}, {}};
+}
+
+}  // namespace
+
+PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  if (f.name == "sum" || f.name == "intersection") return pair_of_sum(f, W, x, v);
+  if (f.name == "inf_convolution") return pair_of_inf_convolution(f, W, x, v);
+  if (f.name == "pointwise_max") return pair_of_max(f, W, x, v);
+  if (f.name == "precompose") return pair_of_precompose(f, W, x);
+  return {{}, f.name + " has no formula in balls"};
+}
+
+}  // namespace convex
