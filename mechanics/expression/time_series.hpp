@@ -8,7 +8,7 @@
 namespace mechanics::expression {
 
 /// How many time derivatives are followed.
-inline constexpr int most_derivatives = 4;
+inline constexpr int most_derivatives = 12;
 
 /// A function of time near an instant by its Taylor coefficients, f(t + τ) = Σ c_k τ^k, each with a bound on
 /// what rounding did to it; not finite, in value or radius, where the derivative does not exist.

@@ -86,6 +86,18 @@ std::vector<AddedRow> SingularGroup::test_fourth(std::size_t k, const std::vecto
         "it so that its gradient does not vanish where it holds (y = 0 for y^2 = 0), or give a velocity or "
         "move off the state");
   }
+  if (positive != negative && is_free && alone) {
+    const auto motion = motion_with(dependence, q2, positive ? 1 : -1);
+    if (motion && !motion->exists)
+      refuse(
+          dependence,
+          "derivatives up to the fourth leave the acceleration that the second ones give, and those of "
+          "order " +
+              std::to_string(motion->order) +
+              " exclude it: the state is a cusp or an end of what the constraint allows; give a velocity or "
+              "move off it");
+    if (!motion && linear_forms(dependence).empty()) undecided_ = true;
+  }
   if (positive || negative || !is_free || !alone) return {};
   const auto redundant = holds_by_itself(dependence);
   if (!redundant) undecided_ = true;

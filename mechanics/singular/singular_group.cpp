@@ -47,7 +47,7 @@ Rounded SingularGroup::velocity(Index column) const {
   return {state_.v[i], radii_.v[i] + missed_velocity_ * unit_[column]};
 }
 
-std::vector<TimeSeries> SingularGroup::along(const std::vector<Rounded>& q2, int order) const {
+std::vector<TimeSeries> SingularGroup::coordinates_along(const std::vector<Rounded>& q2) const {
   std::vector<TimeSeries> q(static_cast<std::size_t>(state_.q.size()));
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     TimeSeries& coordinate = q[static_cast<std::size_t>(columns_[k])];
@@ -55,9 +55,17 @@ std::vector<TimeSeries> SingularGroup::along(const std::vector<Rounded>& q2, int
     coordinate.c[1] = velocity(static_cast<Index>(k));
     if (!q2.empty()) coordinate.c[2] = q2[k] / 2.0;
   }
+  return q;
+}
+
+TimeSeries SingularGroup::time_along() const {
   TimeSeries t(Rounded(state_.t, radii_.t));
   t.c[1] = 1;
-  return series_.along(q, t, order);
+  return t;
+}
+
+std::vector<TimeSeries> SingularGroup::along(const std::vector<Rounded>& q2, int order) const {
+  return series_.along(coordinates_along(q2), time_along(), order);
 }
 
 /// The gradients by one coordinate: along a motion of that coordinate alone.

@@ -79,6 +79,8 @@ class SingularGroup {
 
   Rounded place(Index column) const;
   Rounded velocity(Index column) const;
+  std::vector<TimeSeries> coordinates_along(const std::vector<Rounded>& q2) const;
+  TimeSeries time_along() const;
   std::vector<TimeSeries> along(const std::vector<Rounded>& q2, int order) const;
   std::vector<TimeSeries> along_column(std::size_t column, int order, bool accelerated) const;
   void find_dependences();
@@ -88,6 +90,14 @@ class SingularGroup {
   std::vector<AddedRow> test_fourth(std::size_t k, const std::vector<Rounded>& q2);
   std::vector<AddedRow> linear_forms(const Dependence&) const;
   std::optional<bool> holds_by_itself(const Dependence&) const;
+  /// Whether the constraints of a dependence vanish on some motion with this q'', and the order of the
+  /// derivatives of f that decide it. sign: of the form that fourth derivatives are, which is 0 here and has
+  /// one sign elsewhere. None where no order does.
+  struct Motion {
+    bool exists;
+    int order;
+  };
+  std::optional<Motion> motion_with(const Dependence&, const std::vector<Rounded>& q2, double sign) const;
   [[noreturn]] void refuse(const Dependence&, const std::string& what) const;
 
   const LagrangianSystem& system_;

@@ -220,10 +220,9 @@ std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added,
     say(constraints,
         (constraints.size() == 1 ? "its gradient vanishes at this state only"
                                  : "their gradients depend on each other at this state only") +
-            std::string(
-                ", and the acceleration that second derivatives give contradicts higher ones; their "
-                "equation was added. Multipliers of these constraints grow without bound near such a "
-                "state and are not given"));
+            std::string(", and the acceleration that second derivatives give contradicts higher ones; their "
+                        "equation was added. Multipliers of these constraints grow without bound near such a "
+                        "state and are not given"));
   }
   for (const SingularGroup& group : groups_)
     for (const SingularGroup::Settled& settled : group.settled())
@@ -248,7 +247,7 @@ std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added,
       say(group.constraints(),
           "their gradients may depend on each other at this state only, and what would tell, derivatives or "
           "f "
-          "nearby, is not finite; compare another state");
+          "nearby, is not finite or of too high an order; compare another state");
   if (!too_many_.empty())
     say(too_many_,
         "their gradients depend on those of other constraints, too many to see whether they do so at this "

@@ -226,6 +226,45 @@ TEST_CASE("a state whose branches only fourth derivatives tell apart is refused,
         std::string::npos);
 }
 
+TEST_CASE(
+    "at a cusp that points against the force rest is refused, at one that points along it the fall stands") {
+  const State rest = tests::state({0, 0}, {0, 0});
+  // x = ±y^(3/2) and the like leave y >= 0 alone, where gravity does not lead.
+  for (const char* upwards : {"x^2 = y^3", "x^2 = y^5", "(x - y^2)^2 = y^5", "x^2 + x*y^2 = y^3 - 2*y^4"}) {
+    CAPTURE(std::string(upwards));
+    const auto system = particle({{"cusp", upwards}});
+    const std::string said = error_of([&] { answer(*system, rest); });
+    CHECK(said.find("40:1 constraint cusp: its gradient vanishes") == 0);
+    CHECK(said.find("exclude it: the state is a cusp") != std::string::npos);
+  }
+  // These have motions with y = -9.81 t²/2: x = ±(-y)^(3/2), and the parabolas y = ±x² for y'' = 0.
+  for (const char* downwards : {"x^2 + y^3 = 0", "x^2 + y^5 = 0", "x^2 = y^4"}) {
+    CAPTURE(std::string(downwards));
+    const Answer found = answer(*particle({{"cusp", downwards}}), rest);
+    CHECK(is_near_state(found.q2(), Vector{{0, -9.81}}));
+    CHECK(found.resolution.warnings.empty());
+  }
+  // Beside another constraint that holds: on the sphere, near (0, 0, 0), the same cusp.
+  const auto on_sphere = [](const std::string& cusp) {
+    return tests::system({{"x", "y", "z"},
+                          "(x'^2 + y'^2 + z'^2)/2",
+                          "9.81*y",
+                          {},
+                          {},
+                          {},
+                          {{"sphere", "x^2 + y^2 + (z - 1)^2 = 1"}, {"cusp", cusp}}});
+  };
+  const State bottom = tests::state({0, 0, 0}, {0, 0, 0});
+  CHECK(error_of([&] { answer(*on_sphere("x^2 = y^3"), bottom); }).find("is a cusp") != std::string::npos);
+  CHECK(is_near_state(answer(*on_sphere("x^2 + y^3 = 0"), bottom).q2(), Vector{{0, -9.81, 0}}));
+}
+
+TEST_CASE("a cusp too sharp for the derivatives that are followed is warned of") {
+  const Answer found = answer(*particle({{"cusp", "x^2 = y^7"}}), tests::state({0, 0}, {0, 0}));
+  REQUIRE(found.resolution.warnings.size() == 1);
+  CHECK(found.resolution.warnings[0].message.find("too high an order") != std::string::npos);
+}
+
 TEST_CASE("a machine that rests in equilibrium at a singular position stays there") {
   const Answer crossing = answer(*particle({{"wires", "y^2 = x^2"}}, {}, "0"), tests::state({0, 0}, {0, 0}));
   CHECK(crossing.q2() == Vector{{0, 0}});
