@@ -11,6 +11,7 @@
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex {
 namespace {
@@ -19,6 +20,33 @@ std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
   std::vector<bool> mark(static_cast<std::size_t>(count), false);
   for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
   return mark;
+}
+
+/// lambda of least norm as the nearest point to 0 in {lambda : lambda_k + Σ T(k, p) lambda_p the same for
+/// each k, lambda >= 0 on one-sided rows}, every entry rounded once. start: lambda of the rows `names`, those
+/// of T first.
+bool least_norm_in_fractions(const Dependence& rows, const std::vector<Index>& names,
+                             const std::vector<bool>& is_free, const Vector& start, Vector& lambda) {
+  const Index d = rows.T.cols(), k = rows.T.rows();
+  RowMatrix U = RowMatrix::Zero(k, k + d);
+  U.leftCols(k).setIdentity();
+  U.rightCols(d) = rows.T;
+  std::vector<Index> two_sided(static_cast<std::size_t>(k));
+  std::iota(two_sided.begin(), two_sided.end(), Index{0});
+  Vector s = U * start;
+  for (Index j = 0; j < k + d; ++j) {
+    if (is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) continue;
+    U.conservativeResize(U.rows() + 1, k + d);
+    U.row(U.rows() - 1) = Vector::Unit(k + d, j).transpose();
+    s.conservativeResize(U.rows());
+    s[U.rows() - 1] = 0;
+  }
+  const NearestPointProblem problem{Metric::identity(k + d), Vector::Zero(k + d),
+                                    ConstraintRows(std::move(U)), std::move(s), std::move(two_sided)};
+  const Solution solution = exact_method(problem, {});
+  if (solution.status != Status::solved && solution.status != Status::inaccurate) return false;
+  for (Index j = 0; j < k + d; ++j) lambda[names[static_cast<std::size_t>(j)]] = solution.q[j];
+  return true;
 }
 
 /// lambda of least norm: with lambda = lambda_0 + N mu, N the null vectors e_p - Σ T(k, p) e_k, the nearest
@@ -30,11 +58,17 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
-  // The condition of N is at most about the size of T. Beyond, an orthonormal basis of its columns serves.
-  constexpr double steep = 1e5;
-  if (rows.T.norm() > steep) N = linear_algebra::Householder(N).Q(d);
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
+  // The condition of N is at most about the size of T. Beyond, as for rows told in units far apart, each
+  // multiplier needs digits of its own; where fractions cost too much, an orthonormal basis of the columns
+  // serves.
+  constexpr double steep = 1e5;
+  constexpr Index few = 24;
+  if (rows.T.norm() > steep) {
+    if (k + d <= few && least_norm_in_fractions(rows, names, is_free, start, lambda)) return;
+    N = linear_algebra::Householder(N).Q(d);
+  }
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k + d; ++j)
     if (!is_free[static_cast<std::size_t>(names[static_cast<std::size_t>(j)])]) signed_rows.push_back(j);
@@ -55,18 +89,25 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   }
 }
 
-/// The tableau of a group of rows, whose multipliers are named by their places in it.
+/// The tableau of a group of rows, whose multipliers are named by their places in it. Each is measured by the
+/// length of its row, so that rows may be told in units far apart.
 class MultiplierPolyhedron {
  public:
-  MultiplierPolyhedron(const Dependence& rows, const Vector& lambda, const std::vector<bool>& is_free)
-      : names_(rows.basic), tableau_(made(rows, lambda, is_free, names_)) {}
+  MultiplierPolyhedron(const Dependence& rows, const Vector& lambda, const Vector& length,
+                       const std::vector<bool>& is_free)
+      : names_(rows.basic), length_(length), tableau_(made(rows, lambda, length, is_free, names_)) {}
 
-  Interval range(Index a) {
+  /// Of the multiplier times the length of its row.
+  Interval range_of_force(Index a) {
     return tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
+  }
+  Interval range(Index a) {
+    const Interval force = range_of_force(a);
+    return {force.low / length_[a], force.high / length_[a]};
   }
 
  private:
-  static MultiplierTableau made(const Dependence& rows, const Vector& lambda,
+  static MultiplierTableau made(const Dependence& rows, const Vector& lambda, const Vector& length,
                                 const std::vector<bool>& is_free, std::vector<Index>& names) {
     const std::size_t k = rows.basic.size();
     names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
@@ -75,10 +116,16 @@ class MultiplierPolyhedron {
     std::vector<bool> free;
     for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
     const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
-    return {{places.begin(), end_of_basic}, lambda(rows.basic), {end_of_basic, places.end()}, rows.T, free};
+    const Vector of_basic = length(rows.basic), of_dependent = length(rows.dependent);
+    return {{places.begin(), end_of_basic},
+            lambda(rows.basic).cwiseProduct(of_basic),
+            {end_of_basic, places.end()},
+            of_basic.asDiagonal() * rows.T * of_dependent.cwiseInverse().asDiagonal(),
+            free};
   }
 
   std::vector<Index> names_;
+  const Vector& length_;
   MultiplierTableau tableau_;
 };
 
@@ -86,7 +133,9 @@ class MultiplierPolyhedron {
 
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
-  const double scale = std::max(solution.acceleration_norm, solution.force_norm);
+  // Where z is rounded, its rounding moves slacks; its size moves none.
+  constexpr double rounding_of_forces = 0x1p-40;
+  const double moved = problem.radii ? std::min(tolerance, rounding_of_forces) * solution.force_norm : 0;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const std::vector<bool> basis = marked(problem.rows(), solution.basis);
   std::vector<Index> candidates;
@@ -98,7 +147,8 @@ std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution
   std::vector<Index> tight;
   for (Index a = 0; a < problem.rows(); ++a)
     if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
-        solution.slack[a] <= tolerance * (std::abs(problem.s[a]) + length[a] * scale))
+        solution.slack[a] <=
+            tolerance * (std::abs(problem.s[a]) + length[a] * solution.acceleration_norm) + moved * length[a])
       tight.push_back(a);
   return tight;
 }
@@ -128,17 +178,19 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
 
   found.null_space = null_space(*groups);
   // They are unique when every dependent row keeps its multiplier 0.
-  const double noise =
-      tolerance * std::max(solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().maxCoeff() : 0.0,
-                           std::numeric_limits<double>::min());
+  Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
+  length = (length.array() > 0).select(length, 1);
+  const double largest =
+      solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().cwiseProduct(length).maxCoeff() : 0;
+  const double noise = tolerance * std::max(largest, std::numeric_limits<double>::min());
   for (const Dependence& rows : *groups) {
     const auto start = std::chrono::steady_clock::now();
-    MultiplierPolyhedron polyhedron(rows, solution.lambda, is_free);
+    MultiplierPolyhedron polyhedron(rows, solution.lambda, length, is_free);
     bool unique = true;
     for (Index p : rows.dependent) {
-      const Interval range = polyhedron.range(p);
-      ranges[static_cast<std::size_t>(p)] = range;
-      if (range.high - range.low > noise) unique = false;
+      const Interval force = polyhedron.range_of_force(p);
+      ranges[static_cast<std::size_t>(p)] = {force.low / length[p], force.high / length[p]};
+      if (force.high - force.low > noise) unique = false;
       if (!unique && !want_ranges) break;
     }
     if (unique) continue;
