@@ -339,11 +339,15 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
   validate(problem);
   validate_guess(problem, guess);
   GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
-  if (quick.solution) return *std::move(quick.solution);
+  const auto told = [&](Solution solved) {
+    return has_open_zeros(problem, solved) ? with_signs_of_zeros(problem, std::move(solved), accuracy)
+                                           : std::move(solved);
+  };
+  if (quick.solution) return told(*std::move(quick.solution));
   Solution found = DualActiveSet(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
     found.undecided = open_question::conditioning;
-  return decided_in_fractions(problem, std::move(found), accuracy);
+  return told(decided_in_fractions(problem, std::move(found), accuracy));
 }
 
 }  // namespace convex

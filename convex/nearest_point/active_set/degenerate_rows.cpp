@@ -17,16 +17,19 @@ std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVecto
   const std::optional<Vector> exact = slacks_if_kept(problem, q.hi, set.rows(), touched);
   WorkingSet::Split split;
   SlackOnEdge edge(problem, row_scale.data());
+  std::vector<double> own;
   for (Index a : touched) {
     if (exact) break;
     set.split(a, split);
-    const std::optional<int> sign = edge.sign(a, set.rows().data(), set.size(), split.coefficients.data());
-    if (!sign && split.rho > 0) return open_question::touched;
-    if (!sign || *sign < 0 || (*sign > 0 && two_sided[static_cast<std::size_t>(a)]))
+    const std::optional<double> on_edge =
+        edge.slack(a, set.rows().data(), set.size(), split.coefficients.data());
+    if (!on_edge && split.rho > 0) return open_question::touched;
+    if (!on_edge || *on_edge < 0 || (*on_edge > 0 && two_sided[static_cast<std::size_t>(a)]))
       return open_question::dependence;
+    own.push_back(*on_edge);
   }
   for (std::size_t k = 0; k < touched.size(); ++k)
-    slack[touched[k]] = exact ? (*exact)[static_cast<Index>(k)] : 0;
+    slack[touched[k]] = exact ? (*exact)[static_cast<Index>(k)] : own[k];
   return {};
 }
 

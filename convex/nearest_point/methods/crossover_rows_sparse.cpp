@@ -55,6 +55,7 @@ class SparsePolish {
           return found;
         if (exchange_wrong(active)) continue;
       }
+      silence_noise(scaled_, point_);
       const std::string_view open =
           decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_, 1, slack_);
       found.held = held();

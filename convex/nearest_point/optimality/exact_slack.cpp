@@ -104,8 +104,8 @@ bool SlackOnEdge::cancels(Index p, double whole) {
   return true;
 }
 
-/// The sign of Σ c_k s_k - whole s_p over the terms.
-int SlackOnEdge::sign_of_loads(Index p, double whole) const {
+/// (Σ c_k s_k - whole s_p) / whole over the terms.
+double SlackOnEdge::slack_of_loads(Index p, double whole) const {
   DoubleDouble sum = two_product(-whole, problem_.s[p]);
   bool is_exact = sum.lo == 0;
   for (const auto& [a, c] : terms_) {
@@ -113,14 +113,15 @@ int SlackOnEdge::sign_of_loads(Index p, double whole) const {
     is_exact = is_exact && term.lo == 0 && next.lo == 0;
     sum.hi = next.hi;
   }
-  if (is_exact) return sum.hi > 0 ? 1 : sum.hi < 0 ? -1 : 0;
+  if (is_exact) return sum.hi / whole;
   ExactSum slack;
   slack.add_product(-whole, problem_.s[p]);
   for (const auto& [a, c] : terms_) slack.add_product(c, problem_.s[a]);
-  return slack.sign();
+  return quotient_with_sign(slack, whole);
 }
 
-std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, const double* coefficients) {
+std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count,
+                                         const double* coefficients) {
   if (grid_ < 0) find_grid();
   double whole = 1;
   terms_.clear();
@@ -132,7 +133,7 @@ std::optional<int> SlackOnEdge::sign(Index p, const Index* held, Index count, co
   }
   for (auto& [a, c] : terms_) c = nearest_whole(c * whole);
   if (!cancels(p, whole)) return std::nullopt;
-  return sign_of_loads(p, whole);
+  return slack_of_loads(p, whole);
 }
 
 std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Vector& q,
@@ -143,8 +144,7 @@ std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const V
     if (!problem.U.is_sparse())
       if (const auto slack = on_grid.value(problem.U.dense().data() + a * q.size(), problem.s[a]))
         return *slack;
-    const ExactSum sum = exact_slack(problem, a, q);
-    return sum.sign() * std::max(std::abs(sum.value()), std::numeric_limits<double>::denorm_min());
+    return slack_at(problem, a, q);
   };
   for (Index a : held)
     if (slack_of(a) != 0) return std::nullopt;
@@ -154,6 +154,15 @@ std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const V
     if (slack < 0 || (slack > 0 && is_two_sided(problem, touched[k]))) return std::nullopt;
   }
   return slacks;
+}
+
+double quotient_with_sign(const ExactSum& sum, double divisor) {
+  const double size = std::max(std::abs(sum.value() / divisor), std::numeric_limits<double>::denorm_min());
+  return sum.sign() * std::copysign(size, divisor);
+}
+
+double slack_at(const NearestPointProblem& problem, Index a, const Vector& q) {
+  return quotient_with_sign(exact_slack(problem, a, q), 1);
 }
 
 int sign_of_slack(const NearestPointProblem& problem, Index a, const Vector& q) {

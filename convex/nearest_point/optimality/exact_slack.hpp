@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "convex/exact/exact_sum.hpp"
 #include "convex/nearest_point/problem.hpp"
 
 /// Signs of slacks without rounding, for rows whose slack twice the working precision cannot tell from zero.
@@ -16,15 +17,15 @@ class SlackOnEdge {
   SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
       : problem_(problem), row_scale_(row_scale) {}
 
-  /// The sign of u_p·q - s_p at every q where the `count` rows `held` hold with equality. None unless u_p is
-  /// the sum of c_k / c_0 u_k over them with whole numbers c up to `largest_denominator` that `coefficients`
-  /// are close to: then not one bit is left over.
-  std::optional<int> sign(Index p, const Index* held, Index count, const double* coefficients);
+  /// The double nearest to u_p·q - s_p, with its sign, at every q where the `count` rows `held` hold with
+  /// equality. None unless u_p is the sum of c_k / c_0 u_k over them with whole numbers c up to
+  /// `largest_denominator` that `coefficients` are close to: then not one bit is left over.
+  std::optional<double> slack(Index p, const Index* held, Index count, const double* coefficients);
 
  private:
   void find_grid();
   bool cancels(Index p, double whole);
-  int sign_of_loads(Index p, double whole) const;
+  double slack_of_loads(Index p, double whole) const;
 
   const NearestPointProblem& problem_;
   const double* row_scale_;
@@ -40,6 +41,11 @@ class SlackOnEdge {
 std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Vector& q,
                                      const std::vector<Index>& held, const std::vector<Index>& touched);
 
-/// The sign of u_a·q - s_a at the doubles q, without rounding.
+/// sum / divisor, rounded, and a double of its sign where that is 0 but the sum is not.
+double quotient_with_sign(const ExactSum& sum, double divisor);
+
+/// u_a·q - s_a at the doubles q, rounded once, with its sign.
+double slack_at(const NearestPointProblem&, Index a, const Vector& q);
+/// The sign alone.
 int sign_of_slack(const NearestPointProblem&, Index a, const Vector& q);
 }  // namespace convex

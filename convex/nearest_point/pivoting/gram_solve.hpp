@@ -51,7 +51,7 @@ class GramSolve {
   double slack_noise(Index a) const;
   double rise(Index a) const;
   std::optional<Vector> slacks_of_touched_rows_if_kept() const;
-  std::optional<int> slack_sign_by_parallel_row(Index a) const;
+  std::optional<double> slack_by_parallel_row(Index a) const;
   bool is_independent(Index a);
   void find_dual_rows();
   Index leave_sums_of_rows_held(Index count);

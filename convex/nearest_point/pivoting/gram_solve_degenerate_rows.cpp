@@ -85,8 +85,9 @@ Slacks GramSolve::decide_degenerate_rows() {
   Index count = 0, fresh = 0, independent = 0;
   for (Index k = 0; k < open; ++k) {
     const Index a = close_[k];
-    if (const std::optional<int> sign = slack_sign_by_parallel_row(a)) {
-      if (*sign < 0) return Slacks::doubtful;
+    if (const std::optional<double> on_edge = slack_by_parallel_row(a)) {
+      if (*on_edge < 0) return Slacks::doubtful;
+      slack_[a] = *on_edge;
       continue;
     }
     close_[count++] = a;
@@ -141,9 +142,9 @@ std::optional<Vector> GramSolve::slacks_of_touched_rows_if_kept() const {
                         std::vector<Index>(touched_, touched_ + touched_count_));
 }
 
-/// The sign of the slack of row a where a row held that is parallel to it, not one bit off, holds with
+/// The slack of row a, with its sign, where a row held that is parallel to it, not one bit off, holds with
 /// equality; none where there is no such row.
-std::optional<int> GramSolve::slack_sign_by_parallel_row(Index a) const {
+std::optional<double> GramSolve::slack_by_parallel_row(Index a) const {
   const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
   const double part = std::abs(u[0]) / row_scale_[a];
   for (Index j = 0; j < set_->size(); ++j) {
@@ -153,15 +154,15 @@ std::optional<int> GramSolve::slack_sign_by_parallel_row(Index a) const {
     Index i = 0;
     while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
     if (i < n_ || u[p] == 0) continue;
-    const auto cross = [&](double x, double y) {  // of v[p] x - u[p] y
+    const auto cross = [&](double x, double y) {  // v[p] x - u[p] y
       ExactSum sum;
       sum.add_product(v[p], x);
       sum.add_product(-u[p], y);
-      return sum.sign();
+      return sum;
     };
-    for (i = 0; i < n_ && cross(u[i], v[i]) == 0; ++i) continue;
+    for (i = 0; i < n_ && cross(u[i], v[i]).sign() == 0; ++i) continue;
     // u = (u_p / v_p) v, so that v_p (u·q - s_a) = u_p s_v - v_p s_a.
-    if (i == n_) return -cross(problem_.s[a], problem_.s[rows_[j]]) * (v[p] > 0 ? 1 : -1);
+    if (i == n_) return quotient_with_sign(cross(problem_.s[a], problem_.s[rows_[j]]), -v[p]);
   }
   return std::nullopt;
 }
@@ -206,9 +207,12 @@ Index GramSolve::leave_sums_of_rows_held(Index count) {
     set_->solve_pack(products_);
     for (Index l = 0; l < rows; ++l) {
       for (Index j = 0; j < k; ++j) load_[j] = products_[8 * j + l];
-      const std::optional<int> sign = edge_->sign(close_[first + l], rows_, k, load_);
-      if (sign && *sign < 0) return -1;
-      if (!sign) close_[left++] = close_[first + l];
+      const std::optional<double> on_edge = edge_->slack(close_[first + l], rows_, k, load_);
+      if (on_edge && *on_edge < 0) return -1;
+      if (on_edge)
+        slack_[close_[first + l]] = *on_edge;
+      else
+        close_[left++] = close_[first + l];
     }
   }
   return left;

@@ -237,9 +237,9 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
     double coefficients[SmallTableau::most];
     for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[a * t.stride + t.rows[k]];
     if (!edge_) edge_.emplace(problem_, t.row_scale);
-    const std::optional<int> sign = edge_->sign(a, t.rows, t.size, coefficients);
-    if (!sign || *sign < 0) return Slacks::doubtful;
-    t.slack[a] = 0;
+    const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
+    if (!on_edge || *on_edge < 0) return Slacks::doubtful;
+    t.slack[a] = *on_edge;
   }
   return known_.wrong > 0 ? Slacks::violated : Slacks::kept;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
@@ -14,10 +15,56 @@ std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& o
     if (std::find(rows.begin(), rows.end(), a) == rows.end()) rows.push_back(a);
   };
   for (Index a : open.basis) add(a);
+  if (open.basis.empty() && open.lambda.size() == problem.rows())
+    for (Index a = 0; a < problem.rows(); ++a)
+      if (open.lambda[a] > 0) add(a);
   if (open.farkas.size() == problem.rows())
     for (Index a = 0; a < problem.rows(); ++a)
       if (open.farkas[a] > 0) add(a);
   return rows;
+}
+
+/// Of the word operations that fractions may take, what they may for signs within the error bound.
+constexpr double part_for_zeros = 0.05;
+
+/// Aq = z + Uᵀlambda, without rounding; false for a sparse A, which is not looked at.
+bool is_in_balance(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
+  const Metric& A = problem.A;
+  if (A.kind() == MetricKind::sparse) return false;
+  std::vector<ExactSum> rest(static_cast<std::size_t>(q.size()));
+  for (Index i = 0; i < q.size(); ++i) {
+    ExactSum& sum = rest[static_cast<std::size_t>(i)];
+    sum.add(problem.z[i]);
+    if (A.kind() != MetricKind::dense) sum.add_product(-A.diagonal()[i], q[i]);
+    for (Index j = 0; A.kind() == MetricKind::dense && j < q.size(); ++j)
+      sum.add_product(-A.dense_gram()(i, j), q[j]);
+  }
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (lambda[a] == 0) continue;
+    const Vector u = problem.U.row(a);
+    for (Index i = 0; i < q.size(); ++i) rest[static_cast<std::size_t>(i)].add_product(u[i], lambda[a]);
+  }
+  return std::all_of(rest.begin(), rest.end(), [](const ExactSum& sum) { return sum.sign() == 0; });
+}
+
+/// The solution in fractions, rounded; none where that takes too many word operations.
+std::optional<Solution> in_fractions(const NearestPointProblem& problem, const Solution& open,
+                                     const Accuracy& accuracy, double most, std::string_view why) {
+  // Sizes alone may tell that it is too much, before any number is converted.
+  const double n = static_cast<double>(problem.dimension());
+  if (n * n * n > most) return std::nullopt;
+  const ExactProblem exact = exact_problem(problem);
+  const ExactSolution found = exact_active_set(exact, rows_of(problem, open), most);
+  if (found.status == Status::gave_up) return std::nullopt;
+  Solution solution = rounded(exact, found, accuracy);
+  solution.method = open.method;
+  solution.steps += open.steps;
+  solution.force_norm = problem.A.dual_norm(problem.z);
+  if (found.status != Status::infeasible)
+    solution.residuals = residuals(problem, solution.q, solution.lambda, Vector::Zero(problem.rows()));
+  solution.model.islands = {
+      {open.method, problem.dimension(), problem.rows(), 0, found.word_operations, n * n / 2, why}};
+  return solution;
 }
 
 Solution left_open(Solution open) {
@@ -35,22 +82,35 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
   if (open.undecided == open_question::conditioning &&
       open.error_bound <= few_ulps * open.acceleration_norm && open.status == Status::inaccurate)
     return open;
-  const double most = accuracy.limit * most_word_operations;
-  // Sizes alone may tell that it is too much, before any number is converted.
-  const double n = static_cast<double>(problem.dimension());
-  if (n * n * n > most) return left_open(std::move(open));
-  const ExactProblem exact = exact_problem(problem);
-  const ExactSolution found = exact_active_set(exact, rows_of(problem, open), most);
-  if (found.status == Status::gave_up) return left_open(std::move(open));
-  Solution solution = rounded(exact, found, accuracy);
-  solution.method = open.method;
-  solution.steps += open.steps;
-  solution.force_norm = problem.A.dual_norm(problem.z);
-  if (found.status != Status::infeasible)
-    solution.residuals = residuals(problem, solution.q, solution.lambda, Vector::Zero(problem.rows()));
-  solution.model.islands = {{open.method, problem.dimension(), problem.rows(), 0, found.word_operations,
-                             n * n / 2, open.undecided}};
-  return solution;
+  std::optional<Solution> found =
+      in_fractions(problem, open, accuracy, accuracy.limit * most_word_operations, open.undecided);
+  return found ? *std::move(found) : left_open(std::move(open));
+}
+
+bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) {
+  if (solved.status != Status::solved || problem.radii) return false;
+  std::vector<bool> told(static_cast<std::size_t>(problem.rows()), false);  // without a sign to tell
+  for (Index a : problem.two_sided) told[static_cast<std::size_t>(a)] = true;
+  bool is_weak = false;
+  for (Index a : solved.basis) {
+    is_weak = is_weak || (!told[static_cast<std::size_t>(a)] && solved.lambda[a] == 0);
+    told[static_cast<std::size_t>(a)] = true;
+  }
+  if (!is_weak) return false;
+  std::vector<Index> touched;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!told[static_cast<std::size_t>(a)] && solved.slack[a] == 0) touched.push_back(a);
+  // The point of the rows held itself, and in balance with its multipliers, or a vertex.
+  const bool is_vertex = static_cast<Index>(solved.basis.size()) == problem.dimension();
+  return !slacks_if_kept(problem, solved.q, solved.basis, touched) ||
+         !(is_vertex || is_in_balance(problem, solved.q, solved.lambda));
+}
+
+Solution with_signs_of_zeros(const NearestPointProblem& problem, Solution solved, const Accuracy& accuracy) {
+  std::optional<Solution> found =
+      in_fractions(problem, solved, accuracy, part_for_zeros * accuracy.limit * most_word_operations,
+                   open_question::touched);
+  return found ? *std::move(found) : solved;
 }
 
 }  // namespace convex

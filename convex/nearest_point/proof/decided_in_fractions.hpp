@@ -21,4 +21,12 @@ inline constexpr std::string_view conditioning = "the digits of a nearly singula
 /// accuracy.limit times `most_word_operations`, the answer is given back as it is, not solved.
 Solution decided_in_fractions(const NearestPointProblem&, Solution open, const Accuracy&);
 
+/// Whether an answer that is solved leaves the signs of zeros open: of multipliers of rows held that doubles
+/// cannot tell from 0. A row whose multiplier is below 0 by less than that is not held, and has a slack.
+bool has_open_zeros(const NearestPointProblem&, const Solution& solved);
+
+/// The answer with these signs, and those of slacks, from fractions, where that takes a small part of the
+/// word operations; beyond, it is given back as it is, and what is within the error bound counts as 0.
+Solution with_signs_of_zeros(const NearestPointProblem&, Solution solved, const Accuracy&);
+
 }  // namespace convex

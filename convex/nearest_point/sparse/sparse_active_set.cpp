@@ -224,9 +224,7 @@ class SparseActiveSet {
     solution.steps = steps_;
     const double unit =
         scaled_.coordinate.size() > 0 ? scaled_.coordinate[0] * std::sqrt(problem_.A.diagonal()[0]) : 1;
-    for (Index i = 0; i < problem_.dimension(); ++i)
-      if (std::abs(point_.q.hi[i]) <= 2 * point_.remaining() * scaled_.coordinate[i])
-        point_.q.hi[i] = point_.q.lo[i] = 0;
+    silence_noise(scaled_, point_);
     solution.q = point_.q.hi;
     solution.lambda = point_.lambda.hi;
     solution.slack = slack_;
@@ -282,12 +280,27 @@ class SparseActiveSet {
   double doubtful_ = 0, silence_ = 0, delta_ = first_delta;
 };
 
+/// Whether a slack is so small a part of its terms that nearly dependent rows may have made it of 0.
+bool has_tiny_slacks(const NearestPointProblem& problem, const Solution& solved) {
+  constexpr double tiny = 0x1p-70;
+  if (solved.status != Status::solved || problem.radii) return false;
+  const Vector magnitude = solved.q.cwiseAbs();
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (solved.slack[a] > 0 &&
+        solved.slack[a] <= tiny * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                            const std::vector<Index>& guess) {
   validate(problem);
-  return decided_in_fractions(problem, SparseActiveSet(problem, accuracy).run(guess), accuracy);
+  Solution found = decided_in_fractions(problem, SparseActiveSet(problem, accuracy).run(guess), accuracy);
+  if (has_open_zeros(problem, found) || has_tiny_slacks(problem, found))
+    return with_signs_of_zeros(problem, std::move(found), accuracy);
+  return found;
 }
 
 }  // namespace convex

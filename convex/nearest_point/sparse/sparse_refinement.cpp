@@ -48,6 +48,12 @@ constexpr double least_part = 1e-2;
 
 }  // namespace
 
+void silence_noise(const BalancedProblem& scaled, SparsePoint& point) {
+  for (Index i = 0; i < point.q.size(); ++i)
+    if (std::abs(point.q.hi[i]) <= 2 * point.remaining() * scaled.coordinate[i])
+      point.q.hi[i] = point.q.lo[i] = 0;
+}
+
 Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta) {
   Vector weight = Vector::Zero(row_count);
   for (Index a : rows) weight[a] = 1 / delta;

@@ -19,6 +19,9 @@ struct SparsePoint {
   double remaining() const { return contraction < 1 ? last * contraction / (1 - contraction) : last; }
 };
 
+/// Makes 0 of what may be missing in an entry of q.
+void silence_noise(const BalancedProblem&, SparsePoint&);
+
 /// Weights for `refine_rows`: 1/delta on the rows given, 0 on the others.
 Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta);
 /// Up to a hundred times more on rows whose multiplier is large: where rows are redundant the multipliers

@@ -7,6 +7,7 @@
 #include "convex/nearest_point/sparse/dependent_rows.hpp"
 #include "convex/nearest_point/sparse/held_firmly.hpp"
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 namespace {
@@ -31,7 +32,17 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
   std::vector<Index> rounded, besides;
   for (Index a : tight)
     if (sign_of_slack(problem, a, q.hi) != 0) rounded.push_back(a);
-  if (rounded.empty()) return {};
+  if (rounded.empty()) {
+    // The doubles q are the point: what twice the precision left beside them is noise.
+    const Vector magnitude = q.hi.cwiseAbs();
+    std::vector<bool> is_tight(static_cast<std::size_t>(problem.rows()), false);
+    for (Index a : tight) is_tight[static_cast<std::size_t>(a)] = true;
+    for (Index a = 0; a < problem.rows(); ++a)
+      if (!is_tight[static_cast<std::size_t>(a)] &&
+          slack[a] <= near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))
+        slack[a] = slack_at(problem, a, q.hi);
+    return {};
+  }
   for (Index a : touched)
     if (contains(rounded, a)) besides.push_back(a);
   const double delta = 1 / std::max(1.0, weight.maxCoeff());

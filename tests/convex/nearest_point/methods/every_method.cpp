@@ -206,10 +206,7 @@ TEST_CASE("a limit on the steps ends in gave-up, not in an answer that is not on
   }
 }
 
-TEST_CASE(
-    "where dense factors are too large, sparse ones find chains and obstacles just as well, and packings or "
-    "say "
-    "what is open") {
+TEST_CASE("where dense factors are too large, sparse ones find chains, packings and obstacles just as well") {
   for (const auto& [name, size] : {std::pair{"chain", 3000}, {"hexagonal-packing", 1500}, {"obstacle", 60}}) {
     const convex::GalleryFamily& family = *convex::find_family(name);
     const convex::GalleryInstance instance = convex::gallery_instance(family, size, family.usual);
@@ -219,10 +216,6 @@ TEST_CASE(
       CAPTURE(std::string(name));
       CAPTURE(std::string(method));
       const Solution found = convex::find_method(method)->solve(instance.problem, {.tolerance = 1e-10});
-      if (found.status != Status::solved && std::string(name) == "hexagonal-packing") {
-        CHECK_FALSE(found.undecided.empty());
-        continue;
-      }
       REQUIRE(found.status == Status::solved);
       const Vector error = found.q - instance.solution.hi - instance.solution.lo;
       CHECK(instance.problem.A.norm(error) <= few_roundings * scale(instance.problem, instance.solution.hi));
