@@ -7,10 +7,12 @@
 
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
-#include "cli/measurement/trial_files.hpp"
+#include "cli/measurement/problem_library.hpp"
+#include "cli/measurement/progress.hpp"
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/write_projection.hpp"
 #include "cli/report/json_writer.hpp"
+#include "cli/report/library_files.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
@@ -31,6 +33,8 @@ struct GalleryOptions : Printing {
   std::optional<long> size;
   unsigned seed = 1;
   std::optional<std::string> output;  ///< a file to write
+  std::optional<std::string> write;   ///< a folder for the whole library
+  std::vector<std::string> scenes;    ///< problem files that go into it
 };
 
 /// Up to that many numbers the answer stands in the file's comment.
@@ -113,9 +117,31 @@ void write_instance(const GalleryOptions& options) {
   write_file(path, projection_text(problem, top, stem));
 }
 
+/// The library of problems with their truth, in a folder.
+void write_all(const GalleryOptions& options) {
+  if (options.family || options.output)
+    throw InvalidInput("--write takes every family; leave FAMILY and --output out");
+  const auto tell = [](const std::string& why) { fmt::print(stderr, "moreau: left out: {}\n", why); };
+  std::vector<LibraryProblem> problems = family_problems();
+  for (const std::string& file : options.scenes)
+    for (LibraryProblem& problem : file_problems(file, tell)) problems.push_back(std::move(problem));
+  Progress progress(static_cast<int>(problems.size()));
+  const auto done = [&](const std::string& name) {
+    progress.now(name);
+    progress.step();
+  };
+  const std::size_t written = write_library(problems, *options.write, done, tell);
+  if (!options.quiet)
+    fmt::print("{} problems with their truth in {}; index.csv lists them\n", written, *options.write);
+}
+
 Exit show_gallery(const GalleryOptions& options) {
   return answered(options, {options.family.value_or("gallery"), ""}, [&] {
-    if (options.family)
+    if (!options.write && !options.scenes.empty())
+      throw InvalidInput("--scenes says what else --write writes; give --write FOLDER");
+    if (options.write)
+      write_all(options);
+    else if (options.family)
       write_instance(options);
     else if (options.json)
       list_json();
@@ -144,7 +170,19 @@ void add_gallery(CLI::App& program, Work& chosen) {
                   "file to write, such as F.toml (matrices of a sparse family go to F.A.mtx, F.U.mtx); "
                   "default standard output")
       ->type_name("FILE");
+  command
+      .add_option(
+          "--write", options->write,
+          "folder for the whole library: every family at every difficulty, with the truth in fractions, as "
+          "TOML, JSON and Matrix Market, and an index")
+      ->type_name("FOLDER");
+  command
+      .add_option(
+          "--scenes", options->scenes,
+          "with --write: problem files whose contact problems, and those along their motions, go with them")
+      ->type_name("FILE");
   command.add_flag("--json", options->json, "the list as one JSON object");
+  command.add_flag("--quiet", options->quiet, "no text after --write; the exit code tells");
 }
 
 }  // namespace cli
