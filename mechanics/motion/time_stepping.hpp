@@ -60,12 +60,13 @@ class Motion::TimeStepping final : public Motion::Course {
   void correct_velocity();
   /// v+ and P; false when the motion ends here.
   bool find_velocity(double h, double end);
+  void tell_error(double error, double size);
   void tell_events(double h, const Vector& velocity_before);
   void correct_position();
 
   double origin_;  // steps are counted from here
   long count_ = 0;
-  bool is_first_ = true;
+  bool is_first_ = true, is_error_told_ = false;
   convex::SparseMatrix gram_;
   std::optional<convex::Metric> A_;
   Vector z_;

@@ -64,7 +64,8 @@ void Motion::TimeStepping::correct_position() {
       const double f = is_two_sided(a) || (held && pushes(a)) ? -std::abs(rates.f[a]) : rates.f[a];
       if (i == 0)
         record.corrected_penetration = std::max(record.corrected_penetration, -f / rates.f_scale[a]);
-      const double least = i == 0 ? rounding_of_rate : options.contact_tolerance[a];
+      // A contact within its tolerance is closed; f = 0 that is meant holds to rounding.
+      const double least = i == 0 && is_two_sided(a) ? rounding_of_rate : options.contact_tolerance[a];
       if (f >= -least * rates.f_scale[a]) continue;
       is_wrong = true;
       counts[k] = true;
