@@ -84,12 +84,15 @@ std::vector<Session> sessions(const std::string& page) {
   return found;
 }
 
-/// Standard output and standard error of a command of the shell, with this build's program as `moreau`.
+/// Standard output and standard error of a command of the shell, with this build's program as `moreau`. It runs
+/// where `docs` is the project's, and what it writes is not.
 std::vector<std::string> run_shell(const Folder& folder, const std::string& command) {
   const std::string out = folder.path("out"), err = folder.path("err");
   const char* given = std::getenv("MOREAU_PROGRAM");
   const fs::path program = given != nullptr ? given : MOREAU_PROGRAM;
-  const std::string line = "cd '" + root.string() + "' && PATH='" + program.parent_path().string() +
+  const fs::path place = folder.path("session");
+  if (fs::create_directory(place)) fs::create_directory_symlink(root / "docs", place / "docs");
+  const std::string line = "cd '" + place.string() + "' && PATH='" + program.parent_path().string() +
                            ":'$PATH && { " +
                            std::regex_replace(command, std::regex("^cli/moreau "), "moreau ") + "\n} > '" +
                            out + "' 2> '" + err + "' < /dev/null";

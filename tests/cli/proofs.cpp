@@ -83,12 +83,6 @@ TEST_CASE("a contradiction below rounding is proved with whole weights") {
   }
 }
 
-TEST_CASE("--certify on a decomposition is refused") {
-  const Folder folder;
-  const std::string file = folder.write("d.toml", "[decomposition]\nz = [1]\nf = \"norm1()\"\n");
-  CHECK(run({"solve", "--certify", file}).code == 2);
-}
-
 TEST_CASE("a mechanism is proved from its text: decimals as written, no answer made by rounding alone") {
   // A point on a plane y = x/3, given twice in ways that doubles round apart; gravity 9.81 is 981/100.
   constexpr const char* planes = R"toml([system]
