@@ -66,12 +66,12 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.failure_message(CLI::FailureMessage::simple);
   cli::Work chosen;
-  for (const auto add :
-       {cli::add_solve,      cli::add_check, cli::add_derive,    cli::add_explain,   cli::add_assemble,
-        cli::add_sweep,      cli::add_atlas, cli::add_simulate,  cli::add_orbit,     cli::add_convert,
-        cli::add_schema,     cli::add_prox,  cli::add_conjugate, cli::add_functions, cli::add_methods,
-        cli::add_gallery,    cli::add_chart, cli::add_stress,    cli::add_new,       cli::add_help,
-        cli::add_completions})
+  for (const auto add : {cli::add_solve,     cli::add_check,           cli::add_derive,    cli::add_explain,
+                         cli::add_assemble,  cli::add_sweep,           cli::add_atlas,     cli::add_simulate,
+                         cli::add_orbit,     cli::add_convert,         cli::add_schema,    cli::add_prox,
+                         cli::add_conjugate, cli::add_subdifferential, cli::add_functions, cli::add_methods,
+                         cli::add_gallery,   cli::add_chart,           cli::add_stress,    cli::add_new,
+                         cli::add_help,      cli::add_completions})
     add(app, chosen);
 
   if (argc > 1)

@@ -25,6 +25,7 @@ void add_simulate(CLI::App& program, Work& chosen);
 void add_orbit(CLI::App& program, Work& chosen);
 void add_prox(CLI::App& program, Work& chosen);
 void add_conjugate(CLI::App& program, Work& chosen);
+void add_subdifferential(CLI::App& program, Work& chosen);
 void add_functions(CLI::App& program, Work& chosen);
 void add_methods(CLI::App& program, Work& chosen);
 void add_gallery(CLI::App& program, Work& chosen);

@@ -1,0 +1,149 @@
+#include "convex/sets/exact_polyhedron.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/exact/elimination.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/invalid_input.hpp"
+#include "convex/operations/operations.hpp"
+
+namespace convex {
+namespace {
+
+bool all_zero(const IntegerVector& v, std::size_t n) {
+  return std::all_of(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(n),
+                     [](const Integer& entry) { return entry.is_zero(); });
+}
+
+IntegerVector first_entries(const IntegerVector& v) { return {v.begin(), v.end() - 1}; }
+
+Fraction value_at(const IntegerVector& normal, const Fractions& v) {
+  Fraction sum;
+  for (std::size_t i = 0; i < v.size(); ++i) sum = sum + Fraction{normal[i]} * v[i];
+  return sum;
+}
+
+Matrix rows_in_doubles(const std::vector<ExactHalfspace>& rows, std::size_t n) {
+  Matrix A(static_cast<Index>(rows.size()), static_cast<Index>(n));
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    for (std::size_t i = 0; i < n; ++i)
+      A(static_cast<Index>(a), static_cast<Index>(i)) = nearest_double(Fraction{rows[a].normal[i]});
+  return A;
+}
+
+Vector limits_in_doubles(const std::vector<ExactHalfspace>& rows) {
+  Vector b(static_cast<Index>(rows.size()));
+  for (std::size_t a = 0; a < rows.size(); ++a)
+    b[static_cast<Index>(a)] = nearest_double(Fraction{rows[a].limit});
+  return b;
+}
+
+}  // namespace
+
+ExactPolyhedron empty_polyhedron(std::size_t n) {
+  ExactPolyhedron P;
+  P.n = n;
+  return P;
+}
+
+ExactPolyhedron section_at_one(const PolyhedralCone& K) {
+  const auto n = static_cast<std::size_t>(K.n) - 1;
+  ExactPolyhedron P = empty_polyhedron(n);
+  for (const IntegerVector& g : K.generators) {
+    if (g.back().is_zero()) {
+      P.rays.push_back(first_entries(g));
+      continue;
+    }
+    Fractions vertex;
+    for (std::size_t i = 0; i < n; ++i) vertex.push_back(lowest_terms({g[i], g.back()}));
+    P.vertices.push_back(std::move(vertex));
+  }
+  for (const IntegerVector& l : K.lines) P.lines.push_back(first_entries(l));
+  const Echelon space = echelon(K.equations, n + 1);
+  for (const IntegerVector& row : K.halfspaces)
+    if (const IntegerVector a = reduced(row, space); !all_zero(a, n))
+      P.halfspaces.push_back({first_entries(a), -a.back()});
+  for (const IntegerVector& e : K.equations)
+    if (!all_zero(e, n)) P.equations.push_back({first_entries(e), -e.back()});
+  return P;
+}
+
+ExactPolyhedron polyhedron_of(const PolyhedralCone& K) {
+  ExactPolyhedron P = empty_polyhedron(static_cast<std::size_t>(K.n));
+  P.vertices.emplace_back(P.n);
+  P.rays = K.generators;
+  P.lines = K.lines;
+  for (const IntegerVector& a : K.halfspaces) P.halfspaces.push_back({a, 0});
+  for (const IntegerVector& e : K.equations) P.equations.push_back({e, 0});
+  return P;
+}
+
+bool contains(const ExactPolyhedron& P, const Fractions& v) {
+  if (P.is_empty()) return false;
+  for (const ExactHalfspace& row : P.halfspaces)
+    if (Fraction{row.limit} < value_at(row.normal, v)) return false;
+  return std::all_of(P.equations.begin(), P.equations.end(), [&](const ExactHalfspace& row) {
+    return value_at(row.normal, v) == Fraction{row.limit};
+  });
+}
+
+std::optional<Fraction> support_of(const ExactPolyhedron& P, const Fractions& d) {
+  for (const IntegerVector& ray : P.rays)
+    if (sign(value_at(ray, d)) > 0) return std::nullopt;
+  for (const IntegerVector& line : P.lines)
+    if (sign(value_at(line, d)) != 0) return std::nullopt;
+  std::optional<Fraction> largest;
+  for (const Fractions& vertex : P.vertices)
+    if (const Fraction value = dot(vertex, d); !largest || *largest < value) largest = value;
+  return largest;
+}
+
+ExactPolyhedron translated(ExactPolyhedron P, const Fractions& shift) {
+  for (Fractions& vertex : P.vertices)
+    for (std::size_t i = 0; i < P.n; ++i) vertex[i] = vertex[i] + shift[i];
+  for (auto* rows : {&P.halfspaces, &P.equations})
+    for (ExactHalfspace& row : *rows) {  // a·v <= b + a·shift, over one denominator
+      const Fraction limit = lowest_terms(Fraction{row.limit} + value_at(row.normal, shift));
+      for (Integer& entry : row.normal) entry *= limit.denominator;
+      row.limit = limit.numerator;
+    }
+  return P;
+}
+
+ExactProgram program_of(const ExactPolyhedron& P) {
+  ExactProgram form(P.n, 0);
+  for (const ExactHalfspace& row : P.halfspaces) {
+    ExactRow entries;
+    for (std::size_t i = 0; i < P.n; ++i) add(entries, i, Fraction{-row.normal[i]});
+    form.bound(std::move(entries), Fraction{-row.limit});
+  }
+  for (const ExactHalfspace& row : P.equations) {
+    ExactRow entries;
+    for (std::size_t i = 0; i < P.n; ++i) add(entries, i, Fraction{row.normal[i]});
+    form.equation(std::move(entries), Fraction{row.limit});
+  }
+  return form;
+}
+
+Set as_set(const ExactPolyhedron& P) {
+  if (P.is_empty()) throw InvalidInput("polyhedron: empty; there is no set to be had");
+  const auto n = static_cast<Index>(P.n);
+  if (P.is_point()) {
+    Vector p(n);
+    for (Index i = 0; i < n; ++i) p[i] = nearest_double(P.vertices.front()[static_cast<std::size_t>(i)]);
+    return point(p);
+  }
+  std::vector<Set> sets;
+  if (!P.halfspaces.empty())
+    sets.push_back(polyhedron(rows_in_doubles(P.halfspaces, P.n), limits_in_doubles(P.halfspaces)));
+  if (!P.equations.empty())
+    sets.push_back(affine(rows_in_doubles(P.equations, P.n), limits_in_doubles(P.equations)));
+  if (sets.empty()) return box(Vector::Constant(n, -INFINITY), Vector::Constant(n, INFINITY));
+  if (sets.size() == 1) return sets.front();
+  Call both{"intersection"};
+  for (const Set& one : sets) both.arguments.push_back(argument(one.call));
+  return {intersection(sets, n), std::move(both)};
+}
+
+}  // namespace convex

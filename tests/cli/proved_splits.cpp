@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json json_of(const std::vector<std::string>& arguments) { return Json::parse(run(arguments).out); }
+
+}  // namespace
+
+TEST_CASE(
+    "a certified prox says at which level, how far x and y are, and between what f, g and the product lie") {
+  const Outcome outcome = run({"prox", "norm1()", "--at", "[3,-1,0.2]", "--certify", "--json"});
+  CHECK(outcome.code == 0);
+  const Json answer = Json::parse(outcome.out);
+  const Json& proof = answer["certificate"];
+  CHECK(proof["level"] == "exact");
+  CHECK(proof["error_bound"].get<double>() <= 1e-15);
+  CHECK(proof["error_bound"].get<double>() == std::max(proof["x"].get<double>(), proof["y"].get<double>()));
+  CHECK(proof["sum"].get<double>() <= proof["x"].get<double>() + proof["y"].get<double>());
+  CHECK(proof["f_x"][0].get<double>() <= 2);
+  CHECK(proof["f_x"][1].get<double>() >= 2);
+  CHECK(proof["g_y"][0].get<double>() <= 0);
+  CHECK(proof["inner"][1].get<double>() >= 2);
+  const Json curved = json_of({"prox", "entropy()", "--at", "[3,-1,0.2]", "--certify", "--json"});
+  CHECK(curved["certificate"]["level"] == "enclosure");
+  CHECK(curved["certificate"]["error_bound"].get<double>() <= 1e-14);
+}
+
+TEST_CASE("method exact prints fractions, of the numbers as they are written") {
+  const Json answer = json_of({"prox", "norm1(1/3)", "--at", "[3,-1,0.2]", "--metric",
+                               "[[2,1,0],[1,2,0],[0,0,1]]", "--method", "exact", "--json"});
+  CHECK(answer["status"] == "solved");
+  CHECK(answer["exact"]["x"] == Json::array({"8/3", "-2/3", "0"}));
+  CHECK(answer["exact"]["y"] == Json::array({"1/3", "-1/3", "1/5"}));
+  CHECK(answer["exact"]["f_x"] == "10/9");
+  CHECK(answer["certificate"]["level"] == "exact");
+}
+
+TEST_CASE("a decomposition file is proved too: strings are exact, floats are doubles") {
+  const std::string bytes =
+      "[decomposition]\nz = [\"1/3\", 0.1]\nf = \"norm1(weight=1/3)\"\n"
+      "metric = [[\"1/3\", 0], [0, 1]]\n";
+  const Folder folder;
+  const std::string file = folder.write("split.toml", bytes);
+  const Outcome exact = run({"solve", "--json", "--method", "exact", file});
+  CHECK(exact.code == 0);
+  const Json fractions = Json::parse(exact.out)["exact"];
+  CHECK(fractions["y"] == Json::array({"1/3", "3602879701896397/36028797018963968"}));
+  const Outcome certified = run({"solve", "--json", "--certify", file});
+  CHECK(certified.code == 0);
+  CHECK(Json::parse(certified.out)["certificate"]["level"] == "exact");
+}
+
+TEST_CASE("without a proof the level is none, the reason is said and the exit code is 3") {
+  const Outcome outcome = run({"prox", "epigraph(exponential())", "--at", "[1,2,-1]", "--certify", "--json"});
+  CHECK(outcome.code == 3);
+  const Json answer = Json::parse(outcome.out);
+  CHECK(answer["certificate"]["level"] == "none");
+  CHECK_FALSE(answer["certificate"]["why"].get<std::string>().empty());
+}
+
+TEST_CASE("method exact is refused for what is not piecewise linear-quadratic, and says why") {
+  const Outcome outcome = run({"prox", "norm2()", "--at", "[1,2]", "--method", "exact"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("piecewise linear-quadratic") != std::string::npos);
+  CHECK(run({"prox", "norm2()", "--at", "[1,2]", "--method", "admm"}).code == 2);
+  CHECK(run({"conjugate", "norm1()", "--certify"}).code == 2);
+}
+
+TEST_CASE("the value of a conjugate is proved, +inf included") {
+  const Json value = json_of({"conjugate", "huber(1/3)", "--at", "[1/3,0.2]", "--method", "exact", "--json"});
+  CHECK(value["exact"]["value"] == "17/675");  // (1/9 + 1/25)/6
+  const Json outside = json_of({"conjugate", "norm1()", "--at", "[1.5,0]", "--certify", "--json"});
+  CHECK(outside["value"] == "inf");
+  CHECK(outside["certificate"]["level"] == "exact");
+  CHECK(outside["certificate"]["error_bound"] == 0);
+  const Json curved = json_of({"conjugate", "entropy()", "--at", "[1,1]", "--certify", "--json"});
+  CHECK(curved["certificate"]["level"] == "enclosure");
+  CHECK(curved["certificate"]["value"][0].get<double>() <= 2);  // e^0 + e^0
+  CHECK(curved["certificate"]["value"][1].get<double>() >= 2);
+  CHECK(curved["error_bound"].get<double>() <= 1e-15);
+}
+
+TEST_CASE("the catalogue says how many of its examples are proved, and names the others with the reason") {
+  const Outcome outcome = run({"check", "--catalogue", "--certify", "--json"});
+  const Json answer = Json::parse(outcome.out);
+  CHECK(outcome.code == 3);
+  int proved = 0;
+  for (const Json& one : answer["functions"]) {
+    CAPTURE(one["call"]);
+    const bool all = one["proved"] == one["questions"];
+    proved += all ? 1 : 0;
+    CHECK(one.contains("why") == !all);
+    if (one.contains("error_bound")) CHECK(one["error_bound"].get<double>() <= 1e-9);
+  }
+  CHECK(answer["proved"] == proved);
+  CHECK(answer["examples"] == answer["functions"].size());
+  CHECK(proved * 10 >= 9 * static_cast<int>(answer["functions"].size()));
+}
+
+TEST_CASE(
+    "the subdifferential of a set is its normal cone, with the tangent and the critical cone beside it") {
+  const Json answer =
+      json_of({"subdifferential", "box(0,1/3)", "--at", "[1/3,0]", "--covector", "[2,0]", "--json"});
+  CHECK(answer["contains"] == true);
+  CHECK(answer["polyhedron"]["rays"] == Json::array({{0, -1}, {1, 0}}));
+  CHECK(answer["tangent_cone"]["generators"] == Json::array({{-1, 0}, {0, 1}}));
+  CHECK(answer["critical_cone"]["generators"] == Json::array({{0, 1}}));
+  const Json empty = json_of({"subdifferential", "box(0,1/3)", "--at", "[0.3333333333333334,0]", "--json"});
+  CHECK(empty["empty"] == true);
+  CHECK(empty["set"].is_null());
+}
+
+TEST_CASE(
+    "the directional derivative and the element of least norm are printed, and what has no rule is refused") {
+  const Json corner =
+      json_of({"subdifferential", "norm2(2)", "--at", "[0,0]", "--direction", "[3,4]", "--json"});
+  CHECK(corner["along"] == 10);
+  CHECK(corner["set"] == "ball2(radius=2)");
+  const Json least =
+      json_of({"subdifferential", "max()", "--at", "[0,0]", "--metric", "diagonal [1,3]", "--json"});
+  CHECK(least["least"] == Json::array({0.25, 0.75}));
+  CHECK(least["least_norm"] == 0.5);
+  const Outcome refused = run({"subdifferential", "neg_log_det()", "--at", "[1,0,0,1]"});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("no rule") != std::string::npos);
+  CHECK(run({"subdifferential", "norm1()", "--at", "[1,2]", "--covector", "[1]"}).code == 2);
+}
