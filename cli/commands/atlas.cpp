@@ -12,6 +12,7 @@
 #include "cli/report/atlas_report.hpp"
 #include "cli/scene.hpp"
 #include "convex/atlas/cell_probability.hpp"
+#include "convex/exact/elimination.hpp"
 #include "mechanics/exact_text.hpp"
 
 namespace cli {
@@ -19,11 +20,15 @@ namespace {
 
 using convex::InvalidInput;
 
+/// Where an atlas is explored: enough to see what is near.
+constexpr std::size_t default_cells = 50;
+
 /// What `moreau atlas` is told.
 struct AtlasOptions : FileOptions {
   std::optional<std::string> mean, covariance;  ///< of the force
   double tolerance = 1e-6;                      ///< of each probability
   std::vector<std::string> over;                ///< forces, of a map
+  std::optional<std::size_t> cells;             ///< so many are explored from the file's force
   std::optional<std::string> plot;
 };
 
@@ -117,6 +122,38 @@ Exit exit_of(const SolvedAtlas& solved) {
   return solved.is_accurate() ? Exit::solved : Exit::inaccurate;
 }
 
+/// Of the rows of contacts.
+convex::Index rank(const convex::ExactProblem& problem) {
+  return static_cast<convex::Index>(convex::echelon(problem.U, problem.z.size()).rank());
+}
+
+/// Probabilities, and the map, of a whole atlas.
+void measure(SolvedAtlas& solved, const AtlasOptions& options, const convex::ExactProblem& problem,
+             const std::vector<ForceRange>& ranges) {
+  solved.tolerance = options.tolerance;
+  auto [force, words] = distribution(options, problem);
+  solved.distribution = std::move(words);
+  const convex::atlas::CellProbability probability(solved.atlas.space, force);
+  solved.probabilities = probabilities(solved.atlas, probability, options.tolerance);
+  if (rule_is_defined(solved.atlas))
+    solved.rule = judge_rule(solved.atlas, probability, solved.probabilities, options.tolerance);
+  if (!ranges.empty()) solved.map = map_of(solved, ranges);
+}
+
+void require_nothing_of_the_whole(const AtlasOptions& options) {
+  if (options.plot || !options.over.empty() || options.mean || options.covariance)
+    throw InvalidInput(
+        "--over, --plot, --mean and --covariance need the whole atlas: contacts of rank 6 at most, and no "
+        "--cells; leave them out");
+}
+
+/// Of an atlas that is not whole, the cell that it was explored from.
+std::vector<std::size_t> here(const SolvedAtlas& solved) {
+  if (solved.atlas.cells.empty()) return {};
+  if (!solved.atlas.is_complete()) return {0};
+  return cells_at(solved.atlas, solved.z);
+}
+
 Answer atlas_of_file(const std::string& file, const AtlasOptions& options) {
   if (options.plot) require_drawable(*options.plot);
   const Scene scene = read_scene(file, {}, options);
@@ -128,17 +165,15 @@ Answer atlas_of_file(const std::string& file, const AtlasOptions& options) {
                      scene.contact_names(),
                      exact.as_written,
                      {exact.problem.z, exact.problem.unit},
-                     convex::atlas::atlas(exact.problem)};
-  solved.tolerance = options.tolerance;
-  auto [force, words] = distribution(options, exact.problem);
-  solved.distribution = std::move(words);
-  const convex::atlas::CellProbability probability(solved.atlas.space, force);
-  solved.probabilities = probabilities(solved.atlas, probability, options.tolerance);
-  if (rule_is_defined(solved.atlas))
-    solved.rule = judge_rule(solved.atlas, probability, solved.probabilities, options.tolerance);
-  if (!ranges.empty()) solved.map = map_of(solved, ranges);
+                     options.cells || rank(exact.problem) > convex::atlas::most_variables
+                         ? convex::atlas::explored(exact.problem, options.cells.value_or(default_cells))
+                         : convex::atlas::atlas(exact.problem)};
+  if (solved.atlas.space.cone.n > 0)
+    measure(solved, options, exact.problem, ranges);
+  else
+    require_nothing_of_the_whole(options);
+  solved.here = here(solved);
   if (options.plot && !solved.atlas.cells.empty()) draw(*options.plot, atlas_drawing(solved, scene));
-  solved.here = cells_at(solved.atlas, solved.z);
   return {exit_of(solved),
           options.json ? atlas_json(solved) + "\n" : heading(scene.title, file) + atlas_text(solved)};
 }
@@ -176,6 +211,11 @@ void add_atlas(CLI::App& program, Work& chosen) {
       ->allow_extra_args(false);
   command.add_option("--plot", options->plot, "the map as a picture: F.svg, F.png or F.pdf (by gnuplot)")
       ->type_name("FILE");
+  command
+      .add_option("--cells", options->cells,
+                  "explore so many cells from that of the file's force on, nothing measured; default beyond "
+                  "rank 6: 50")
+      ->type_name("N");
   add_files(command, *options);
 }
 

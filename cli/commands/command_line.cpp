@@ -66,14 +66,22 @@ void add_function(CLI::App& command, FunctionOptions& options, bool needs_point)
       .add_option("f", options.expression,
                   "a function of the call language, such as \"norm1(weight=2)\" (see `moreau functions`)")
       ->required();
-  command.add_option("--at", options.at, "a point, such as \"[3, -1, 1/2]\"")
-      ->type_name("VECTOR")
-      ->required(needs_point);
+  command.add_option("--at", options.at, "a point, such as \"[3, -1, 1/2]\"")->type_name("VECTOR");
   command
       .add_option(
           "--metric", options.metric,
           "the Gram matrix W of (x|y) = x.Wy: \"[[2, 1], [1, 2]]\", or \"diagonal [1, 2]\"; default identity")
       ->type_name("MATRIX");
+  if (needs_point)
+    command.parse_complete_callback([&options] {
+      if (!options.at && !options.symbolic) throw CLI::RequiredError("--at");
+    });
+}
+
+void add_symbols(CLI::App& command, FunctionOptions& options) {
+  CLI::Option* symbolic = command.add_flag("--symbolic", options.symbolic,
+                                           "of one variable: the whole function, exactly, by cases");
+  command.add_flag("--latex", options.latex, "with --symbolic: formulas for amsmath")->needs(symbolic);
 }
 
 void add_proof(CLI::App& command, bool& certify) {

@@ -74,8 +74,12 @@ struct FunctionOptions : Printing, AccuracyOptions {
   std::optional<std::string> at;      ///< a vector
   std::optional<std::string> metric;  ///< a matrix, or "diagonal [1, 2]"
   bool certify = false;               ///< a proved error bound
+  bool symbolic = false;              ///< the whole function of one variable, by cases
+  bool latex = false;                 ///< these as formulas
 };
 void add_function(CLI::App& command, FunctionOptions&, bool needs_point);
+/// --symbolic and --latex.
+void add_symbols(CLI::App& command, FunctionOptions&);
 
 /// --certify.
 void add_proof(CLI::App& command, bool& certify);

@@ -14,6 +14,7 @@
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/json_writer.hpp"
+#include "cli/report/symbolic_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_conjugate.hpp"
@@ -187,10 +188,13 @@ void add_conjugate(CLI::App& program, Work& chosen) {
   CLI::App& command =
       add_command(program, "conjugate",
                   "the conjugate g of a function, as an expression; where it is finite; its value at a point",
-                  chosen, [options] { return tell_conjugate(*options); });
+                  chosen, [options] {
+                    return options->symbolic ? tell_conjugate_in_symbols(*options) : tell_conjugate(*options);
+                  });
   add_function(command, *options, false);
   add_accuracy(command, *options);
   add_proof(command, options->certify);
+  add_symbols(command, *options);
   add_printing(command, *options);
 }
 

@@ -9,6 +9,7 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/decomposition_report.hpp"
+#include "cli/report/symbolic_report.hpp"
 
 namespace cli {
 namespace {
@@ -60,10 +61,11 @@ void add_prox(CLI::App& program, Work& chosen) {
   const auto options = std::make_shared<FunctionOptions>();
   CLI::App& command = add_command(
       program, "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f", chosen,
-      [options] { return split_at(*options); });
+      [options] { return options->symbolic ? tell_prox_in_symbols(*options) : split_at(*options); });
   add_function(command, *options, true);
   add_proof(command, options->certify);
   add_accuracy(command, *options);
+  add_symbols(command, *options);
   add_printing(command, *options);
 }
 

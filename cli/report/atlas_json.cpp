@@ -32,6 +32,7 @@ void write_cell(JsonWriter& json, const SolvedAtlas& solved, std::size_t index) 
   json.begin_object().key("contacts");
   write_names(json, solved.contacts, cell.rows);
   json.key("freedom").value(cell.freedom);
+  json.key("explored").value(index < solved.atlas.explored);
   if (!solved.probabilities.empty()) {
     const convex::atlas::Probability& p = solved.probabilities[index];
     json.key("probability").value(p.value).key("error_bound").value(p.error);
@@ -139,7 +140,12 @@ std::string atlas_json(const SolvedAtlas& solved) {
   json.key("contacts").begin_array();
   for (const std::string& name : solved.contacts) json.value(name);
   json.end_array().key("dimension").value(static_cast<Index>(atlas.space.rank));
-  json.key("conical").value(atlas.is_conical);
+  json.key("complete").value(atlas.is_complete());
+  json.key("conical");
+  if (atlas.space.cone.n > 0)
+    json.value(atlas.is_conical);
+  else
+    json.null();
   json.key("cells").begin_array();
   for (std::size_t c = 0; c < atlas.cells.size(); ++c) write_cell(json, solved, c);
   json.end_array().key("walls").begin_array();

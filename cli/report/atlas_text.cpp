@@ -72,6 +72,10 @@ std::string atlas_text(const SolvedAtlas& solved) {
   if (atlas.cells.empty()) return "no acceleration satisfies the contacts: there is no cell\n";
   std::string text = fmt::format("{} cells in {} dimensions, {} walls between them\n", atlas.cells.size(),
                                  atlas.space.rank, atlas.walls.size());
+  if (!atlas.is_complete())
+    text +=
+        fmt::format("NOT all there are: explored from the file's force on, the walls of the first {} cells\n",
+                    atlas.explored);
   const bool measured = !solved.probabilities.empty();
   std::vector<std::string> heading{"contacts that persist", "freedom", "walls"};
   if (measured) heading.insert(heading.end(), {"probability", "error at most"});

@@ -95,7 +95,8 @@ Fraction side(const Wall& wall, const ExactVector& z) {
 }
 
 Atlas atlas(const ExactProblem& problem) {
-  Atlas made{row_space(problem), {}, {}, false};
+  Atlas made{row_space(problem), {}, {}, false, 0};
+  find_cone(made.space);
   const RowSpace& space = made.space;
   if (!space.is_feasible()) return made;
   const auto tight = tight_rows(space);
@@ -135,6 +136,7 @@ Atlas atlas(const ExactProblem& problem) {
     first = begin;
   }
   made.is_conical = has_apex(made);
+  made.explored = made.cells.size();
   return made;
 }
 

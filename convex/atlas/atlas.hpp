@@ -16,7 +16,7 @@ namespace convex::atlas {
 struct Cell {
   std::vector<std::size_t> rows;  ///< tight on F, increasing: the rows with equality in the answer
   Index freedom = 0;              ///< the dimension of F in the space of q
-  ConeFace face;                  ///< of RowSpace::cone
+  ConeFace face;                  ///< of RowSpace::cone; left out by `explored`
   std::vector<std::size_t> walls;
 };
 
@@ -34,11 +34,19 @@ struct Atlas {
   RowSpace space;
   std::vector<Cell> cells;  ///< by freedom, then by rows
   std::vector<Wall> walls;
-  bool is_conical = false;  ///< every wall passes through one point
+  bool is_conical = false;   ///< every wall passes through one point; told of a whole atlas
+  std::size_t explored = 0;  ///< cells, the first ones, all of whose walls are there
+  bool is_complete() const { return explored == cells.size(); }
 };
 
 /// All cells and walls. Without a feasible point there are none.
 Atlas atlas(const ExactProblem&);
+
+/// The cell at the problem's z, then from wall to wall the cells next to it, until `most` of them are
+/// explored or there are no more; those beyond are there by name, with the walls that led to them. Faces are
+/// told by their rows alone: whether rows hold together is decided for each set by exact linear programming,
+/// so that neither vertices nor all faces need be known.
+Atlas explored(const ExactProblem&, std::size_t most);
 
 /// normal·z - offset.
 Fraction side(const Wall&, const ExactVector& z);

@@ -73,12 +73,18 @@ RowSpace row_space(const ExactProblem& problem) {
     take_coordinates(space, problem, std::move(inverse->adjugate));
   else
     take_basis(space, basis);
-  ExactRows halfspaces, equations;
-  for (std::size_t a = 0; a < m; ++a) {
+  for (IntegerVector& row : space.rows) {
     Integer common = 0;
-    for (const Integer& entry : space.rows[a]) common = greatest_common_divisor(common, entry);
+    for (const Integer& entry : row) common = greatest_common_divisor(common, entry);
     space.row_scale.push_back(common.is_zero() ? Integer{1} : common);
-    make_primitive(space.rows[a]);
+    make_primitive(row);
+  }
+  return space;
+}
+
+void find_cone(RowSpace& space) {
+  ExactRows halfspaces, equations;
+  for (std::size_t a = 0; a < space.count(); ++a) {
     IntegerVector row = space.rows[a];
     for (Integer& entry : row) entry = -entry;
     (space.two_sided[a] ? equations : halfspaces).push_back({std::move(row), 1});
@@ -87,7 +93,6 @@ RowSpace row_space(const ExactProblem& problem) {
   ahead.back() = -1;
   halfspaces.push_back({std::move(ahead), 1});
   space.cone = halfspace_cone(halfspaces, equations, static_cast<Index>(space.rank + 1));
-  return space;
 }
 
 }  // namespace convex::atlas

@@ -23,7 +23,7 @@ struct RowSpace {
   IntegerRows metric, inverse;
   Fraction gauge;
   IntegerRows free_rows;  ///< c = factor free_rows z: r×n
-  /// {(y tau, tau) : y in the polyhedron, tau > 0}, closed: pointed.
+  /// {(y tau, tau) : y in the polyhedron, tau > 0}, closed: pointed. Left out by `row_space`.
   PolyhedralCone cone;
 
   std::size_t count() const { return rows.size(); }
@@ -32,5 +32,8 @@ struct RowSpace {
 };
 
 RowSpace row_space(const ExactProblem&);
+
+/// Finds the cone by all of its generators, of which there may be many.
+void find_cone(RowSpace&);
 
 }  // namespace convex::atlas

@@ -118,3 +118,31 @@ TEST_CASE(
 TEST_CASE("rows that exclude each other leave no cell") {
   CHECK(convex::atlas::atlas(tests::atlas_problem({{1}}, {{1}, {-1}}, {1, 0})).cells.empty());
 }
+
+TEST_CASE("explored from wall to wall, an atlas has the cells and walls that the faces give it") {
+  for (const ExactProblem& problem : tests::atlas_problems()) {
+    const Atlas whole = convex::atlas::atlas(problem), found = explored(problem, 10000);
+    CHECK(found.is_complete());
+    CHECK(found.cells.size() == whole.cells.size());
+    CHECK(found.walls.size() == whole.walls.size());
+    for (const Wall& wall : found.walls) {
+      const auto same = std::find_if(whole.walls.begin(), whole.walls.end(), [&](const Wall& other) {
+        return whole.cells[other.tighter].rows == found.cells[wall.tighter].rows &&
+               whole.cells[other.looser].rows == found.cells[wall.looser].rows;
+      });
+      REQUIRE(same != whole.walls.end());
+      CHECK(same->normal == wall.normal);
+      CHECK(same->offset == wall.offset);
+    }
+  }
+}
+
+TEST_CASE("the first cell explored has all its walls, however many cells there are") {
+  std::vector<std::vector<int>> identity(20, std::vector<int>(20, 0));
+  for (std::size_t i = 0; i < 20; ++i) identity[i][i] = 1;
+  const Atlas near = explored(tests::atlas_problem(identity, identity, std::vector<int>(20, 0)), 1);
+  CHECK(near.explored == 1);
+  CHECK(near.cells.size() == 21);
+  CHECK(near.cells[0].walls.size() == 20);
+  CHECK_FALSE(near.is_complete());
+}

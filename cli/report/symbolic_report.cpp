@@ -1,0 +1,146 @@
+#include "cli/report/symbolic_report.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/commands/command_line.hpp"
+#include "cli/each_file.hpp"
+#include "cli/function_language/parse_call.hpp"
+#include "cli/function_language/parse_metric.hpp"
+#include "cli/report/json_writer.hpp"
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/symbolic/function_of_call.hpp"
+
+namespace cli {
+namespace {
+
+namespace symbolic = convex::symbolic;
+using convex::Fraction;
+using convex::InvalidInput;
+
+/// A formula with a name: "f(x)", the cases in x.
+struct NamedCases {
+  std::string left, variable;
+  symbolic::Cases cases;
+  bool is_finite_everywhere = false;  ///< a prox
+};
+
+std::string shown(const Fraction& value, bool latex) {
+  return latex ? symbolic::latex(symbolic::number(value)) : convex::text(value);
+}
+
+/// "x <= 1", "0 < x < 1", "x = 3", "for all x".
+std::string condition(const symbolic::Case& one, const std::string& v, bool latex) {
+  const std::string less = latex ? " < " : " < ", at_most = latex ? " \\le " : " <= ";
+  if (one.low && one.high && *one.low == *one.high) return v + " = " + shown(*one.low, latex);
+  if (!one.low && !one.high) return latex ? v + " \\in \\mathbb{R}" : "for all " + v;
+  if (!one.low) return v + (one.has_high ? at_most : less) + shown(*one.high, latex);
+  if (!one.high)
+    return v + (one.has_low ? (latex ? " \\ge " : " >= ") : (latex ? " > " : " > ")) + shown(*one.low, latex);
+  return shown(*one.low, latex) + (one.has_low ? at_most : less) + v + (one.has_high ? at_most : less) +
+         shown(*one.high, latex);
+}
+
+/// Whether the cases leave a part of the line out.
+bool leaves_out(const NamedCases& named) {
+  return !named.is_finite_everywhere && (named.cases.front().low || named.cases.back().high);
+}
+
+std::string as_text(const NamedCases& named) {
+  std::vector<std::pair<std::string, std::string>> lines;
+  std::size_t wide = 0;
+  for (const symbolic::Case& one : named.cases) {
+    lines.emplace_back(symbolic::text(one.term), condition(one, named.variable, false));
+    wide = std::max(wide, lines.back().first.size());
+  }
+  if (leaves_out(named)) lines.emplace_back("+inf", "elsewhere");
+  std::string text;
+  for (const auto& [term, where] : lines)
+    text +=
+        fmt::format("{} {}  {:<{}}   {}\n", text.empty() ? named.left : std::string(named.left.size(), ' '),
+                    text.empty() ? "=" : " ", term, wide, where);
+  return text;
+}
+
+std::string as_latex(const NamedCases& named) {
+  std::string text = "\\[\n" + named.left + " = \\begin{cases}\n";
+  for (const symbolic::Case& one : named.cases)
+    text += "  " + symbolic::latex(one.term) + " & " + condition(one, named.variable, true) + " \\\\\n";
+  if (leaves_out(named)) text += "  +\\infty & \\text{otherwise} \\\\\n";
+  return text + "\\end{cases}\n\\]\n";
+}
+
+void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
+  json.begin_array();
+  const auto bound = [&](const char* key, const std::optional<Fraction>& value) {
+    json.key(key);
+    if (value)
+      json.value(convex::text(*value));
+    else
+      json.null();
+  };
+  for (const symbolic::Case& one : cases) {
+    json.begin_object();
+    bound("low", one.low);
+    bound("high", one.high);
+    json.key("low_included")
+        .value(one.low && one.has_low)
+        .key("high_included")
+        .value(one.high && one.has_high);
+    json.key("formula").value(symbolic::text(one.term)).key("latex").value(symbolic::latex(one.term));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+/// The weight w of a metric of one variable.
+Fraction weight(const FunctionOptions& options, Source& source) {
+  if (!options.metric) return {1, 1};
+  source = {"--metric", *options.metric};
+  const convex::Metric W = parse_metric(*options.metric);
+  if (W.dimension() != 1) throw InvalidInput("metric: symbols have one variable; give one number, [[2]]");
+  return symbolic::simplest_fraction(W.diagonal()[0]);
+}
+
+Exit tell(const FunctionOptions& options, bool is_prox) {
+  Source source;
+  return answered(options, source, [&] {
+    const Fraction w = weight(options, source);
+    source = {"f", options.expression};
+    if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
+    const convex::Call call = parse_call(options.expression, "f");
+    // What the language refuses, symbols refuse with the same words.
+    convex::make_function(call, {convex::Metric::identity(1)});
+    const symbolic::Function f = symbolic::function_of(call);
+    std::vector<NamedCases> told;
+    if (is_prox) {
+      const symbolic::Cases itself = symbolic::formula(f);
+      told.push_back({"f(x)", "x", itself, false});
+      told.push_back({options.latex ? "\\operatorname{prox}_f(z)" : "prox_f(z)", "z",
+                      symbolic::prox_formula(f, Fraction{1, 1} / w), true});
+    } else {
+      // In the product w x y:
+      told.push_back({"f(x)", "x", symbolic::formula(f), false});
+      // f*(w y) is the conjugate of f(x/w).
+      told.push_back({"g(y)", "y", symbolic::conjugate_formula(symbolic::dilate(f, w)), false});
+    }
+    if (options.json) {
+      JsonWriter json;
+      json.begin_object().key("kind").value(is_prox ? "prox" : "conjugate").key("status").value("solved");
+      json.key("f").value(to_text(call)).key("symbolic").begin_object().key("f");
+      write_cases(json, told[0].cases);
+      json.key(is_prox ? "prox" : "g");
+      write_cases(json, told[1].cases);
+      fmt::print("{}\n", json.end_object().end_object().text());
+    } else if (!options.quiet) {
+      for (const NamedCases& named : told) fmt::print("{}", options.latex ? as_latex(named) : as_text(named));
+    }
+    return Exit::solved;
+  });
+}
+
+}  // namespace
+
+Exit tell_prox_in_symbols(const FunctionOptions& options) { return tell(options, true); }
+Exit tell_conjugate_in_symbols(const FunctionOptions& options) { return tell(options, false); }
+
+}  // namespace cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <variant>
+
+#include "convex/symbolic/exact_curve.hpp"
+#include "convex/symbolic/term.hpp"
+
+namespace convex::symbolic {
+
+/// A function of one variable by rules: f in x, its conjugate in y, and the prox of gamma f in z by gamma.
+struct RuleFunction {
+  Cases f, conjugate;
+  std::function<Cases(const Fraction& gamma)> prox;
+};
+
+/// Piecewise linear-quadratic in fractions, or by rules.
+using Function = std::variant<ExactCurve, RuleFunction>;
+
+/// Formulas of f in x, of its conjugate in y, of the prox of gamma f in z.
+Cases formula(const Function&);
+Cases conjugate_formula(const Function&);
+Cases prox_formula(const Function&, const Fraction& gamma);
+
+/// As those of exact_curve.hpp. Sums of two functions by rules, and envelopes of such with a prox by cases,
+/// have no rule: InvalidInput.
+Function conjugate(const Function&);
+Function envelope(const Function&, const Fraction& gamma);
+Function scale(const Function&, const Fraction& alpha);
+Function dilate(const Function&, const Fraction& rho);
+Function translate(const Function&, const Fraction& by);
+Function tilt(const Function&, const Fraction& c);
+Function add_constant(const Function&, const Fraction& c);
+Function sum(const Function&, const Function&);
+Function inf_convolution(const Function&, const Function&);
+
+/// e^x; x log x; -log x; log(1 + e^x); |x|^p, p > 1; x^-q for x > 0; x log(x/r) - x + r.
+/// Conjugates: Rockafellar 1970, section 12; Bauschke and Combettes 2017, chapter 13. Proxes: Chaux,
+/// Combettes, Pesquet and Wajs 2007; where an equation has no elementary solution its root is the formula.
+RuleFunction exponential();
+RuleFunction entropy();
+RuleFunction log_barrier();
+RuleFunction logistic();
+RuleFunction power_of_absolute(const Fraction& p);
+RuleFunction inverse_power(const Fraction& q);
+RuleFunction kullback_leibler(const Fraction& reference);
+
+}  // namespace convex::symbolic

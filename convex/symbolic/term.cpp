@@ -1,0 +1,190 @@
+#include "convex/symbolic/term.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "convex/invariant.hpp"
+
+namespace convex::symbolic {
+namespace {
+
+using Kind = Term::Kind;
+
+Term made(Kind kind, std::vector<Term> parts) { return {kind, {0, 1}, {}, std::move(parts), {}}; }
+
+/// The parts of a sum or product, or the term as its only one.
+std::vector<Term> parts_of(const Term& term, Kind kind) {
+  return term.kind == kind ? term.parts : std::vector<Term>{term};
+}
+
+/// W e^W = x for x >= 0 (Corless et al. 1996), by Newton's method on w + log w = log x where x is large.
+double lambert(double x) {
+  if (x == 0) return 0;
+  if (std::isinf(x)) return x;
+  double w = x < 1 ? x / (1 + x) : std::log(x) - (x > std::exp(1.0) ? std::log(std::log(x)) : 0);
+  constexpr int most = 60;
+  for (int k = 0; k < most; ++k) {
+    const double step = w * (w + std::log(w) - std::log(x)) / (w + 1);
+    const double next = w - step > 0 ? w - step : w / 2;
+    if (std::abs(next - w) <= std::numeric_limits<double>::epsilon() * next) return next;
+    w = next;
+  }
+  return w;
+}
+
+double value_of_function(const std::string& name, double x) {
+  if (name == "exp") return std::exp(x);
+  if (name == "log") return std::log(x);
+  if (name == "sqrt") return std::sqrt(x);
+  if (name == "abs") return std::abs(x);
+  if (name == "sign") return x > 0 ? 1 : (x < 0 ? -1 : 0);
+  invariant(name == "W", "a term has a known function");
+  return lambert(x);
+}
+
+double root_value(const Term& term, double target) {
+  const auto left = [&](double u) { return evaluate(term.parts[0], "u", u) - target; };
+  double low = term.lowest ? nearest_double(*term.lowest) : -1, high = term.lowest ? low + 1 : 1;
+  constexpr int most = 2200;  // halvings, through all exponents
+  for (int k = 0; k < most && !term.lowest && left(low) > 0; ++k) low *= 2;
+  for (int k = 0; k < most && left(high) < 0; ++k) high = high > 0 ? 2 * high : high / 2 + 1;
+  for (int k = 0; k < most; ++k) {
+    const double middle = (low + high) / 2;
+    if (middle == low || middle == high) break;
+    (left(middle) < 0 ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+Term number(const Fraction& value) { return {Kind::number, lowest_terms(value), {}, {}, {}}; }
+Term number(int value) { return number(Fraction{value, 1}); }
+Term variable(const std::string& name) { return {Kind::variable, {0, 1}, name, {}, {}}; }
+bool is_number(const Term& term, const Fraction& value) {
+  return term.kind == Kind::number && term.number == value;
+}
+
+Term operator+(const Term& a, const Term& b) {
+  Fraction constant{0, 1};
+  std::vector<Term> kept;
+  for (const Term* side : {&a, &b})
+    for (const Term& part : parts_of(*side, Kind::sum)) {
+      if (part.kind == Kind::number)
+        constant = constant + part.number;
+      else
+        kept.push_back(part);
+    }
+  if (sign(constant) != 0 || kept.empty()) kept.push_back(number(constant));
+  return kept.size() == 1 ? kept.front() : made(Kind::sum, std::move(kept));
+}
+
+Term operator-(const Term& a, const Term& b) { return a + Fraction{-1, 1} * b; }
+
+Term operator*(const Fraction& factor, const Term& b) { return number(factor) * b; }
+
+Term operator*(const Term& a, const Term& b) {
+  Fraction factor{1, 1};
+  std::vector<Term> kept;
+  for (const Term* side : {&a, &b})
+    for (const Term& part : parts_of(*side, Kind::product)) {
+      if (part.kind == Kind::number)
+        factor = factor * part.number;
+      else
+        kept.push_back(part);
+    }
+  if (sign(factor) == 0 || kept.empty()) return number(factor);
+  if (kept.size() == 1 && kept.front().kind == Kind::sum && !(factor == Fraction{1, 1})) {
+    Term sum = number(0);
+    for (const Term& part : kept.front().parts) sum = sum + number(factor) * part;
+    return sum;
+  }
+  if (!(factor == Fraction{1, 1})) kept.insert(kept.begin(), number(factor));
+  return kept.size() == 1 ? kept.front() : made(Kind::product, std::move(kept));
+}
+
+Term power(const Term& base, const Fraction& exponent) {
+  if (exponent == Fraction{1, 1}) return base;
+  if (base.kind == Kind::number && exponent == Fraction{2, 1}) return number(base.number * base.number);
+  return made(Kind::power, {base, number(exponent)});
+}
+
+Term function(const std::string& name, const Term& argument) {
+  if (name == "log" && is_number(argument, {1, 1})) return number(0);
+  if (name == "exp" && is_number(argument, {0, 1})) return number(1);
+  return {Kind::function, {0, 1}, name, {argument}, {}};
+}
+
+Term root(const Term& increasing, const Term& target, std::optional<Fraction> lowest) {
+  return {Kind::root, {0, 1}, {}, {increasing, target}, std::move(lowest)};
+}
+
+Term substituted(const Term& term, const std::string& name, const Term& by) {
+  switch (term.kind) {
+    case Kind::number:
+      return term;
+    case Kind::variable:
+      return term.name == name ? by : term;
+    case Kind::sum: {
+      Term sum = number(0);
+      for (const Term& part : term.parts) sum = sum + substituted(part, name, by);
+      return sum;
+    }
+    case Kind::product: {
+      Term product = number(1);
+      for (const Term& part : term.parts) product = product * substituted(part, name, by);
+      return product;
+    }
+    case Kind::power:
+      return power(substituted(term.parts[0], name, by), term.parts[1].number);
+    case Kind::function:
+      return function(term.name, substituted(term.parts[0], name, by));
+    case Kind::root:
+      return root(term.parts[0], substituted(term.parts[1], name, by), term.lowest);
+  }
+  return term;
+}
+
+double evaluate(const Term& term, const std::string& name, double at) {
+  switch (term.kind) {
+    case Kind::number:
+      return nearest_double(term.number);
+    case Kind::variable:
+      invariant(term.name == name, "a term has the variable that it is evaluated in");
+      return at;
+    case Kind::sum: {
+      double sum = 0;
+      for (const Term& part : term.parts) sum += evaluate(part, name, at);
+      return sum;
+    }
+    case Kind::product: {
+      double product = 1;
+      for (const Term& part : term.parts) product *= evaluate(part, name, at);
+      return product;
+    }
+    case Kind::power:
+      return std::pow(evaluate(term.parts[0], name, at), nearest_double(term.parts[1].number));
+    case Kind::function:
+      return value_of_function(term.name, evaluate(term.parts[0], name, at));
+    case Kind::root:
+      return root_value(term, evaluate(term.parts[1], name, at));
+  }
+  return 0;
+}
+
+double evaluate(const Cases& cases, const std::string& name, double at) {
+  for (const Case& one : cases) {
+    if (one.low) {
+      const double low = nearest_double(*one.low);
+      if (at < low || (at == low && !one.has_low)) continue;
+    }
+    if (one.high) {
+      const double high = nearest_double(*one.high);
+      if (at > high || (at == high && !one.has_high)) continue;
+    }
+    return evaluate(one.term, name, at);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace convex::symbolic

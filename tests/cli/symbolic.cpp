@@ -1,0 +1,42 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Json = nlohmann::ordered_json;
+
+TEST_CASE("the prox of |x| is told by its three cases, in fractions") {
+  const Json answer =
+      Json::parse(run({"prox", "norm1(1/3)", "--symbolic", "--json"}).out).at("symbolic").at("prox");
+  REQUIRE(answer.size() == 3);
+  CHECK(answer[0].at("low").is_null());
+  CHECK(answer[0].at("high") == "-1/3");
+  CHECK(answer[0].at("formula") == "z + 1/3");
+  CHECK(answer[1].at("formula") == "0");
+  CHECK(answer[2].at("formula") == "z - 1/3");
+}
+
+TEST_CASE("the metric's weight enters prox and conjugate as the product has it") {
+  CHECK(run({"prox", "norm1()", "--symbolic", "--metric", "[[2]]"}).out.find("z - 1/2") != std::string::npos);
+  // g(y) = sup 2xy - x²/2 = 2y².
+  CHECK(run({"conjugate", "squared_norm2()", "--symbolic", "--metric", "[[2]]"}).out.find("2*y^2") !=
+        std::string::npos);
+}
+
+TEST_CASE("in LaTeX cases stand in their environment, with where the function is infinite") {
+  const std::string text = run({"conjugate", "logistic()", "--symbolic", "--latex"}).out;
+  CHECK(text.find("\\begin{cases}") != std::string::npos);
+  CHECK(text.find("+\\infty & \\text{otherwise}") != std::string::npos);
+}
+
+TEST_CASE(
+    "symbols refuse a point, several variables and what has no rule, and prox without them wants a point") {
+  CHECK(run({"prox", "norm1()", "--symbolic", "--at", "[1]"}).code == 2);
+  CHECK(run({"prox", "norm1()", "--symbolic", "--metric", "[[2, 1], [1, 2]]"}).code == 2);
+  CHECK(run({"prox", "box([0, 0], [1, 1])", "--symbolic"}).code == 2);
+  CHECK(run({"prox", "sum(entropy(), norm1())", "--symbolic"}).code == 2);
+  CHECK(run({"prox", "norm1()"}).code == 2);
+  CHECK(run({"prox", "norm1()", "--latex", "--at", "[1]"}).code == 2);
+}
