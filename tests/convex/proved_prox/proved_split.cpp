@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/exact_program/program_of_call.hpp"
@@ -284,4 +285,54 @@ TEST_CASE("a bound of the least eigenvalue is below it, and near it where that i
     CHECK(least <= truth);
     CHECK(least >= 0.5 * truth);
   }
+}
+
+TEST_CASE(
+    "the values that proofs are made of are those of the functions in doubles, over the whole catalogue") {
+  int compared = 0;
+  for (const CatalogueEntry& entry : catalogue())
+    for (const std::string_view example : entry.examples) {
+      CAPTURE(example);
+      const Call call = cli::parse_call(example, "f");
+      const Index n = cli::number_of_entries(call);
+      Vector z = Vector::LinSpaced(n, -1.25, 2.25);
+      if (n > 1) z[1] = 1.75;
+      const Function f = make_function(call, {Metric::identity(n)});
+      const Prox at = f.prox(z, Metric::identity(n));
+      const PairSearch search = pair_of_call(call, identity_gram(static_cast<std::size_t>(n)),
+                                             fractions(at.x), fractions(Vector(z - at.x)));
+      if (!search.pair) continue;
+      ++compared;
+      const ProofPair& pair = *search.pair;
+      const auto agrees = [](const FractionInterval& proved, const Value& value) {
+        const double size = 1 + std::abs(nearest_double(proved.high));
+        return std::abs(nearest_double(proved.high) - value.value) <= 1e-8 * size + value.error;
+      };
+      CHECK(agrees(pair.f_x, f.evaluate(nearest(pair.x))));
+      CHECK(agrees(pair.f_v, f.conjugate().evaluate(nearest(pair.v))));
+    }
+  CHECK(compared >= 150);
+}
+
+TEST_CASE("programs in fractions have the values of the functions that they stand for, away from any prox") {
+  for (const CatalogueEntry& entry : catalogue())
+    for (const std::string_view example : entry.examples) {
+      CAPTURE(example);
+      const Call call = cli::parse_call(example, "f");
+      const auto n = static_cast<std::size_t>(cli::number_of_entries(call));
+      const ExactGram W = identity_gram(n);
+      const auto program = exact_program(call, W);
+      if (!program) continue;
+      const Function f = make_function(call, {Metric::identity(static_cast<Index>(n))});
+      for (int k = 0; k < 6; ++k) {
+        Fractions x(n);
+        for (std::size_t i = 0; i < n; ++i)
+          x[i] = lowest_terms({(7 * k + 5 * static_cast<int>(i * i) + 3) % 9 - 3, k % 2 == 0 ? 4 : 2});
+        const ExactValue exact = exact_value(*program, x);
+        const double value = f(nearest(x));
+        CHECK((exact.end == ProgramEnd::no_point) == std::isinf(value));
+        if (exact.end == ProgramEnd::minimum)
+          CHECK(std::abs(nearest_double(exact.value) - value) <= 1e-9 * (1 + std::abs(value)));
+      }
+    }
 }
