@@ -13,6 +13,7 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/answer.hpp"
+#include "cli/report/conjugate_formula.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/symbolic_report.hpp"
 #include "cli/report/text_table.hpp"
@@ -147,6 +148,9 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
   text += fmt::format(
       "where g(y) = sup over x of {} - f(x){}\n", plain ? "x·y" : "x·Wy",
       question.f.dimension() == 0 && plain ? "" : fmt::format(", with {} entries", question.W.dimension()));
+  if (const std::string formula = plain ? conjugate_formula(question.f.call(), question.W.dimension()) : "";
+      !formula.empty())
+    text += "that is, g(y) = " + formula + "\n";
   text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
   if (question.y) {
     std::string entries;

@@ -1,6 +1,9 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/catalogue/routes.hpp"
+#include "convex/functions/log_sum_exp.hpp"
 #include "convex/functions/norms.hpp"
+#include "convex/functions/sparse_norms.hpp"
+#include "convex/functions/spectral_norms.hpp"
 
 namespace convex {
 
@@ -71,6 +74,39 @@ std::vector<CatalogueEntry> norm_entries() {
        active,
        {"total_variation()", "total_variation(0.3)"},
        [](const Arguments& a) { return total_variation(a.number("weight")); }},
+      {"total_variation_2d",
+       EntryKind::function,
+       {{"weight", number, "1"}, {"rows", number}},
+       "weight times the sum of |differences| of neighbours, down and along, of the matrix stacked by "
+       "columns",
+       "Rudin, Osher and Fatemi 1992",
+       active,
+       active,
+       active,
+       {"total_variation_2d(0.5, rows=2)", "total_variation_2d(rows=1)"},
+       [](const Arguments& a) {
+         return total_variation_2d(a.number("weight"), a.count("rows"), a.space().dimension());
+       }},
+      {"k_support",
+       EntryKind::function,
+       {{"k", number}, {"weight", number, "1"}},
+       "weight times the gauge of the hull of unit vectors with k entries; k = 1: norm1, k = n: norm2",
+       "Argyriou, Foygel and Srebro 2012",
+       closed,
+       iterative,
+       iterative,
+       {"k_support(1)", "k_support(2, 0.5)", "k_support(3)"},
+       [](const Arguments& a) { return k_support(a.number("k"), a.number("weight")); }},
+      {"log_sum_exp",
+       EntryKind::function,
+       {},
+       "log sum e^x_i",
+       "Rockafellar 1970",
+       closed,
+       closed,
+       iterative,
+       {"log_sum_exp()"},
+       [](const Arguments&) { return log_sum_exp(); }},
       {"group_norm",
        EntryKind::function,
        {{"weight", number, "1"}, {"sizes", vector, "1"}},
@@ -104,6 +140,31 @@ std::vector<CatalogueEntry> norm_entries() {
        iterative,
        {"nuclear_norm(1, rows=3)", "nuclear_norm(0.5, rows=1)"},
        [](const Arguments& a) { return nuclear_norm(a.number("weight"), a.count("rows")); }},
+      {"schatten",
+       EntryKind::function,
+       {{"p", number}, {"rows", number, "0"}, {"weight", number, "1"}},
+       "weight (sum sigma_i^p)^(1/p) over the singular values of the matrix stacked by columns; rows=0: "
+       "square",
+       "Lewis 1996",
+       closed,
+       iterative,
+       iterative,
+       {"schatten(3, rows=3)", "schatten(1.5, rows=3, weight=0.5)", "schatten(inf, rows=1)"},
+       [](const Arguments& a) {
+         const Index rows = a.number("rows") == 0 ? 0 : a.count("rows");
+         return schatten(a.number("p"), rows, a.number("weight"));
+       }},
+      {"max_eigenvalue",
+       EntryKind::function,
+       {{"weight", number, "1"}},
+       "weight times the largest eigenvalue of the matrix stacked by columns, symmetric",
+       "Lewis 1996",
+       closed,
+       iterative,
+       iterative,
+       {"max_eigenvalue(2)"},
+       [](const Arguments& a) { return max_eigenvalue(a.number("weight")); },
+       "symmetric matrices"},
       {"neg_log_det",
        EntryKind::function,
        {},

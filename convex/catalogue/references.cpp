@@ -9,6 +9,10 @@ namespace convex {
 namespace {
 
 constexpr Reference works[] = {
+    {"Argyriou, Foygel and Srebro 2012",
+     "A. Argyriou, R. Foygel, N. Srebro, Sparse prediction with the k-support norm, Adv. Neural Inf. "
+     "Process. "
+     "Syst. 25, 1457-1465"},
     {"Ayer, Brunk, Ewing, Reid and Silverman 1955",
      "M. Ayer, H. D. Brunk, G. M. Ewing, W. T. Reid, E. Silverman, An empirical distribution function for "
      "sampling "
@@ -80,6 +84,7 @@ constexpr Reference works[] = {
      "N. J. Higham, Computing a nearest symmetric positive semidefinite matrix, Linear Algebra Appl. 103, "
      "103-118"},
     {"Huber 1964", "P. J. Huber, Robust estimation of a location parameter, Ann. Math. Statist. 35, 73-101"},
+    {"Koenker and Bassett 1978", "R. Koenker, G. Bassett, Regression quantiles, Econometrica 46, 33-50"},
     {"Kullback and Leibler 1951",
      "S. Kullback, R. A. Leibler, On information and sufficiency, Ann. Math. Statist. 22, 79-86"},
     {"Lawson and Hanson 1974", "C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, Prentice-Hall"},
@@ -102,6 +107,10 @@ constexpr Reference works[] = {
      "4, "
      "153-158"},
     {"Rockafellar 1970", "R. T. Rockafellar, Convex Analysis, Princeton University Press"},
+    {"Rudin, Osher and Fatemi 1992",
+     "L. I. Rudin, S. Osher, E. Fatemi, Nonlinear total variation based noise removal algorithms, Physica D "
+     "60, "
+     "259-268"},
     {"Wang and Lu 2015", "W. Wang, C. Lu, Projection onto the capped simplex, arXiv:1503.01002"},
     {"Yuan and Lin 2006",
      "M. Yuan, Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Stat. Soc. "

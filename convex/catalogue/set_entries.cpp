@@ -1,6 +1,8 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/catalogue/routes.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/functions/sparse_norms.hpp"
+#include "convex/functions/spectral_norms.hpp"
 
 namespace convex {
 
@@ -197,7 +199,42 @@ std::vector<CatalogueEntry> set_entries() {
        iterative,
        iterative,
        {"spectral_ball(1.5, rows=3)", "spectral_ball(1, rows=1)"},
-       [](const Arguments& a) { return indicator(spectral_ball(a.number("radius"), a.count("rows"))); }}};
+       [](const Arguments& a) { return indicator(spectral_ball(a.number("radius"), a.count("rows"))); }},
+      {"schatten_ball",
+       EntryKind::set,
+       {{"p", number}, {"rows", number, "0"}, {"radius", number, "1"}},
+       "(sum sigma_i^p)^(1/p) <= radius, sigma the singular values of the matrix stacked by columns",
+       "Lewis 1996",
+       closed,
+       iterative,
+       iterative,
+       {"schatten_ball(3, rows=3)", "schatten_ball(1.5, rows=1, radius=2)"},
+       [](const Arguments& a) {
+         const Index rows = a.number("rows") == 0 ? 0 : a.count("rows");
+         return indicator(schatten_ball(a.number("p"), rows, a.number("radius")));
+       }},
+      {"spectraplex",
+       EntryKind::set,
+       {{"total", number, "1"}},
+       "the symmetric part of the matrix stacked by columns is positive semidefinite of trace total",
+       "Lewis 1996",
+       closed,
+       iterative,
+       iterative,
+       {"spectraplex(1.5)"},
+       [](const Arguments& a) { return indicator(spectraplex(a.number("total"))); }},
+      {"largest_entries_ball",
+       EntryKind::set,
+       {{"k", number}, {"radius", number, "1"}},
+       "the root of the sum of the k largest squares <= radius",
+       "Argyriou, Foygel and Srebro 2012",
+       closed,
+       iterative,
+       iterative,
+       {"largest_entries_ball(2, 1.5)"},
+       [](const Arguments& a) {
+         return indicator(largest_entries_ball(a.number("k"), a.number("radius")));
+       }}};
   for (CatalogueEntry& entry : cone_entries()) entries.push_back(std::move(entry));
   return entries;
 }

@@ -1,8 +1,8 @@
 #include <cmath>
-#include <numbers>
 
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/gamma0/parameter.hpp"
 #include "convex/infinity.hpp"
 #include "convex/prox_formulas/log_barrier.hpp"
 #include "convex/prox_formulas/logistic.hpp"
@@ -11,34 +11,37 @@ namespace convex {
 namespace {
 
 struct LogBarrier {
+  double offset = 0;
   Index dimension() const { return 0; }
   bool finite() const { return false; }
   bool smooth() const { return true; }
   Ends ends(Index) const { return {}; }  // open: no point outside counts as inside
-  Call call() const { return {"log_barrier"}; }
+  Call call() const {
+    if (offset == 0) return {"log_barrier"};
+    return {"log_barrier", {argument("offset", offset)}};
+  }
   Function conjugate() const;
   Ends domain(Index) const { return {.low = 0}; }
   Ends slopes(Index) const { return {.high = 0}; }
-  double value(double x, Index) const { return x > 0 ? -std::log(x) : infinity; }
+  double value(double x, Index) const { return x > 0 ? offset - std::log(x) : infinity; }
   double slope(double x, Index) const { return x > 0 ? -1 / x : -infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_log_barrier(z, d);
   }
 };
 
-/// -1 - log(-x) = -log(-ex).
+/// -1 - offset - log(-x).
 struct LogBarrierConjugate {
+  double offset = 0;
   Index dimension() const { return 0; }
   bool finite() const { return false; }
   bool smooth() const { return true; }
   Ends ends(Index) const { return {}; }
-  Call call() const {
-    return {"dilate", {argument(Call{"log_barrier"}), argument("rho", -1 / std::numbers::e)}};
-  }
-  Function conjugate() const { return log_barrier(); }
+  Call call() const { return {"dilate", {argument(LogBarrier{-1 - offset}.call()), argument("rho", -1.0)}}; }
+  Function conjugate() const { return log_barrier(offset); }
   Ends domain(Index) const { return {.high = 0}; }
   Ends slopes(Index) const { return {.low = 0}; }
-  double value(double x, Index) const { return x < 0 ? -1 - std::log(-x) : infinity; }
+  double value(double x, Index) const { return x < 0 ? -1 - offset - std::log(-x) : infinity; }
   double slope(double x, Index) const { return x < 0 ? -1 / x : infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_log_barrier_conjugate(z, d);
@@ -87,11 +90,14 @@ struct BinaryEntropy {
   }
 };
 
-Function LogBarrier::conjugate() const { return scalar_sum(LogBarrierConjugate{}); }
+Function LogBarrier::conjugate() const { return scalar_sum(LogBarrierConjugate{offset}); }
 
 }  // namespace
 
-Function log_barrier() { return scalar_sum(LogBarrier{}); }
+Function log_barrier(double offset) {
+  require_finite("log_barrier", "offset", offset);
+  return scalar_sum(LogBarrier{offset});
+}
 
 Function logistic() { return scalar_sum(Logistic{}); }
 

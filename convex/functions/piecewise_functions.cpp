@@ -128,6 +128,16 @@ Function elastic_net(double l1, double l2) {
       [l1, l2](Index n) { return linear_quadratic::elastic_net(n, l1, l2); });
 }
 
+Function pinball(double tau) {
+  require_finite("pinball", "tau", tau);
+  if (tau < 0 || tau > 1)
+    throw InvalidInput("pinball(tau): not between 0 and 1; the function would be -inf somewhere below 0");
+  const Call box{"box", {argument("lower", tau - 1), argument("upper", tau)}};
+  return piecewise_sum({.call = {"pinball", {argument("tau", tau)}},
+                        .conjugate_call = indicator_call(box),
+                        .pieces = {piecewise_quadratic(Vector{{0}}, Matrix{{0, tau - 1, 0}, {0, tau, 0}})}});
+}
+
 Function plq(const Vector& breaks, const Matrix& coefficients) {
   const PiecewiseQuadratic p = piecewise_quadratic(breaks, coefficients);
   return unnamed_conjugate({"plq", {argument("breaks", breaks), argument("coefficients", coefficients)}}, p,

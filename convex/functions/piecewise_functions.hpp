@@ -25,6 +25,10 @@ Function hinge();
 Function squared_hinge();
 /// l1 |x|₁ + l2/2 |x|₂², l1, l2 >= 0 (Zou and Hastie 2005). Conjugate: Σ max(0, |v| - l1)²/(2 l2).
 Function elastic_net(double l1 = 1, double l2 = 1);
+/// Σ max(tau x, (tau - 1) x), 0 <= tau <= 1 (Koenker and Bassett 1978). Conjugate: the indicator of tau - 1
+/// <= v
+/// <= tau.
+Function pinball(double tau = 0.5);
 /// Σ p(x_i): p is c2/2 x² + c1 x + c0 between k increasing breaks, a row [c2, c1, c0] a piece; [inf, 0, 0] is
 /// +inf there. p has to be convex, continuous where finite and finite somewhere.
 Function plq(const Vector& breaks, const Matrix& coefficients);

@@ -39,8 +39,8 @@ struct PowerConjugate : AnySize {
   bool smooth() const { return true; }
   Ends ends(Index) const { return {}; }
   Call call() const {
-    return {"scale",
-            {argument(Call{"power", {argument("p", q())}}), argument("alpha", (p - 1) * std::pow(p, -q()))}};
+    const Call stretched{"dilate", {argument(Call{"power", {argument("p", q())}}), argument("rho", p)}};
+    return {"scale", {argument(stretched), argument("alpha", p - 1)}};
   }
   Function conjugate() const { return power(p); }
   Ends domain(Index) const { return {}; }
@@ -77,8 +77,8 @@ struct InversePowerConjugate : AnySize {
   Ends ends(Index) const { return {.high = 0}; }
   Call call() const {
     const Call mirrored{"dilate",
-                        {argument(Call{"negative_power", {argument("r", r())}}), argument("rho", -1.0)}};
-    return {"scale", {argument(mirrored), argument("alpha", (1 + q) * std::pow(q, -r()))}};
+                        {argument(Call{"negative_power", {argument("r", r())}}), argument("rho", -q)}};
+    return {"scale", {argument(mirrored), argument("alpha", 1 + q)}};
   }
   Function conjugate() const { return inverse_power(q); }
   Ends domain(Index) const { return {.high = 0}; }
@@ -121,8 +121,8 @@ struct NegativePowerConjugate : AnySize {
   Ends ends(Index) const { return {}; }
   Call call() const {
     const Call mirrored{"dilate",
-                        {argument(Call{"inverse_power", {argument("q", q())}}), argument("rho", -1.0)}};
-    return {"scale", {argument(mirrored), argument("alpha", factor())}};
+                        {argument(Call{"inverse_power", {argument("q", q())}}), argument("rho", -r)}};
+    return {"scale", {argument(mirrored), argument("alpha", 1 - r)}};
   }
   Function conjugate() const { return negative_power(r); }
   Ends domain(Index) const { return {.high = 0}; }

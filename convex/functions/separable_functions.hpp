@@ -17,8 +17,8 @@ Function exponential();
 /// Σ weight (e^x - 1), weight >= 0. Conjugate: kullback_leibler(weight).
 Function expm1(double weight = 1);
 Function expm1(const Vector& weight);
-/// -Σ log x, x > 0. Conjugate: -Σ 1 + log(-v).
-Function log_barrier();
+/// Σ offset - log x, x > 0. Conjugate: Σ (-1 - offset) - log(-v).
+Function log_barrier(double offset = 0);
 /// Σ log(1 + e^x). Conjugate: binary_entropy().
 Function logistic();
 /// Σ x log x + (1-x) log(1-x), 0 <= x <= 1. Conjugate: logistic().

@@ -10,6 +10,21 @@
 namespace convex {
 namespace {
 
+/// operation(f, number) as text, in one with the operation of that name that f is, where their numbers have
+/// an exact product.
+Call merged(const char* operation, const char* parameter, Call f, double number) {
+  if (f.name == operation && f.arguments.size() == 2)
+    if (const auto* inner = std::get_if<double>(&f.arguments[1].value)) {
+      const double product = *inner * number;
+      if (std::fma(*inner, number, -product) == 0 && std::isnormal(product)) {
+        if (product == 1) return *std::get<std::shared_ptr<const Call>>(f.arguments[0].value);
+        f.arguments[1] = argument(parameter, product);
+        return f;
+      }
+    }
+  return {operation, {argument(std::move(f)), argument(parameter, number)}};
+}
+
 /// alpha f(x / rho): one node for both, as each conjugates into the other.
 class Scale : public Operation {
  public:
@@ -23,8 +38,8 @@ class Scale : public Operation {
   Facts facts() const override { return f_.facts(); }
   Call call() const override {
     Call made = f_.call();
-    if (rho_ != 1) made = Call{"dilate", {argument(std::move(made)), argument("rho", rho_)}};
-    if (alpha_ != 1) made = Call{"scale", {argument(std::move(made)), argument("alpha", alpha_)}};
+    if (rho_ != 1) made = merged("dilate", "rho", std::move(made), rho_);
+    if (alpha_ != 1) made = merged("scale", "alpha", std::move(made), alpha_);
     return made;
   }
   Value evaluate(const Vector& x) const override { return multiple_of(alpha_, f_.evaluate(x / rho_)); }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "convex/functions/function.hpp"
+
+namespace cli {
+
+/// The conjugate of a function for which the language has no name, in words, such as "-n - log det(...)"; ""
+/// where none is known. `entries` is their number; the product is the plain one.
+std::string conjugate_formula(const convex::Call& f, convex::Index entries);
+
+}  // namespace cli

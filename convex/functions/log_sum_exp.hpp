@@ -1,0 +1,10 @@
+#pragma once
+
+#include "convex/functions/function.hpp"
+
+namespace convex {
+
+/// log Σ e^(x_i). Conjugate: Σ v log v on the simplex Σ v = 1, v >= 0 (Rockafellar 1970, section 16).
+Function log_sum_exp();
+
+}  // namespace convex
