@@ -81,15 +81,17 @@ struct AtZero : EntryFormula {
   Fraction into_domain(const Fraction&) const override { return no_entry; }
 };
 
-/// -log x and -1 - log(-v).
+/// offset - log x and -1 - offset - log(-v).
 struct LogBarrier : EntryFormula {
+  Fraction offset;
+  explicit LogBarrier(Fraction constant) : offset(std::move(constant)) {}
   Maybe value(const Fraction& x) const override {
     if (sign(x) <= 0) return std::nullopt;
-    return ball(no_entry) - log(ball(x));
+    return ball(offset) - log(ball(x));
   }
   Maybe conjugate(const Fraction& v) const override {
     if (sign(v) >= 0) return std::nullopt;
-    return ball(-one_entry) - log(ball(-v));
+    return ball(-one_entry - offset) - log(ball(-v));
   }
   Maybe slope(const Fraction& x) const override {
     if (sign(x) <= 0) return std::nullopt;
@@ -187,7 +189,7 @@ std::unique_ptr<EntryFormula> formula(const Call& call, const ExactArguments& a,
   const std::string& name = call.name;
   if (name == "entropy") return std::make_unique<Entropy>();
   if (name == "binary_entropy") return std::make_unique<BinaryEntropy>();
-  if (name == "log_barrier") return std::make_unique<LogBarrier>();
+  if (name == "log_barrier") return std::make_unique<LogBarrier>(a.number("offset"));
   if (name == "logistic") return std::make_unique<Logistic>();
   if (name == "exponential") return std::make_unique<Exponential>(one_entry, no_entry);
   if (name == "kullback_leibler") {
