@@ -27,7 +27,7 @@ using convex::InvalidInput;
 using convex::MethodKind;
 
 /// What `moreau chart` is told.
-struct ChartOptions : MeasurementOptions {
+struct ChartOptions : MeasurementOptions, Overrides {
   std::vector<std::string> files;
   std::optional<std::string> relative_to;  ///< the method whose times are the unit
   std::string error = "acceleration";      ///< what the error is of
@@ -136,7 +136,7 @@ std::vector<ChartedProblem> asked_problems(const ChartOptions& options) {
   if (options.files.empty())
     return options.profile ? profiled_problems(options.quick) : charted_problems(options.quick);
   std::vector<ChartedProblem> problems;
-  for (const std::string& file : options.files) problems.push_back(charted_file(file));
+  for (const std::string& file : options.files) problems.push_back(charted_file(file, options.settings));
   return problems;
 }
 
@@ -168,6 +168,8 @@ Exit make_chart(const ChartOptions& options) {
   return answered(options, source, [&] {
     const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or("")};
     if (options.output) require_drawable(*options.output);
+    if (options.files.empty() && !options.settings.empty())
+      throw InvalidInput("--set goes with problem files; give one");
     const std::vector<ChartedProblem> problems = asked_problems(options);
     const std::vector<std::string> known = contestant_names();
     require_method(options.method.value_or(""), known, "--method");
@@ -192,6 +194,7 @@ void add_chart(CLI::App& program, Work& chosen) {
       add_command(program, "chart", "speed against accuracy, every method, one diagram a problem", chosen,
                   [options] { return make_chart(*options); });
   command.add_option("FILE", options->files, "problem files; without one, a set from the gallery");
+  add_overrides(command, *options);
   command.add_option("--relative", options->relative_to, "times as multiples of this method's")
       ->type_name("NAME");
   command

@@ -66,7 +66,11 @@ void add_function(CLI::App& command, FunctionOptions& options, bool needs_point)
       .add_option("f", options.expression,
                   "a function of the call language, such as \"norm1(weight=2)\" (see `moreau functions`)")
       ->required();
-  command.add_option("--at", options.at, "a point, such as \"[3, -1, 1/2]\"")->type_name("VECTOR");
+  command
+      .add_option("--at", options.at,
+                  needs_point ? "a point, such as \"[3, -1, 1/2]\"; or @F.csv: one a line of that file"
+                              : "a point, such as \"[3, -1, 1/2]\"")
+      ->type_name("VECTOR");
   command
       .add_option(
           "--metric", options.metric,

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <sstream>
+#include <string>
 
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/decomposition_report.hpp"
+#include "cli/report/json_writer.hpp"
 #include "cli/report/symbolic_report.hpp"
 
 namespace cli {
@@ -16,54 +20,134 @@ namespace {
 
 using convex::InvalidInput;
 
-/// The point and the metric of the command line; `source` tells which is being read.
-DecompositionProblem read_problem(const FunctionOptions& options, Source& source) {
-  source = {"--method", options.method.value_or("")};
-  require_applicable({}, options);
-  source = {"--at", *options.at};
-  convex::Vector z = parse_vector(*options.at, "z");
+/// What `moreau prox` is told.
+struct ProxOptions : FunctionOptions {
+  std::optional<std::string> step;  ///< gamma of prox_(gamma f), a number
+};
+
+/// A point and the line of the file that it stands on; 0 on the command line.
+struct AskedPoint {
+  convex::Vector z;
+  std::string text;
+  int line = 0;
+};
+
+void require_point(const convex::Vector& z) {
   if (z.size() == 0) throw InvalidInput("z: empty; give at least one number");
   if (!z.allFinite()) throw InvalidInput("z: an entry is not finite; give finite numbers");
-  convex::Metric W = convex::Metric::identity(z.size());
+}
+
+/// A point a line, numbers separated by commas; lines that are empty or begin with # are left out.
+std::vector<AskedPoint> points_of_file(const std::string& file) {
+  std::vector<AskedPoint> points;
+  std::istringstream lines(read_file(file));
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first == std::string::npos || line[first] == '#') continue;
+    try {
+      const std::string text = "[" + line + "]";
+      convex::Vector z = parse_vector(text, "z");
+      require_point(z);
+      points.push_back({std::move(z), text, number});
+    } catch (const InvalidInput& error) {
+      const int column = error.place() ? std::max(1, error.place()->column - 1) : 1;
+      throw InvalidInput(error.what(), convex::Place{number, column});
+    }
+  }
+  if (points.empty()) throw InvalidInput("no point in it; give one a line, such as 3, -1, 1/2");
+  return points;
+}
+
+/// The points of the command line; `source` tells what is being read.
+std::vector<AskedPoint> read_points(const ProxOptions& options, Source& source) {
+  source = {"--method", options.method.value_or("")};
+  require_applicable({}, options);
+  if (options.at->rfind('@', 0) == 0) {
+    source = {options.at->substr(1), ""};
+    return points_of_file(source.name);
+  }
+  source = {"--at", *options.at};
+  convex::Vector z = parse_vector(*options.at, "z");
+  require_point(z);
+  return {{std::move(z), *options.at, 0}};
+}
+
+/// The same as written.
+convex::ExactGram exact_metric(const ProxOptions& options, std::size_t n) {
+  convex::ExactGram W = options.metric ? parse_exact_metric(*options.metric) : convex::identity_gram(n);
+  if (options.step) {
+    const convex::Fraction step = written_numbers("[" + *options.step + "]").at(0);
+    for (convex::ExactRow& row : W.rows)
+      for (auto& [column, entry] : row) entry = entry / step;
+  }
+  return W;
+}
+
+/// The metric of the command line over the step: the prox of gamma f in W is that of f in W/gamma.
+DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& options, Source& source) {
+  convex::Metric W = convex::Metric::identity(point.z.size());
   if (options.metric) {
     source = {"--metric", *options.metric};
     W = parse_metric(*options.metric);
-    if (W.dimension() != z.size())
+    if (W.dimension() != point.z.size())
       throw InvalidInput(
-          fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), z.size()));
+          fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), point.z.size()));
   }
+  if (options.step) W = W.scaled(1 / std::stod(*options.step));
   source = {"f", options.expression};
   convex::Call f = parse_call(options.expression, "f");
-  auto exact = [f, options, W] {
-    convex::Fractions point = written_numbers(*options.at);
-    return convex::SplitQuestion{
-        f, std::move(point), options.metric ? parse_exact_metric(*options.metric) : convex::exact_gram(W)};
+  auto exact = [f, options, text = point.text] {
+    convex::Fractions z = written_numbers(text);
+    const std::size_t n = z.size();
+    return convex::SplitQuestion{f, std::move(z), exact_metric(options, n)};
   };
-  return {std::move(z), std::move(W), std::move(f), std::move(exact)};
+  return {point.z, std::move(W), std::move(f), std::move(exact)};
 }
 
-Exit split_at(const FunctionOptions& options) {
+/// One point; of several, the line of the file tells which.
+Exit split_at(const AskedPoint& point, const ProxOptions& options, Source& source) {
+  const DecompositionProblem problem = read_problem(point, options, source);
+  const SplitPoint split = split_point(problem, {}, options, options.certify);
+  if (options.json) {
+    JsonWriter json;
+    json.begin_object();
+    if (point.line > 0) json.key("line").value(point.line);
+    write_split(json, split, "");
+    fmt::print("{}\n", json.end_object().text());
+  } else if (!options.quiet) {
+    fmt::print("{}{}", point.line > 0 ? fmt::format("line {}\n", point.line) : "", split_text(split));
+  }
+  return split.exit();
+}
+
+Exit split_points(const ProxOptions& options) {
   Source source;
   return answered(options, source, [&] {
-    const DecompositionProblem problem = read_problem(options, source);
-    const SplitPoint split = split_point(problem, {}, options, options.certify);
-    if (options.json)
-      fmt::print("{}\n", split_json(split, ""));
-    else if (!options.quiet)
-      fmt::print("{}", split_text(split));
-    return split.exit();
+    const std::vector<AskedPoint> points = read_points(options, source);
+    Exit worst = Exit::solved;
+    for (const AskedPoint& point : points) {
+      if (point.line > points.front().line && !options.json && !options.quiet) fmt::print("\n");
+      worst = std::max(worst, split_at(point, options, source));
+    }
+    return worst;
   });
 }
 
 }  // namespace
 
 void add_prox(CLI::App& program, Work& chosen) {
-  const auto options = std::make_shared<FunctionOptions>();
+  const auto options = std::make_shared<ProxOptions>();
   CLI::App& command = add_command(
       program, "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f", chosen,
-      [options] { return options->symbolic ? tell_prox_in_symbols(*options) : split_at(*options); });
+      [options] { return options->symbolic ? tell_prox_in_symbols(*options) : split_points(*options); });
   add_function(command, *options, true);
   add_proof(command, options->certify);
+  command.add_option("--step", options->step, "gamma: the prox of gamma f, that of f in the metric W/gamma")
+      ->type_name("X")
+      ->check(positive_number);
   add_accuracy(command, *options);
   add_symbols(command, *options);
   add_printing(command, *options);

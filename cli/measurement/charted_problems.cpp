@@ -65,8 +65,8 @@ std::vector<ChartedProblem> profiled_problems(bool quick) {
   return all;
 }
 
-ChartedProblem charted_file(const std::string& file) {
-  const auto exam = std::make_shared<const Exam>(file_exam(read_scene(file, {})));
+ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings) {
+  const auto exam = std::make_shared<const Exam>(file_exam(read_scene(file, {}, {settings})));
   return {exam->name, [exam] { return contests(*exam); }};
 }
 

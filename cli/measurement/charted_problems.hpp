@@ -19,7 +19,7 @@ std::vector<ChartedProblem> charted_problems(bool quick);
 /// setting of its knob, small. `quick`: at its usual one.
 std::vector<ChartedProblem> profiled_problems(bool quick);
 
-/// The problem of a file.
-ChartedProblem charted_file(const std::string& file);
+/// The problem of a file, with what --set says of it.
+ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings);
 
 }  // namespace cli

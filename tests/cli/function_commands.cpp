@@ -5,6 +5,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/catalogue/references.hpp"
@@ -141,4 +142,76 @@ TEST_CASE("a fact that the list tells holds for every example of its entry") {
   CHECK(facts("power") == Json{"separable", "finite"});
   CHECK(facts("epigraph") == Json{"indicator"});
   CHECK(facts("box") == Json{"indicator", "separable", "piecewise linear-quadratic"});
+}
+
+TEST_CASE("the prox with a step is that of the multiple, and that of the metric over the step") {
+  const auto x = [](const std::vector<std::string>& arguments) {
+    return Json::parse(run(arguments).out).at("x").get<std::vector<double>>();
+  };
+  const std::string z = "[3, -1, 0.2]";
+  const auto stepped = x({"prox", "norm1()", "--at", z, "--step", "0.5", "--json"});
+  CHECK(stepped == x({"prox", "norm1(0.5)", "--at", z, "--json"}));
+  CHECK(stepped == x({"prox", "norm1()", "--at", z, "--metric", "diagonal [2, 2, 2]", "--json"}));
+  CHECK(stepped == std::vector<double>{2.5, -0.5, 0});
+  CHECK(run({"prox", "norm1()", "--at", z, "--step", "0"}).code == 2);
+}
+
+TEST_CASE("several points of a file are answered line by line, and a wrong one is told by its place") {
+  const Folder folder;
+  const std::string points = folder.write("points.csv", "# three points\n3, -1\n\n1/2, 0\r\n-4,2e0\n");
+  const std::string out = run({"prox", "norm1()", "--at", "@" + points, "--json"}).out;
+  std::istringstream lines(out);
+  const std::vector<std::pair<int, std::string>> expected{{2, "[2,0]"}, {4, "[0,0]"}, {5, "[-3,1]"}};
+  for (const auto& [number, z] : expected) {
+    std::string line;
+    REQUIRE(std::getline(lines, line));
+    const Json split = Json::parse(line);
+    CHECK(split.at("line") == number);
+    CHECK(split.at("x") == Json::parse(z));
+  }
+  CHECK(run({"prox", "norm1()", "--at", "@" + points}).out.find("line 4\n") != std::string::npos);
+  const std::string wrong = folder.write("wrong.csv", "3, -1\n2, x\n");
+  const Outcome refused = run({"prox", "norm1()", "--at", "@" + wrong});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("wrong.csv:2:4: ") != std::string::npos);
+  CHECK(run({"prox", "norm1()", "--at", "@" + folder.write("none.csv", "# none\n")})
+            .err.find("no point in it") != std::string::npos);
+}
+
+TEST_CASE("a conjugate has the numbers of its function, and is told in words where it has no name") {
+  const std::vector<std::pair<std::string, std::string>> table{
+      {"log_barrier()", "dilate(log_barrier(offset=-1), rho=-1)"},
+      {"log_barrier(2)", "dilate(log_barrier(offset=-3), rho=-1)"},
+      {"dilate(log_barrier(), -2)", "dilate(log_barrier(offset=-1), rho=0.5)"},
+      {"power(3)", "scale(dilate(power(p=1.5), rho=3), alpha=2)"},
+      {"inverse_power(3)", "scale(dilate(negative_power(r=0.75), rho=-3), alpha=4)"},
+      {"negative_power(0.5)", "scale(dilate(inverse_power(q=1), rho=-0.5), alpha=0.5)"},
+      {"pinball(0.75)", "indicator(box(lower=-0.25, upper=0.75))"},
+      {"max_affine([[1,2]], [3])", "min -b.l over l >= 0"},
+      {"neg_log_det()", "-n - log det(-(Y + Y^T)/2)"},
+      {"perspective(exponential())", "h = tilt(entropy(), c=-1)"},
+      {"epigraph(norm2())", "-r h(-v/r) for r < 0"}};
+  for (const auto& [f, words] : table) {
+    CAPTURE(f);
+    CHECK(run({"conjugate", f}).out.find(words) != std::string::npos);
+  }
+  // The expression that is printed is the conjugate: both have one value.
+  for (const char* f : {"log_barrier(2)", "power(3)", "inverse_power(3)", "negative_power(0.5)"}) {
+    const Json told = Json::parse(run({"conjugate", f, "--at", "[-0.7]", "--json"}).out);
+    const Json again = Json::parse(
+        run({"conjugate", "conjugate(" + told.at("g").get<std::string>() + ")", "--at", "[-0.7]", "--json"})
+            .out);
+    CAPTURE(f);
+    CHECK(again.at("value").get<double>() == doctest::Approx(told.at("value").get<double>()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a chart of a file follows --set, and without a file there is nothing to set") {
+  const Folder folder;
+  const std::string file = folder.write("problem.toml", point_on_floor());
+  CHECK(run({"chart", "--quick", "--set", "m=3", "--method", "active-set", file}).code == 0);
+  CHECK(run({"chart", "--quick", "--set", "mm=3", "--method", "active-set", file}).err.find("mm") !=
+        std::string::npos);
+  CHECK(run({"chart", "--quick", "--set", "m=3"}).err.find("--set goes with problem files") !=
+        std::string::npos);
 }
