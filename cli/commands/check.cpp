@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "cli/commands/check_map.hpp"
 #include "cli/commands/command_line.hpp"
 #include "cli/each_file.hpp"
 #include "cli/report/checks_report.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct CheckOptions : FileOptions, SceneOptions {
   bool catalogue = false;  ///< the whole language instead of files
   bool certify = false;    ///< of the catalogue: what is proved of it
+  MapOptions map;          ///< a map instead of files
 };
 
 /// An object of a solve with the checks behind its own keys.
@@ -98,6 +100,7 @@ void add_check(CLI::App& program, Work& chosen) {
       program, "check",
       "the decomposition theorem, numerically: laws that the answer must obey, each with its bound", chosen,
       [options] {
+        if (options->map.is_given()) return check_map(options->map, *options);
         if (!options->catalogue) return check_files(*options);
         return options->certify ? prove_catalogue(*options) : check_catalogue(*options);
       });
@@ -110,10 +113,14 @@ void add_check(CLI::App& program, Work& chosen) {
       .add_flag("--certify", options->certify,
                 "with --catalogue: which examples are proved, to how many digits; exit 3 unless all are")
       ->needs(catalogue);
+  add_map(command, options->map);
   add_accuracy(command, *options);
   add_printing(command, *options);
   command.parse_complete_callback([options] {
-    if (options->files.empty() && !options->catalogue) throw CLI::RequiredError("FILE or --catalogue");
+    const int asked = int{!options->files.empty()} + int{options->catalogue} +
+                      int{options->map.map.has_value()} + int{options->map.table.has_value()};
+    if (asked == 0) throw CLI::RequiredError("FILE, --catalogue or --map");
+    if (asked > 1) throw CLI::ValidationError("FILE, --catalogue, --map and --table go one at a time");
   });
 }
 

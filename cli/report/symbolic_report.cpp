@@ -69,29 +69,6 @@ std::string as_latex(const NamedCases& named) {
   return text + "\\end{cases}\n\\]\n";
 }
 
-void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
-  json.begin_array();
-  const auto bound = [&](const char* key, const std::optional<Fraction>& value) {
-    json.key(key);
-    if (value)
-      json.value(convex::text(*value));
-    else
-      json.null();
-  };
-  for (const symbolic::Case& one : cases) {
-    json.begin_object();
-    bound("low", one.low);
-    bound("high", one.high);
-    json.key("low_included")
-        .value(one.low && one.has_low)
-        .key("high_included")
-        .value(one.high && one.has_high);
-    json.key("formula").value(symbolic::text(one.term)).key("latex").value(symbolic::latex(one.term));
-    json.end_object();
-  }
-  json.end_array();
-}
-
 /// The weight w of a metric of one variable.
 Fraction weight(const FunctionOptions& options, Source& source) {
   if (!options.metric) return {1, 1};
@@ -139,6 +116,33 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
 }
 
 }  // namespace
+
+std::string cases_text(const std::string& left, const std::string& variable, const symbolic::Cases& cases) {
+  return as_text({left, variable, cases, false});
+}
+
+void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
+  json.begin_array();
+  const auto bound = [&](const char* key, const std::optional<Fraction>& value) {
+    json.key(key);
+    if (value)
+      json.value(convex::text(*value));
+    else
+      json.null();
+  };
+  for (const symbolic::Case& one : cases) {
+    json.begin_object();
+    bound("low", one.low);
+    bound("high", one.high);
+    json.key("low_included")
+        .value(one.low && one.has_low)
+        .key("high_included")
+        .value(one.high && one.has_high);
+    json.key("formula").value(symbolic::text(one.term)).key("latex").value(symbolic::latex(one.term));
+    json.end_object();
+  }
+  json.end_array();
+}
 
 Exit tell_prox_in_symbols(const FunctionOptions& options) { return tell(options, true); }
 Exit tell_conjugate_in_symbols(const FunctionOptions& options) { return tell(options, false); }

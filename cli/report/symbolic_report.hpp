@@ -3,10 +3,17 @@
 #include <string>
 
 #include "cli/options.hpp"
+#include "convex/symbolic/term.hpp"
 
 namespace cli {
 
 struct FunctionOptions;
+class JsonWriter;
+
+/// "f(x) = …" by cases, a line each, +inf elsewhere.
+std::string cases_text(const std::string& left, const std::string& variable, const convex::symbolic::Cases&);
+/// An array of them.
+void write_cases(JsonWriter&, const convex::symbolic::Cases&);
 
 /// `--symbolic`: f of one variable with its prox, or its conjugate, by cases; `--latex`: as formulas of
 /// amsmath.

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "cli/options.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cli {
+
+/// `moreau check --map` and `--table`: is a map the prox of some function?
+struct MapOptions {
+  std::optional<std::string> map;    ///< expressions of its components
+  std::optional<std::string> table;  ///< a file of points and images
+  std::optional<std::string> metric;
+  std::optional<std::string> box;   ///< "low:high", of every coordinate
+  std::optional<std::string> data;  ///< the function on a grid, to a file
+  bool is_given() const { return map || table; }
+};
+
+void add_map(CLI::App& command, MapOptions&);
+
+Exit check_map(const MapOptions&, const Printing&);
+
+}  // namespace cli

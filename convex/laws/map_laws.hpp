@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "convex/cones/exact_metric.hpp"
+
+namespace convex {
+
+/// T z: a fraction for each entry, within `radius` of the number that is meant; 0: it is that number.
+struct MapImage {
+  ExactVector value;
+  double radius = 0;
+};
+
+/// A map of R^n into itself, at points in fractions; none where it has no value for all that is known.
+struct Map {
+  Index n = 0;
+  std::function<std::optional<MapImage>(const ExactVector&)> at;
+};
+
+/// A map in doubles, as C++ has it. `relative_error`: of its values, at most; a few roundings unless told.
+Map map_of(std::function<Vector(const Vector&)> T, Index n, double relative_error = 64 * unit_roundoff);
+
+/// Two laws that a prox obeys, and that make a map of R^n one (Moreau 1965, corollary 10.c): in the metric
+///   nonexpansive: ||Tx - Ty|| <= ||x - y||;
+///   cyclically monotone (Rockafellar 1966), that is a subgradient of a convex function: on every cycle of
+///   points Σ (T x_i | x_i - x_(i+1)) >= 0.
+enum class MapLaw { nonexpansive, cyclically_monotone };
+
+/// Points at which a law fails, in their order, with their images, and by how much: ||Tx - Ty||² - ||x -
+/// y||², or -Σ (T x_i | x_i - x_(i+1)), a positive fraction. Where images have a radius, all numbers within
+/// it fail.
+struct MapCounterexample {
+  MapLaw law = MapLaw::nonexpansive;
+  std::vector<ExactVector> points;
+  std::vector<MapImage> images;
+  Fraction excess;
+};
+
+/// Where to look.
+struct MapSamples {
+  double low = -4, high = 4;  ///< of every coordinate
+  Index points = 90;          ///< in the box, beside close pairs and polygons
+  Index longest_cycle = 6;    ///< through the points; polygons have up to `most_corners`
+  unsigned seed = 1;
+  std::vector<ExactVector> given = {};  ///< these points alone, when there are any
+};
+inline constexpr int most_corners = 64;
+
+/// What sampling came to. It can refute; without a counterexample nothing is proved.
+struct MapVerdict {
+  std::optional<MapCounterexample> counterexample;
+  Index points = 0;     ///< at which the map had a value
+  Index undefined = 0;  ///< at which it had none
+  Index polygons = 0;
+  /// The largest |S_ij - S_ji| over the largest |S_ij|, S = W T' by central differences: 0 for a prox that is
+  /// differentiable there. It decides nothing.
+  double asymmetry = 0;
+};
+
+/// Looks for the shortest cycle. Throws InvalidInput when the metric does not fit.
+MapVerdict laws(const Map& T, const ExactMetric& W, const MapSamples& samples = {});
+
+/// Whether the points break the law, in fractions: the counterexample, or none.
+std::optional<MapCounterexample> broken(const Map& T, const ExactMetric& W, MapLaw law,
+                                        const std::vector<ExactVector>& points);
+
+}  // namespace convex
