@@ -13,6 +13,7 @@
 #include "cli/each_file.hpp"
 #include "cli/measurement/charted_problems.hpp"
 #include "cli/measurement/exams.hpp"
+#include "cli/measurement/motion_exams.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/measurement/rank_correlation.hpp"
 #include "cli/measurement/trial_files.hpp"
@@ -31,7 +32,7 @@ struct ChartOptions : MeasurementOptions, Overrides {
   std::vector<std::string> files;
   std::optional<std::string> relative_to;  ///< the method whose times are the unit
   std::string error = "acceleration";      ///< what the error is of
-  bool profile = false;
+  bool profile = false, motion = false;
 };
 
 /// A direct method has one accuracy; the others are asked for each of these, and no further once two in a row
@@ -133,6 +134,11 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
 }
 
 std::vector<ChartedProblem> asked_problems(const ChartOptions& options) {
+  if (options.motion) {
+    if (!options.files.empty() || options.profile)
+      throw InvalidInput("--motion has its own motions, with closed forms; leave FILE and --profile out");
+    return charted_motions(options.quick);
+  }
   if (options.files.empty())
     return options.profile ? profiled_problems(options.quick) : charted_problems(options.quick);
   std::vector<ChartedProblem> problems;
@@ -153,6 +159,38 @@ std::string correlation_text(const std::vector<Trial>& trials) {
       all[all.size() / 2].value, all.front().value, all.front().problem);
 }
 
+/// An error of a motion that is good enough to compare times at.
+constexpr double compared_error = 1e-2;
+
+/// From how many contacts on time-stepping is the quicker way to an error that it reaches.
+std::string crossover_text(const std::vector<Trial>& trials) {
+  convex::Index from = 0, largest = 0;
+  std::vector<std::string> problems;
+  for (const Trial& t : trials) {
+    if (t.m == 0 || std::find(problems.begin(), problems.end(), t.problem) != problems.end()) continue;
+    problems.push_back(t.problem);
+    const auto least = [&](const std::string& method) {
+      double seconds = std::numeric_limits<double>::infinity();
+      for (const Trial& other : trials)
+        if (other.problem == t.problem && other.method == method && other.is_right() &&
+            other.judgement.error <= compared_error)
+          seconds = std::min(seconds, other.seconds);
+      return seconds;
+    };
+    largest = std::max(largest, t.m);
+    if (least("time-stepping") < least("event-driven")) {
+      if (from == 0) from = t.m;
+    } else {
+      from = 0;
+    }
+  }
+  if (largest == 0) return "";
+  return from > 0 ? fmt::format("At an error of {:g} time-stepping is quicker from {} contacts on.\n",
+                                compared_error, from)
+                  : fmt::format("At an error of {:g} following each event is quicker up to {} contacts.\n",
+                                compared_error, largest);
+}
+
 /// What is written: the data and the picture.
 void write_chart(const ChartOptions& options, const std::vector<Trial>& trials, const DrawnAs& drawn) {
   if (options.data) {
@@ -171,17 +209,18 @@ Exit make_chart(const ChartOptions& options) {
     if (options.files.empty() && !options.settings.empty())
       throw InvalidInput("--set goes with problem files; give one");
     const std::vector<ChartedProblem> problems = asked_problems(options);
-    const std::vector<std::string> known = contestant_names();
+    const std::vector<std::string> known = options.motion ? integrator_names() : contestant_names();
     require_method(options.method.value_or(""), known, "--method");
     require_method(drawn.relative_to, known, "--relative");
     const std::vector<Trial> trials = charted(problems, options);
     // Before the numbers kept are written over, as they may be.
-    const std::string correlation =
-        options.files.empty() && !options.profile ? correlation_text(trials) : std::string();
+    const std::string correlation = options.files.empty() && !options.profile && !options.motion
+                                        ? correlation_text(trials)
+                                        : std::string();
     write_chart(options, trials, drawn);
     if (options.quiet) return Exit::solved;
     if (!options.output) fmt::print("{}", table_text(trials, drawn));
-    fmt::print("{}", correlation);
+    fmt::print("{}{}", correlation, options.motion ? crossover_text(trials) : "");
     return Exit::solved;
   });
 }
@@ -203,6 +242,8 @@ void add_chart(CLI::App& program, Work& chosen) {
       ->check(CLI::IsMember({"acceleration", "multipliers"}));
   command.add_flag("--profile", options->profile,
                    "performance profiles over the files, or over the whole gallery, small");
+  command.add_flag("--motion", options->motion,
+                   "motions with closed forms: error at the end for each tolerance or step");
   add_measurement(command, *options, "the table: problem, n, m, method, setting, seconds, error, status");
 }
 

@@ -9,6 +9,8 @@
 #include "cli/drawing/failure_map_drawing.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/each_file.hpp"
+#include "cli/measurement/exams.hpp"
+#include "cli/measurement/motion_exams.hpp"
 #include "cli/measurement/peers.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/measurement/stress_families.hpp"
@@ -74,7 +76,8 @@ std::vector<StressTrial> stressed(const StressOptions& options) {
     if (options.quick) family.ladder = thinned(family.ladder);
     steps += family.ladder.size();
   }
-  const std::vector<std::string> known = contestant_names();
+  std::vector<std::string> known = contestant_names();
+  for (const std::string& name : integrator_names()) known.push_back(name);
   if (options.method && std::find(known.begin(), known.end(), *options.method) == known.end())
     throw InvalidInput("--method " + *options.method + ": there is no such method; " +
                        convex::suggestion(*options.method, known));
@@ -100,7 +103,7 @@ std::string cell(const Trial& t) {
   switch (t.verdict()) {
     case Verdict::ok:
       return t.judgement.error > 0
-                 ? fmt::format("{:.0f}", std::clamp(-std::log10(t.judgement.error), 0.0, 16.0))
+                 ? fmt::format("{:.0f}", std::clamp(-std::log10(t.judgement.error), 0.0, 16.0) + 0.0)
                  : "=";
     case Verdict::wrong:
       return "X";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/measurement/exams.hpp"
+#include "cli/measurement/motion_exams.hpp"
 #include "cli/measurement/prox_exams.hpp"
 
 namespace cli {
@@ -62,6 +63,21 @@ std::vector<ChartedProblem> profiled_problems(bool quick) {
       all.push_back(
           of_gallery(family.name.data(), small, difficulty, fmt::format("{} {:g}", family.name, difficulty)));
   }
+  return all;
+}
+
+std::vector<ChartedProblem> charted_motions(bool quick) {
+  std::vector<ChartedProblem> all;
+  const auto add = [&](const MotionExam& exam) {
+    all.push_back({exam.name, [exam] { return motion_contests(exam); }});
+  };
+  const std::vector<double> falls = quick ? std::vector{2.} : std::vector{2., 6., 8.5},
+                            swings = quick ? std::vector{20.} : std::vector{2., 20., 200.};
+  for (const double until : falls) add(falling_ball(until));
+  for (const double until : swings) add(stopped_oscillator(until));
+  for (const int periods : quick ? std::vector{1} : std::vector{1, 10, 100}) add(kepler_orbit(periods));
+  for (const int count : quick ? std::vector{1, 16} : std::vector{1, 4, 16, 64, 256, 1024})
+    add(many_balls(count));
   return all;
 }
 

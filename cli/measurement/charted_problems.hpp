@@ -19,6 +19,10 @@ std::vector<ChartedProblem> charted_problems(bool quick);
 /// setting of its knob, small. `quick`: at its usual one.
 std::vector<ChartedProblem> profiled_problems(bool quick);
 
+/// What `moreau chart --motion` charts: motions with closed forms, for longer and longer, and with more and
+/// more contacts. `quick`: fewer.
+std::vector<ChartedProblem> charted_motions(bool quick);
+
 /// The problem of a file, with what --set says of it.
 ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings);
 

@@ -4,6 +4,7 @@
 
 #include "cli/measurement/cone_exams.hpp"
 #include "cli/measurement/exams.hpp"
+#include "cli/measurement/motion_stress.hpp"
 #include "cli/measurement/peers.hpp"
 #include "cli/measurement/prox_exams.hpp"
 
@@ -63,6 +64,7 @@ std::vector<StressFamily> stress_families(Index size, bool peers) {
   add("exponential-cone-boundary", "distance from it", distances, boundary_contests, CurvedCone::exponential);
   add("power-cone-boundary", "distance from it", distances, boundary_contests, CurvedCone::power);
   all.push_back({"flat-cone-polar", "slope of the cone", slopes, flat_polar_contests});
+  for (StressFamily& family : motion_families()) all.push_back(std::move(family));
   return all;
 }
 

@@ -13,7 +13,7 @@ struct StressFamily {
 
 /// The families of the gallery at `size` (or less), the gallery's well-posed one by its size, and those of
 /// the convex layer: prox by the condition of the metric, ties, the boundaries of curved cones, polars of
-/// nearly flat cones. `peers`: with the solvers of other packages, where they were found.
+/// nearly flat cones; motions. `peers`: with the solvers of other packages, where they were found.
 std::vector<StressFamily> stress_families(convex::Index size, bool peers);
 
 }  // namespace cli

@@ -29,6 +29,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool fits(double tau);
   void move_time(double by);
   void handle(const std::vector<Zero>& zeros);
+  void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                const std::vector<Index>& switches);
   /// The contacts whose impacts come to an end so soon that they are at rest from now on.

@@ -52,6 +52,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   }
   const Vector before = state.v;
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
+  if (closing.size() > 1) tell_order(zeros, closing);
   if (!closing.empty()) {
     collide(closing, united(held, touching), switches);
     return;
@@ -60,6 +61,26 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   if (status != MotionStatus::done) return;
   if (!touching.empty()) event(EventKind::contact, touching, before);
   release_event(held, before);
+}
+
+/// Contacts that close one after the other, as far as their times tell, but within the rounding of t, are one
+/// impact: where one of them moves the other, the order would have mattered.
+void Motion::EventDriven::tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing) {
+  const convex::Metric& A = expansion_.inertia();
+  const auto time = [&](Index a) {
+    return std::find_if(zeros.begin(), zeros.end(),
+                        [&](const Zero& zero) { return zero.of == Zero::Of::constraint && zero.which == a; })
+        ->at;
+  };
+  for (std::size_t i = 0; i < closing.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (time(closing[i]) == time(closing[j])) continue;
+      const Vector u = A.whiten(expansion_.row(closing[i])), w = A.whiten(expansion_.row(closing[j]));
+      if (std::abs(u.dot(w)) <= undecided_part * u.norm() * w.norm()) continue;
+      return remark(constraint_name(closing[j]) + " and " + constraint_name(closing[i]) +
+                    " close at times that rounding hardly tells apart and are one impact: one after the "
+                    "other may leave other velocities");
+    }
 }
 
 /// Contacts that were held, are still at f = df/dt = 0, and persist no longer.

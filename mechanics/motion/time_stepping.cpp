@@ -151,8 +151,8 @@ const convex::Solution& Motion::TimeStepping::solve(Repeated& repeated, const st
                                                     const convex::ConstraintRows& U, const Vector& z,
                                                     const Vector& s) {
   convex::NearestPointProblem problem{*A_, z, U, s, two_sided};
-  if (repeated.problem && repeated.problem->z == z && repeated.problem->s == s &&
-      repeated.problem->two_sided == two_sided && same(repeated.problem->U, U))
+  if (repeated.problem && repeated.problem->z == z && repeated.problem->s.size() == s.size() &&
+      repeated.problem->s == s && repeated.problem->two_sided == two_sided && same(repeated.problem->U, U))
     return repeated.solution;
   problem.radii = convex::rounding_radii(problem, roundings_of_step_rows);
   std::vector<Index> guess;

@@ -241,3 +241,37 @@ TEST_CASE("what cannot be drawn or is not there is refused before any work") {
     CHECK_MESSAGE(outcome.err.find(words) != std::string::npos, outcome.err);
   }
 }
+
+TEST_CASE("a chart of motions has both integrators, and the one that follows events keeps its tolerance") {
+  const Folder folder;
+  const std::string data = folder.path("motions.csv");
+  const Outcome outcome = run({"chart", "--motion", "--quick", "--data", data});
+  CHECK(outcome.code == 0);
+  CHECK(outcome.out.find("following each event is quicker") != std::string::npos);
+  const auto rows = table_of(bytes_of(data));
+  std::set<std::string> methods;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    CAPTURE(rows[k][0]);
+    CAPTURE(rows[k][4]);
+    methods.insert(rows[k][3]);
+    CHECK((rows[k][7] == "ok" || rows[k][7] == "too-slow"));
+  }
+  CHECK(methods == std::set<std::string>{"event-driven", "time-stepping"});
+  CHECK(run({"chart", "--motion", "x.toml"}).code == 2);
+}
+
+TEST_CASE("no motion that is hard to follow is wrong without saying so") {
+  const Folder folder;
+  const std::string data = folder.path("stress.csv");
+  CHECK(
+      run({"stress", "motion-mass-ratio", "motion-grazing", "motion-near-simultaneous", "motion-accumulation",
+           "motion-stiff-spring", "motion-drift", "--method", "event-driven", "--data", data, "--quiet"})
+          .code == 0);
+  const auto rows = table_of(bytes_of(data));
+  CHECK(rows.size() > 30);
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    CAPTURE(rows[k][0]);
+    CAPTURE(rows[k][1]);
+    CHECK((rows[k][7] == "ok" || (rows[k][0] == "motion-near-simultaneous" && rows[k][7] == "gave-up")));
+  }
+}

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/invalid_input.hpp"
@@ -108,5 +109,20 @@ TEST_CASE("e outside 0 to 1 is refused with the constraint") {
     const std::string error = error_of([&] { followed(ball(), state({1}, {0}), 1, restitution(ball(), e)); });
     CHECK(error.find("floor") != std::string::npos);
     CHECK(error.find("0 to 1") != std::string::npos);
+  }
+}
+
+TEST_CASE("impacts whose order is lost in the rounding of time, and matters, are told") {
+  const SystemText text{
+      {"x", "y", "z"}, "(x'^2 + 3*y'^2 + z'^2)/2", "", {}, {}, {}, {{"left", "y >= x"}, {"right", "z >= y"}}};
+  MotionOptions options;
+  options.restitution = Vector{{1, 1}};
+  for (const double later : {1e-15, 0.0, 1e-6}) {
+    CAPTURE(later);
+    const Followed found = followed(text, state({-1, 0, 1 + later}, {1, 0, -1}), 2, options);
+    const auto& remarks = found.motion.record().remarks;
+    CHECK(std::any_of(remarks.begin(), remarks.end(), [](const MotionRemark& one) {
+            return one.what.find("left and right") != std::string::npos;
+          }) == (later == 1e-15));
   }
 }

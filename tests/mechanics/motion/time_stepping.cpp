@@ -138,3 +138,16 @@ TEST_CASE("time-stepping refuses laws of impact that it does not have, and steps
   CHECK_THROWS_AS(followed(ball(), state({1}, {0}), 1, stepping(ball(), 0)), convex::InvalidInput);
   CHECK_THROWS_AS(followed(ball(), state({1}, {0}), 1, stepping(ball(), -1)), convex::InvalidInput);
 }
+
+TEST_CASE("a contact that comes up while nothing pulls is met in steps too") {
+  const SystemText text{{"x", "y"}, "x'^2/2 + 3*y'^2/2", "", {}, {}, {}, {{"blocks", "y >= x"}}};
+  MotionOptions options;
+  options.method = MotionMethod::time_stepping;
+  options.step = 0.125;
+  options.restitution = Vector{{1}};
+  const Followed found = followed(text, state({1, 2}, {0, -1}), 2, options);
+  REQUIRE(found.motion.status() == MotionStatus::done);
+  // Momentum and energy: v = 2 u - v with u = -3/4.
+  CHECK(found.end().v[0] == doctest::Approx(-1.5).epsilon(1e-14));
+  CHECK(found.end().v[1] == doctest::Approx(-0.5).epsilon(1e-14));
+}
