@@ -124,7 +124,7 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
   solved.scene = mechanics::liquid::read_scene(text);
   std::vector<Point> points;
   for (const std::string& probe : request.probes) points.push_back(probe_point(text, probe));
-  const mechanics::liquid::LiquidAccuracy accuracy{request.tolerance};
+  const mechanics::liquid::LiquidAccuracy accuracy{request.tolerance, request.certify};
   if (request.onset) mechanics::liquid::parameter_value(text, *request.onset);
   solved.solution = mechanics::liquid::solve_liquid(solved.scene, accuracy);
   if (solved.solution.status != Status::infeasible)
@@ -134,7 +134,7 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
     solved.onset_of = request.onset;
     solved.onset = mechanics::liquid::find_onset(text, *request.onset, accuracy);
   }
-  if (request.certify) solved.level = "none";
+  if (request.certify) solved.level = solved.solution.is_proved ? "enclosure" : "none";
   solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_files(solved, request);
   return solved;
@@ -149,6 +149,9 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
   json.key("unknowns").value(found.unknowns);
   if (found.status == Status::infeasible) {
     json.key("surplus").value(found.surplus);
+    json.key("cavity").null().key("pressure").null();
+    json.key("parted_walls").begin_array().end_array().key("onset").null().key("certificate").null();
+    json.key("probes").begin_array().end_array();
     return json.key("seconds").value(solved.seconds).end_object().text();
   }
   json.key("cavity").begin_object().key("measure").value(found.cavity_measure);

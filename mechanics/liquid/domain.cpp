@@ -31,12 +31,14 @@ class ShapeReading {
       made.high = point("high");
       for (std::size_t i = 0; i < d; ++i)
         if (!(made.low[i] < made.high[i])) fail("it is empty, low is not below high; give low < high");
+      if (d == 1) made.written = {rounded("low"), rounded("high")};
     } else if (shape_.name == "disc" || shape_.name == "ball") {
       if (shape_.name == "disc" && d != 2) refuse_dimension("a disc is of two coordinates");
       made.shape = Domain::Shape::ball;
       made.centre = point("center");
       made.radius = number("radius");
       if (!(made.radius > 0)) fail("it is empty, the radius is not above 0; give a radius > 0");
+      made.written.fill(rounded("radius"));
       for (std::size_t i = 0; i < d; ++i) {
         made.low[i] = made.centre[i] - made.radius;
         made.high[i] = made.centre[i] + made.radius;
@@ -73,6 +75,11 @@ class ShapeReading {
     return language_.number(given.text, "domain." + key);
   }
   double number(const std::string& key) { return number(value(key), key); }
+  /// A number as it is written; of a list its first.
+  expression::Rounded rounded(const std::string& key) {
+    const ShapeText::Value& given = value(key);
+    return language_.rounded(given.is_list ? given.entries.front().text : given.text, "domain." + key);
+  }
   Point point(const ShapeText::Value& given, const std::string& key) {
     const std::size_t d = language_.coordinates().size();
     Point made{};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -18,7 +19,9 @@ struct Domain {
   std::function<double(const Point&)>
       level;  ///< below 0 inside, above outside; a distance but for inequalities
   Point centre{};
-  double radius = 0;                            ///< of a ball
+  double radius = 0;  ///< of a ball
+  /// Of an interval its ends, of a ball its radius twice: as written, with what rounding may have done.
+  std::array<expression::Rounded, 2> written{};
   std::vector<std::array<double, 2>> vertices;  ///< of a polygon, counterclockwise
   std::optional<Condition> condition;           ///< of inequalities
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "mechanics/expression/rounded_nodes.hpp"
+
 namespace mechanics::liquid {
 
 std::string point_text(const std::vector<std::string>& names, const Point& x) {
@@ -22,13 +24,13 @@ Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<
       place_(place),
       is_constant_(tape.is_constant(node)) {
   if (is_constant_)
-    constant_ = tape.constant(node);
+    constant_ = expression::rounded_nodes(tape)[node];
   else
     program_ = expression::Program(tape, coordinates_.size(), {{node}});
 }
 
 double Field::raw(const Point& x) const {
-  if (is_constant_) return constant_;
+  if (is_constant_) return constant_.value;
   const auto n = static_cast<Index>(coordinates_.size());
   State state{0, Vector::Map(x.data(), n), Vector::Zero(n)};
   bool is_finite = true;

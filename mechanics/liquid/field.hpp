@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mechanics/expression/program.hpp"
+#include "mechanics/expression/rounded.hpp"
 
 namespace mechanics::liquid {
 
@@ -26,6 +27,8 @@ class Field {
   /// The same, NaN or infinite where it is not finite.
   double raw(const Point&) const;
   bool is_constant() const { return is_constant_; }
+  /// Of a constant one, the value with what rounding may have done to it.
+  expression::Rounded constant() const { return constant_; }
 
  private:
   expression::Program program_;
@@ -33,7 +36,7 @@ class Field {
   std::string what_;
   convex::Place place_;
   bool is_constant_ = true;
-  double constant_ = 0;
+  expression::Rounded constant_;
 };
 
 }  // namespace mechanics::liquid

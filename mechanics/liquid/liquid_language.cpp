@@ -6,6 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 #include "mechanics/expression/gradient_nodes.hpp"
+#include "mechanics/expression/rounded_nodes.hpp"
 
 namespace mechanics::liquid {
 
@@ -63,6 +64,11 @@ double LiquidLanguage::number(const Text& text, const std::string& what) {
                                text.begin);
   if (const double value = tape_.constant(found); std::isfinite(value)) return value;
   throw convex::InvalidInput(what + ": not a finite number", text.begin);
+}
+
+expression::Rounded LiquidLanguage::rounded(const Text& text, const std::string& what) {
+  number(text, what);
+  return expression::rounded_nodes(tape_)[node(text, what)];
 }
 
 Field LiquidLanguage::field(const Text& text, const std::string& what) {

@@ -19,6 +19,8 @@ class LiquidLanguage {
   expression::NodeId node(const Text&, const std::string& what);
   /// An expression in parameters alone.
   double number(const Text&, const std::string& what);
+  /// The same with what rounding may have done to it; decimals count as written.
+  expression::Rounded rounded(const Text&, const std::string& what);
   Field field(const Text&, const std::string& what);
   Field field(expression::NodeId, const std::string& what, convex::Place) const;
 

@@ -94,6 +94,7 @@ LiquidScene read_scene(const LiquidText& text) {
   scene.coordinates = language.coordinates();
   scene.domain = read_domain(language, text);
   scene.density = language.number(text.density, "density");
+  scene.written_density = language.rounded(text.density, "density");
   if (!(scene.density > 0))
     throw InvalidInput("density: it is not above 0; give a density > 0", text.density.begin);
   std::vector<std::vector<NodeId>> gradient;  // ∂u_i/∂x_j

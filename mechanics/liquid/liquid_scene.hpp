@@ -25,6 +25,7 @@ struct LiquidScene {
   std::vector<std::string> coordinates;
   Domain domain;
   double density = 1;
+  expression::Rounded written_density = 1;
   Field h;                          ///< derived from the text of u and F
   std::vector<Field> force;         ///< F
   std::vector<Field> stretching;    ///< ∂u_i/∂x_i, whose sum is div u

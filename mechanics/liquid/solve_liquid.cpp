@@ -4,6 +4,7 @@
 #include "mechanics/liquid/grid_scene.hpp"
 #include "mechanics/liquid/line_scene.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
+#include "mechanics/liquid/proved_line.hpp"
 
 namespace mechanics::liquid {
 namespace {
@@ -27,6 +28,8 @@ LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accu
   const std::optional<LineScene> line = as_line(scene);
   if (!line) return solve_grid_scene(scene, accuracy);
   LiquidSolution found = solve_line_scene(scene, *line, accuracy);
+  if (accuracy.proved && found.status != LiquidSolution::Status::infeasible)
+    prove_line(scene, *line, accuracy, found);
   if (found.status != LiquidSolution::Status::infeasible) require_no_divergence(scene, *line, found);
   return found;
 }

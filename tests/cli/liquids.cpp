@@ -108,6 +108,8 @@ TEST_CASE("a liquid without a free surface is squeezed, rests, or parts from the
              at_rest = solved_liquid(lid("0"), {"--probe", "x=0.5, y=0.25"}),
              lifted = solved_liquid(lid("1"));
   CHECK(squeezed["status"] == "infeasible");
+  for (const char* key : {"cavity", "pressure", "onset", "certificate"}) CHECK(squeezed[key].is_null());
+  for (const char* key : {"parted_walls", "probes"}) CHECK(squeezed[key] == Json::array());
   CHECK(squeezed["surplus"].get<double>() == doctest::Approx(2));
   CHECK(at_rest["status"] == "solved");
   CHECK(at_rest["probes"][0]["p"].get<double>() == doctest::Approx(13.5).epsilon(1e-6));
@@ -166,4 +168,42 @@ TEST_CASE("what is wrong in a liquid is named, with its place") {
       {tank({{9, "symmetry = \"radial\""}}), "1:1", {"radial"}},
   };
   for (const Wrong& one : wrong) expect_refusal(one);
+}
+
+TEST_CASE("--certify encloses the pressure of scenes whose symmetry is plain, and of no others") {
+  // The edges are cited: roots of the closed forms in y = p0/(rho omega^2 R^2), and of the ball's in p0/(k
+  // R^2).
+  const auto disc = [](const std::string& p0, const std::string& where) {
+    return "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"disc(center=[0, 0], radius=1)\"\ndensity = 1\n"
+           "velocity = [\"-2*y\", \"2*x\"]\nfree = { rim = { where = \"" +
+           where + "\", pressure = \"" + p0 + "\" } }\n";
+  };
+  struct Edge {
+    const char* p0;
+    long double s;
+  };
+  for (const Edge& edge : {Edge{"1.6", 0.2237660542638937L}, Edge{"1", 0.43206748182527804L},
+                           Edge{"0.4", 0.6621956952852164L}, Edge{"0.08", 0.8548867369907398L}}) {
+    CAPTURE(edge.p0);
+    const Json found = solved_liquid(disc(edge.p0, "true"), {"--certify", "--probe", "x=0.54, y=0.72"});
+    REQUIRE(found["certificate"]["level"] == "enclosure");
+    const double bound = found["certificate"]["error_bound"].get<double>();
+    CHECK(bound <= 1e-12);
+    const long double r = 0.9L, s = edge.s;
+    const long double p = 2 * (r * r - s * s) - 4 * s * s * std::log(r / s);
+    CHECK(std::abs(static_cast<double>(found["probes"][0]["p"].get<double>() - p)) <= bound);
+    CHECK(found["pressure"]["max"].get<double>() == std::stod(edge.p0));
+  }
+  const Folder folder;
+  // Where the cavity is a point, where a condition chooses the boundary, and where h varies, nothing is
+  // proved.
+  const std::string varying =
+      "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\nforce = "
+      "[\"x^2\"]\nfree = { ends = { where = \"true\", pressure = 1 } }\n";
+  for (const std::string& text : {disc("2", "true"), disc("1", "x > -7"), varying, tank()}) {
+    const Outcome outcome = run({"solve", "--json", "--certify", folder.write("open.toml", text)});
+    CAPTURE(text);
+    CHECK(outcome.code == 3);
+    CHECK(Json::parse(outcome.out)["certificate"]["level"] == "none");
+  }
 }
