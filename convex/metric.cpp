@@ -266,17 +266,25 @@ Vector Metric::solve(const Vector& c) const {
 }
 
 double Metric::norm(const Vector& x) const {
-  switch (data_->kind) {
-    case MetricKind::identity:
-      return x.norm();
-    case MetricKind::diagonal:
-      return data_->root.cwiseProduct(x).norm();
-    case MetricKind::dense:
-      return (data_->triangle->view().triangularView<Eigen::Upper>() * x).norm();
-    case MetricKind::sparse:
-      return data_->sparse->norm(x);
-  }
-  return 0;
+  const auto plain_norm = [&](const Vector& u) {
+    switch (data_->kind) {
+      case MetricKind::identity:
+        return u.norm();
+      case MetricKind::diagonal:
+        return data_->root.cwiseProduct(u).norm();
+      case MetricKind::dense:
+        return (data_->triangle->view().triangularView<Eigen::Upper>() * u).norm();
+      case MetricKind::sparse:
+        return data_->sparse->norm(u);
+    }
+    return 0.0;
+  };
+  const double plain = plain_norm(x);
+  // Squares of numbers below this, and of those beyond its inverse, are no ordinary doubles.
+  constexpr double least = 0x1p-500;
+  if (plain >= least && plain <= 1 / least) return plain;
+  const double size = x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0;
+  return size > 0 && std::isfinite(size) ? size * plain_norm(x / size) : plain;
 }
 
 Vector Metric::whiten(const Vector& c) const {

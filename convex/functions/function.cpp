@@ -31,7 +31,8 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   const double length = W.norm(found.x);
   const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
   // The length of what is not 0 may underflow.
-  if (found.x.isZero(0) || !(length <= std::max(rounding, found.error_bound))) return;
+  if (found.x.isZero(0) || !std::isfinite(rounding) || !(length <= std::max(rounding, found.error_bound)))
+    return;
   const double here = f.value(found.x), at_zero = f.value(Vector::Zero(z.size()));
   if (!std::isfinite(at_zero) || at_zero > here) return;
   if (std::isfinite(here) && length > negligible * W.norm(z)) return;
@@ -68,6 +69,7 @@ Prox Function::prox(const Vector& z, const Metric& W) const {
   const WorkLimit question;
   Prox found = node_->prox(z, W);
   if (found.x.size() == z.size()) settle_at_zero(*node_, z, W, found);
+  if (found.status == Status::solved && !std::isfinite(found.error_bound)) found.status = Status::inaccurate;
   return found;
 }
 

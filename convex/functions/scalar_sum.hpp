@@ -54,6 +54,18 @@ class ScalarSum : public Atom {
     return sum;
   }
 
+  /// Inside of the domain +inf is a number beyond all doubles.
+  Value evaluate(const Vector& x) const override {
+    Value found = FunctionNode::evaluate(x);
+    bool is_inside = found.value == std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < x.size() && is_inside; ++i) {
+      const auto [low, high] = law_.domain(i);
+      is_inside = low < x[i] && x[i] < high;
+    }
+    if (is_inside) found.error = found.value;
+    return found;
+  }
+
   std::optional<Vector> subgradient(const Vector& x) const override {
     const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
     Vector v(x.size());

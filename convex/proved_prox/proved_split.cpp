@@ -13,8 +13,11 @@ namespace convex {
 
 ProvedInterval outwards(const Fraction& low, const Fraction& high) {
   ProvedInterval made{nearest_double(low), nearest_double(high)};
-  if (low < fraction(made.low)) made.low = std::nextafter(made.low, -INFINITY);
-  if (fraction(made.high) < high) made.high = std::nextafter(made.high, INFINITY);
+  // Beyond all doubles the nearest one is infinite.
+  if (std::isinf(made.low) ? made.low > 0 : low < fraction(made.low))
+    made.low = std::nextafter(made.low, -INFINITY);
+  if (std::isinf(made.high) ? made.high < 0 : fraction(made.high) < high)
+    made.high = std::nextafter(made.high, INFINITY);
   return made;
 }
 

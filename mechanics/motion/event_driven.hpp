@@ -36,6 +36,8 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Index> accumulating(const std::vector<Index>& closing) const;
   void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
   std::vector<Index> find_branches();
+  std::vector<Index> branches_after_jump(const std::vector<double>& arguments_before,
+                                         const std::vector<Index>& at_zero_before);
   /// A new arc from here. In question: contacts that may persist, and switches at 0.
   void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,

@@ -92,8 +92,27 @@ void Motion::EventDriven::release_event(const std::vector<Index>& held_before,
   if (!released.empty()) event(EventKind::release, released, velocity_before);
 }
 
+/// After a jump of the velocity: the branches by the signs of their arguments now. Returns those that are at
+/// 0: of what the impact did not move those that were, of what it did those that it left at 0.
+std::vector<Index> Motion::EventDriven::branches_after_jump(const std::vector<double>& arguments_before,
+                                                            const std::vector<Index>& at_zero_before) {
+  constexpr double left_by_rounding = 64 * epsilon;
+  expansion_.set(state);
+  std::vector<Index> at_zero = find_branches();
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    const double now = expansion_.switch_argument(k)[0], then = arguments_before[k];
+    const bool stays = now == then && contains(at_zero_before, static_cast<Index>(k));
+    const bool comes = now != then && std::abs(now) <= left_by_rounding * std::abs(then);
+    if (now != 0 && (stays || comes)) at_zero.push_back(static_cast<Index>(k));
+  }
+  return at_zero;
+}
+
 void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                                   const std::vector<Index>& switches) {
+  std::vector<double> arguments;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)
+    arguments.push_back(expansion_.switch_argument(k)[0]);
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) present.push_back(a);
@@ -142,7 +161,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   }
   event(EventKind::impact, hit, before);
   for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
-  expansion_.set(state);
+  std::vector<Index> after = branches_after_jump(arguments, switches);
   const std::vector<Index> ending = accumulating(closing);
   if (!ending.empty()) {
     const Vector bouncing = state.v;
@@ -152,8 +171,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
       rates[static_cast<Index>(k)] = -expansion_.rate(stopping[k]);
     const ImpactHistory last = history_[static_cast<std::size_t>(ending.front())];
     state.v += expansion_.held_rows(stopping).least_change(rates);
-    expansion_.set(state);
-    begin_arc(stopping, switches);
+    begin_arc(stopping, branches_after_jump(arguments, switches));
     const bool rest = status == MotionStatus::done && std::all_of(ending.begin(), ending.end(), [&](Index a) {
                         return contains(persist_, a);
                       });
@@ -171,9 +189,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (status != MotionStatus::done) return;
     state.v = bouncing;
     for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
-    expansion_.set(state);
+    after = branches_after_jump(arguments, switches);
   }
-  begin_arc(resting, switches);
+  begin_arc(resting, after);
   if (status == MotionStatus::done) release_event(held, state.v);
 }
 

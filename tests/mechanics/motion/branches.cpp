@@ -48,3 +48,37 @@ TEST_CASE("a motion along a table knows its knots and stops at its end") {
   }
   CHECK(motion.state().t == doctest::Approx(2));
 }
+
+TEST_CASE("an impact turns the velocity, and with it the branch of a drag that opposes it") {
+  // y'' = -g - k y'|y'| after a fall from 2: down, v² = g/k (1 - e^(-2kh)); up to h = ln(1 + k v²/g)/(2k) in
+  // atan(v √(k/g))/√(gk), down again in acosh(e^(kh))/√(gk).
+  const double g = 9.81, k = 0.3, e = 0.8, root = std::sqrt(g * k);
+  const auto fall = [&](double h) { return std::acosh(std::exp(k * h)) / root; };
+  const auto speed = [&](double h) { return std::sqrt(g / k * (1 - std::exp(-2 * k * h))); };
+  std::vector<double> truth{fall(2)};
+  double v = e * speed(2);
+  for (int j = 0; j < 3; ++j) {
+    const double h = std::log(1 + k * v * v / g) / (2 * k);
+    truth.push_back(truth.back() + std::atan(v * std::sqrt(k / g)) / root + fall(h));
+    v = e * speed(h);
+  }
+  for (const char* drag : {"y'*abs(y')", "y'^2*sign(y')", "if(y' > 0, y'^2, -y'^2)", "y'*max(y', -y')"}) {
+    CAPTURE(drag);
+    const auto s = system(
+        {{"y"}, "y'^2/2", "", {}, {}, {{"y", std::string("-9.81 - 0.3*") + drag}}, {{"floor", "y >= 0"}}});
+    mechanics::MotionOptions options;
+    options.restitution = convex::Vector::Constant(1, e);
+    mechanics::Motion motion(*s, state({2}, {0}), options);
+    std::vector<double> found;
+    bool goes_on = true;
+    while (goes_on) {
+      goes_on = motion.advance(truth.back() + 1e-3);
+      for (const auto& event : motion.events())
+        if (event.kind == mechanics::EventKind::impact && (found.empty() || event.t > found.back()))
+          found.push_back(event.t);
+    }
+    REQUIRE(found.size() == truth.size());
+    for (std::size_t j = 0; j < truth.size(); ++j)
+      CHECK(found[j] == doctest::Approx(truth[j]).epsilon(1e-12));
+  }
+}
