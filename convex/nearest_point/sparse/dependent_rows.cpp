@@ -62,8 +62,9 @@ void visit_entries(const ConstraintRows& U, Index a, Visit visit) {
 
 class RowEchelon {
  public:
-  RowEchelon(const ConstraintRows& U, const Vector& s, const std::vector<Index>& rows, double most)
-      : U_(U), s_(s), field_(large_primes.front()), residues_(field_), most_(most) {
+  RowEchelon(const ConstraintRows& U, const Vector& s, const std::vector<Index>& rows, std::uint64_t prime,
+             double most)
+      : U_(U), s_(s), field_(prime), residues_(field_), most_(most) {
     find_order(rows);
     const auto n = static_cast<std::size_t>(U.dimension());
     pivot_row_.resize(n);
@@ -152,11 +153,9 @@ Index length_of(const ConstraintRows& U, Index a) {
   return U.is_sparse() ? U.sparse().outerIndexPtr()[a + 1] - U.sparse().outerIndexPtr()[a] : U.dimension();
 }
 
-}  // namespace
-
-std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vector& s,
-                                              const std::vector<Index>& held,
-                                              const std::vector<Index>& touched, double most) {
+std::optional<RowDependences> dependences_modulo(std::uint64_t prime, const ConstraintRows& U,
+                                                 const Vector& s, const std::vector<Index>& held,
+                                                 const std::vector<Index>& touched, double most) {
   const auto by_length = [&](std::vector<Index> rows) {
     std::stable_sort(rows.begin(), rows.end(),
                      [&](Index a, Index b) { return length_of(U, a) < length_of(U, b); });
@@ -164,7 +163,7 @@ std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vec
   };
   std::vector<Index> all = held;
   all.insert(all.end(), touched.begin(), touched.end());
-  RowEchelon echelon(U, s, all, most);
+  RowEchelon echelon(U, s, all, prime, most);
   RowDependences found;
   for (Index a : by_length(held)) {
     const RowEchelon::Kind kind = echelon.put(a, true);
@@ -186,6 +185,17 @@ std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vec
   }
   std::sort(found.independent.begin(), found.independent.end());
   return found;
+}
+
+}  // namespace
+
+std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vector& s,
+                                              const std::vector<Index>& held,
+                                              const std::vector<Index>& touched, double most) {
+  const auto first = dependences_modulo(large_primes.at(0), U, s, held, touched, most);
+  if (!first || first->independent.size() == held.size() + touched.size()) return first;  // proved
+  const auto second = dependences_modulo(large_primes.at(1), U, s, held, touched, most);
+  return second && *second == *first ? first : std::nullopt;
 }
 
 }  // namespace convex

@@ -159,3 +159,41 @@ TEST_CASE("rows that depend on nearly parallel ones have multipliers of least no
   CHECK((U.transpose() * found.least_norm - Eigen::Vector2d(2, 1)).norm() <= 1e-7);
   CHECK(found.least_norm.norm() <= std::sqrt(2.0));  // (1, 0, 0, 1) will do
 }
+
+TEST_CASE("multipliers of rows told in units far apart are not called unique when they are not") {
+  // q = (-1, 2, 1) is the corner of all rows but the third; exact arithmetic on the doubles gives the ranges.
+  RowMatrix U(5, 3);
+  U << -2e-6, 0, 0, -2, 2, 2, -2147483648, 0, -4294967296, -1e-6, -1e-6, 0, -6e12, 0, -2e12;
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector{{1, 1, 2}}),
+                                    Vector{{1.0000152587890625, 2.000015251338482, 2}},
+                                    convex::ConstraintRows(U),
+                                    Vector{{2e-6, 8, -2147483652, -1e-6, 4e12}},
+                                    {}};
+  // The third row is open by 4, of terms of 8e9.
+  constexpr double fine = 1e-12;
+  const Multipliers found = convex::multipliers(problem, convex::active_set(problem), fine, true);
+  CHECK_FALSE(found.unique);
+  REQUIRE(found.ranges.has_value());
+  const double highest[] = {1000000.0037252903, 0.20000000074505805, 0, 400015.252828598,
+                            2.0000000074505805e-13};
+  for (Index a = 0; a < 5; ++a) {
+    const Interval& range = (*found.ranges)[static_cast<std::size_t>(a)];
+    CHECK(range.high == doctest::Approx(highest[a]).epsilon(1e-9));
+    CHECK(found.least_norm[a] >= range.low * (1 - 1e-9));
+    CHECK(found.least_norm[a] <= range.high * (1 + 1e-9));
+  }
+  const Vector reaction = problem.A.multiply(Vector{{-1, 2, 1}}) - problem.z;
+  CHECK((U.transpose() * found.least_norm - reaction).norm() <= 1e-9 * reaction.norm());
+}
+
+TEST_CASE("forces that cancel make no row tight that is open by as much as its bound") {
+  // Two rows press with 2^40 against each other's load; the third is open by 3.
+  RowMatrix U(3, 2);
+  U << 1, 0, 0, 1, 1, 1;
+  const double load = 0x1p40;
+  const NearestPointProblem problem{
+      convex::Metric::identity(2), Vector{{-load, -load}}, convex::ConstraintRows(U), Vector{{1, 2, 0}}, {}};
+  const convex::Solution solution = convex::active_set(problem);
+  CHECK(solution.slack[2] == 3);
+  CHECK(convex::tight_rows(problem, solution, tolerance) == std::vector<Index>{0, 1});
+}

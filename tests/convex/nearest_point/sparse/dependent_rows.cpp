@@ -60,3 +60,16 @@ TEST_CASE("two pools of a string rise by the sign of fractions") {
   const StringMembers floored = [](Index) { return StringMember{3, 1, 3, 1}; };
   CHECK(rise_over_floor(floored, 0, 0, 1) == 0);
 }
+
+TEST_CASE("rows that depend on each other modulo one prime alone are left open, not called dependent") {
+  // The determinant is 2^62 - 57, the first of the primes.
+  RowMatrix U{{0x1p31, 57}, {1, 0x1p31}};
+  const ConstraintRows rows(std::move(U));
+  CHECK_FALSE(row_dependences(rows, Vector{{0, 0}}, {0}, {1}, most));
+  CHECK_FALSE(row_dependences(rows, Vector{{0, 0}}, {0, 1}, {}, most));
+  // 2^62 - 56 is none of them.
+  RowMatrix other{{0x1p31, 56}, {1, 0x1p31}};
+  const auto found = row_dependences(ConstraintRows(std::move(other)), Vector{{0, 0}}, {0}, {1}, most);
+  REQUIRE(found);
+  CHECK(found->independent == std::vector<Index>{0, 1});
+}
