@@ -5,6 +5,8 @@
 #include <random>
 
 #include "convex/nearest_point/automatic.hpp"
+#include "mechanics/expression/exclusion.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/position_search.hpp"
 
 namespace mechanics {
@@ -83,6 +85,42 @@ std::vector<Index> fighters(PositionSearch& search, const State& guess, const Tr
   return found;
 }
 
+/// Is it proved that no position meets these constraints, with the coordinates held where they are?
+bool is_proved(const LagrangianSystem& system, const PositionSearch& search, const State& guess,
+               const std::vector<Index>& constraints) {
+  const expression::LagrangianModel& model = system.model();
+  std::vector<expression::Demand> demands;
+  for (const Index a : constraints)
+    demands.push_back({model.f[static_cast<std::size_t>(a)], search.is_equal(a)});
+  std::vector<std::optional<double>> held;
+  for (const double q : guess.q) held.emplace_back(q);
+  for (const Index i : search.free()) held[static_cast<std::size_t>(i)].reset();
+  return expression::excludes(model.tape, demands, held, guess.t);
+}
+
+/// The constraints that exclude each other, proved where that is possible: those that the search ends on, or
+/// else those of all constraints that a proof needs.
+void find_fighters(const LagrangianSystem& system, PositionSearch& search, const State& guess,
+                   const TriedPosition& best, Assembly& found) {
+  found.fighting = fighters(search, guess, best);
+  found.proved = is_proved(system, search, guess, found.fighting);
+  constexpr Index most_proved = 24;
+  if (found.proved || best.f.size() > most_proved) return;
+  std::vector<Index> all;
+  for (Index a = 0; a < best.f.size(); ++a) all.push_back(a);
+  if (all.size() == found.fighting.size() || !is_proved(system, search, guess, all)) return;
+  for (std::size_t k = 0; k < all.size();) {
+    std::vector<Index> fewer = all;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    if (is_proved(system, search, guess, fewer))
+      all = fewer;
+    else
+      ++k;
+  }
+  found.fighting = all;
+  found.proved = true;
+}
+
 /// The nearest velocity; returns the constraints that exclude each other, if any.
 std::vector<Index> set_velocity(const LagrangianSystem& system, const PositionSearch& search, State& state) {
   std::vector<Index> rows, two_sided;
@@ -145,6 +183,8 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
     found.status = here.missing <= not_found ? AssemblyStatus::solved : AssemblyStatus::infeasible;
     for (Index a = 0; a < here.f.size(); ++a)
       if (std::abs(search.violation(here, a)) > not_found * here.scale[a]) found.fighting.push_back(a);
+    found.proved =
+        found.status == AssemblyStatus::infeasible && is_proved(system, search, guess, found.fighting);
     found.residual = residual_of(system, search, found.state);
     return found;
   }
@@ -154,7 +194,7 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
   if (best.missing > not_found) {
     found.status = AssemblyStatus::infeasible;
     found.residual = best.missing;
-    found.fighting = fighters(search, guess, best);
+    find_fighters(system, search, guess, best, found);
     return found;
   }
   found.fighting = set_velocity(system, search, found.state);

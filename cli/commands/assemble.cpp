@@ -50,6 +50,9 @@ std::string assembly_json(const LagrangianSystem& system, const Assembly& found,
 }
 
 std::string assembly_text(const LagrangianSystem& system, const Assembly& found) {
+  if (found.status == AssemblyStatus::infeasible && found.proved)
+    return "There is no such state: " + fighting_text(system, found.fighting) +
+           " exclude each other at every position (proved).\n";
   if (found.status == AssemblyStatus::infeasible)
     return "No such state was found from many starts: " + fighting_text(system, found.fighting) +
            " exclude each other.\n";
