@@ -1,5 +1,6 @@
 #include "cli/scene.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "cli/assembled_state.hpp"
@@ -36,6 +37,8 @@ mechanics::GaussOptions solve_options(const SceneOptions& options, const SolveSe
 Scene system_scene(const SystemProblem& text, const SolveSettings& settings) {
   std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text.system);
   mechanics::WrittenMechanism written = mechanics::written_mechanism(system, text.state);
+  if (text.declared) written.in_contact = declared_question(*system, *text.declared).contacts;
+  std::sort(written.in_contact.begin(), written.in_contact.end());
   std::vector<std::string> constraints;
   std::vector<bool> two_sided;
   for (const mechanics::Constraint& constraint : system->constraints()) {

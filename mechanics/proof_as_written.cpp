@@ -79,6 +79,10 @@ class Proving {
 
   const std::vector<Constraint>& constraints() const { return written_.system->constraints(); }
   bool is_two_sided(Index a) const { return constraints()[static_cast<std::size_t>(a)].two_sided; }
+  /// Does it hold by declaration?
+  bool is_declared(Index a) const {
+    return is_two_sided(a) || (holds(written_.in_contact, a) && holds(contacts_, a));
+  }
 
   /// Constraints whose f is not near 0, for all that its rounding tells, need no closer look.
   std::vector<Index> near_contact() {
@@ -100,9 +104,9 @@ class Proving {
       ContactVerdict& verdict = proof.contacts[static_cast<std::size_t>(a)];
       if (!holds(near, a)) verdict = ContactVerdict::apart;
       const bool in_K = holds(contacts_, a);
-      if (is_two_sided(a)) {
+      if (is_declared(a)) {
         declared_.push_back(a);
-        moved_ = moved_ || verdict == ContactVerdict::violated;
+        moved_ = moved_ || verdict == ContactVerdict::violated || verdict == ContactVerdict::apart;
       } else if (verdict == ContactVerdict::violated) {
         proof.violated.push_back(a);
       } else if (verdict == ContactVerdict::undecided) {
@@ -250,12 +254,12 @@ class Proving {
     return found;
   }
 
-  /// The radii of the state, and twice the way to the nearest state at which the two-sided constraints hold.
+  /// The radii of the state, and twice the way to the nearest state at which what is declared to hold does.
   StateRadii moved_radii() const {
     const LagrangianSystem& system = *written_.system;
     std::vector<Index> rows;
     for (const Index a : declared_)
-      if (is_two_sided(a)) rows.push_back(a);
+      if (is_declared(a)) rows.push_back(a);
     State state = written_.state;
     const auto nearest = [&](bool of_velocity) {
       const ConstraintRates rates = system.constraint_rates(state);
@@ -292,8 +296,8 @@ class Proving {
   const WrittenMechanism& written_;
   const std::vector<Index>& contacts_;
   const GaussOptions& options_;
-  std::vector<Index> declared_;  // two-sided, or proved to touch
-  bool moved_ = false;           // a two-sided constraint does not hold at the state as written
+  std::vector<Index> declared_;  // by the file, or proved to touch
+  bool moved_ = false;           // what the file declares does not hold at the state as written
 };
 
 }  // namespace

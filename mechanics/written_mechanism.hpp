@@ -12,6 +12,9 @@ struct WrittenMechanism {
   StateText text;
   State state;
   StateRadii radii;
+  /// Constraints, in order, that the state declares to be in contact: as two-sided ones do, they hold by
+  /// declaration, whatever digits the state has.
+  std::vector<Index> in_contact = {};
 };
 
 /// Reads the state. Throws InvalidInput as `LagrangianSystem::state` does.

@@ -30,7 +30,7 @@ double number_of(const std::string& text) { return std::strtod(text.c_str(), nul
 /// The sections of a QPS file, numbers as they are written.
 class QpsReader {
  public:
-  explicit QpsReader(const std::string& text) : in_(text) {}
+  QpsReader(const std::string& text, bool is_fixed) : in_(text), is_fixed_(is_fixed) {}
 
   TomlValue document() {
     std::string line;
@@ -38,11 +38,10 @@ class QpsReader {
       ++line_;
       while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
       if (line.empty() || line[0] == '*' || line.find_first_not_of(" \t") == std::string::npos) continue;
-      const std::vector<std::string> words = split(line);
       if (line[0] != ' ' && line[0] != '\t')
-        begin_section(words);
+        begin_section(split(line));
       else
-        entry(words);
+        entry(is_fixed_ ? fields(line) : split(line));
     }
     if (!ended_) fail("no ENDATA at its end");
     if (columns_.empty()) fail("no column in COLUMNS");
@@ -71,6 +70,21 @@ class QpsReader {
     std::istringstream words(line);
     std::vector<std::string> found;
     for (std::string word; words >> word;) found.push_back(word);
+    return found;
+  }
+
+  /// The fields of the fixed format, in columns 2-3, 5-12, 15-22, 25-36, 40-47 and 50-61: names may have
+  /// blanks.
+  static std::vector<std::string> fields(const std::string& line) {
+    constexpr std::pair<std::size_t, std::size_t> columns[] = {{1, 2},   {4, 8},  {14, 8},
+                                                               {24, 12}, {39, 8}, {49, 12}};
+    std::vector<std::string> found;
+    for (const auto& [first, length] : columns) {
+      if (first >= line.size()) break;
+      const std::string field = line.substr(first, length);
+      const std::size_t begin = field.find_first_not_of(" \t"), end = field.find_last_not_of(" \t");
+      if (begin != std::string::npos) found.push_back(field.substr(begin, end - begin + 1));
+    }
     return found;
   }
 
@@ -230,6 +244,7 @@ class QpsReader {
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::istringstream in_;
+  bool is_fixed_;
   int line_ = 0;
   bool ended_ = false;
   std::string section_, objective_;
@@ -261,7 +276,18 @@ bool is_zero(const std::string& decimal) { return number_of(decimal) == 0; }
 
 }  // namespace
 
-TomlValue parse_qps(const std::string& text) { return QpsReader(text).document(); }
+/// In the free format; where a name with a blank in it is in the way, in the fixed one.
+TomlValue parse_qps(const std::string& text) {
+  try {
+    return QpsReader(text, false).document();
+  } catch (const InvalidInput&) {
+    try {
+      return QpsReader(text, true).document();
+    } catch (const InvalidInput&) {
+    }
+    throw;
+  }
+}
 
 std::string qps_text(const TomlValue& document, const std::string& name) {
   for (const TomlEntry& entry : document.table)

@@ -237,3 +237,62 @@ TEST_CASE("the function in C computes what derive prints") {
   for (const auto& [name, entry] : derived.at("U").at("stop").items()) CHECK(double(entry) == next());
   CHECK(double(derived.at("s").at("stop")) == next());
 }
+
+TEST_CASE("a bound is proved for a state with contacts by declaration, and covers the exact answer") {
+  // A mass on a string, moved onto the circle along its ray: at (31, -41)/sqrt(2642) * 5 it hangs at rest,
+  // and x'' = -g sin cos, y'' = -g sin^2, sin the horizontal part of the ray.
+  const std::string text =
+      "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\npotential = \"9.81*y\"\n"
+      "[system.constraints]\nstring = \"x^2 + y^2 <= 25\"\n[state]\nposition = { x = 3.1, y = -4.1 }\n"
+      "in_contact = [\"string\"]\n";
+  const Folder folder;
+  const Outcome outcome = run({"solve", "--certify", "--json", folder.write("problem.toml", text)});
+  CHECK(outcome.code == 0);
+  const Json found = Json::parse(outcome.out);
+  CHECK(found["certificate"]["level"] == "enclosure");
+  const double bound = found["certificate"]["error_bound"], length = std::sqrt(3.1 * 3.1 + 4.1 * 4.1);
+  CHECK(bound <= 1e-12);
+  const double sine = 3.1 / length, cosine = 4.1 / length;
+  const double off = std::hypot(found["acceleration"]["x"].get<double>() + 9.81 * sine * cosine,
+                                found["acceleration"]["y"].get<double>() + 9.81 * sine * sine);
+  CHECK(off <= bound + 4e-15);
+  // Without the declaration the digits that were found would not be on the circle.
+  CHECK(run({"solve", "--certify", folder.write("typed.toml", R"([system]
+coordinates = ["x", "y"]
+kinetic = "(x'^2 + y'^2)/2"
+potential = "9.81*y"
+[system.constraints]
+string = "x^2 + y^2 <= 25"
+[state]
+position = { x = 3.0155487, y = -3.98830635 }
+[solve]
+contact_tolerance = 1e-3
+)")})
+            .code == 3);
+}
+
+TEST_CASE("a QPS file in fixed columns is read where its names have blanks") {
+  // minimise 1/2 (2 x^2 + 2 y^2) - 2 x - 5 y over x + 2 y <= 2, x, y >= 0: by Lagrange's rule
+  // 2x - 2 = -l, 2y - 5 = -2l, x + 2y = 2: l = 1.6, x = 0.2, y = 0.9.
+  const std::string text =
+      "NAME          two plants\n"
+      "ROWS\n"
+      " N  the cost\n"
+      " L  row 1\n"
+      "COLUMNS\n"
+      "    plant A   the cost             -2.   row 1                 1.\n"
+      "    plant B   the cost             -5.   row 1                 2.\n"
+      "RHS\n"
+      "    rhs       row 1                 2.\n"
+      "QUADOBJ\n"
+      "    plant A   plant A               2.\n"
+      "    plant B   plant B               2.\n"
+      "ENDATA\n";
+  const Folder folder;
+  const Outcome outcome = run({"solve", "--json", folder.write("plants.qps", text)});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const Json found = Json::parse(outcome.out)["acceleration"];
+  CHECK(found["q[0]"].get<double>() == doctest::Approx(0.2).epsilon(1e-13));
+  CHECK(found["q[1]"].get<double>() == doctest::Approx(0.9).epsilon(1e-13));
+}
