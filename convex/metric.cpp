@@ -280,11 +280,10 @@ double Metric::norm(const Vector& x) const {
     return 0.0;
   };
   const double plain = plain_norm(x);
-  // Squares of numbers below this, and of those beyond its inverse, are no ordinary doubles.
-  constexpr double least = 0x1p-500;
-  if (plain >= least && plain <= 1 / least) return plain;
-  const double size = x.size() > 0 ? x.cwiseAbs().maxCoeff() : 0;
-  return size > 0 && std::isfinite(size) ? size * plain_norm(x / size) : plain;
+  // Squares of large numbers are beyond all doubles.
+  if (std::isfinite(plain)) return plain;
+  const double size = x.cwiseAbs().maxCoeff();
+  return std::isfinite(size) ? size * plain_norm(x / size) : plain;
 }
 
 Vector Metric::whiten(const Vector& c) const {
