@@ -45,7 +45,8 @@ class Proving {
     TextProof& proof = found_.text.emplace();
     decide_contacts(proof);
     found_.certificate = {ProofLevel::none, found_.solution.primal.error_bound};
-    prove_every_K(proof);
+    proof.vanishing = vanishing_rows();
+    if (proof.vanishing.empty()) prove_every_K(proof);
     if (found_.certificate.level == ProofLevel::none) proof.dependent = rows_within_radii();
   }
 
@@ -232,6 +233,22 @@ class Proving {
     found_.solution.primal.farkas = std::move(proof->farkas);
     found_.farkas = std::move(proof->weights);
     return OneProof{proof->level, false, 0};
+  }
+
+  /// One-sided contacts without a row.
+  std::vector<Index> vanishing_rows() const {
+    std::vector<Index> one_sided;
+    for (const Index a : contacts_)
+      if (!is_two_sided(a)) one_sided.push_back(a);
+    const convex::SparseRows U = written_.system->contact_rows(written_.state, one_sided).U;
+    std::vector<Index> vanishing;
+    for (std::size_t k = 0; k < one_sided.size(); ++k) {
+      bool is_zero = true;
+      for (convex::SparseRows::InnerIterator it(U, static_cast<Index>(k)); it; ++it)
+        is_zero = is_zero && it.value() == 0;
+      if (is_zero) vanishing.push_back(one_sided[k]);
+    }
+    return vanishing;
   }
 
   /// Two-sided rows that some numbers within the radii of the rows make combinations of others.

@@ -17,6 +17,9 @@ struct TextProof {
   /// Where nothing is proved: two-sided constraints whose gradients are combinations of others within what
   /// rounding leaves of them. The text does not tell whether they are; they count as that, and as consistent.
   std::vector<Index> dependent;
+  /// One-sided constraints of K whose gradient is 0 there: of them second derivatives tell nothing, and
+  /// nothing is proved.
+  std::vector<Index> vanishing;
   std::vector<Index> K;  ///< the rows of the solution below: the one K, or that of the tolerance
   std::optional<ExactGaussSolution> exact;           ///< the solution for K, where it is rational
   std::optional<convex::EnclosedSolution> enclosed;  ///< or in balls

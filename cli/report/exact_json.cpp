@@ -95,11 +95,14 @@ void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::Tex
     json.key(scene.constraints[a]).value(name(proof.contacts[a]));
   json.end_object();
   json.key("contacts_hold").value(proof.contacts_hold);
-  if (!proof.dependent.empty()) {
-    json.key("dependent").begin_array();
-    for (const convex::Index a : proof.dependent) json.value(scene.constraints[static_cast<std::size_t>(a)]);
+  const auto write_names = [&](const char* key, const std::vector<convex::Index>& named) {
+    if (named.empty()) return;
+    json.key(key).begin_array();
+    for (const convex::Index a : named) json.value(scene.constraints[static_cast<std::size_t>(a)]);
     json.end_array();
-  }
+  };
+  write_names("dependent", proof.dependent);
+  write_names("vanishing", proof.vanishing);
   json.key("error_bound");
   if (proof.error_bound)
     json.value(*proof.error_bound);

@@ -111,8 +111,7 @@ std::string map_text(const JudgedMap& judged) {
   std::string text = fmt::format("Not refuted at {} points, on cycles through them", verdict.points);
   if (verdict.polygons > 0) text += fmt::format(" and on {} polygons", verdict.polygons);
   text += ". Sampling can only refute: this is no proof.\n";
-  if (verdict.undefined > 0)
-    text += fmt::format("At {} points the map has no value.\n", verdict.undefined);
+  if (verdict.undefined > 0) text += fmt::format("At {} points the map has no value.\n", verdict.undefined);
   if (verdict.asymmetry > 0)
     text += fmt::format("Jacobian times metric: symmetric to {:.1e}, by differences.\n", verdict.asymmetry);
   if (judged.function) {

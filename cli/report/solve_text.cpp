@@ -156,6 +156,9 @@ std::string from_text_text(const SolvedScene& solved) {
   else if (!is_proved(solved.certificate))
     text += proof.contacts_hold ? "; no bound on the acceleration is proved from there"
                                 : ". Nothing is proved of the mechanism as written";
+  if (!proof.vanishing.empty())
+    text += fmt::format(". The gradient of {} is 0 there: second derivatives do not tell what it asks for",
+                        constraints_text(solved, proof.vanishing));
   if (!proof.dependent.empty())
     text += fmt::format(
         ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does "

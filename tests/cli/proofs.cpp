@@ -152,3 +152,21 @@ position = { x = 0 }
   CHECK(answer.at("from_text").at("farkas") == Json{{"left", "1"}, {"right", "1"}});
   CHECK(answer.at("from_text").at("contacts_hold") == true);
 }
+
+TEST_CASE(
+    "nothing is proved where the gradient of a one-sided contact vanishes, for second derivatives do not "
+    "tell") {
+  const Folder folder;
+  for (const char* f : {"y^3 >= 0", "y^3 >= x^2", "y^2 >= x^2 + x^3"}) {
+    CAPTURE(f);
+    const std::string file = folder.write(
+        "p.toml", std::string("[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + y'^2)/2\"\n"
+                              "potential = \"9.81*y\"\n[system.constraints]\nc = \"") +
+                      f + "\"\n[state]\nposition = { x = 0, y = 0 }\n");
+    const Outcome outcome = run({"solve", "--certify", "--json", file});
+    CHECK(outcome.code == 3);
+    const Json answer = Json::parse(outcome.out);
+    CHECK(answer["certificate"]["level"] == "none");
+    CHECK(answer["from_text"]["vanishing"] == Json::array({"c"}));
+  }
+}
