@@ -105,7 +105,7 @@ std::vector<Contest> motion_contests(MotionExam asked, long steps) {
 MotionExam falling_ball(double until) {
   constexpr double e = 0.9;
   MotionExam exam;
-  exam.name = fmt::format("ball, e 0.9, to t = {:g}", until);
+  exam.name = fmt::format("ball with e 0.9 to t {:g}", until);
   exam.text.coordinates = {{"y", {}}};
   exam.text.kinetic = {"y'^2/2", {}};
   exam.text.potential = mechanics::Text{"9.81*y", {}};
@@ -123,7 +123,7 @@ MotionExam falling_ball(double until) {
 MotionExam stopped_oscillator(double until) {
   constexpr double e = 0.8;
   MotionExam exam;
-  exam.name = fmt::format("oscillator with a stop, to t = {:g}", until);
+  exam.name = fmt::format("oscillator with a stop to t {:g}", until);
   exam.text.coordinates = {{"x", {}}};
   exam.text.kinetic = {"x'^2/2", {}};
   exam.text.potential = mechanics::Text{"x^2/2", {}};
@@ -142,7 +142,7 @@ MotionExam stopped_oscillator(double until) {
 
 MotionExam kepler_orbit(int periods) {
   MotionExam exam;
-  exam.name = periods == 1 ? "Kepler orbit, 1 period" : fmt::format("Kepler orbit, {} periods", periods);
+  exam.name = periods == 1 ? "Kepler orbit for 1 period" : fmt::format("Kepler orbit for {} periods", periods);
   exam.text.coordinates = {{"x", {}}, {"y", {}}};
   exam.text.kinetic = {"(x'^2 + y'^2)/2", {}};
   exam.text.potential = mechanics::Text{"-1/sqrt(x^2 + y^2)", {}};
