@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
 
 namespace cli {
 namespace {
@@ -157,7 +159,11 @@ SplitPoint split_point(const DecompositionProblem& problem, const SolveSettings&
       made.proof = convex::prove(question, made.split);
     }
     if (made.proof->level != convex::ProofLevel::none) {
-      const double size = std::max({1.0, problem.W.norm(problem.z), problem.W.norm(made.split.x.x)});
+      // ||z||_W of fractions, which does not overflow where the squares of doubles do; ||x|| enters where the
+      // doubles have it.
+      const convex::ProvedMetric W(question.W);
+      const double of_x = problem.W.norm(made.split.x.x);
+      const double size = std::max({1.0, W.norm_above(question.z), std::isfinite(of_x) ? of_x : 0.0});
       made.split.error_bound = made.proof->error_bound();
       made.split.status =
           made.split.error_bound <= tolerance * size ? convex::Status::solved : convex::Status::inaccurate;

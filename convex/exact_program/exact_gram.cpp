@@ -71,8 +71,11 @@ Metric rounded(const ExactGram& W) {
 }
 
 Fractions multiply(const ExactGram& W, const Fractions& x) {
-  Fractions product;
-  for (const ExactRow& row : W.rows) product.push_back(dot(row, x));
+  // Over one denominator x costs no common factors in each of the products.
+  const ExactVector whole = exact_vector(x);
+  Fractions numerators, product;
+  for (const Integer& entry : whole.numerators) numerators.push_back({entry, 1});
+  for (const ExactRow& row : W.rows) product.push_back(dot(row, numerators) * Fraction{1, whole.denominator});
   return product;
 }
 

@@ -1,5 +1,6 @@
 #include "convex/exact_program/exact_minimum.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 #include "convex/exact_program/cgal_program.hpp"
@@ -199,6 +200,12 @@ ExactMinimum minimum_of(const ExactProgram& f, const ExactGram* W, const Fractio
 }
 
 }  // namespace
+
+std::size_t largest_part(const ExactProgram& f, const ExactGram* W) {
+  std::size_t largest = 0;
+  for (const Part& part : parts_of(f, W)) largest = std::max(largest, part.variables.size());
+  return largest;
+}
 
 std::optional<GraphPoint> graph_point(const ExactProgram& f, const Fractions& xi, const Fractions& lambda) {
   Fractions slope(f.variables());

@@ -21,6 +21,10 @@ struct GraphPoint {
 /// the stationarity in w alone: v is what comes out.
 std::optional<GraphPoint> graph_point(const ExactProgram& f, const Fractions& xi, const Fractions& lambda);
 
+/// The number of variables of the largest part of f that shares no row or curvature with the rest, coupled by
+/// W too unless null: what the work of everything below grows with.
+std::size_t largest_part(const ExactProgram& f, const ExactGram* W);
+
 /// A graph point with x + v near p (the resolvent (I + ∂f)⁻¹ p rounded, then put on the graph in fractions);
 /// none where the rows that doubles found active do not lead to one.
 std::optional<GraphPoint> near_graph_point(const ExactProgram& f, const Vector& p);

@@ -1,6 +1,31 @@
 #include "convex/exact_program/exact_program.hpp"
 
 namespace convex {
+namespace {
+
+/// Σ a_j b_j over the least common denominator so far: common factors are looked for once, at the end.
+class ProductSum {
+ public:
+  void add(const Fraction& a, const Fraction& b) {
+    if (sign(a) == 0 || sign(b) == 0) return;
+    const Integer own = a.denominator * b.denominator;
+    const Integer product = a.numerator * b.numerator;
+    if (own == denominator_) {
+      numerator_ += product;
+      return;
+    }
+    const Integer common = greatest_common_divisor(own, denominator_);
+    const Integer wider = exact_quotient(own, common);
+    numerator_ = numerator_ * wider + product * exact_quotient(denominator_, common);
+    denominator_ *= wider;
+  }
+  Fraction value() const { return lowest_terms({numerator_, denominator_}); }
+
+ private:
+  Integer numerator_ = 0, denominator_ = 1;
+};
+
+}  // namespace
 
 void add(ExactRow& a, std::size_t j, const Fraction& value) {
   if (sign(value) == 0) return;
@@ -15,17 +40,15 @@ void add(ExactRow& a, const ExactRow& b, const Fraction& factor) {
 }
 
 Fraction dot(const ExactRow& a, const Fractions& xi) {
-  Fraction sum;
-  for (const auto& [j, value] : a)
-    if (sign(xi[j]) != 0) sum = sum + value * xi[j];
-  return sum;
+  ProductSum sum;
+  for (const auto& [j, value] : a) sum.add(value, xi[j]);
+  return sum.value();
 }
 
 Fraction dot(const Fractions& a, const Fractions& b) {
-  Fraction sum;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    if (sign(a[i]) != 0 && sign(b[i]) != 0) sum = sum + a[i] * b[i];
-  return sum;
+  ProductSum sum;
+  for (std::size_t i = 0; i < a.size(); ++i) sum.add(a[i], b[i]);
+  return sum.value();
 }
 
 bool ExactProgram::is_polyhedral() const {

@@ -335,7 +335,9 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
   const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&
                         split.error_bound <= enough;  // each by itself: a maximum may hide a NaN
-  const bool finite = std::isfinite(split.f_x) && std::isfinite(split.g_y);
+  // Where squares overflow, an infinite bound would be within an infinite tolerance.
+  const bool finite =
+      std::isfinite(split.f_x) && std::isfinite(split.g_y) && std::isfinite(split.error_bound);
   if (accurate && finite && split.status == Status::solved) return split;
   const bool gave_up = split.x.status == Status::gave_up || split.y.status == Status::gave_up;
   split.status = gave_up ? Status::gave_up : Status::inaccurate;

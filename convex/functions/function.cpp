@@ -30,6 +30,7 @@ void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Pro
   constexpr double roundings = 64 * unit_roundoff, negligible = 1e-13;
   const double length = W.norm(found.x);
   const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
+  if (!std::isfinite(rounding)) return;  // squares overflow: nothing is known of what is small beside it
   // The length of what is not 0 may underflow.
   if (found.x.isZero(0) || !std::isfinite(rounding) || !(length <= std::max(rounding, found.error_bound)))
     return;

@@ -55,8 +55,14 @@ void enclose_values(const ProvedMetric& W, const Proof& proof, ProvedSplit& made
   made.g_y = outwards(g_low, product + of_inner - f_low);
 }
 
+/// Programs with larger parts are not put on a graph in fractions; those beyond the second are not solved in
+/// fractions where doubles do not find the active rows, and those beyond the third not at all.
+constexpr std::size_t most_on_graph = 1500, most_without_guess = 300, most_in_fractions = 1000;
+constexpr const char* too_large = "its program has too many variables for fractions";
+
 /// The graph point of a pair search that doubles did not put right, from the exact prox.
 PairSearch exact_pair(const ExactProgram& f, const ProvedMetric& W, const Fractions& z) {
+  if (largest_part(f, &W.gram()) > most_without_guess) return {std::nullopt, too_large};
   if (ExactMinimum found = exact_prox(f, W.gram(), z); found.at)
     return {proof_pair(std::move(*found.at)), {}};
   return {std::nullopt, "its quadratic program has no minimum in fractions"};
@@ -87,6 +93,10 @@ ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
   const Vector of_y = usable(split.y.v, y) ? split.y.v : in_doubles.multiply(z - y);
   Proof first, second;
   if (const auto program = exact_program(question.f, question.W)) {
+    if (largest_part(*program, nullptr) > most_on_graph) {
+      made.why_none = too_large;
+      return made;
+    }
     const ExactProgram dual = exact_programs::conjugate(*program);
     PairSearch near_x, near_y;
     if (auto at = near_graph_point(*program, x + of_x)) near_x.pair = proof_pair(std::move(*at));
@@ -94,7 +104,9 @@ ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
                         : judged(exact_pair(*program, W, question.z), W, question.z);
     if (auto at = near_graph_point(dual, in_doubles.multiply(y) + in_doubles.solve(of_y)))
       near_y.pair = turned_round(proof_pair(std::move(*at)));
-    if (!near_y.pair) {  // the prox of g in W: y, and a covector Wx of it
+    const bool may_solve = largest_part(*program, &question.W) <= most_without_guess;
+    if (!near_y.pair && !may_solve) near_y.why_none = too_large;
+    if (!near_y.pair && may_solve) {  // the prox of g in W: y, and a covector Wx of it
       const ExactProgram g = exact_programs::conjugate(*program, question.W);
       if (ExactMinimum found = exact_prox(g, question.W, question.z); found.at) {
         near_y.pair = ProofPair{difference(question.z, found.at->x),
@@ -140,6 +152,9 @@ ExactSplit exact_split(const SplitQuestion& question) {
         "the method out, or ask for --certify");
   if (!ProvedMetric(question.W).is_proved_definite())
     throw InvalidInput("metric: not proved positive definite; give a better conditioned one");
+  if (largest_part(*program, &question.W) > most_in_fractions)
+    throw InvalidInput(
+        "method \"exact\": fractions are out of reach for so many variables; leave the method out");
   const ExactMinimum x = exact_prox(*program, question.W, question.z);
   const ExactMinimum y = exact_prox(exact_programs::conjugate(*program, question.W), question.W, question.z);
   invariant(x.at && y.at, "the prox of a convex function exists, and is found in fractions");

@@ -132,3 +132,18 @@ TEST_CASE(
   CHECK(refused.err.find("no rule") != std::string::npos);
   CHECK(run({"subdifferential", "norm1()", "--at", "[1,2]", "--covector", "[1]"}).code == 2);
 }
+
+TEST_CASE("numbers whose squares overflow are not called solved within an infinite bound") {
+  for (const std::string f : {"point(0)", "norm1()", "squared_norm2()", "max()"})
+    for (const std::vector<std::string>& proof :
+         {std::vector<std::string>{}, {"--certify"}, {"--method", "exact"}}) {
+      CAPTURE(f);
+      std::vector<std::string> arguments = {"prox", f, "--at", "[1e200,-1e200]", "--json"};
+      arguments.insert(arguments.end(), proof.begin(), proof.end());
+      const Json answer = json_of(arguments);
+      const Json& bound = answer["certificate"]["error_bound"];
+      const bool small = bound.is_number() && bound.get<double>() <= 1e192;
+      CHECK((answer["status"] == "solved") == small);
+      if (!proof.empty() && proof[0] == "--method") CHECK(small);
+    }
+}
