@@ -84,6 +84,18 @@ bool a_part_grows(const Function& f, const Vector& v) {
   return false;
 }
 
+/// Along t prox_f(v/t) in t times the plain metric, which for small t comes to v less its nearest point of
+/// the closed domain of f* (Moreau 1965): the way out of that domain, where v is outside of it.
+bool recedes_far_out(const Function& f, const Vector& v) {
+  const double unit = std::max(1.0, v.norm());
+  for (const double part : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    const double t = part * unit;
+    const Prox at = prox_of(f, v / t, t);
+    if (at.x.size() == v.size() && at.x.allFinite() && recedes(f, v, direction_of(at.x))) return true;
+  }
+  return false;
+}
+
 struct Search {
   Value value;
   bool growing = false;  ///< the lower bounds grow as if without end
@@ -169,13 +181,17 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   const Value other = supremum(f, v);
   if (!std::isfinite(found.value)) {
     // A program says +inf where it finds the domains apart, which rounding can feign, and -inf on one look.
+    if (found.value == infinity && recedes_far_out(f, v)) return {infinity, 0};
     const bool agree = found.value == other.value;
     return agree || other.error < infinity ? other : Value{found.value, infinity};
   }
   const double apart = std::abs(other.value - found.value);
   const bool contradict = other.error < infinity && apart > other.error + found.error;
-  if (contradict) return {std::max(other.value, found.value), apart};
-  return other.error < found.error ? other : found;
+  Value best = other.error < found.error ? other : found;
+  if (contradict) best = {std::max(other.value, found.value), apart};
+  // A program takes what misses the domain by less than it is solved to for a point of it.
+  const bool is_open = !(best.error <= settled * std::max(std::abs(best.value), small));
+  return is_open && recedes_far_out(f, v) ? Value{infinity, 0} : best;
 }
 
 }  // namespace convex
