@@ -1,12 +1,10 @@
 #include "mechanics/motion/expansion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "mechanics/gauss_problem.hpp"
 
 namespace mechanics {
 
@@ -28,15 +26,6 @@ bool is_in_doubt(double part) {
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
 
-/// Up to so many coordinates A is written down in full.
-constexpr Index small_system = 32;
-
-/// More than any series has coefficients.
-constexpr std::size_t most_orders = 64;
-
-/// Columns of A found in one sweep.
-constexpr std::size_t lanes_at_once = 8;
-
 std::vector<Slot> asked_for(const expression::Program& program) {
   std::vector<Slot> found;
   for (std::size_t group = 0; group < program.groups(); ++group)
@@ -54,7 +43,7 @@ Expansion::Expansion(const expression::LagrangianModel& model, int order)
       series_(steps_, asked_for(equations_.program), order),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))) {
-  convex::invariant(order >= 2 && order < static_cast<int>(most_orders), "a motion needs accelerations");
+  convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
 }
 
 void Expansion::set(const State& state) {
@@ -100,85 +89,6 @@ void Expansion::check_finite() const {
   for (const auto& [i, slot] : equations_.force) look(slot);
   for (const Slot slot : equations_.constraint) look(slot);
   if (spoiled != 0) refuse_order(1);
-}
-
-/// A = ∂p/∂q', by columns.
-void Expansion::find_inertia() {
-  const Index n = coordinates();
-  const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
-  columns_.assign(series_.series() * lanes, 0.0);
-  const bool is_small = n <= small_system;
-  if (is_small) small_.resize(n, n);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
-    const Index count = std::min(static_cast<Index>(lanes), n - first);
-    const auto seed = [&](double one) {
-      for (Index l = 0; l < count; ++l)
-        columns_[equations_.program.velocity(index(first + l)) * lanes + index(l)] = one;
-    };
-    seed(1);
-    series_.carry(columns_, lanes);
-    for (Index i = 0; i < n; ++i)
-      for (Index l = 0; l < count; ++l)
-        if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; is_small)
-          small_(i, first + l) = a;
-        else if (a != 0)
-          entries.emplace_back(i, first + l, a);
-    seed(0);
-  }
-  A_.reset();
-  factor_.forget();
-  if (is_small) {
-    for (Index i = 0; i < n; ++i)
-      for (Index j = 0; j < i; ++j) small_(i, j) = small_(j, i) = 0.5 * (small_(i, j) + small_(j, i));
-    if (!factor_.make(small_)) inertia();
-    return;
-  }
-  convex::SparseMatrix columns(n, n);
-  columns.setFromTriplets(entries.begin(), entries.end());
-  const convex::SparseMatrix transposed = columns.transpose();
-  A_ = kinetic_metric(convex::SparseMatrix(0.5 * (columns + transposed)), model_.coordinates);
-}
-
-const convex::Metric& Expansion::inertia() const {
-  if (A_) return *A_;
-  if ((small_.diagonal().array() > 0).all() && small_.isDiagonal(0))
-    A_ = convex::Metric::diagonal(small_.diagonal());
-  else
-    A_ = kinetic_metric(small_.sparseView(0, 0), model_.coordinates);
-  return *A_;
-}
-
-double Expansion::norm(const Vector& x) const {
-  return factor_.is_made() ? factor_.norm({x.data(), static_cast<std::size_t>(x.size())}) : inertia().norm(x);
-}
-
-void Expansion::sizes(std::vector<double>& of_order) const {
-  const auto count = static_cast<std::size_t>(order_) + 1;
-  of_order.assign(count, 0.0);
-  if (!factor_.is_made()) {
-    Vector q(coordinates());
-    for (std::size_t k = 0; k < count; ++k) {
-      for (Index i = 0; i < q.size(); ++i) q[i] = position(i)[k];
-      of_order[k] = inertia().norm(q);
-    }
-    return;
-  }
-  std::array<double, most_orders> most{}, scale{}, entry;  // squares may be too large for doubles
-  for (Index i = 0; i < coordinates(); ++i)
-    for (std::size_t k = 0; k < count; ++k) most[k] = std::max(most[k], std::abs(position(i)[k]));
-  for (std::size_t k = 0; k < count; ++k) scale[k] = std::isnormal(most[k]) ? 1 / most[k] : 0;
-  for (Index j = 0; j < coordinates(); ++j) {
-    entry.fill(0);
-    for (Index i = j; i < coordinates(); ++i) {
-      const double l = factor_(i, j);
-      const double* q = position(i).data();
-      for (std::size_t k = 0; k < count; ++k) entry[k] += l * (q[k] * scale[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) of_order[k] += entry[k] * entry[k];
-  }
-  for (std::size_t k = 0; k < count; ++k)
-    of_order[k] = scale[k] > 0 ? most[k] * std::sqrt(of_order[k]) : most[k];
 }
 
 double Expansion::drift(Index a) const { return rate(a) - row(a).dot(state_.v); }

@@ -103,6 +103,8 @@ class Expansion {
   std::span<const double> f_of(Index a) const {
     return {f_.data() + a * (order_ + 1), static_cast<std::size_t>(order_ + 1)};
   }
+  /// More than any series has coefficients.
+  static constexpr int most_orders = 64;
   static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
   void find_inertia();
   void take_branches();

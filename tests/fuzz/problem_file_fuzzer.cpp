@@ -84,7 +84,9 @@ void solve(const cli::DecompositionProblem& problem) {
 void solve(const cli::LiquidProblem& problem) {
   mechanics::liquid::LiquidText text = problem.text;
   text.cells = coarse_cells;
-  mechanics::liquid::solve_liquid(mechanics::liquid::read_scene(text));
+  mechanics::liquid::LiquidAccuracy accuracy;
+  accuracy.proved = true;
+  mechanics::liquid::solve_liquid(mechanics::liquid::read_scene(text), accuracy);
 }
 
 void run(const std::string& text) {
