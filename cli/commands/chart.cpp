@@ -14,6 +14,7 @@
 #include "cli/measurement/charted_problems.hpp"
 #include "cli/measurement/exams.hpp"
 #include "cli/measurement/motion_exams.hpp"
+#include "cli/measurement/peers.hpp"
 #include "cli/measurement/progress.hpp"
 #include "cli/measurement/rank_correlation.hpp"
 #include "cli/measurement/trial_files.hpp"
@@ -33,6 +34,7 @@ struct ChartOptions : MeasurementOptions, Overrides {
   std::optional<std::string> relative_to;  ///< the method whose times are the unit
   std::string error = "acceleration";      ///< what the error is of
   bool profile = false, motion = false;
+  bool peers = false;  ///< with the solvers of other packages
 };
 
 /// A direct method has one accuracy; the others are asked for each of these, and no further once two in a row
@@ -134,15 +136,20 @@ std::string table_text(const std::vector<Trial>& trials, const DrawnAs& drawn) {
 }
 
 std::vector<ChartedProblem> asked_problems(const ChartOptions& options) {
+  if (options.peers && options.motion)
+    throw InvalidInput("--peers are solvers of contact problems; leave --motion out");
+  if (options.peers) require_peers();
   if (options.motion) {
     if (!options.files.empty() || options.profile)
       throw InvalidInput("--motion has its own motions, with closed forms; leave FILE and --profile out");
     return charted_motions(options.quick);
   }
   if (options.files.empty())
-    return options.profile ? profiled_problems(options.quick) : charted_problems(options.quick);
+    return options.profile ? profiled_problems(options.quick, options.peers)
+                           : charted_problems(options.quick, options.peers);
   std::vector<ChartedProblem> problems;
-  for (const std::string& file : options.files) problems.push_back(charted_file(file, options.settings));
+  for (const std::string& file : options.files)
+    problems.push_back(charted_file(file, options.settings, options.peers));
   return problems;
 }
 
@@ -240,6 +247,8 @@ void add_chart(CLI::App& program, Work& chosen) {
       .add_option("--error", options->error,
                   "the error charted: that of the acceleration, or of the multipliers")
       ->check(CLI::IsMember({"acceleration", "multipliers"}));
+  command.add_flag("--peers", options->peers,
+                   "with the solvers of other packages that were found at build time");
   command.add_flag("--profile", options->profile,
                    "performance profiles over the files, or over the whole gallery, small");
   command.add_flag("--motion", options->motion,

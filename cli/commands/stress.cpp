@@ -69,7 +69,7 @@ convex::Accuracy asked_accuracy(const StressOptions& options) {
 }
 
 std::vector<StressTrial> stressed(const StressOptions& options) {
-  if (options.peers && !why_no_peers().empty()) throw InvalidInput(why_no_peers());
+  if (options.peers) require_peers();
   std::vector<StressFamily> families = asked_families(options);
   std::size_t steps = 0;
   for (StressFamily& family : families) {

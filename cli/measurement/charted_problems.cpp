@@ -7,6 +7,7 @@
 
 #include "cli/measurement/exams.hpp"
 #include "cli/measurement/motion_exams.hpp"
+#include "cli/measurement/peers.hpp"
 #include "cli/measurement/prox_exams.hpp"
 
 namespace cli {
@@ -16,11 +17,12 @@ using convex::Index;
 
 constexpr double charted_condition = 1e6;
 
-ChartedProblem of_gallery(const char* family, Index size, double difficulty, const std::string& title) {
+ChartedProblem of_gallery(const char* family, Index size, double difficulty, const std::string& title,
+                          bool peers) {
   return {title, [=] {
             Exam exam = gallery_exam(*convex::find_family(family), size, difficulty);
             exam.name = title;
-            return contests(std::move(exam));
+            return everybody(exam, peers);
           }};
 }
 
@@ -35,16 +37,16 @@ ChartedProblem of_prox(Charted f, const char* title) {
 
 }  // namespace
 
-std::vector<ChartedProblem> charted_problems(bool quick) {
+std::vector<ChartedProblem> charted_problems(bool quick, bool peers) {
   std::vector<ChartedProblem> all;
-  all.push_back(of_gallery("well-posed", 12, 0.5, "small dense"));
-  if (!quick) all.push_back(of_gallery("well-posed", 150, 0.5, "large dense"));
-  all.push_back(of_gallery("redundant", quick ? 16 : 40, 4, "redundant"));
-  all.push_back(of_gallery("ill-conditioned", 16, 1e8, "ill-conditioned, cond(A) 1e8"));
-  all.push_back(of_gallery("chain", quick ? 40 : 300, 1e4, "chain, mass ratio 1e4"));
+  all.push_back(of_gallery("well-posed", 12, 0.5, "small dense", peers));
+  if (!quick) all.push_back(of_gallery("well-posed", 150, 0.5, "large dense", peers));
+  all.push_back(of_gallery("redundant", quick ? 16 : 40, 4, "redundant", peers));
+  all.push_back(of_gallery("ill-conditioned", 16, 1e8, "ill-conditioned, cond(A) 1e8", peers));
+  all.push_back(of_gallery("chain", quick ? 40 : 300, 1e4, "chain, mass ratio 1e4", peers));
   if (!quick) {
-    all.push_back(of_gallery("hexagonal-packing", 100, 0.5, "hexagonal packing"));
-    all.push_back(of_gallery("obstacle", 16, 0.5, "obstacle"));
+    all.push_back(of_gallery("hexagonal-packing", 100, 0.5, "hexagonal packing", peers));
+    all.push_back(of_gallery("obstacle", 16, 0.5, "obstacle", peers));
   }
   all.push_back(of_prox(Charted::norm1, "norm1"));
   if (!quick) all.push_back(of_prox(Charted::simplex, "the simplex"));
@@ -53,15 +55,15 @@ std::vector<ChartedProblem> charted_problems(bool quick) {
   return all;
 }
 
-std::vector<ChartedProblem> profiled_problems(bool quick) {
+std::vector<ChartedProblem> profiled_problems(bool quick, bool peers) {
   const Index small = quick ? 6 : 12;
   std::vector<ChartedProblem> all;
   for (const convex::GalleryFamily& family : convex::gallery()) {
     if (family.name == "infeasible") continue;
     const std::vector<double> usual{family.usual};
     for (const double difficulty : quick ? std::span<const double>(usual) : family.ladder)
-      all.push_back(
-          of_gallery(family.name.data(), small, difficulty, fmt::format("{} {:g}", family.name, difficulty)));
+      all.push_back(of_gallery(family.name.data(), small, difficulty,
+                               fmt::format("{} {:g}", family.name, difficulty), peers));
   }
   return all;
 }
@@ -81,9 +83,9 @@ std::vector<ChartedProblem> charted_motions(bool quick) {
   return all;
 }
 
-ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings) {
+ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings, bool peers) {
   const auto exam = std::make_shared<const Exam>(file_exam(read_scene(file, {}, {settings})));
-  return {exam->name, [exam] { return contests(*exam); }};
+  return {exam->name, [exam, peers] { return everybody(*exam, peers); }};
 }
 
 }  // namespace cli

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/measurement/peers.hpp"
 #include "convex/exact/fraction.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
@@ -55,9 +56,9 @@ std::vector<std::string> contestant_names() {
   std::vector<std::string> names;
   for (const convex::Method& method : contestants()) names.emplace_back(method.name);
   // Of the convex layer and of other packages, where a problem has them.
-  for (const char* name : {"iterative", "both-halves", "proximal-gradient", "difference", "facets",
-                           "siconos-lemke", "siconos-pgs", "siconos-newton-fb"})
+  for (const char* name : {"iterative", "both-halves", "proximal-gradient", "difference", "facets"})
     names.emplace_back(name);
+  for (std::string& name : peer_names()) names.push_back(std::move(name));
   return names;
 }
 

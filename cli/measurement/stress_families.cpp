@@ -14,13 +14,6 @@ namespace {
 using convex::GalleryFamily;
 using convex::Index;
 
-std::vector<Contest> everybody(const Exam& exam, bool peers) {
-  std::vector<Contest> all = contests(exam);
-  if (peers)
-    for (Contest& contest : peer_contests(exam)) all.push_back(std::move(contest));
-  return all;
-}
-
 /// Sizes at which every method can be expected to end.
 Index stressed_size(const GalleryFamily& family, Index size) {
   if (family.name == "obstacle") return std::max<Index>(4, size / 2 + 2);
