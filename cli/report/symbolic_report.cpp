@@ -86,8 +86,8 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
     if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
     const convex::Call call = parse_call(options.expression, "f");
     // What the language refuses, symbols refuse with the same words.
-    convex::make_function(call, {convex::Metric::identity(1)});
-    const symbolic::Function f = symbolic::function_of(call);
+    convex::make_function(call, {convex::Metric::identity(1).scaled(convex::nearest_double(w))});
+    const symbolic::Function f = symbolic::function_of(call, w);
     std::vector<NamedCases> told;
     if (is_prox) {
       const symbolic::Cases itself = symbolic::formula(f);

@@ -1,9 +1,13 @@
 #include "convex/symbolic/function_of_call.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
+#include "convex/catalogue/catalogue.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/invariant.hpp"
 
 namespace convex::symbolic {
 namespace {
@@ -14,55 +18,75 @@ const Fraction nought{0, 1}, single{1, 1};
   throw InvalidInput(call.name + ": " + why + "; without --symbolic it is computed in numbers", call.place);
 }
 
-/// Arguments by position or by name.
+/// Arguments by position or by name, with the defaults of the catalogue.
 class CallReader {
  public:
-  explicit CallReader(const Call& call) : call_(call) {}
+  CallReader(const Call& call, const Fraction& weight)
+      : call_(call), entry_(find_entry(call.name)), weight_(weight) {
+    if (entry_ == nullptr) no_rule(call, "there is no such name");
+  }
 
-  const Argument* find(std::size_t position, const std::string& key) const {
+  const Argument* find(std::string_view key) const {
+    const std::size_t position = place(key);
     for (std::size_t k = 0; k < call_.arguments.size(); ++k) {
-      const NamedArgument& one = call_.arguments[k];
-      if (one.key.empty() ? k == position : one.key == key) return &one.value;
+      const NamedArgument& given = call_.arguments[k];
+      if (given.key.empty() ? k == position : given.key == key) return &given.value;
     }
     return nullptr;
   }
   /// A number, or a vector or matrix of one entry; infinite: none.
-  std::optional<Fraction> bound(std::size_t position, const std::string& key, double fallback) const {
-    const Argument* found = find(position, key);
-    double number = fallback;
-    if (found != nullptr) {
-      if (const auto* plain = std::get_if<double>(found))
-        number = *plain;
-      else if (const auto* vector = std::get_if<Vector>(found); vector != nullptr && vector->size() == 1)
-        number = (*vector)[0];
-      else if (const auto* matrix = std::get_if<Matrix>(found); matrix != nullptr && matrix->size() == 1)
-        number = (*matrix)(0, 0);
-      else
-        no_rule(call_, key + " is not one number, and symbols have one variable");
-    }
+  std::optional<Fraction> bound(std::string_view key) const {
+    const Argument* found = find(key);
+    double number = 0;
+    if (found == nullptr)
+      number = declared_default(key);
+    else if (const auto* plain = std::get_if<double>(found))
+      number = *plain;
+    else if (const auto* vector = std::get_if<Vector>(found); vector != nullptr && vector->size() == 1)
+      number = (*vector)[0];
+    else if (const auto* matrix = std::get_if<Matrix>(found); matrix != nullptr && matrix->size() == 1)
+      number = (*matrix)(0, 0);
+    else
+      no_rule(call_, std::string(key) + " is not one number, and symbols have one variable");
     if (std::isinf(number)) return std::nullopt;
     return simplest_fraction(number);
   }
-  Fraction number(std::size_t position, const std::string& key, double fallback = std::nan("")) const {
-    const auto found = bound(position, key, std::isnan(fallback) ? 0 : fallback);
-    if (!found) no_rule(call_, key + " is not finite");
-    if (std::isnan(fallback) && find(position, key) == nullptr) no_rule(call_, key + " is missing");
+  Fraction number(std::string_view key) const {
+    const auto found = bound(key);
+    if (!found) no_rule(call_, std::string(key) + " is not finite");
     return *found;
   }
-  const Call& call(std::size_t position, const std::string& key) const {
-    const Argument* found = find(position, key);
-    const auto* inner = found != nullptr ? std::get_if<std::shared_ptr<const Call>>(found) : nullptr;
-    if (inner == nullptr) no_rule(call_, key + " is no function");
-    return **inner;
-  }
-  Function function(std::size_t position, const std::string& key) const {
-    return function_of(call(position, key));
+  const Call& call(std::string_view key) const { return call_in(find(key)); }
+  Function function(std::string_view key) const { return function_of(call(key), weight_); }
+  const Fraction& weight() const { return weight_; }
+  /// Of a list of functions.
+  Function function_at(std::size_t position) const {
+    return function_of(call_in(&call_.arguments[position].value), weight_);
   }
   std::size_t count() const { return call_.arguments.size(); }
   const Call& itself() const { return call_; }
 
  private:
+  std::size_t place(std::string_view key) const {
+    const auto& parameters = entry_->parameters;
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [key](const Parameter& parameter) { return parameter.name == key; });
+    invariant(found != parameters.end(), "a rule names the arguments of the catalogue");
+    return static_cast<std::size_t>(found - parameters.begin());
+  }
+  double declared_default(std::string_view key) const {
+    const std::string text(entry_->parameters[place(key)].fallback);
+    if (text.empty()) no_rule(call_, std::string(key) + " is missing");
+    return std::strtod(text.c_str(), nullptr);
+  }
+  const Call& call_in(const Argument* argument) const {
+    const auto* inner = argument != nullptr ? std::get_if<std::shared_ptr<const Call>>(argument) : nullptr;
+    if (inner == nullptr) no_rule(call_, "an argument is no function");
+    return **inner;
+  }
   const Call& call_;
+  const CatalogueEntry* entry_;
+  Fraction weight_;
 };
 
 ExactPiece piece(std::optional<Fraction> low, std::optional<Fraction> high, const Fraction& c2,
@@ -92,7 +116,7 @@ ExactCurve huber(const Fraction& mu) {
 }
 
 ExactCurve plq(const CallReader& in) {
-  const Argument *breaks = in.find(0, "breaks"), *coefficients = in.find(1, "coefficients");
+  const Argument *breaks = in.find("breaks"), *coefficients = in.find("coefficients");
   const auto* b = breaks != nullptr ? std::get_if<Vector>(breaks) : nullptr;
   const auto* c = coefficients != nullptr ? std::get_if<Matrix>(coefficients) : nullptr;
   if (b == nullptr || c == nullptr || c->rows() != b->size() + 1 || c->cols() != 3)
@@ -111,18 +135,19 @@ ExactCurve plq(const CallReader& in) {
 
 /// The interval of a set.
 ExactCurve set_of(const Call& call) {
-  const CallReader in(call);
-  const double infinity = HUGE_VAL;
-  if (call.name == "box") return interval(in.bound(0, "lower", -infinity), in.bound(1, "upper", infinity));
+  const CallReader in(call, single);
+  if (call.name == "box") return interval(in.bound("lower"), in.bound("upper"));
   if (call.name == "orthant") return interval(nought, std::nullopt);
-  if (call.name == "point") return interval(in.number(0, "p"), in.number(0, "p"));
+  if (call.name == "point") return interval(in.number("p"), in.number("p"));
   if (call.name == "ball1" || call.name == "ball_inf" || call.name == "ball2") {
-    const Fraction radius = in.number(0, "radius", 1),
-                   centre = call.name == "ball2" ? in.number(1, "center", 0) : nought;
+    const Fraction radius = in.number("radius"), centre = call.name == "ball2" ? in.number("center") : nought;
     return interval(centre - radius, centre + radius);
   }
   no_rule(call, "no set of one variable that is known in symbols");
 }
+
+/// g(w y): the conjugate in the product w x y.
+Function in_product(const Function& g, const Fraction& weight) { return dilate(g, single / weight); }
 
 using Maker = Function (*)(const CallReader&);
 
@@ -130,63 +155,70 @@ const std::map<std::string, Maker>& makers() {
   static const std::map<std::string, Maker> all{
       {"zero", [](const CallReader&) -> Function { return quadratic(nought, nought, nought); }},
       {"constant",
-       [](const CallReader& in) -> Function { return quadratic(nought, nought, in.number(0, "c")); }},
-      {"linear",
-       [](const CallReader& in) -> Function { return quadratic(nought, in.number(0, "c"), nought); }},
+       [](const CallReader& in) -> Function { return quadratic(nought, nought, in.number("c")); }},
+      {"linear", [](const CallReader& in) -> Function { return quadratic(nought, in.number("c"), nought); }},
       {"quadratic",
-       [](const CallReader& in) -> Function {
-         return quadratic(in.number(0, "Q"), in.number(1, "c", 0), nought);
-       }},
+       [](const CallReader& in) -> Function { return quadratic(in.number("Q"), in.number("c"), nought); }},
       {"squared_norm2",
-       [](const CallReader& in) -> Function { return quadratic(in.number(0, "weight", 1), nought, nought); }},
-      {"norm1", [](const CallReader& in) -> Function { return absolute(in.number(0, "weight", 1), nought); }},
-      {"norm2", [](const CallReader& in) -> Function { return absolute(in.number(0, "weight", 1), nought); }},
-      {"norm_inf",
-       [](const CallReader& in) -> Function { return absolute(in.number(0, "weight", 1), nought); }},
+       [](const CallReader& in) -> Function { return quadratic(in.number("weight"), nought, nought); }},
+      {"norm1", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
+      {"norm2", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
+      {"norm_inf", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
       {"elastic_net",
-       [](const CallReader& in) -> Function { return absolute(in.number(0, "l1"), in.number(1, "l2")); }},
-      {"huber", [](const CallReader& in) -> Function { return huber(in.number(0, "mu")); }},
+       [](const CallReader& in) -> Function { return absolute(in.number("l1"), in.number("l2")); }},
+      {"huber", [](const CallReader& in) -> Function { return huber(in.number("mu")); }},
       {"hinge",
        [](const CallReader&) -> Function {
          return exact_curve({piece(std::nullopt, single, nought, -single, single),
                              piece(single, std::nullopt, nought, nought, nought)});
        }},
+      {"pinball",
+       [](const CallReader& in) -> Function {
+         const Fraction tau = in.number("tau");
+         return exact_curve({piece(std::nullopt, nought, nought, tau - single, nought),
+                             piece(nought, std::nullopt, nought, tau, nought)});
+       }},
       {"plq", [](const CallReader& in) -> Function { return plq(in); }},
-      {"indicator", [](const CallReader& in) -> Function { return set_of(in.call(0, "set")); }},
-      {"support", [](const CallReader& in) -> Function { return conjugate(set_of(in.call(0, "set"))); }},
+      {"indicator", [](const CallReader& in) -> Function { return set_of(in.call("set")); }},
+      {"support",
+       [](const CallReader& in) -> Function {
+         return in_product(conjugate(set_of(in.call("set"))), in.weight());
+       }},
       {"exponential", [](const CallReader&) -> Function { return exponential(); }},
       {"entropy", [](const CallReader&) -> Function { return entropy(); }},
       {"log_barrier", [](const CallReader&) -> Function { return log_barrier(); }},
       {"logistic", [](const CallReader&) -> Function { return logistic(); }},
       {"power",
        [](const CallReader& in) -> Function {
-         const Fraction p = in.number(0, "p");
+         const Fraction p = in.number("p");
          if (p == single) return absolute(single, nought);
          if (p == Fraction{2, 1}) return quadratic({2, 1}, nought, nought);
          return power_of_absolute(p);
        }},
-      {"inverse_power", [](const CallReader& in) -> Function { return inverse_power(in.number(0, "q")); }},
+      {"inverse_power", [](const CallReader& in) -> Function { return inverse_power(in.number("q")); }},
       {"kullback_leibler",
-       [](const CallReader& in) -> Function { return kullback_leibler(in.number(0, "reference")); }},
-      {"conjugate", [](const CallReader& in) { return conjugate(in.function(0, "f")); }},
-      {"envelope", [](const CallReader& in) { return envelope(in.function(0, "f"), in.number(1, "gamma")); }},
-      {"translate", [](const CallReader& in) { return translate(in.function(0, "f"), in.number(1, "by")); }},
-      {"tilt", [](const CallReader& in) { return tilt(in.function(0, "f"), in.number(1, "c")); }},
-      {"scale", [](const CallReader& in) { return scale(in.function(0, "f"), in.number(1, "alpha")); }},
-      {"dilate", [](const CallReader& in) { return dilate(in.function(0, "f"), in.number(1, "rho")); }},
+       [](const CallReader& in) -> Function { return kullback_leibler(in.number("reference")); }},
+      {"conjugate",
+       [](const CallReader& in) { return in_product(conjugate(in.function("f")), in.weight()); }},
+      {"envelope",
+       [](const CallReader& in) { return envelope(in.function("f"), in.number("gamma") / in.weight()); }},
+      {"translate", [](const CallReader& in) { return translate(in.function("f"), in.number("by")); }},
+      {"tilt", [](const CallReader& in) { return tilt(in.function("f"), in.number("c")); }},
+      {"scale", [](const CallReader& in) { return scale(in.function("f"), in.number("alpha")); }},
+      {"dilate", [](const CallReader& in) { return dilate(in.function("f"), in.number("rho")); }},
       {"sum",
        [](const CallReader& in) {
-         Function total = in.function(0, "f");
-         for (std::size_t k = 1; k < in.count(); ++k) total = sum(total, in.function(k, ""));
+         Function total = in.function_at(0);
+         for (std::size_t k = 1; k < in.count(); ++k) total = sum(total, in.function_at(k));
          return total;
        }},
       {"inf_convolution",
-       [](const CallReader& in) { return inf_convolution(in.function(0, "f"), in.function(1, "g")); }},
+       [](const CallReader& in) { return inf_convolution(in.function("f"), in.function("g")); }},
       {"precompose",
        [](const CallReader& in) -> Function {  // f(a x + b) is f((x + b/a)/(1/a))
-         const Fraction a = in.number(1, "A"), b = in.number(2, "b", 0);
+         const Fraction a = in.number("A"), b = in.number("b");
          if (sign(a) == 0) no_rule(in.itself(), "A is 0");
-         return translate(dilate(in.function(0, "f"), single / a), -(b / a));
+         return translate(dilate(function_of(in.call("f")), single / a), -(b / a));
        }},
   };
   return all;
@@ -194,9 +226,9 @@ const std::map<std::string, Maker>& makers() {
 
 }  // namespace
 
-Function function_of(const Call& call) {
+Function function_of(const Call& call, const Fraction& weight) {
   const auto found = makers().find(call.name);
-  if (found != makers().end()) return found->second(CallReader(call));
+  if (found != makers().end()) return found->second(CallReader(call, weight));
   return set_of(call);
 }
 

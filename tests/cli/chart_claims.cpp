@@ -54,7 +54,7 @@ const std::vector<const char*> iterations{
 }  // namespace
 
 TEST_CASE("claim: the default has all digits on every charted problem") {
-  for (const cli::ChartedProblem& problem : cli::charted_problems(true))
+  for (const cli::ChartedProblem& problem : cli::charted_problems(true, false))
     for (const Contest& contest : problem.contests()) {
       if (contest.method != "auto") continue;
       CAPTURE(problem.name);
@@ -67,7 +67,7 @@ TEST_CASE("claim: iterations deliver what they are asked for on a well-posed pro
     for (const double asked : {1e-3, 1e-6, 1e-9}) {
       CAPTURE(method);
       CAPTURE(asked);
-      for (const Contest& contest : cli::charted_problems(true).front().contests()) {
+      for (const Contest& contest : cli::charted_problems(true, false).front().contests()) {
         if (contest.method != method) continue;
         const Trial t = cli::trial(contest, {.tolerance = asked, .polish = false}, limits);
         CHECK(t.is_right());

@@ -21,6 +21,13 @@ const char* const symbolic_calls[] = {"norm1(weight=2)",
                                       "quadratic([[3]], [-1])",
                                       "power(1)",
                                       "power(2)",
+                                      "norm1()",
+                                      "huber()",
+                                      "pinball(0.9)",
+                                      "envelope(huber(), 2)",
+                                      "ball2()",
+                                      "conjugate(envelope(norm1(), 1/2))",
+                                      "precompose(conjugate(huber()), [[2]], [1])",
                                       "exponential()",
                                       "entropy()",
                                       "log_barrier()",
@@ -56,30 +63,34 @@ const char* const symbolic_calls[] = {"norm1(weight=2)",
 }  // namespace
 
 TEST_CASE("formulas by cases have the values of the function, its conjugate and its prox in numbers") {
-  for (const char* text : symbolic_calls) {
-    const Call call = cli::parse_call(text, "f");
-    const Metric W = Metric::identity(1);
-    const Function number = make_function(call, {W}), dual = number.conjugate(W);
-    const symbolic::Function f = symbolic::function_of(call);
-    const symbolic::Cases formula = symbolic::formula(f), conjugate = symbolic::conjugate_formula(f);
-    CAPTURE(text);
-    for (const double at : {-3.7, -1.3, -0.61, -0.2, 0.17, 0.43, 0.9, 1.6, 2.4, 5.1}) {
-      CAPTURE(at);
-      const Vector point = Vector::Constant(1, at);
-      const double f_value = number(point), f_formula = evaluate(formula, "x", at);
-      CHECK(std::isfinite(f_value) == std::isfinite(f_formula));
-      if (std::isfinite(f_value)) CHECK(f_formula == doctest::Approx(f_value).epsilon(1e-9));
-      const double g_value = dual(point), g_formula = evaluate(conjugate, "y", at);
-      CHECK(std::isfinite(g_value) == std::isfinite(g_formula));
-      if (std::isfinite(g_value)) CHECK(g_formula == doctest::Approx(g_value).epsilon(1e-9));
-      for (const double gamma : {1.0, 0.25, 4.0}) {
-        const double x = number.prox(point, W.scaled(1 / gamma)).x[0];
-        const symbolic::Cases prox = symbolic::prox_formula(f, symbolic::simplest_fraction(gamma));
-        CAPTURE(gamma);
-        CHECK(std::abs(evaluate(prox, "z", at) - x) <= 1e-9 * std::max(1.0, std::abs(x)));
+  for (const char* text : symbolic_calls)
+    for (const int weight : {1, 2}) {
+      const Call call = cli::parse_call(text, "f");
+      const Metric W = Metric::identity(1).scaled(weight);
+      const Fraction w{weight, 1};
+      const Function number = make_function(call, {W}), dual = number.conjugate(W);
+      const symbolic::Function f = symbolic::function_of(call, w);
+      const symbolic::Cases formula = symbolic::formula(f),
+                            conjugate = symbolic::conjugate_formula(dilate(f, w));
+      CAPTURE(text);
+      CAPTURE(weight);
+      for (const double at : {-3.7, -1.3, -0.61, -0.2, 0.17, 0.43, 0.9, 1.6, 2.4, 5.1}) {
+        CAPTURE(at);
+        const Vector point = Vector::Constant(1, at);
+        const double f_value = number(point), f_formula = evaluate(formula, "x", at);
+        CHECK(std::isfinite(f_value) == std::isfinite(f_formula));
+        if (std::isfinite(f_value)) CHECK(f_formula == doctest::Approx(f_value).epsilon(1e-9));
+        const double g_value = dual(point), g_formula = evaluate(conjugate, "y", at);
+        CHECK(std::isfinite(g_value) == std::isfinite(g_formula));
+        if (std::isfinite(g_value)) CHECK(g_formula == doctest::Approx(g_value).epsilon(1e-9));
+        for (const double gamma : {1.0, 0.25, 4.0}) {
+          const double x = number.prox(point, W.scaled(1 / gamma)).x[0];
+          const symbolic::Cases prox = symbolic::prox_formula(f, symbolic::simplest_fraction(gamma) / w);
+          CAPTURE(gamma);
+          CHECK(std::abs(evaluate(prox, "z", at) - x) <= 1e-9 * std::max(1.0, std::abs(x)));
+        }
       }
     }
-  }
 }
 
 TEST_CASE("what has no rule is refused by name") {
