@@ -73,18 +73,6 @@ double relative_miss(const SaddleProblem& problem, const SaddlePoint& point) {
   return worst;
 }
 
-/// y, or the point nearest to it where f* is finite, if that is as near as rounding of numbers of this size.
-Vector in_domain_of_conjugate(const Atom& f, const Vector& y, double size) {
-  const Function conjugate = f.conjugate();
-  if (std::isfinite(conjugate.node().value(y)) || !(size > 0)) return y;
-  constexpr double stiff = 1e12;
-  const double weight = stiff / (size * size);
-  if (!std::isfinite(weight) || !(weight > 0)) return y;
-  const Prox nearest = conjugate.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)));
-  const bool near = nearest.x.size() == y.size() && (nearest.x - y).norm() <= membership_tolerance * size;
-  return near ? nearest.x : y;
-}
-
 /// The terms at u, and for all x' and w', with q for the quadratic terms together,
 ///   f(x') >= q(ξ) + (v, rho_w)·ξ' - smooth·ξ + sum_j y_j·b_j - scale_j f_j*(y_j / scale_j),
 /// so that f*(v) is at most what does not depend on ξ', but for rho_w, which is rounding.
@@ -108,15 +96,10 @@ std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& p
     primal.add(square);
     dual.add(square);
   }
-  double moved = 0;
   for (const SaddleTerm& term : problem.terms) {
-    const Vector u = point.u.segment(term.first, term.rows);
-    const Vector y = covectors.segment(term.first, term.rows) / term.scale;
-    primal.add(term.scale * term.f->value(u));
-    const Vector inside = in_domain_of_conjugate(
-        *term.f, y, (point.D.segment(term.first, term.rows).cwiseProduct(u)).norm() / term.scale + y.norm());
-    dual.add(term.scale * term.f->conjugate().node().value(inside));
-    moved += term.scale * (inside - y).cwiseAbs().dot(u.cwiseAbs());
+    const Vector y = covectors.segment(term.first, term.rows);
+    primal.add(term.scale * term.f->value(point.u.segment(term.first, term.rows)));
+    dual.add(term.scale * term.f->conjugate().node().value(y / term.scale));
   }
   for (Index i = 0; i < problem.m; ++i) {
     primal.add(covectors[i] * point.r[i]);  // to first order, what the miss of M ξ + b costs
@@ -125,7 +108,7 @@ std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& p
   if (!std::isfinite(primal.value) || !std::isfinite(dual.value)) return std::nullopt;
   Vector left = problem.c + problem.M.transpose() * covectors;
   if (problem.Q.size() > 0) left += problem.Q * xi;
-  const double missed = left.tail(problem.k).cwiseAbs().dot(xi.tail(problem.k).cwiseAbs()) + moved;
+  const double missed = left.tail(problem.k).cwiseAbs().dot(xi.tail(problem.k).cwiseAbs());
   return PairOfValues{primal.finished(covectors.cwiseAbs().dot(point.r.cwiseAbs())), dual.finished(missed),
                       relative_miss(problem, point)};
 }

@@ -1,6 +1,5 @@
 #include "convex/composite/perspective.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "convex/composite/conjugate_atom.hpp"
@@ -43,8 +42,7 @@ class PerspectiveAtom final : public Atom {
     if (length <= 0) return 0;
     const auto quotient = [&](double part) { return part * length * f_->value(x / (part * length)); };
     const double limit = quotient(fine), before = quotient(coarse);
-    const bool settled = std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing);
-    return std::min(settled ? limit : infinity, f_->recession(x));
+    return std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing) ? limit : infinity;
   }
   Function conjugate() const override {
     return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -1 / side_));

@@ -71,11 +71,6 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
     error.proven = true;
     return error;
   }
-  // Without residuals the point is a solution as far as the proxes are right.
-  if (point.residual <= 0) {
-    error.bound = own_safety * error.rounding;
-    return error;
-  }
   // The Newton step from here, and those that rounding could cause, with signs that a pattern does not
   // cancel.
   const Vector ridge = polish_ridge * problem.R;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
@@ -40,13 +39,6 @@ double size_of_slope(const Function& f, const Vector& x) {
   return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
 }
 
-/// What the error of x, where it is rounding, makes of f(x) beside an edge of f, to first order: more than
-/// the covector of the prox tells, which lies between the slopes on both sides.
-double slope_across(const Function& f, const Vector& x, double error, const Metric& W) {
-  const std::optional<Vector> v = f.subgradient(x);
-  return v && v->allFinite() ? error * W.dual_norm(*v) : 0;
-}
-
 /// What each prox, and each value, may take of the work that a decomposition may; pairs are made of the rest.
 constexpr double part_of_a_prox = 0.25, part_of_a_value = 0.05, part_of_a_move = 0.05;
 
@@ -58,11 +50,10 @@ Value value_of(const Function& f, const Vector& x) {
 /// x and y with what follows from them.
 struct Candidate {
   Decomposition split;
-  double right = 0;         ///< the right side
-  double error = 0;         ///< of f(x) and g(y)
-  double squares = 0;       ///< ||z||², ||x||², ||y||², the largest
-  double rounding = 0;      ///< of the terms
-  bool has_slopes = false;  ///< `rounding` has what slopes across edges make of it
+  double right = 0;     ///< the right side
+  double error = 0;     ///< of f(x) and g(y)
+  double squares = 0;   ///< ||z||², ||x||², ||y||², the largest
+  double rounding = 0;  ///< of the terms
 
   /// By how much the right side leaves what the bound, the values' errors and rounding allow; +inf where a
   /// value is not finite.
@@ -235,17 +226,8 @@ Decomposition guarded(const Pair& of, const Vector& z, const Metric& W, double t
   if (none(y)) y = made_up(moreau_partner(x, z, W), Vector::Zero(z.size()));
   Candidate best = at_points(of, x, y, z, W);
   const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
-  const double least = accuracy_of_prox * size;
-  const auto is_borne_out = [&](Candidate& made) {
-    if (!made.known(tolerance) || !(made.split.error_bound <= enough) || !std::isfinite(made.excess()))
-      return false;
-    if (made.excess() > 0 && !std::exchange(made.has_slopes, true)) {
-      const WorkLimit part(part_of_a_value);
-      made.rounding += slope_across(of.f, made.split.x.x, std::min(made.split.x.error_bound, least), W);
-      if (made.excess() > 0)
-        made.rounding += slope_across(of.g, made.split.y.x, std::min(made.split.y.error_bound, least), W);
-    }
-    return made.excess() <= 0;
+  const auto is_borne_out = [&](const Candidate& made) {
+    return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
   };
   const auto is_found = [&] { return is_borne_out(best); };
   const auto ended = [&] { return is_found() || WorkLimit::passed(); };

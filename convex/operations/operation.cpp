@@ -15,7 +15,6 @@
 #include "convex/operations/open_domain.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
-#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -90,17 +89,6 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
     if (hidden) best.reset();
   }
   return best;
-}
-
-std::optional<Prox> Operation::other_prox(const Vector& z, const Metric& W) const {
-  if (facts().piecewise_quadratic) return std::nullopt;
-  const std::vector<Function> parts = maximum_of();
-  return parts.empty() ? std::nullopt : prox_of_max(parts, z, W);
-}
-
-Function indicator_of_point(const Vector& p) {
-  const Index n = p.size();
-  return named("affine", {argument("A", Matrix(Matrix::Identity(n, n))), argument("b", p)}, n);
 }
 
 Value Operation::evaluate(const Vector& x) const { return by_program(x).value; }

@@ -32,6 +32,7 @@ class PointwiseMax : public Operation {
     piecewise_ = program(parts_, n_ == 0 ? 2 : n_).has_value();
   }
 
+  const std::vector<Function>& parts() const { return parts_; }
   Index dimension() const override { return n_; }
   void require_size(Index n) const override {
     for (const Function& f : parts_) f.node().require_size(n);
@@ -87,7 +88,10 @@ class PointwiseMax : public Operation {
     return convex::pointwise_max(*forms, unit_of_slope(slope));
   }
 
-  std::vector<Function> maximum_of() const override { return parts_; }
+  std::optional<Prox> other_prox(const Vector& z, const Metric& W) const override {
+    if (piecewise_) return std::nullopt;
+    return prox_of_max(parts_, z, W);
+  }
 
  protected:
   /// By epigraphs in units of the slope at the solution, which is known when it has been found: units far
@@ -116,9 +120,9 @@ class PointwiseMax : public Operation {
 }  // namespace
 
 std::vector<Function> parts_of_max(const Function& f) {
-  const auto* made = dynamic_cast<const Operation*>(&f.node());
-  if (!made || f.facts().piecewise_quadratic) return {};
-  return made->maximum_of();
+  const auto* most = dynamic_cast<const PointwiseMax*>(&f.node());
+  if (!most || f.facts().piecewise_quadratic) return {};
+  return most->parts();
 }
 
 Function proper_max(std::vector<Function> parts) {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,7 +11,6 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/sum.hpp"
-#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -53,19 +51,9 @@ class Precompose : public Operation {
   double recession(const Vector& d) const override { return f_.node().recession(A_ * d); }
   /// v = Aᵀp is p·(Ax + b) - p·b, with Ax + b in the domain of f.
   double domain_support(const Vector& v) const override {
-    const auto of = [&](const Vector& p) { return f_.node().domain_support(p) - p.dot(b_); };
     const Vector p = linear_algebra::least_squares(A_.transpose(), v);
     const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
-    double least = in_range ? of(p) : std::numeric_limits<double>::infinity();
-    // Of one entry, each row alone bounds the domain.
-    for (Index i = 0; A_.cols() == 1 && i < A_.rows(); ++i)
-      if (A_(i, 0) != 0) least = std::min(least, of(v[0] / A_(i, 0) * Vector::Unit(A_.rows(), i)));
-    return least;
-  }
-  std::vector<Function> maximum_of() const override {
-    std::vector<Function> parts = parts_of_max(f_);
-    for (Function& part : parts) part = Function(std::make_shared<Precompose>(part, A_, b_));
-    return parts;
+    return in_range ? f_.node().domain_support(p) - p.dot(b_) : std::numeric_limits<double>::infinity();
   }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     const auto form = f_.node().linear_quadratic(A_.rows());
