@@ -8,8 +8,11 @@ namespace cli {
 namespace {
 
 /// Text as roff prints it: hyphens that can be typed again, and no line that is taken for a request.
-std::string roff(std::string_view text) {
-  std::string out;
+std::string roff(std::string_view written) {
+  std::string text(written), out;
+  constexpr std::string_view ellipsis = "…";
+  for (std::size_t at; (at = text.find(ellipsis)) != std::string::npos;)
+    text.replace(at, ellipsis.size(), "...");
   bool first_in_line = true;
   for (const char c : text) {
     if (first_in_line && (c == '.' || c == '\'')) out += "\\&";

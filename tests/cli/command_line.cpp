@@ -64,7 +64,7 @@ TEST_CASE("what the program never heard of exits two and is named") {
   expect_wrong({"solve", "--method", "activeset", file}, {"activeset", "active-set"});
   expect_wrong({"solve"}, {"FILE"});
   expect_wrong({"derive"}, {"FILE"});
-  expect_wrong({"check"}, {"FILE or --catalogue"});
+  expect_wrong({"check"}, {"FILE, --catalogue or --map"});
   expect_wrong({"check", "--catalogue", file}, {"--catalogue"});
   expect_wrong({"prox"}, {"f is required"});
   expect_wrong({"prox", "norm2()"}, {"--at"});

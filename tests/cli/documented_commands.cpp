@@ -84,8 +84,8 @@ std::vector<Session> sessions(const std::string& page) {
   return found;
 }
 
-/// Standard output and standard error of a command of the shell, with this build's program as `moreau`. It runs
-/// where `docs` is the project's, and what it writes is not.
+/// Standard output and standard error of a command of the shell, with this build's program as `moreau`. It
+/// runs where `docs` is the project's, and what it writes is not.
 std::vector<std::string> run_shell(const Folder& folder, const std::string& command) {
   const std::string out = folder.path("out"), err = folder.path("err");
   const char* given = std::getenv("MOREAU_PROGRAM");

@@ -280,13 +280,13 @@ TEST_CASE("a QPS file in fixed columns is read where its names have blanks") {
       " N  the cost\n"
       " L  row 1\n"
       "COLUMNS\n"
-      "    plant A   the cost             -2.   row 1                 1.\n"
-      "    plant B   the cost             -5.   row 1                 2.\n"
+      "    plant A   the cost           -2.   row 1               1.\n"
+      "    plant B   the cost           -5.   row 1               2.\n"
       "RHS\n"
-      "    rhs       row 1                 2.\n"
+      "    rhs       row 1               2.\n"
       "QUADOBJ\n"
-      "    plant A   plant A               2.\n"
-      "    plant B   plant B               2.\n"
+      "    plant A   plant A             2.\n"
+      "    plant B   plant B             2.\n"
       "ENDATA\n";
   const Folder folder;
   const Outcome outcome = run({"solve", "--json", folder.write("plants.qps", text)});

@@ -339,10 +339,7 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
   validate(problem);
   validate_guess(problem, guess);
   GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
-  const auto told = [&](Solution solved) {
-    return has_open_zeros(problem, solved) ? with_signs_of_zeros(problem, std::move(solved), accuracy)
-                                           : std::move(solved);
-  };
+  const auto told = [&](Solution solved) { return with_open_signs(problem, std::move(solved), accuracy); };
   if (quick.solution) return told(*std::move(quick.solution));
   Solution found = DualActiveSet(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))

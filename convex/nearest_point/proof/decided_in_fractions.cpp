@@ -113,4 +113,9 @@ Solution with_signs_of_zeros(const NearestPointProblem& problem, Solution solved
   return found ? *std::move(found) : solved;
 }
 
+Solution with_open_signs(const NearestPointProblem& problem, Solution solved, const Accuracy& accuracy) {
+  if (!has_open_zeros(problem, solved)) return solved;
+  return with_signs_of_zeros(problem, std::move(solved), accuracy);
+}
+
 }  // namespace convex
