@@ -9,6 +9,7 @@
 #include "cli/drawing/atlas_drawing.hpp"
 #include "cli/each_file.hpp"
 #include "cli/function_language/parse_call.hpp"
+#include "cli/function_language/parse_metric.hpp"
 #include "cli/report/atlas_report.hpp"
 #include "cli/scene.hpp"
 #include "convex/atlas/cell_probability.hpp"
@@ -45,7 +46,15 @@ std::pair<convex::atlas::NormalForce, std::string> distribution(const AtlasOptio
   }
   words += " and covariance ";
   if (!options.covariance) return {std::move(force), words + "A"};
-  force.covariance = convex::exact_rows(parse_matrix(*options.covariance, "--covariance"));
+  try {
+    const convex::Metric covariance = parse_metric(*options.covariance);
+    convex::Matrix rows(covariance.dimension(), covariance.dimension());
+    for (convex::Index i = 0; i < rows.cols(); ++i)
+      rows.col(i) = covariance.multiply(convex::Vector::Unit(rows.rows(), i));
+    force.covariance = convex::exact_rows(rows);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("--covariance: " + std::string(error.what()));
+  }
   return {std::move(force), words + *options.covariance};
 }
 
@@ -215,7 +224,8 @@ void add_atlas(CLI::App& program, Work& chosen) {
       .add_option("--cells", options->cells,
                   "explore so many cells from that of the file's force on, nothing measured; default beyond "
                   "rank 6: 50")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(positive_number);
   add_files(command, *options);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cli/drawing/labelled_page.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/gauss_solution.hpp"
 
@@ -18,7 +19,7 @@ using convex::atlas::PlaneRegion;
 /// Pale, apart in grey too (Okabe and Ito 2008, lightened).
 constexpr std::array region_colours{"#ffffff", "#fbd9a5", "#bfe0f5", "#a9dcc8", "#f7f2ae",
                                     "#a9c7dd", "#eec1a3", "#e6c6d8", "#c8c8c8", "#8fb8a8"};
-constexpr int map_height = 520;
+constexpr int map_height = 520, map_width = 840;
 /// Regions of a smaller part of the map have no arrows; the longest arrow is such a part of its width.
 constexpr double least_part = 0.02, longest_arrow = 0.12;
 
@@ -67,7 +68,7 @@ ArrowPair arrows_at(const AtlasMap& map, const Scene& scene, const Eigen::Vector
 
 std::string region_name(const SolvedAtlas& solved, const PlaneRegion& region) {
   std::string name;
-  constexpr std::size_t longest = 30;
+  constexpr std::size_t longest = 18;
   for (const std::string& contact : solved.names(solved.atlas.cells[region.cell])) {
     if (name.size() > longest) return name + ", …";
     name += (name.empty() ? "" : ", ") + contact;
@@ -138,17 +139,18 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
         "\"dropping negatives is wrong\"");
   Drawing made;
   made.height = map_height;
+  made.width = map_width;
   made.script =
       data + arrows +
       fmt::format(
-          "set lmargin at screen 0.10\nset rmargin at screen 0.66\nset tmargin at screen 0.93\n"
+          "set lmargin at screen 0.13\nset rmargin at screen 0.62\nset tmargin at screen 0.93\n"
           "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\nset title {} font \",11\"\n"
           "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
           "set tics nomirror out font \",9\"\nset key outside right top Left reverse font \",9\" samplen "
           "1.5\n",
           bound(map.over[0].low), bound(map.over[0].high), bound(map.over[1].low), bound(map.over[1].high),
-          quoted(solved.title.empty() ? solved.file : solved.title), quoted(map.over[0].key + ", added"),
-          quoted(map.over[1].key + ", added")) +
+          quoted(heading_line(solved.title.empty() ? solved.file : solved.title)),
+          quoted(map.over[0].key + ", added"), quoted(map.over[1].key + ", added")) +
       plots + "\n";
   return made;
 }

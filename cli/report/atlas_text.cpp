@@ -16,6 +16,8 @@ std::string contact_set(const SolvedAtlas& solved, const std::vector<std::size_t
   return names.empty() ? "none" : listed(names);
 }
 
+const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
+
 std::string here_text(const SolvedAtlas& solved) {
   if (solved.here.empty()) return "";
   const auto& cells = solved.atlas.cells;
@@ -33,6 +35,7 @@ std::string here_text(const SolvedAtlas& solved) {
 }
 
 std::string rule_text(const SolvedAtlas& solved) {
+  if (solved.contacts.empty()) return "";
   if (!solved.rule)
     return "The rule of dropping negative multipliers has no multipliers to go by: the contacts depend on "
            "each "
@@ -70,8 +73,9 @@ std::string map_text(const SolvedAtlas& solved) {
 std::string atlas_text(const SolvedAtlas& solved) {
   const convex::atlas::Atlas& atlas = solved.atlas;
   if (atlas.cells.empty()) return "no acceleration satisfies the contacts: there is no cell\n";
-  std::string text = fmt::format("{} cells in {} dimensions, {} walls between them\n", atlas.cells.size(),
-                                 atlas.space.rank, atlas.walls.size());
+  std::string text = fmt::format("{} cell{} in {} dimension{}, {} wall{} between them\n", atlas.cells.size(),
+                                 plural(atlas.cells.size()), atlas.space.rank, plural(atlas.space.rank),
+                                 atlas.walls.size(), plural(atlas.walls.size()));
   if (!atlas.is_complete())
     text +=
         fmt::format("NOT all there are: explored from the file's force on, the walls of the first {} cells\n",

@@ -52,7 +52,10 @@ std::string as_text(const NamedCases& named) {
     lines.emplace_back(symbolic::text(one.term), condition(one, named.variable, false));
     wide = std::max(wide, lines.back().first.size());
   }
-  if (leaves_out(named)) lines.emplace_back("+inf", "elsewhere");
+  if (leaves_out(named)) {
+    lines.emplace_back("+inf", "elsewhere");
+    wide = std::max(wide, lines.back().first.size());
+  }
   std::string text;
   for (const auto& [term, where] : lines)
     text +=
@@ -83,6 +86,9 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
   return answered(options, source, [&] {
     const Fraction w = weight(options, source);
     source = {"f", options.expression};
+    if (options.certify)
+      throw InvalidInput(
+          "--certify goes with a point; with --symbolic formulas are exact or by rules, leave it out");
     if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
     const convex::Call call = parse_call(options.expression, "f");
     // What the language refuses, symbols refuse with the same words.

@@ -169,6 +169,12 @@ Probability CellProbability::of(const std::vector<SignedCone>& cones, const Inte
 }
 
 Probability CellProbability::of(const Cell& cell, double tolerance) const {
+  Probability found = product_or_sum(cell, tolerance);
+  found.value = std::max(found.value, 0.0);
+  return found;
+}
+
+Probability CellProbability::product_or_sum(const Cell& cell, double tolerance) const {
   const std::vector<SignedCone> cones = signed_cones(space_.cone, levels_, cell.face);
   const std::vector<IntegerRows> pieces = normal_pieces(cell);
   const double share = tolerance / static_cast<double>(2 * pieces.size());

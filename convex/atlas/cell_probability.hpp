@@ -20,13 +20,15 @@ class CellProbability {
   CellProbability(const RowSpace&, const NormalForce&);
 
   /// To the tolerance where the quadrature gets there; its error tells. Where the covariance is A, the cell
-  /// is a product at right angles, and so is its probability. At most six dimensions.
+  /// is a product at right angles, and so is its probability. What comes out negative, within its error, is
+  /// 0. At most six dimensions.
   Probability of(const Cell&, double tolerance) const;
 
   /// Of {z : the free point c satisfies (a, b)·(c, 1) >= 0 for every row}.
   Probability of(const IntegerRows& halfspaces, double tolerance) const;
 
  private:
+  Probability product_or_sum(const Cell&, double tolerance) const;
   Probability of(const std::vector<SignedCone>&, const IntegerRows& others, const IntegerRows& lines,
                  double tolerance) const;
   /// Of apex + {Σ mu_k d_k + Σ nu_l b_l : mu >= 0}.

@@ -141,8 +141,7 @@ ExactCurve exact_curve(const std::vector<ExactPiece>& given) {
   for (std::size_t k = 0; k < given.size(); ++k) {
     const ExactPiece& piece = given[k];
     if (sign(piece.c2) < 0) refuse("one has a negative square; a convex function has none");
-    if (piece.low && piece.high && *piece.high < *piece.low)
-      refuse("the bounds of one do not increase");
+    if (piece.low && piece.high && *piece.high < *piece.low) refuse("the bounds of one do not increase");
     if (k > 0) {
       if (!piece.low || !given[k - 1].high || !(*piece.low == *given[k - 1].high))
         refuse("two do not adjoin");

@@ -73,7 +73,7 @@ Cases conjugate_formula(const Function& f) {
   if (const auto* curve = std::get_if<ExactCurve>(&f)) return curve_formula(conjugate(*curve), "y");
   const Cases& cases = std::get<RuleFunction>(f).conjugate;
   if (cases.empty())
-    throw InvalidInput("there is no rule for this conjugate in elementary terms; its prox has whole_one");
+    throw InvalidInput("there is no rule for this conjugate in elementary terms; its prox has one");
   return cases;
 }
 
@@ -100,7 +100,7 @@ Function envelope(const Function& f, const Fraction& gamma) {
   const RuleFunction rule = std::get<RuleFunction>(f);
   const Cases prox = rule.prox(gamma);
   RuleFunction made;
-  // f(p) + (x - p)²/(2 gamma), where p has whole_one formula and f has whole_one on the whole of its values.
+  // f(p) + (x - p)²/(2 gamma); p lies inside of the domain, where f by rules has one formula.
   const auto inside = std::find_if(rule.f.begin(), rule.f.end(), [](const Case& each) {
     return !each.low || !each.high || *each.low < *each.high;
   });
@@ -174,7 +174,7 @@ Function sum(const Function& f, const Function& g) {
   const std::vector<ExactPiece> quadratic = second == nullptr ? std::vector<ExactPiece>{} : pieces(*second);
   if (quadratic.size() != 1 || quadratic.front().low || quadratic.front().high)
     throw InvalidInput(
-        "sum: a function by rules can be added to whole_one quadratic on the whole line, and to nothing else "
+        "sum: a function by rules can be added to one quadratic on the whole line, and to nothing else "
         "in "
         "symbols");
   const ExactPiece& q = quadratic.front();

@@ -28,6 +28,7 @@ class CallReader {
 
   const Argument* find(std::string_view key) const {
     const std::size_t position = place(key);
+    read_.push_back(position);
     for (std::size_t k = 0; k < call_.arguments.size(); ++k) {
       const NamedArgument& given = call_.arguments[k];
       if (given.key.empty() ? k == position : given.key == key) return &given.value;
@@ -61,7 +62,17 @@ class CallReader {
   const Fraction& weight() const { return weight_; }
   /// Of a list of functions.
   Function function_at(std::size_t position) const {
+    read_.push_back(position);
     return function_of(call_in(&call_.arguments[position].value), weight_);
+  }
+  /// An argument that no rule has looked at would be left out in silence.
+  void require_all_read() const {
+    for (std::size_t k = 0; k < call_.arguments.size(); ++k) {
+      const std::string& key = call_.arguments[k].key;
+      const std::size_t position = key.empty() ? k : place(key);
+      if (std::find(read_.begin(), read_.end(), position) == read_.end())
+        no_rule(call_, "one of its arguments has no rule in symbols");
+    }
   }
   std::size_t count() const { return call_.arguments.size(); }
   const Call& itself() const { return call_; }
@@ -87,6 +98,7 @@ class CallReader {
   const Call& call_;
   const CatalogueEntry* entry_;
   Fraction weight_;
+  mutable std::vector<std::size_t> read_;  ///< places of the arguments that were asked for
 };
 
 ExactPiece piece(std::optional<Fraction> low, std::optional<Fraction> high, const Fraction& c2,
@@ -134,16 +146,23 @@ ExactCurve plq(const CallReader& in) {
 }
 
 /// The interval of a set.
-ExactCurve set_of(const Call& call) {
-  const CallReader in(call, single);
-  if (call.name == "box") return interval(in.bound("lower"), in.bound("upper"));
-  if (call.name == "orthant") return interval(nought, std::nullopt);
-  if (call.name == "point") return interval(in.number("p"), in.number("p"));
-  if (call.name == "ball1" || call.name == "ball_inf" || call.name == "ball2") {
-    const Fraction radius = in.number("radius"), centre = call.name == "ball2" ? in.number("center") : nought;
+ExactCurve set_in(const CallReader& in) {
+  const std::string& name = in.itself().name;
+  if (name == "box") return interval(in.bound("lower"), in.bound("upper"));
+  if (name == "orthant") return interval(nought, std::nullopt);
+  if (name == "point") return interval(in.number("p"), in.number("p"));
+  if (name == "ball1" || name == "ball_inf" || name == "ball2") {
+    const Fraction radius = in.number("radius"), centre = name == "ball2" ? in.number("center") : nought;
     return interval(centre - radius, centre + radius);
   }
-  no_rule(call, "no set of one variable that is known in symbols");
+  no_rule(in.itself(), "it has no rule in symbols");
+}
+
+ExactCurve set_of(const Call& call) {
+  const CallReader in(call, single);
+  ExactCurve set = set_in(in);
+  in.require_all_read();
+  return set;
 }
 
 /// g(w y): the conjugate in the product w x y.
@@ -158,7 +177,9 @@ const std::map<std::string, Maker>& makers() {
        [](const CallReader& in) -> Function { return quadratic(nought, nought, in.number("c")); }},
       {"linear", [](const CallReader& in) -> Function { return quadratic(nought, in.number("c"), nought); }},
       {"quadratic",
-       [](const CallReader& in) -> Function { return quadratic(in.number("Q"), in.number("c"), nought); }},
+       [](const CallReader& in) -> Function {
+         return quadratic(in.number("Q"), in.number("c"), in.number("constant"));
+       }},
       {"squared_norm2",
        [](const CallReader& in) -> Function { return quadratic(in.number("weight"), nought, nought); }},
       {"norm1", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
@@ -228,8 +249,11 @@ const std::map<std::string, Maker>& makers() {
 
 Function function_of(const Call& call, const Fraction& weight) {
   const auto found = makers().find(call.name);
-  if (found != makers().end()) return found->second(CallReader(call, weight));
-  return set_of(call);
+  if (found == makers().end()) return set_of(call);
+  const CallReader in(call, weight);
+  Function made = found->second(in);
+  in.require_all_read();
+  return made;
 }
 
 }  // namespace convex::symbolic

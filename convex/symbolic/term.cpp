@@ -1,5 +1,6 @@
 #include "convex/symbolic/term.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,13 @@ Term made(Kind kind, std::vector<Term> parts) { return {kind, {0, 1}, {}, std::m
 /// The parts of a sum or product, or the term as its only one.
 std::vector<Term> parts_of(const Term& term, Kind kind) {
   return term.kind == kind ? term.parts : std::vector<Term>{term};
+}
+
+/// Its number factor and the rest.
+std::pair<Fraction, Term> split_factor(const Term& term) {
+  if (term.kind != Kind::product || term.parts.front().kind != Kind::number) return {{1, 1}, term};
+  std::vector<Term> rest(term.parts.begin() + 1, term.parts.end());
+  return {term.parts.front().number, rest.size() == 1 ? rest.front() : made(Kind::product, std::move(rest))};
 }
 
 /// W e^W = x for x >= 0 (Corless et al. 1996), by Newton's method on w + log w = log x where x is large.
@@ -67,16 +75,27 @@ bool is_number(const Term& term, const Fraction& value) {
 
 Term operator+(const Term& a, const Term& b) {
   Fraction constant{0, 1};
-  std::vector<Term> kept;
+  std::vector<std::pair<Fraction, Term>> kept;  // like terms once
   for (const Term* side : {&a, &b})
     for (const Term& part : parts_of(*side, Kind::sum)) {
-      if (part.kind == Kind::number)
+      if (part.kind == Kind::number) {
         constant = constant + part.number;
+        continue;
+      }
+      const auto [factor, rest] = split_factor(part);
+      const std::string shape = text(rest);
+      const auto like = std::find_if(kept.begin(), kept.end(),
+                                     [&shape](const auto& other) { return text(other.second) == shape; });
+      if (like == kept.end())
+        kept.emplace_back(factor, rest);
       else
-        kept.push_back(part);
+        like->first = like->first + factor;
     }
-  if (sign(constant) != 0 || kept.empty()) kept.push_back(number(constant));
-  return kept.size() == 1 ? kept.front() : made(Kind::sum, std::move(kept));
+  std::vector<Term> parts;
+  for (const auto& [factor, rest] : kept)
+    if (sign(factor) != 0) parts.push_back(factor * rest);
+  if (sign(constant) != 0 || parts.empty()) parts.push_back(number(constant));
+  return parts.size() == 1 ? parts.front() : made(Kind::sum, std::move(parts));
 }
 
 Term operator-(const Term& a, const Term& b) { return a + Fraction{-1, 1} * b; }

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -113,4 +114,45 @@ TEST_CASE("the rays of a cube's faces and corners take the solid angles that geo
   // On a facet: half of the plane angle of the face, which is acos(1/3), in a whole turn.
   CHECK(probability.of(whole.cells[5], 1e-6).value ==
         doctest::Approx(std::acos(1.0 / 3) / (4 * std::numbers::pi)).epsilon(1e-14));
+}
+
+TEST_CASE("contacts apart from the mean have the products that independent coordinates give") {
+  // -1 <= x <= 2 and y >= 1 with A = 1, x about 1/2, y about 1/3.
+  const Atlas whole =
+      convex::atlas::atlas(tests::atlas_problem({{1, 0}, {0, 1}}, {{1, 0}, {-1, 0}, {0, 1}}, {-1, -2, 1}));
+  const CellProbability probability(whole.space, {point({3, 2}, 6)});
+  const auto below = [](double bound) { return std::erfc(-bound / std::numbers::sqrt2) / 2; };
+  for (const Cell& cell : whole.cells) {
+    const auto holds = [&](std::size_t row) {
+      return std::find(cell.rows.begin(), cell.rows.end(), row) != cell.rows.end();
+    };
+    const double left = below(-1 - 0.5), right = 1 - below(2 - 0.5), floor = below(1 - 1.0 / 3);
+    const double x = holds(0) ? left : holds(1) ? right : 1 - left - right;
+    const Probability p = probability.of(cell, 1e-6);
+    CHECK(p.value == doctest::Approx(x * (holds(2) ? floor : 1 - floor)).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("cells are met as often as their probabilities say, within five standard deviations") {
+  constexpr int draws = 3000;
+  for (const ExactProblem& problem : tests::atlas_problems()) {
+    const Atlas whole = convex::atlas::atlas(problem);
+    const Index n = problem.dimension();
+    const NormalForce force = oblique_force(n, true);
+    // Covariance 11ᵀ + diag(2, 3, …): one normal number for all, one more for each.
+    std::mt19937 random(23);
+    std::normal_distribution<double> normal;
+    std::vector<int> met(whole.cells.size(), 0);
+    for (int k = 0; k < draws; ++k) {
+      const double shared = normal(random);
+      Vector z = nearest(force.mean);
+      for (Index i = 0; i < n; ++i) z[i] += shared + std::sqrt(static_cast<double>(i + 2)) * normal(random);
+      ++met[cells_at(whole, exact_vector(z)).front()];
+    }
+    const CellProbability probability(whole.space, force);
+    for (std::size_t c = 0; c < whole.cells.size(); ++c) {
+      const double p = probability.of(whole.cells[c], 1e-6).value;
+      CHECK(std::abs(met[c] - draws * p) <= 5 * std::sqrt(draws * p * (1 - p)) + 5);
+    }
+  }
 }

@@ -24,6 +24,10 @@ const char* const symbolic_calls[] = {"norm1(weight=2)",
                                       "norm1()",
                                       "huber()",
                                       "pinball(0.9)",
+                                      "quadratic([[3]], [1], 2)",
+                                      "elastic_net()",
+                                      "power()",
+                                      "inverse_power()",
                                       "envelope(huber(), 2)",
                                       "ball2()",
                                       "conjugate(envelope(norm1(), 1/2))",
@@ -94,6 +98,7 @@ TEST_CASE("formulas by cases have the values of the function, its conjugate and 
 }
 
 TEST_CASE("what has no rule is refused by name") {
-  for (const char* text : {"nuclear_norm(1, 1)", "sum(entropy(), exponential())", "sum(entropy(), norm1())"})
+  for (const char* text :
+       {"nuclear_norm(1, 1)", "sum(entropy(), exponential())", "sum(entropy(), norm1())", "max()"})
     CHECK_THROWS_AS(symbolic::function_of(cli::parse_call(text, "f")), InvalidInput);
 }
