@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "convex/invalid_input.hpp"
@@ -98,6 +99,25 @@ std::string quoted(const std::string& text) {
   return result + "\"";
 }
 
+namespace {
+
+/// gnuplot writes & as it is into SVG, so that entities may be told to it; a sign that begins none is no XML.
+void write_ampersands_as_entities(const std::string& file) {
+  std::ifstream in(file);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  in.close();
+  std::string mended;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    mended += text[k];
+    if (text[k] != '&') continue;
+    const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789#", k + 1);
+    if (end == k + 1 || end == std::string::npos || text[end] != ';') mended += "amp;";
+  }
+  if (mended != text) std::ofstream(file) << mended;
+}
+
+}  // namespace
+
 void require_drawable(const std::string& file) {
   terminal_text(file, picture_width, picture_width);
   if (!has_gnuplot())
@@ -112,6 +132,7 @@ void draw(const std::string& file, const Drawing& drawing) {
   std::array<char, 512> block{};
   while (std::fgets(block.data(), block.size(), program) != nullptr) said += block.data();
   if (pclose(program) != 0) throw InvalidInput("gnuplot says: " + said + "; install version 5.2 or later");
+  if (file.ends_with(".svg")) write_ampersands_as_entities(file);
 }
 
 }  // namespace cli
