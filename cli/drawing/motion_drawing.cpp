@@ -57,6 +57,16 @@ std::string panel_script(const Panel& panel, bool is_last) {
   return text + "\n";
 }
 
+/// What is constant but for rounding is a line, and not its noise.
+std::string range_script(const std::pair<double, double>& range) {
+  constexpr double rounding = 1e-9;
+  const auto [low, high] = range;
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(high - low <= rounding * std::max(size, rounding))) return "set autoscale y\n";
+  const double half = size > rounding ? 0.1 * size : 1;
+  return fmt::format("set yrange [{}:{}]\n", low - half, high + half);
+}
+
 }  // namespace
 
 MotionDrawing::MotionDrawing(const mechanics::LagrangianSystem& system, double begin, double end)
@@ -72,6 +82,11 @@ void MotionDrawing::add(double t, const Vector& q, const Vector& f, const Vector
   for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", f[a]);
   for (Index a = 0; a < constraints_; ++a) points_ += fmt::format(" {}", lambda[a]);
   points_ += fmt::format(" {}\n", energy);
+  const auto widen = [](std::pair<double, double>& range, double x) {
+    range = {std::min(range.first, x), std::max(range.second, x)};
+  };
+  widen(energies_, energy);
+  for (Index a = 0; a < constraints_; ++a) widen(gaps_, f[a]);
   ++point_;
 }
 
@@ -119,8 +134,12 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
     fmt::format_to(std::back_inserter(made.script),
                    "set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb \"{1}\" lw 0.5 dt 3 back\n",
                    event.t, colour(event.kind));
-  for (std::size_t k = 0; k < panels.size(); ++k)
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const auto& range = panels[k].label == "energy" ? energies_ : gaps_;
+    const bool is_watched = panels[k].label == "energy" || panels[k].label == "f";
+    made.script += is_watched ? range_script(range) : "set autoscale y\n";
     made.script += panel_script(panels[k], k + 1 == panels.size());
+  }
   made.script += "unset multiplot\n";
   return made;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/drawing/gnuplot.hpp"
@@ -28,6 +30,8 @@ class MotionDrawing {
   convex::Index coordinates_, constraints_;  // that are drawn
   long point_ = 0;
   std::string points_;
+  std::pair<double, double> energies_{INFINITY, -INFINITY},
+      gaps_{INFINITY, -INFINITY};  ///< least and largest
   std::vector<mechanics::MotionEvent> events_;
 };
 
