@@ -79,7 +79,15 @@ Subdifferential of_set(Set set, std::size_t n) {
   return made;
 }
 
-Fraction norm_rounded(const Fraction& square) { return fraction(std::sqrt(nearest_double(square))); }
+/// The root of a positive fraction, rounded, also of one that no double is near.
+Fraction norm_rounded(Fraction square) {
+  constexpr double step = 0x1p+400, least = 0x1p-900;
+  const Fraction factor = fraction(step), inverse = Fraction{1} / factor;
+  Fraction scale{1};
+  for (; std::isinf(nearest_double(square)); scale = scale * factor) square = square * inverse * inverse;
+  for (; nearest_double(square) < least; scale = scale * inverse) square = square * factor * factor;
+  return fraction(std::sqrt(nearest_double(square))) * scale;
+}
 
 /// The Euclidean norm and its ball, and the second-order cone; none of other names.
 std::optional<Subdifferential> of_round_set(const Call& f, const Fractions& x) {

@@ -147,3 +147,12 @@ TEST_CASE("numbers whose squares overflow are not called solved within an infini
       if (!proof.empty() && proof[0] == "--method") CHECK(small);
     }
 }
+
+TEST_CASE("the subgradient of the Euclidean norm is the unit vector at any size of the point") {
+  for (const char* at : {"[3e200,4e200]", "[3e-200,4e-200]", "[3,4]"}) {
+    CAPTURE(at);
+    const Json answer = json_of({"subdifferential", "norm2()", "--at", at, "--json"});
+    CHECK(answer["least"][0].get<double>() == doctest::Approx(0.6).epsilon(1e-15));
+    CHECK(answer["least"][1].get<double>() == doctest::Approx(0.8).epsilon(1e-15));
+  }
+}
