@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "convex/exact/fraction_arithmetic.hpp"
+#include "convex/exact_program/program_of_call.hpp"
 
 namespace convex::symbolic {
 
@@ -19,11 +20,7 @@ struct ExactCurve {
   std::size_t corners() const { return x.size(); }
 };
 
-/// A piece c2/2 x² + c1 x + c0 for low <= x <= high; no bound: infinite. A point has both bounds equal.
-struct ExactPiece {
-  std::optional<Fraction> low, high;
-  Fraction c2, c1, c0;
-};
+using exact_programs::ExactPiece;
 
 /// Increasing and adjoining; +inf outside of them.
 std::vector<ExactPiece> pieces(const ExactCurve&);
