@@ -6,6 +6,7 @@
 #include "convex/invariant.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/sweeps.hpp"
+#include "mechanics/motion/lagrange_equations.hpp"
 
 namespace mechanics {
 
@@ -193,6 +194,11 @@ State LagrangianSystem::state(const StateText& text) const { return read_state(*
 
 std::unique_ptr<const LagrangianSystem> lagrangian_system(const LagrangianText& text) {
   return std::make_unique<const LagrangianSystem>(read_lagrangian(text));
+}
+
+const EquationsOfMotion& LagrangianSystem::equations_of_motion() const {
+  std::call_once(is_derived_, [&] { equations_ = std::make_unique<const EquationsOfMotion>(*model_); });
+  return *equations_;
 }
 
 }  // namespace mechanics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace mechanics {
 namespace expression {
 struct LagrangianModel;
 }
+struct EquationsOfMotion;
 
 /// A system given by the text of T, V, Q and the constraints. Derivatives are exact: automatic
 /// differentiation, forward over reverse (Griewank and Walther 2008, ch. 3 and 5), nothing is approximated by
@@ -36,9 +38,13 @@ class LagrangianSystem : public System {
   State state(const StateText& text) const;
   /// The tape of all its expressions.
   const expression::LagrangianModel& model() const { return *model_; }
+  /// What a motion is found from, as expressions: derived when it is first asked for, once for all motions.
+  const EquationsOfMotion& equations_of_motion() const;
 
  private:
   std::unique_ptr<const expression::LagrangianModel> model_;
+  mutable std::once_flag is_derived_;
+  mutable std::unique_ptr<const EquationsOfMotion> equations_;
 };
 
 /// Parses the text, expands its families and checks it. InvalidInput, with the place, for whatever is wrong

@@ -31,8 +31,7 @@ constexpr long most_events_at_once = 50;
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
-    : Course(of, std::move(chosen)),
-      expansion_(of.model(), taylor_order(tolerance_of_step(options.tolerance))) {
+    : Course(of, std::move(chosen)), expansion_(of, taylor_order(tolerance_of_step(options.tolerance))) {
   const auto m = system.constraints().size();
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
@@ -129,12 +128,14 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
   const std::span<const double> c =
       coefficients(zero.of == Zero::Of::constraint ? next.f : next.lambda, zero.which);
   for (int i = 0; i < most_corrections; ++i) {
-    expansion_.set(next.state(tau));
     double value = 0;
+    next.state(tau, there_);
     if (zero.of == Zero::Of::constraint) {
+      expansion_.look_at(there_);
       value = expansion_.f(zero.which);
     } else {
       if (is_weak_[k]) return tau;
+      expansion_.set(there_);
       const HeldRows::Answer answer = expansion_.acceleration(persist_);
       for (std::size_t a = 0; a < persist_.size(); ++a)
         if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
@@ -162,7 +163,7 @@ bool Motion::EventDriven::fits(double tau) {
   double moved = 0, power = tau;
   for (std::size_t k = 1; k < sizes_.size(); ++k, power *= tau) moved = std::max(moved, sizes_[k] * power);
   const double size = expansion_.norm(q2);
-  const double defect = expansion_.norm(q2 - next.acceleration(tau)) * tau * tau;
+  const double defect = expansion_.norm(Vector(q2 - next.acceleration(tau))) * tau * tau;
   const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
   const double orders = static_cast<double>(next.q.cols());
   return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;

@@ -43,6 +43,9 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   const std::vector<Index>& switches);
   bool is_consistent(const std::vector<Index>& switches);
+  std::optional<ContactAnswer> answer_where_zero_stays(const ContactQuestion& question,
+                                                       const std::vector<Index>& switches,
+                                                       ContactAnswer beside);
   void continue_arc();
   void project();
   void fill_next();

@@ -26,27 +26,30 @@ bool is_in_doubt(double part) {
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
 
-std::vector<Slot> asked_for(const expression::Program& program) {
-  std::vector<Slot> found;
-  for (std::size_t group = 0; group < program.groups(); ++group)
-    found.insert(found.end(), program.roots(group).begin(), program.roots(group).end());
-  return found;
+TaylorRows::Asked asked_of(const LagrangeEquations& equations) {
+  TaylorRows::Asked asked{equations.rate, {}, equations.momentum};
+  for (std::size_t i = 0; i < equations.program.coordinates(); ++i)
+    asked.series.push_back(equations.program.coordinate(i));
+  for (const auto& row : equations.row)
+    for (const auto& [i, u] : row) asked.series.push_back(u);
+  for (const auto& [i, F] : equations.force) asked.of_order.push_back(F);
+  return asked;
 }
 
 }  // namespace
 
-Expansion::Expansion(const expression::LagrangianModel& model, int order)
-    : model_(model),
-      equations_(model),
-      steps_(equations_.tape, equations_.program),
+Expansion::Expansion(const LagrangianSystem& system, int order)
+    : system_(system),
+      equations_(system.equations_of_motion().equations),
+      steps_(system.equations_of_motion().steps),
       order_(order),
-      series_(steps_, asked_for(equations_.program), order),
+      series_(steps_, asked_of(equations_), order),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))) {
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
 }
 
-void Expansion::set(const State& state) {
+void Expansion::look_at(const State& state) {
   state_ = state;
   const expression::Program& program = equations_.program;
   for (std::size_t i = 0; i < program.coordinates(); ++i) {
@@ -57,6 +60,10 @@ void Expansion::set(const State& state) {
   for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
   if (!has_branches_) take_branches();
   check_finite();
+}
+
+void Expansion::set(const State& state) {
+  look_at(state);
   find_inertia();
 }
 
@@ -150,16 +157,17 @@ void Expansion::begin_order(int k) {
       r_[i] += sum;
     }
   }
+  const double next = k + 1;  // a factor 1 / (k + 1), rounded, would pull all steps to one side
   for (std::size_t i = 0; i < program.coordinates(); ++i) {
     const Slot v = program.velocity(i);
-    series_.at_order(program.coordinate(i)) = (k == 0 ? series_[v][0] : series_.at_order(v)) / (k + 1);
+    series_.at_order(program.coordinate(i)) = (k == 0 ? series_[v][0] : series_.at_order(v)) / next;
     series_.at_order(v) = 0;
   }
   series_.at_order(program.time()) = k == 0 ? 1 : 0;
   series_.find(0, k + 1);
   double spoiled = 0;  // 0 times a number, unless it is not finite
   for (Index i = 0; i < r_.size(); ++i) {
-    r_[i] = r_[i] / (k + 1) - series_.at_order(equations_.momentum[index(i)]);
+    r_[i] = r_[i] / next - series_.at_order(equations_.momentum[index(i)]);
     spoiled += 0 * r_[i];
   }
   for (const Slot slot : equations_.rate) spoiled += 0 * series_.at_order(slot);
@@ -242,6 +250,18 @@ HeldRows::Answer Expansion::acceleration(const std::vector<Index>& held) {
   return held_rows(held).solve(r_, missing_rate(held));
 }
 
+/// Whether all coefficients after order k are 0, as in a flight under constant forces. The recurrences are
+/// linear in the coefficients of one order, but for products of lower ones: with nothing above order d, those
+/// products are 0 above order 2d.
+bool Expansion::ends_by(int k) const {
+  int degree = std::max(1, series_.degree());  // of t itself
+  if (2 * degree + 1 >= k) return false;
+  for (const Index a : pushing_)
+    for (int j = degree + 1; j <= k; ++j)
+      if (multiplier(a)[static_cast<std::size_t>(j)] != 0) degree = j;
+  return 2 * degree + 1 < k;
+}
+
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   ContactAnswer answer;
   in_doubt_.clear();
@@ -265,6 +285,7 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
       give_multipliers(k, persist, solved.lambda * (k + 1));
       give_velocity(k + 1, solved.x);
     }
+    if (ends_by(k)) break;
   }
   series_.finish(1, order_ - 1);
   for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/lagrangian_system.hpp"
 #include "mechanics/motion/held_rows.hpp"
 #include "mechanics/motion/inertia_factor.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
@@ -44,10 +45,13 @@ struct ContactAnswer {
 /// 0, decides at the first order at which one of them is not 0: at order 0 this is Gauss' problem itself.
 class Expansion {
  public:
-  Expansion(const expression::LagrangianModel& model, int order);
+  /// `system` must outlive it.
+  Expansion(const LagrangianSystem& system, int order);
 
   /// Coefficients 0 at a state: f, df/dt, A and what follows from them.
   void set(const State& state);
+  /// f, df/dt and the arguments of switches at a state; nothing else is known there.
+  void look_at(const State& state);
   const State& state() const { return state_; }
   const convex::Metric& inertia() const;
   /// Whether t itself enters something.
@@ -115,10 +119,11 @@ class Expansion {
   void give_velocity(int k, const Vector& v);
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
   Vector missing_rate(const std::vector<Index>& constraints) const;
+  bool ends_by(int k) const;
 
-  const expression::LagrangianModel& model_;
-  LagrangeEquations equations_;
-  TaylorSteps steps_;
+  const LagrangianSystem& system_;
+  const LagrangeEquations& equations_;
+  const TaylorSteps& steps_;
   int order_;
   TaylorSeries series_;
   State state_;

@@ -54,7 +54,7 @@ void Expansion::find_inertia() {
   convex::SparseMatrix columns(n, n);
   columns.setFromTriplets(entries.begin(), entries.end());
   const convex::SparseMatrix transposed = columns.transpose();
-  A_ = kinetic_metric(convex::SparseMatrix(0.5 * (columns + transposed)), model_.coordinates);
+  A_ = kinetic_metric(convex::SparseMatrix(0.5 * (columns + transposed)), system_.coordinates());
 }
 
 const convex::Metric& Expansion::inertia() const {
@@ -62,7 +62,7 @@ const convex::Metric& Expansion::inertia() const {
   if ((small_.diagonal().array() > 0).all() && small_.isDiagonal(0))
     A_ = convex::Metric::diagonal(small_.diagonal());
   else
-    A_ = kinetic_metric(small_.sparseView(0, 0), model_.coordinates);
+    A_ = kinetic_metric(small_.sparseView(0, 0), system_.coordinates());
   return *A_;
 }
 
@@ -81,21 +81,9 @@ void Expansion::sizes(std::vector<double>& of_order) const {
     }
     return;
   }
-  std::array<double, most_orders> most{}, scale{}, entry;  // squares may be too large for doubles
-  for (Index i = 0; i < coordinates(); ++i)
-    for (std::size_t k = 0; k < count; ++k) most[k] = std::max(most[k], std::abs(position(i)[k]));
-  for (std::size_t k = 0; k < count; ++k) scale[k] = std::isnormal(most[k]) ? 1 / most[k] : 0;
-  for (Index j = 0; j < coordinates(); ++j) {
-    entry.fill(0);
-    for (Index i = j; i < coordinates(); ++i) {
-      const double l = factor_(i, j);
-      const double* q = position(i).data();
-      for (std::size_t k = 0; k < count; ++k) entry[k] += l * (q[k] * scale[k]);
-    }
-    for (std::size_t k = 0; k < count; ++k) of_order[k] += entry[k] * entry[k];
-  }
-  for (std::size_t k = 0; k < count; ++k)
-    of_order[k] = scale[k] > 0 ? most[k] * std::sqrt(of_order[k]) : most[k];
+  std::array<const double*, small_system> q;
+  for (Index i = 0; i < coordinates(); ++i) q[index(i)] = position(i).data();
+  factor_.norms(q.data(), of_order.data(), count);
 }
 
 }  // namespace mechanics

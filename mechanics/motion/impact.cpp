@@ -54,6 +54,17 @@ Vector rates_after(const convex::Metric& A, const std::vector<ImpactContact>& co
   return rates;
 }
 
+/// One contact alone: v+ - v- along A⁻¹u. Nothing where |u|² leaves the range of doubles.
+std::optional<ImpactOutcome> single_impact(const convex::Metric& A, const ImpactContact& contact) {
+  const double s = -(1 + (contact.rate > 0 ? 0 : contact.restitution)) * contact.rate;
+  Vector along = A.solve(contact.u);
+  const double square = contact.u.dot(along), impulse = s / square;
+  if (!std::isnormal(square) || !std::isfinite(impulse)) return std::nullopt;
+  if (!(impulse > 0)) return ImpactOutcome{Vector::Zero(along.size()), Vector{{0}}, Vector{{contact.rate}}};
+  along *= impulse;
+  return ImpactOutcome{std::move(along), Vector{{impulse}}, Vector{{contact.rate + s}}};
+}
+
 bool have_one_restitution(const std::vector<ImpactContact>& contacts, const Vector& impulse) {
   double e = -1;
   for (std::size_t a = 0; a < contacts.size(); ++a) {
@@ -97,6 +108,8 @@ ImpactOutcome impact(const convex::Metric& A, const std::vector<ImpactContact>& 
 }
 
 ImpactOutcome moreau_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
+  if (contacts.size() == 1 && !contacts.front().two_sided)
+    if (std::optional<ImpactOutcome> outcome = single_impact(A, contacts.front())) return *std::move(outcome);
   Vector s(static_cast<Index>(contacts.size()));
   for (std::size_t a = 0; a < contacts.size(); ++a) {
     const ImpactContact& contact = contacts[a];

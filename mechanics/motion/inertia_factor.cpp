@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "convex/processor.hpp"
 
 namespace mechanics {
 namespace {
@@ -9,46 +12,89 @@ namespace {
 /// A pivot is rounded about so many times, for each coordinate.
 constexpr double roundings_of_pivot = 8;
 
+/// x becomes A⁻¹x. count: the number of coordinates, as a constant if it is known.
+template <class Count>
+void solve_factored(Count count, const double* M, const double* inverse, double* x) {
+  const std::size_t n = count;
+  for (std::size_t i = 1; i < n; ++i)
+    for (std::size_t k = 0; k < i; ++k) x[i] -= M[i * n + k] * x[k];
+  for (std::size_t i = 0; i < n; ++i) x[i] *= inverse[i];
+  for (std::size_t i = n; i-- > 1;)
+    for (std::size_t k = 0; k < i; ++k) x[k] -= M[i * n + k] * x[i];
+}
+
+template <std::size_t n>
+using Fixed = std::integral_constant<std::size_t, n>;
+
+/// Squares may be too large for doubles, so that the largest entry is divided by first.
+MOREAU_CLONES void norms_by(const double* M, const double* root, std::size_t n, const double* const* x,
+                            double* of, std::size_t count) {
+  constexpr std::size_t at_once = 8;
+  for (std::size_t first = 0; first < count; first += at_once) {
+    const std::size_t width = std::min(at_once, count - first);
+    double most[at_once] = {}, scale[at_once], squares[at_once] = {}, entry[at_once];
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < width; ++k) most[k] = std::max(most[k], std::abs(x[i][first + k]));
+    for (std::size_t k = 0; k < width; ++k)
+      scale[k] = most[k] >= std::numeric_limits<double>::min() ? 1 / most[k] : 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t k = 0; k < width; ++k) entry[k] = x[j][first + k];
+      for (std::size_t i = j + 1; i < n; ++i)
+        for (std::size_t k = 0; k < width; ++k) entry[k] += M[i * n + j] * x[i][first + k];
+      for (std::size_t k = 0; k < width; ++k) {
+        const double part = root[j] * (entry[k] * scale[k]);
+        squares[k] += part * part;
+      }
+    }
+    for (std::size_t k = 0; k < width; ++k) of[first + k] = most[k] * std::sqrt(squares[k]);
+  }
+}
+
 }  // namespace
 
 bool InertiaFactor::make(const convex::Matrix& A) {
   n_ = A.rows();
   const auto n = static_cast<std::size_t>(n_);
-  L_.resize(n * n);
+  M_.resize(n * n);
+  root_.resize(n);
   inverse_.resize(n);
   is_made_ = false;
   for (std::size_t i = 0; i < n; ++i) {
-    double* row = L_.data() + i * n;
-    for (std::size_t j = 0; j <= i; ++j) {
-      const double* other = L_.data() + j * n;
+    double* row = M_.data() + i * n;
+    double pivot = A(static_cast<Index>(i), static_cast<Index>(i));
+    for (std::size_t j = 0; j < i; ++j) {  // first M_ij D_j
+      const double* other = M_.data() + j * n;
       double sum = A(static_cast<Index>(i), static_cast<Index>(j));
       for (std::size_t k = 0; k < j; ++k) sum -= row[k] * other[k];
-      if (j < i) {
-        row[j] = sum * inverse_[j];
-        continue;
-      }
-      const double diagonal = A(static_cast<Index>(i), static_cast<Index>(i));
-      if (!(sum > roundings_of_pivot * static_cast<double>(n) * convex::unit_roundoff * diagonal))
-        return false;
-      row[i] = std::sqrt(sum);
-      inverse_[i] = 1 / row[i];
+      row[j] = sum;
     }
+    const double diagonal = pivot;
+    for (std::size_t j = 0; j < i; ++j) {
+      const double entry = row[j];
+      row[j] *= inverse_[j];
+      pivot -= entry * row[j];
+    }
+    if (!(pivot > roundings_of_pivot * static_cast<double>(n) * convex::unit_roundoff * diagonal))
+      return false;
+    root_[i] = std::sqrt(pivot);
+    inverse_[i] = 1 / pivot;
+    if (!std::isnormal(inverse_[i])) return false;
   }
   is_made_ = true;
   return true;
 }
 
 void InertiaFactor::solve(Vector& x) const {
-  const auto n = static_cast<std::size_t>(n_);
-  double* y = x.data();
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = y[i];
-    for (std::size_t k = 0; k < i; ++k) sum -= L_[i * n + k] * y[k];
-    y[i] = sum * inverse_[i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    y[i] *= inverse_[i];
-    for (std::size_t k = 0; k < i; ++k) y[k] -= L_[i * n + k] * y[i];
+  const auto with = [&](auto count) { solve_factored(count, M_.data(), inverse_.data(), x.data()); };
+  switch (n_) {
+    case 1:
+      return with(Fixed<1>());
+    case 2:
+      return with(Fixed<2>());
+    case 3:
+      return with(Fixed<3>());
+    default:
+      return with(static_cast<std::size_t>(n_));
   }
 }
 
@@ -59,11 +105,16 @@ double InertiaFactor::norm(std::span<const double> x) const {
   if (!(most > 0) || !std::isfinite(most)) return most;
   double sum = 0;
   for (std::size_t j = 0; j < n; ++j) {
-    double entry = 0;
-    for (std::size_t i = j; i < n; ++i) entry += L_[i * n + j] * (x[i] / most);
+    double entry = x[j] / most;
+    for (std::size_t i = j + 1; i < n; ++i) entry += M_[i * n + j] * (x[i] / most);
+    entry *= root_[j];
     sum += entry * entry;
   }
   return most * std::sqrt(sum);
+}
+
+void InertiaFactor::norms(const double* const* x, double* of, std::size_t count) const {
+  norms_by(M_.data(), root_.data(), static_cast<std::size_t>(n_), x, of, count);
 }
 
 }  // namespace mechanics

@@ -7,7 +7,7 @@
 
 namespace mechanics {
 
-/// A = L Lᵀ for few coordinates, made anew at each step in the same memory.
+/// A = M D Mᵀ for few coordinates, M with a diagonal of 1, made anew at each step in the same memory.
 class InertiaFactor {
  public:
   /// False, and nothing is known, where a pivot is lost in the rounding of its diagonal entry.
@@ -17,16 +17,16 @@ class InertiaFactor {
 
   /// x becomes A⁻¹x.
   void solve(Vector& x) const;
-  /// ||x||_A = |Lᵀx|.
+  /// ||x||_A = |sqrt(D) Mᵀx|.
   double norm(std::span<const double> x) const;
-  /// L_ij, i >= j.
-  double operator()(Index i, Index j) const { return L_[static_cast<std::size_t>(i * n_ + j)]; }
+  /// ||x_k||_A for vectors x_k, k < count. x: n rows of so many numbers.
+  void norms(const double* const* x, double* of, std::size_t count) const;
 
  private:
   Index n_ = 0;
   bool is_made_ = false;
-  std::vector<double> L_;        // rows, lower part
-  std::vector<double> inverse_;  // 1 / L_ii
+  std::vector<double> M_;               // rows, below the diagonal
+  std::vector<double> root_, inverse_;  // sqrt(D_ii), 1 / D_ii
 };
 
 }  // namespace mechanics

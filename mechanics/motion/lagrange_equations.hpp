@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/motion/taylor_steps.hpp"
 
 namespace mechanics {
 
@@ -26,6 +27,15 @@ struct LagrangeEquations {
   std::vector<Slot> rate;                                ///< df_a/dt
   std::vector<std::vector<std::pair<Index, Slot>>> row;  ///< u_a, zeros by structure left out
   std::vector<Slot> constraint;                          ///< f_a
+};
+
+/// The same with the recurrences for its Taylor series.
+struct EquationsOfMotion {
+  explicit EquationsOfMotion(const expression::LagrangianModel& model)
+      : equations(model), steps(equations.tape, equations.program) {}
+
+  LagrangeEquations equations;
+  TaylorSteps steps;
 };
 
 }  // namespace mechanics

@@ -1,14 +1,40 @@
 #include "mechanics/motion/polynomial_root.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
+
+#include "convex/invariant.hpp"
 
 namespace mechanics {
 namespace {
 
-using Coefficients = std::vector<double>;
+/// Numbers where they stand: the search is made for each constraint in each step.
+class Coefficients {
+ public:
+  explicit Coefficients(std::size_t size) : size_(size) {
+    convex::invariant(size <= most_coefficients, "series of a motion have fewer coefficients");
+  }
+  explicit Coefficients(std::span<const double> c) : Coefficients(c.size()) {
+    std::copy(c.begin(), c.end(), begin());
+  }
+  Coefficients(const Coefficients& other) : Coefficients(std::span<const double>(other)) {}
+  Coefficients& operator=(const Coefficients&) = delete;
+  std::size_t size() const { return size_; }
+  double& operator[](std::size_t k) { return of_[k]; }
+  double operator[](std::size_t k) const { return of_[k]; }
+  double* begin() { return of_.data(); }
+  double* end() { return of_.data() + size_; }
+  const double* begin() const { return of_.data(); }
+  const double* end() const { return of_.data() + size_; }
+  double front() const { return of_[0]; }
+  double back() const { return of_[size_ - 1]; }
+
+ private:
+  std::size_t size_;
+  std::array<double, most_coefficients> of_;
+};
 
 /// Halvings after which an interval has no double inside.
 constexpr int deepest = 60;
@@ -52,9 +78,9 @@ double slope(std::span<const double> c, double x) {
   return sum;
 }
 
-/// The zero between a point where p >= 0 and one where p <= 0: Newton's method, kept inside by bisection.
-double between(std::span<const double> c, double low, double high) {
-  double x = low;
+/// The zero between a point where p >= 0 and one where p <= 0: Newton's method from x, kept inside by
+/// bisection.
+double between(std::span<const double> c, double low, double high, double x) {
   for (int i = 0; i < 200; ++i) {
     const double p = value(c, x);
     if (p == 0) return x;
@@ -98,24 +124,51 @@ int sign_changes(const Coefficients& b) {
 
 /// The first x in [low, low + width] where p goes below 0; infinite if it does not. b: the Bernstein
 /// coefficients of p there; c: its coefficients.
-double first_below(Coefficients b, const Coefficients& c, double low, double width, int depth) {
+double first_below(Coefficients& b, const Coefficients& c, double low, double width, int depth) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (b.front() < 0) return low;
   const int changes = sign_changes(b);
   if (changes == 0) return never;
-  if (changes == 1 && b.back() < 0) return between(c, low, low + width);
+  if (changes == 1 && b.back() < 0) return between(c, low, low + width, low);
   const double middle = low + 0.5 * width;
   if (depth == 0 || middle == low) return low;
   Coefficients right = split(b);
-  const double found = first_below(std::move(b), c, low, 0.5 * width, depth - 1);
-  return found != never ? found : first_below(std::move(right), c, middle, 0.5 * width, depth - 1);
+  const double found = first_below(b, c, low, 0.5 * width, depth - 1);
+  return found != never ? found : first_below(right, c, middle, 0.5 * width, depth - 1);
 }
 
 /// The first τ in [0, end] with p(τ) < level (sense 1) or p(τ) > level (sense -1); infinite if there is none.
 double first_beyond(Coefficients c, double end, double level, double sense) {
   c[0] -= level;
   for (double& x : c) x *= sense;
-  return first_below(bernstein(c, end), c, 0, end, deepest);
+  Coefficients b = bernstein(c, end);
+  return first_below(b, c, 0, end, deepest);
+}
+
+/// What the Bernstein coefficients of p alone tell: they stay above `rounding`, and so does p; or they come
+/// from there to below -rounding without turning back across either, and p has one zero, at `crossing`.
+struct Outline {
+  bool stays = false, crosses = false;
+  double crossing = 0;
+};
+
+Outline outline(std::span<const double> c, double end, double rounding) {
+  Outline of;
+  const Coefficients b = bernstein(c, end);
+  std::size_t high = 0, low = 0;  // the first ones not above rounding, and below -rounding
+  while (high < b.size() && b[high] > rounding) ++high;
+  of.stays = high == b.size();
+  if (of.stays || high == 0) return of;
+  low = high;
+  while (low < b.size() && b[low] >= -rounding && b[low] <= rounding) ++low;
+  std::size_t last = low;
+  while (last < b.size() && b[last] < -rounding) ++last;
+  if (low == b.size() || last < b.size()) return of;
+  of.crosses = true;
+  const double part = b[high - 1] / (b[high - 1] - b[low]);
+  const auto before = static_cast<double>(high - 1), after = static_cast<double>(low);
+  of.crossing = end * (before + part * (after - before)) / static_cast<double>(b.size() - 1);
+  return of;
 }
 
 }  // namespace
@@ -124,7 +177,10 @@ std::optional<FirstZero> first_zero(std::span<const double> coefficients, double
   if (coefficients.empty() || !(end > 0)) return std::nullopt;
   while (coefficients.size() > 1 && coefficients.back() == 0)
     coefficients = coefficients.first(coefficients.size() - 1);
-  Coefficients c(coefficients.begin(), coefficients.end());
+  const Outline of = outline(coefficients, end, rounding);
+  if (of.stays) return std::nullopt;
+  if (of.crosses) return FirstZero{between(coefficients, 0, end, of.crossing), false};
+  Coefficients c(coefficients);
   double begin = 0;
   while (begin < end) {
     const double enter = first_beyond(c, end - begin, rounding, 1);
@@ -136,7 +192,7 @@ std::optional<FirstZero> first_zero(std::span<const double> coefficients, double
     const double below = first_beyond(c, rest, -rounding, 1);
     const bool rises = enter == 0 && slope(c, 0) >= 0;
     if (below < leave && !(rises && below == 0))
-      return FirstZero{begin + (c[0] > 0 ? between(c, 0, below) : 0), false};
+      return FirstZero{begin + (c[0] > 0 ? between(c, 0, below, 0) : 0), false};
     if (!(leave <= rest)) {
       if (value(c, rest) > 0 || slope(c, rest) >= 0) return std::nullopt;
       return FirstZero{end, false};

@@ -5,6 +5,9 @@
 
 namespace mechanics {
 
+/// More than any series of a motion has.
+inline constexpr std::size_t most_coefficients = 64;
+
 /// Where a function that starts positive comes to 0.
 struct FirstZero {
   double at = 0;

@@ -28,12 +28,14 @@ constexpr std::size_t compared_terms = 3;
 template <class Size>
 double length(std::size_t count, Size size, std::size_t first, double tolerance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (count == 0) return infinite;
   const std::size_t last = count - 1;
   std::size_t top = last;
   while (top > 0 && size(top) == 0) --top;
   if (2 * top <= last) return infinite;
   double early[compared_terms];
-  for (std::size_t j = 0; j < compared_terms; ++j) early[j] = std::log(tolerance * size(first + j));
+  for (std::size_t j = 0; j < compared_terms; ++j)
+    early[j] = first + j < count ? std::log(tolerance * size(first + j)) : -infinite;
   if (*std::max_element(early, early + compared_terms) == -infinite) return infinite;  // nothing to compare
   double shortest = infinite;
   for (const std::size_t k : {top, top - 1}) {

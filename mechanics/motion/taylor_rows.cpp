@@ -45,7 +45,7 @@ bool reads_partner(Kind kind) { return kind == Kind::arc || kind == Kind::angle;
 
 class Rows {
  public:
-  Rows(const TaylorSteps& from, const std::vector<Slot>& kept, TaylorRows& to)
+  Rows(const TaylorSteps& from, const TaylorRows::Asked& asked, TaylorRows& to)
       : steps_(from),
         to_(to),
         is_kept_(from.series),
@@ -54,12 +54,14 @@ class Rows {
         form_(from.series),
         depends_(from.series) {
     for (const auto& [slot, value] : from.constants) is_constant_[slot] = true;
-    for (const Slot slot : kept) is_kept_[slot] = true;
+    for (const auto* all : {&asked.series, &asked.of_order, &asked.for_velocity})
+      for (const Slot slot : *all) is_kept_[slot] = true;
     for (const Switch& one : from.switches) is_kept_[one.argument] = true;
     for (const std::size_t s : from.by_velocity) depends_[from.steps[s].out] = true;
     for (const TaylorStep& step : from.steps) count_uses(step);
     to_.series = from.series;
     to_.zero = static_cast<Slot>(to_.series++);
+    to_.rests = 1;  // the first one stays 0
   }
 
   void write() {
@@ -113,7 +115,7 @@ class Rows {
     end_row();
   }
 
-  void begin_row(Slot out, std::uint32_t rest = TaylorRows::none, bool over_order = false) {
+  void begin_row(Slot out, std::uint32_t rest = 0, bool over_order = false) {
     const auto first = static_cast<std::uint32_t>(to_.terms.size());
     to_.rows.push_back({out, first, first, rest, over_order});
   }
@@ -194,8 +196,34 @@ class Rows {
 
 }  // namespace
 
-TaylorRows::TaylorRows(const TaylorSteps& steps, const std::vector<Slot>& kept) {
-  Rows(steps, kept, *this).write();
+TaylorRows::TaylorRows(const TaylorSteps& steps, const Asked& asked) {
+  Rows(steps, asked, *this).write();
+  std::vector<bool> is_joined(series), is_read(series);
+  for (const Product& product : products) is_joined[product.x] = is_joined[product.y] = true;
+  for (const Slot slot : asked.series) is_joined[slot] = true;
+  for (const Switch& one : steps.switches) is_joined[one.argument] = true;
+  std::size_t row = 0, of_weighted = 0;
+  const auto join = [&](Slot slot) {
+    if (is_joined[slot]) joined.push_back(slot);
+  };
+  for (std::size_t variable = 0; variable < steps.variables; ++variable) join(static_cast<Slot>(variable));
+  for (Ends& end : ends) {
+    for (; of_weighted < end.weighted; ++of_weighted) join(weighted[of_weighted].out);
+    for (; row < end.rows; ++row) join(rows[row].out);
+    end.joined = joined.size();
+  }
+  is_read = is_joined;
+  for (const Slot slot : asked.of_order) is_read[slot] = true;
+  for (const Weighted& one : weighted) is_read[one.of] = true;
+  for (const TaylorStep& step : steps.steps)  // branches, which may come to be read
+    if (step.kind == Kind::either || step.kind == Kind::where_not_negative ||
+        step.kind == Kind::where_negative)
+      is_read[step.a] = is_read[step.b] = true;
+  for (row = rows.size(); row-- > 0;)
+    for (std::uint32_t t = rows[row].first; is_read[rows[row].out] && t < rows[row].end; ++t)
+      is_read[terms[t].series] = true;
+  for (const std::uint32_t r : by_velocity)
+    if (is_read[rows[r].out]) after_velocity.push_back(r);
 }
 
 }  // namespace mechanics

@@ -20,7 +20,7 @@ struct TaylorRows {
   struct Row {
     Slot out;
     std::uint32_t first, end;  ///< its terms
-    std::uint32_t rest;        ///< which R, or none
+    std::uint32_t rest;        ///< which R; that of a row without products stays 0
     bool over_order;           ///< R_k / k: the step has a differential equation
   };
   /// scale · x y, a part of the R named.
@@ -35,19 +35,26 @@ struct TaylorRows {
   };
   /// Where a group ends in the lists.
   struct Ends {
-    std::size_t rows = 0, products = 0, weighted = 0;
+    std::size_t rows = 0, products = 0, weighted = 0, joined = 0;
+  };
+  /// What is asked for.
+  struct Asked {
+    std::vector<Slot> series;        ///< with all coefficients
+    std::vector<Slot> of_order;      ///< while an order is looked for
+    std::vector<Slot> for_velocity;  ///< the same, only until its velocities are known
   };
 
-  /// `kept`: the series that are asked for.
-  TaylorRows(const TaylorSteps& steps, const std::vector<Slot>& kept);
+  TaylorRows(const TaylorSteps& steps, const Asked& asked);
 
   std::vector<Row> rows;
   std::vector<Term> terms;
   std::vector<Product> products;
   std::vector<Weighted> weighted;
-  std::vector<Ends> ends;                  ///< by group
-  std::vector<std::uint32_t> row_of_step;  ///< the first row of a step; none where it has none
-  std::vector<std::uint32_t> by_velocity;  ///< rows of group 0 that depend on velocities
+  std::vector<Slot> joined;                   ///< series whose lower orders are read
+  std::vector<Ends> ends;                     ///< by group
+  std::vector<std::uint32_t> row_of_step;     ///< the first row of a step; none where it has none
+  std::vector<std::uint32_t> by_velocity;     ///< rows of group 0 that depend on velocities
+  std::vector<std::uint32_t> after_velocity;  ///< those of them that are read once velocities are known
   std::size_t series = 0, rests = 0;
   Slot zero = 0;  ///< a series that is 0
 };

@@ -52,10 +52,9 @@ MOREAU_CLONES void add_products(const TaylorRows::Product* first, const TaylorRo
 
 }  // namespace
 
-TaylorSeries::TaylorSeries(const TaylorSteps& steps, const std::vector<Slot>& kept, int order)
+TaylorSeries::TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order)
     : steps_(&steps),
-      rows_(steps, kept),
-      variables_(steps.variables),
+      rows_(steps, asked),
       order_(order),
       width_((static_cast<std::size_t>(order) + 1 + 2 * lanes) / lanes * lanes),
       c_(rows_.series * width_),
@@ -64,10 +63,6 @@ TaylorSeries::TaylorSeries(const TaylorSteps& steps, const std::vector<Slot>& ke
       now_(rows_.series),
       branches_(steps.switches.size(), 1.0) {
   for (const auto& [series, value] : steps.constants) at(series)[0] = value;
-  for (const TaylorRows::Product& product : rows_.products)
-    for (const Slot factor : {product.x, product.y}) factors_.push_back(factor);
-  std::sort(factors_.begin(), factors_.end());
-  factors_.erase(std::unique(factors_.begin(), factors_.end()), factors_.end());
 }
 
 void TaylorSeries::begin(std::size_t group) {
@@ -131,7 +126,7 @@ double TaylorSeries::value(const TaylorStep& step) {
     case Kind::absolute:
       return branch(step) * a;
     case Kind::where_not_negative:
-      return branch(step) > 0 ? b : 0;
+      return branch(step) >= 0 ? b : 0;
     case Kind::where_negative:
       return branch(step) < 0 ? b : 0;
     case Kind::either:
@@ -148,6 +143,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
   const double a = at(step.a)[0], b = step.kind == Kind::arc ? 0 : at(step.b)[0];
   const double f = at(step.out)[0], p = at(step.partner)[0];
   TaylorRows::Term* by = rows_.terms.data() + rows_.rows[row].first;
+  TaylorRows::Term& of_partner = by[1];  // the first one of the next row, where that belongs to the step
   double* factor = factor_.data() + row;
   switch (step.kind) {
     case Kind::product:
@@ -179,20 +175,20 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       return;
     case Kind::sine:
       by[0].c = p;
-      by[1].c = -f;  // of the row of the partner
+      of_partner.c = -f;
       factor[1] = -1;
       return;
     case Kind::sinh:
       by[0].c = p;
-      by[1].c = f;
+      of_partner.c = f;
       return;
     case Kind::tangent:  // f' = (1 + f²) a'
       by[0].c = p;
-      by[1].c = 2 * f;
+      of_partner.c = 2 * f;
       return;
     case Kind::tanh:  // f' = (1 - f²) a'
       by[0].c = p;
-      by[1].c = -2 * f;
+      of_partner.c = -2 * f;
       factor[1] = -1;
       return;
     case Kind::arc:  // p f' = ± a'
@@ -212,7 +208,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
       by[0].c = branch(step);
       return;
     case Kind::where_not_negative:
-      by[0] = branch(step) > 0 ? TaylorRows::Term{step.b, 1} : TaylorRows::Term{rows_.zero, 0};
+      by[0] = branch(step) >= 0 ? TaylorRows::Term{step.b, 1} : TaylorRows::Term{rows_.zero, 0};
       return;
     case Kind::where_negative:
       by[0] = branch(step) < 0 ? TaylorRows::Term{step.b, 1} : TaylorRows::Term{rows_.zero, 0};
@@ -227,29 +223,44 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
 
 void TaylorSeries::restart() {
   std::fill(rest_.begin(), rest_.end(), 0.0);
-  for (const Slot factor : factors_) std::fill_n(at(factor) + 1, width_ - 1, 0.0);
+  for (const Slot series : rows_.joined) std::fill_n(at(series) + 1, width_ - 1, 0.0);
+  degree_ = 0;
 }
 
-void TaylorSeries::find_row(std::size_t number, int k) {
-  const TaylorRows::Row& row = rows_.rows[number];
-  double sum = 0;
-  if (row.rest != TaylorRows::none) {
-    sum = factor_[number] * rest_[row.rest * width_ + static_cast<std::size_t>(k)];
-    if (row.over_order) sum /= k;
+namespace {
+
+/// Rows one after the other, each of which may read those before it.
+struct RowOrder {
+  const TaylorRows::Row* rows;
+  const TaylorRows::Term* terms;
+  const double *rest, *factor;  // R_k by rest, ρ by row
+  std::size_t width;
+  double order;
+  double* now;
+
+  void find(std::size_t number) const {
+    const TaylorRows::Row row = rows[number];
+    double sum = factor[number] * rest[row.rest * width];
+    if (row.over_order) sum /= order;
+    for (const TaylorRows::Term *term = terms + row.first, *end = terms + row.end; term != end; ++term)
+      sum += term->c * now[term->series];
+    now[row.out] = sum;
   }
-  for (const TaylorRows::Term *term = rows_.terms.data() + row.first, *end = rows_.terms.data() + row.end;
-       term != end; ++term)
-    sum += term->c * now_[term->series];
-  now_[row.out] = sum;
-}
+};
+
+}  // namespace
 
 void TaylorSeries::find(std::size_t group, int k) {
-  for (std::size_t r = group == 0 ? 0 : rows_.ends[group - 1].rows; r < rows_.ends[group].rows; ++r)
-    find_row(r, k);
+  const RowOrder all{rows_.rows.data(),      rows_.terms.data(), rest_.data() + k, factor_.data(), width_,
+                     static_cast<double>(k), now_.data()};
+  const std::size_t end = rows_.ends[group].rows;
+  for (std::size_t r = group == 0 ? 0 : rows_.ends[group - 1].rows; r < end; ++r) all.find(r);
 }
 
 void TaylorSeries::find_by_velocity(int k) {
-  for (const std::uint32_t r : rows_.by_velocity) find_row(r, k);
+  const RowOrder all{rows_.rows.data(),      rows_.terms.data(), rest_.data() + k, factor_.data(), width_,
+                     static_cast<double>(k), now_.data()};
+  for (const std::uint32_t r : rows_.after_velocity) all.find(r);
 }
 
 void TaylorSeries::finish(std::size_t groups, int k) {
@@ -258,10 +269,13 @@ void TaylorSeries::finish(std::size_t groups, int k) {
   if (k < order_)
     add_products(rows_.products.data(), rows_.products.data() + end.products, c_.data(), now_.data(),
                  rest_.data(), width_, static_cast<std::size_t>(k), static_cast<std::size_t>(order_));
-  const auto join = [&](Slot series) { at(series)[k] = now_[series]; };
-  for (std::size_t variable = 0; variable < variables_; ++variable) join(static_cast<Slot>(variable));
-  for (std::size_t w = 0; w < end.weighted; ++w) join(rows_.weighted[w].out);
-  for (std::size_t r = 0; r < end.rows; ++r) join(rows_.rows[r].out);
+  bool is_zero = true;
+  for (std::size_t j = 0; j < end.joined; ++j) {
+    const Slot series = rows_.joined[j];
+    at(series)[k] = now_[series];
+    is_zero = is_zero && now_[series] == 0;
+  }
+  if (!is_zero) degree_ = k;
 }
 
 void TaylorSeries::carry(std::vector<double>& change, std::size_t count) const {

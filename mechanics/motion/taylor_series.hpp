@@ -17,8 +17,8 @@ class TaylorSeries {
  public:
   using Slot = expression::Slot;
 
-  /// Coefficients 0 to `order` of the slots `kept` of what `steps` computes.
-  TaylorSeries(const TaylorSteps& steps, const std::vector<Slot>& kept, int order);
+  /// Coefficients 0 to `order` of what is asked for among the slots that `steps` computes.
+  TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order);
 
   int order() const { return order_; }
   std::span<const double> operator[](Slot series) const {
@@ -29,7 +29,7 @@ class TaylorSeries {
   /// The coefficient of the order looked for.
   double& at_order(Slot series) { return now_[series]; }
   double at_order(Slot series) const { return now_[series]; }
-  /// The branch of each switch of the steps: 1 or -1.
+  /// The branch of each switch of the steps: 1 or -1, or 0 where its argument stays 0.
   std::vector<double>& branches() { return branches_; }
   const std::vector<double>& branches() const { return branches_; }
 
@@ -39,10 +39,12 @@ class TaylorSeries {
   void restart();
   /// Coefficient k >= 1 of all series of a group, from those of the variables.
   void find(std::size_t group, int k);
-  /// The same for the series of group 0 that depend on velocities.
+  /// The same for the series of group 0 that depend on velocities, as far as they are read from now on.
   void find_by_velocity(int k);
   /// Order k of the first groups is complete.
   void finish(std::size_t groups, int k);
+  /// The highest order at which a series that products or askers read has had a coefficient that is not 0.
+  int degree() const { return degree_; }
   /// The last coefficient of a variable, which nothing depends on any more.
   void end(Slot variable, double coefficient) { at(variable)[order_] = coefficient; }
 
@@ -58,19 +60,17 @@ class TaylorSeries {
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
   void differentiate(const TaylorStep& step, std::uint32_t row);
-  void find_row(std::size_t row, int k);
 
   const TaylorSteps* steps_;
   TaylorRows rows_;
-  std::size_t variables_;  // those of the program
   int order_;
   std::size_t width_;
   std::vector<double> c_;       // by series
   std::vector<double> rest_;    // R, by rest
   std::vector<double> factor_;  // ρ, by row
   std::vector<double> now_;     // of the order looked for, by series
-  std::vector<Slot> factors_;   // series in products
   std::vector<double> branches_;
+  int degree_ = 0;
 };
 
 /// Σ c_k τ^k.

@@ -24,7 +24,7 @@ std::vector<double> series_of(const LagrangianSystem& system, int order) {
   const expression::Program& program = system.model().contacts;
   const TaylorSteps steps(system.model().tape, program);
   const expression::Slot f = program.roots(0)[0], position = program.coordinate(0);
-  TaylorSeries series(steps, {f}, order);
+  TaylorSeries series(steps, {{f}, {}, {}}, order);
   const double x[] = {0.4, 0.3, -0.2, 0.1};
   series.start(position) = x[0];
   series.start(program.time()) = 0.7;
