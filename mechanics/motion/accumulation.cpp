@@ -4,12 +4,23 @@
 
 namespace mechanics {
 
-void ImpactHistory::add(double since, double speed) {
+void ImpactHistory::add(double since, double speed, double t, double noise) {
   interval_[2] = interval_[1];
   interval_[1] = interval_[0];
   interval_[0] = since;
   speed_ = speed;
   ++count_;
+  if (!shrinks()) {
+    if (t > end_ + end_error_) end_error_ = std::numeric_limits<double>::infinity();
+    return;
+  }
+  // The end t + Δ r / (1 - r), Δ and r uncertain.
+  const double r = ratio(), before = interval_[1] / interval_[2];
+  const double error = (interval_[0] * std::abs(r - before) + 2 * noise) / ((1 - r) * (1 - r));
+  const double end = t + remaining();
+  if (error > end_error_ && std::abs(end - end_) <= error + end_error_) return;
+  end_ = end;
+  end_error_ = error;
 }
 
 bool ImpactHistory::shrinks() const {
@@ -23,11 +34,6 @@ bool ImpactHistory::shrinks() const {
 double ImpactHistory::remaining() const {
   const double r = ratio();
   return interval_[0] * r / (1 - r);
-}
-
-double ImpactHistory::remaining_error() const {
-  const double last = ratio(), before = interval_[1] / interval_[2];
-  return remaining() * std::abs(last - before) / ((1 - last) * (1 - last));
 }
 
 }  // namespace mechanics

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "convex/vector.hpp"
@@ -14,16 +15,21 @@ class ImpactHistory {
  public:
   /// An impact at the time `since` after the last one (differences of times would lose digits), with the
   /// speed -df/dt before it.
-  void add(double since, double speed);
+  /// t: when; noise: how far `since` may be off by rounding.
+  void add(double since, double speed, double t, double noise);
   void forget() { *this = ImpactHistory(); }
 
   long count() const { return count_; }
   /// Whether the last three intervals shrink by one ratio.
   bool shrinks() const;
   double ratio() const { return interval_[0] / interval_[1]; }
-  /// The time from the last impact to the end, and how far it may be off by the drift of the ratio.
+  /// The time from the last impact to the end.
   double remaining() const;
-  double remaining_error() const;
+  /// When it ends, and how far that may be off by the drift of the ratio and by rounding, of all that the
+  /// impacts told so far the surest. The last bounces are too low to tell it best: rounding of f decides
+  /// them.
+  double end() const { return end_; }
+  double end_error() const { return end_error_; }
   /// A bound on how high, in units of f, the next bounce goes.
   double next_height() const { return 0.25 * speed_ * interval_[0]; }
 
@@ -31,6 +37,7 @@ class ImpactHistory {
   long count_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
   double speed_ = 0;
+  double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace mechanics

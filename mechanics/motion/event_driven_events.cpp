@@ -52,6 +52,9 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   }
   const Vector before = state.v;
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
+  for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
+    if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
+      switches.push_back(static_cast<Index>(k));
   if (closing.size() > 1) tell_order(zeros, closing);
   if (!closing.empty()) {
     collide(closing, united(held, touching), switches);
@@ -117,7 +120,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) present.push_back(a);
   std::vector<ImpactContact> contacts;
+  std::vector<double> position_scales;
   for (const Index a : present) {
+    position_scales.push_back(expansion_.position_scale(a));
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
     const bool moves = contains(closing, a) || rate > softest_impact * expansion_.rate_scale(a);
@@ -156,7 +161,9 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (rate_before < 0 || pushed > undecided_part * A.norm(outcome.change)) hit.push_back(a);
     (outcome.rate[at] > 0 ? left : resting).push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (rate_before < 0) history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before);
+    if (rate_before < 0)
+      history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
+                  epsilon * (std::abs(state.t) + position_scales[k] / -rate_before));
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
   event(EventKind::impact, hit, before);
@@ -177,13 +184,13 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                       });
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
-      endings_.push_back({state.t + low_ + last.remaining(), ending});
+      endings_.push_back({std::max(state.t + low_, last.end()), ending});
       std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (last.next_height() > options.tolerance)
         remark("impacts of " + constraint_name(ending.front()) +
                " that bounce up to f = " + number_text(last.next_height()) +
                " are not followed one by one; they end at t = " + number_text(endings_.back().t) +
-               " within " + number_text(std::max(last.remaining_error(), epsilon * state.t)));
+               " within " + number_text(std::max(last.end_error(), epsilon * state.t)));
       return;
     }
     if (status != MotionStatus::done) return;
@@ -201,7 +208,8 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (!history.shrinks()) return false;
     const double scale = std::max(1.0, expansion_.position_scale(a));
-    return history.next_height() <= epsilon * scale || history.count() >= most_impacts_followed;
+    return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * std::abs(state.t) ||
+           history.count() >= most_impacts_followed;
   };
   for (const Index a : closing)
     if (is_near_its_end(a)) found.push_back(a);
@@ -222,10 +230,10 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
 std::vector<Index> Motion::EventDriven::find_branches() {
   std::vector<Index> at_zero;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {  // an argument may contain the switches before it
-    const double argument = expansion_.switch_argument(k)[0];
+    const double argument = expansion_.switch_argument(k)[0], branch = argument > 0 ? 1 : -1;
     if (argument == 0) at_zero.push_back(static_cast<Index>(k));
-    if (argument == 0 || (argument > 0) == (expansion_.branch(k) > 0)) continue;
-    expansion_.branch(k) = argument > 0 ? 1 : -1;
+    if (argument == 0 || branch == expansion_.branch(k)) continue;
+    expansion_.branch(k) = branch;
     expansion_.set(state);
   }
   return at_zero;
@@ -240,10 +248,40 @@ bool Motion::EventDriven::is_consistent(const std::vector<Index>& switches) {
     for (std::size_t j = 1; j < c.size(); ++j) largest = std::max(largest, std::abs(c[j]));
     std::size_t first = 1;
     while (first < c.size() && !(std::abs(c[first]) > undecided_part * largest)) ++first;
-    if (first < c.size() && c[first] * expansion_.branch(k) < 0) return false;
-    zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size() - 1));
+    if (first < c.size() && !(c[first] * expansion_.branch(k) > 0)) return false;
+    zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   }
   return true;
+}
+
+/// Arguments that stay 0 on the arc: what contains them has its value at 0, sign(0) = 0, if it goes on so;
+/// else the answer with the branches beside it.
+std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const ContactQuestion& question,
+                                                                          const std::vector<Index>& switches,
+                                                                          ContactAnswer beside) {
+  const auto stays = [&](Index k) {
+    const auto at = static_cast<std::size_t>(k);
+    return zeros_of_switch_[at] == static_cast<int>(expansion_.switch_argument(at).size());
+  };
+  std::vector<Index> zeros;
+  std::vector<double> branches;
+  for (const Index k : switches)
+    if (stays(k)) {
+      zeros.push_back(k);
+      branches.push_back(expansion_.branch(static_cast<std::size_t>(k)));
+      expansion_.branch(static_cast<std::size_t>(k)) = 0;
+    }
+  if (zeros.empty()) return beside;
+  expansion_.set(state);
+  ContactAnswer answer = expansion_.expand(question);
+  if (answer.excluding.empty() && is_consistent(switches) && std::all_of(zeros.begin(), zeros.end(), stays))
+    return answer;
+  for (std::size_t j = 0; j < zeros.size(); ++j)
+    expansion_.branch(static_cast<std::size_t>(zeros[j])) = branches[j];
+  expansion_.set(state);
+  beside = expansion_.expand(question);
+  if (!is_consistent(switches)) return std::nullopt;
+  return beside;
 }
 
 /// The right limit on the branches that it itself takes: those across first, then all others.
@@ -254,6 +292,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     if (is_two_sided(a)) question.held.push_back(a);
   constexpr std::size_t most_tried = 8;
   const std::size_t tried = std::min(switches.size(), most_tried);
+  for (const Index k : switches)
+    if (double& branch = expansion_.branch(static_cast<std::size_t>(k)); branch == 0) branch = 1;
   for (std::size_t choice = 0; choice < (std::size_t{1} << tried); ++choice) {
     for (std::size_t j = 0; j < switches.size(); ++j) {
       double& branch = expansion_.branch(static_cast<std::size_t>(switches[j]));
@@ -265,7 +305,8 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
     try {
       if (!switches.empty()) expansion_.set(state);
       ContactAnswer answer = expansion_.expand(question);
-      if (!answer.excluding.empty() || is_consistent(switches)) return answer;
+      if (!answer.excluding.empty()) return answer;
+      if (is_consistent(switches)) return answer_where_zero_stays(question, switches, std::move(answer));
     } catch (
         const convex::InvalidInput&) {  // a branch beyond which nothing is defined, such as a table's end
       if (switches.empty()) throw;

@@ -29,6 +29,19 @@ TEST_CASE("a motion goes over the edges of its forces at the instant when it com
   CHECK(std::abs(v) <= 1e-11);
 }
 
+TEST_CASE("a force that is a power of time moves a free body by that power and two more") {
+  const double t = 1.25;
+  for (const int power : {0, 1, 2, 3, 7, 12, 17})
+    for (const std::string start : {"", "t*"}) {  // as a variable alone, and as a factor
+      const int p = start.empty() ? power : power + 1;
+      const auto [x, v] = moved(start + "t^" + std::to_string(power), 0, 0, t);
+      CHECK(v == doctest::Approx(std::pow(t, p + 1) / (p + 1)).epsilon(1e-14));
+      CHECK(x == doctest::Approx(std::pow(t, p + 2) / ((p + 1) * (p + 2))).epsilon(1e-14));
+    }
+  CHECK(moved("t", 0, 0, t).first == doctest::Approx(std::pow(t, 3) / 6).epsilon(1e-14));
+  CHECK(moved("x'", 1, 1, t).first == doctest::Approx(std::exp(t)).epsilon(1e-14));
+}
+
 TEST_CASE("a branch that is not taken may be undefined all along a motion") {
   CHECK(moved("if(x >= 0, sqrt(x), 0)", -2, 1, 1).first == doctest::Approx(-1).epsilon(1e-14));
   CHECK(moved("0", -2, 1, 1, "if(x >= 0, sqrt(x), x)").first == doctest::Approx(-1.5).epsilon(1e-14));
@@ -81,4 +94,18 @@ TEST_CASE("an impact turns the velocity, and with it the branch of a drag that o
     for (std::size_t j = 0; j < truth.size(); ++j)
       CHECK(found[j] == doctest::Approx(truth[j]).epsilon(1e-12));
   }
+}
+
+TEST_CASE("where a velocity stays 0 a drag against it is 0, until the body is lifted") {
+  // 2 g = 19.62 pushes down, t up, and 3 against the motion: it begins at t = 19.62 + 3 with the floor left.
+  const SystemText text{{"y"}, "y'^2", "19.62*y", {}, {}, {{"y", "t - 3*sign(y')"}}, {{"floor", "y >= 0"}}};
+  const auto s = system(text);
+  mechanics::Motion motion(*s, state({0}, {0}), {});
+  while (motion.advance(10)) {
+  }
+  CHECK(motion.multipliers()[0] == doctest::Approx(9.62).epsilon(1e-14));
+  while (motion.advance(25)) {
+  }
+  const double since = 25 - 22.62;
+  CHECK(motion.state().q[0] == doctest::Approx(since * since * since / 12).epsilon(1e-12));
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/mechanics/motion/followed.hpp"
 
@@ -57,6 +58,41 @@ TEST_CASE("a ball between floor and ceiling strikes them at the times of its par
   for (std::size_t k = 0; k < 4; ++k) {
     CHECK(std::abs(found.events[k].t - times[k]) <= 1e-14);
     CHECK(found.events[k].constraints == std::vector<Index>{k % 2 == 0 ? 1 : 0});
+  }
+}
+
+TEST_CASE("the end of infinitely many impacts on a moving floor is that in the frame of the floor") {
+  // Where f is a difference of large numbers, rounding decides the last bounces, but not their end.
+  struct Case {
+    const char* floor;
+    double weight, speed;  // in the frame of the floor
+  };
+  constexpr double e = 0.8, end = 10, g = 9.81;
+  for (const auto& [floor, weight, speed] :
+       {Case{"y >= 0.7*t", g, -0.7}, Case{"y >= 1.5*t^2", g + 3, 0}, Case{"y >= 0", g, 0}}) {
+    const SystemText text = ball(floor);
+    const auto motion = followed(text, state({1}, {0}), end, restitution(text, e));
+    const double strike = std::sqrt(speed * speed + 2 * weight), first = (strike + speed) / weight;
+    const auto ends = motion.of(EventKind::accumulation);
+    REQUIRE(ends.size() == 1);
+    CHECK(ends[0].t == doctest::Approx(first + 2 * strike * e / (weight * (1 - e))).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("units do not decide whether a floor is met") {
+  // Powers of the step leave the range of doubles long before the terms of the series do.
+  const SystemText text = ball();
+  for (const double second : {1e-20, 1e-9, 1e9, 1e20}) {
+    SystemText in_units = text;
+    in_units.parameters = {{"m", "2"}, {"g", ""}};
+    std::ostringstream weight;
+    weight.precision(17);
+    weight << 9.81 / second / second;
+    in_units.parameters[1].second = weight.str();
+    const auto motion = followed(in_units, state({1}, {0}), 10 * second, restitution(text, 0.9));
+    const auto ends = motion.of(EventKind::accumulation);
+    REQUIRE(ends.size() == 1);
+    CHECK(ends[0].t / second == doctest::Approx(8.578949178728887).epsilon(1e-12));
   }
 }
 
