@@ -14,7 +14,7 @@ constexpr Index large = 320;
 
 /// The room of the last small triangle that a thread gave back: a solve after the other then takes none from
 /// the system, which merges and splits what it gets back of such a size.
-constexpr std::size_t small = std::size_t{1} << 15;
+constexpr std::size_t small = std::size_t{1} << 20;
 struct Spare {
   void* room = nullptr;
   std::size_t size = 0;

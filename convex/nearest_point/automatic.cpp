@@ -90,7 +90,7 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
       found->method = "active-set";  // of which the formula is the case where the first step ends all
       return *std::move(found);
     }
-  if (accuracy.reduce) {
+  if (accuracy.reduce && problem.U.is_sparse()) {
     if (std::optional<Solution> found = solve_chain(problem, accuracy)) return *std::move(found);
     if (std::optional<Solution> found = obstacle_decided(problem, accuracy)) return *std::move(found);
     if (std::optional<Solution> found = solve_bordered_chain(problem, accuracy)) return *std::move(found);
@@ -108,7 +108,7 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     }
     if (!found.basis.empty()) likely = found.basis;
   }
-  Solution found = active_set(problem, accuracy, likely);
+  Solution found = active_set_of_valid(problem, accuracy, likely);
   if (!found.model.islands.empty()) return found;  // fractions said what they did
   const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
   found.model.islands = {{found.method, problem.dimension(), problem.rows(), 0,
@@ -201,12 +201,9 @@ bool has_contradiction(const NearestPointProblem& problem, const Islands& island
 Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
                    const std::vector<Index>& guess) {
   validate_guess(problem, guess);
-  if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
-  if (plainly_connected(problem) || problem.dimension() == 0) {
-    validate(problem);
-    return solve_island(problem, accuracy, guess);
-  }
   validate(problem);
+  if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
+  if (plainly_connected(problem) || problem.dimension() == 0) return solve_island(problem, accuracy, guess);
   if (std::optional<Solution> chain = solve_chain(problem, accuracy))
     if (problem.rows() > 1) return *std::move(chain);
   if (std::optional<Solution> obstacle = obstacle_decided(problem, accuracy)) return *std::move(obstacle);

@@ -8,7 +8,6 @@
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/active_set/refined_slacks.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
-#include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
@@ -334,17 +333,14 @@ class DualActiveSet {
 
 }  // namespace
 
-Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
-                    const std::vector<Index>& guess) {
-  validate(problem);
-  validate_guess(problem, guess);
+Solution active_set_of_valid(const NearestPointProblem& problem, const Accuracy& accuracy,
+                             const std::vector<Index>& guess) {
   GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
-  const auto told = [&](Solution solved) { return with_open_signs(problem, std::move(solved), accuracy); };
-  if (quick.solution) return told(*std::move(quick.solution));
+  if (quick.solution) return with_open_signs(problem, *std::move(quick.solution), accuracy);
   Solution found = DualActiveSet(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
     found.undecided = open_question::conditioning;
-  return told(decided_in_fractions(problem, std::move(found), accuracy));
+  return with_open_signs(problem, decided_in_fractions(problem, std::move(found), accuracy), accuracy);
 }
 
 }  // namespace convex

@@ -17,4 +17,7 @@ namespace convex {
 /// `guess`: rows thought to be active; empty when nothing is known.
 Solution active_set(const NearestPointProblem&, const Accuracy& = {}, const std::vector<Index>& guess = {});
 
+/// The same for a problem and a guess that have been checked.
+Solution active_set_of_valid(const NearestPointProblem&, const Accuracy&, const std::vector<Index>& guess);
+
 }  // namespace convex

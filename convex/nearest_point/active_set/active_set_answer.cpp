@@ -1,5 +1,8 @@
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 
+#include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/guess.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -10,6 +13,13 @@
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
+
+Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
+                    const std::vector<Index>& guess) {
+  validate(problem);
+  validate_guess(problem, guess);
+  return active_set_of_valid(problem, accuracy, guess);
+}
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

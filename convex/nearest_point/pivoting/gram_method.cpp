@@ -31,31 +31,24 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
   if (!has_gram_matrix(problem) || accuracy.step_limit > 0) return found;
   if (problem.A.kind() == MetricKind::diagonal)
     return solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
-  Solution solution;
+  Solution& solution = found.solution.emplace();
+  const auto is_contradiction = [&](const std::optional<Vector>& weights, double scale, Index steps) {
+    if (weights) solution = infeasible_answer(problem, *weights, scale, steps);
+    return weights && solution.status == Status::infeasible;
+  };
   if (SmallGramSolve::fits(problem)) {
     SmallTableau tableau;
     SmallGramSolve small(problem, tableau);
-    if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) {
-      found.solution = std::move(solution);
-      return found;
-    }
-    if (const std::optional<Vector> weights = small.contradiction()) {
-      solution = infeasible_answer(problem, *weights, small.scale(), small.steps());
-      if (solution.status == Status::infeasible) {
-        found.solution = std::move(solution);
-        return found;
-      }
-    }
+    if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) return found;
+    if (is_contradiction(small.contradiction(), small.scale(), small.steps())) return found;
     found.rows = small.one_sided_rows_held();
   }
   thread_local Arena arena;
   GramSolve gram(problem, arena);
-  if (gram.solve(found.rows, accuracy, solution) && solution.status == Status::solved) {
-    found.solution = std::move(solution);
-  } else if (const std::optional<Vector>& weights = gram.set().contradiction()) {
-    solution = infeasible_answer(problem, *weights, gram.scale(), gram.set().steps());
-    if (solution.status == Status::infeasible) found.solution = std::move(solution);
-  } else {
+  const bool solved = (gram.solve(found.rows, accuracy, solution) && solution.status == Status::solved) ||
+                      is_contradiction(gram.set().contradiction(), gram.scale(), gram.set().steps());
+  if (!solved) {
+    found.solution.reset();
     found.rows = gram.set().one_sided_rows_held();
   }
   if (arena.lines() > most_kept_lines) arena.give_back();

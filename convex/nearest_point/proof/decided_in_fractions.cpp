@@ -89,14 +89,15 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
 
 bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) {
   if (solved.status != Status::solved || problem.radii) return false;
+  const auto two_sided = [&](Index a) {
+    return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
+  };
+  if (std::none_of(solved.basis.begin(), solved.basis.end(),
+                   [&](Index a) { return solved.lambda[a] == 0 && !two_sided(a); }))
+    return false;
   std::vector<bool> told(static_cast<std::size_t>(problem.rows()), false);  // without a sign to tell
   for (Index a : problem.two_sided) told[static_cast<std::size_t>(a)] = true;
-  bool is_weak = false;
-  for (Index a : solved.basis) {
-    is_weak = is_weak || (!told[static_cast<std::size_t>(a)] && solved.lambda[a] == 0);
-    told[static_cast<std::size_t>(a)] = true;
-  }
-  if (!is_weak) return false;
+  for (Index a : solved.basis) told[static_cast<std::size_t>(a)] = true;
   std::vector<Index> touched;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!told[static_cast<std::size_t>(a)] && solved.slack[a] == 0) touched.push_back(a);
@@ -113,8 +114,8 @@ Solution with_signs_of_zeros(const NearestPointProblem& problem, Solution solved
   return found ? *std::move(found) : solved;
 }
 
-Solution with_open_signs(const NearestPointProblem& problem, Solution solved, const Accuracy& accuracy) {
-  if (!has_open_zeros(problem, solved)) return solved;
+Solution with_open_signs(const NearestPointProblem& problem, Solution&& solved, const Accuracy& accuracy) {
+  if (!has_open_zeros(problem, solved)) return std::move(solved);
   return with_signs_of_zeros(problem, std::move(solved), accuracy);
 }
 

@@ -29,6 +29,6 @@ bool has_open_zeros(const NearestPointProblem&, const Solution& solved);
 /// word operations; beyond, it is given back as it is, and what is within the error bound counts as 0.
 Solution with_signs_of_zeros(const NearestPointProblem&, Solution solved, const Accuracy&);
 /// The same where some are open.
-Solution with_open_signs(const NearestPointProblem&, Solution solved, const Accuracy&);
+Solution with_open_signs(const NearestPointProblem&, Solution&& solved, const Accuracy&);
 
 }  // namespace convex
