@@ -1,3 +1,5 @@
+#include "cli/commands/atlas.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
@@ -14,6 +16,7 @@
 #include "cli/scene.hpp"
 #include "convex/atlas/cell_probability.hpp"
 #include "convex/exact/elimination.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
 #include "mechanics/exact_text.hpp"
 
 namespace cli {
@@ -24,14 +27,10 @@ using convex::InvalidInput;
 /// Where an atlas is explored: enough to see what is near.
 constexpr std::size_t default_cells = 50;
 
-/// What `moreau atlas` is told.
-struct AtlasOptions : FileOptions {
-  std::optional<std::string> mean, covariance;  ///< of the force
-  double tolerance = 1e-6;                      ///< of each probability
-  std::vector<std::string> over;                ///< forces, of a map
-  std::optional<std::size_t> cells;             ///< so many are explored from the file's force
-  std::optional<std::string> plot;
-};
+/// A message without what the reader of it calls the matrix.
+std::string without_name(const std::string& message, const std::string& name) {
+  return message.rfind(name, 0) == 0 ? message.substr(name.size()) : message;
+}
 
 /// The distribution of z that was asked for, and what it is in words.
 std::pair<convex::atlas::NormalForce, std::string> distribution(const AtlasOptions& options,
@@ -53,7 +52,7 @@ std::pair<convex::atlas::NormalForce, std::string> distribution(const AtlasOptio
       rows.col(i) = covariance.multiply(convex::Vector::Unit(rows.rows(), i));
     force.covariance = convex::exact_rows(rows);
   } catch (const InvalidInput& error) {
-    throw InvalidInput("--covariance: " + std::string(error.what()));
+    throw InvalidInput("--covariance: " + without_name(error.what(), "metric: "));
   }
   return {std::move(force), words + *options.covariance};
 }
@@ -163,9 +162,17 @@ std::vector<std::size_t> here(const SolvedAtlas& solved) {
   return cells_at(solved.atlas, solved.z);
 }
 
-Answer atlas_of_file(const std::string& file, const AtlasOptions& options) {
+/// Rows that exclude each other, in fractions, where there is no cell.
+void find_culprits(SolvedAtlas& solved, const convex::ExactProblem& problem) {
+  if (!solved.atlas.cells.empty()) return;
+  solved.farkas = exact_active_set(problem, convex::likely_active_rows(rounded(problem))).farkas;
+}
+
+}  // namespace
+
+Answer atlas_of_problem(Problem problem, const std::string& file, const AtlasOptions& options) {
   if (options.plot) require_drawable(*options.plot);
-  const Scene scene = read_scene(file, {}, options);
+  const Scene scene = make_scene(std::move(problem), file, {});
   const std::vector<ForceRange> ranges = force_ranges(options, scene);
   ExactScene exact = exact_scene(scene);
   SolvedAtlas solved{file,
@@ -182,17 +189,22 @@ Answer atlas_of_file(const std::string& file, const AtlasOptions& options) {
   else
     require_nothing_of_the_whole(options);
   solved.here = here(solved);
+  find_culprits(solved, exact.problem);
   if (options.plot && !solved.atlas.cells.empty()) draw(*options.plot, atlas_drawing(solved, scene));
   return {exit_of(solved),
           options.json ? atlas_json(solved) + "\n" : heading(scene.title, file) + atlas_text(solved)};
 }
+
+namespace {
 
 Exit atlas_of_files(const AtlasOptions& options) {
   if (options.plot && options.files.size() > 1)
     return answered(options, {options.files.back(), ""}, []() -> Exit {
       throw InvalidInput("--plot takes one problem file; run the files one by one");
     });
-  return print_for_each_file(options, [&](const std::string& file) { return atlas_of_file(file, options); });
+  return print_for_each_file(options, [&](const std::string& file) {
+    return atlas_of_problem(read_problem_file(file, options), file, options);
+  });
 }
 
 }  // namespace

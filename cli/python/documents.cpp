@@ -6,6 +6,7 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/python/bindings.hpp"
 #include "cli/python/document.hpp"
+#include "cli/python/options.hpp"
 #include "cli/python/solved_numbers.hpp"
 #include "convex/invalid_input.hpp"
 
@@ -16,17 +17,10 @@ namespace {
 
 using convex::InvalidInput;
 
-template <class T>
-void take(std::optional<T>& into, const py::dict& options, const char* key) {
-  if (options.contains(key) && !options[key].is_none()) into = py::cast<T>(options[key]);
-}
-
-void take(bool& into, const py::dict& options, const char* key) {
-  if (options.contains(key)) into = py::cast<bool>(options[key]);
-}
-
 /// The options of `moreau solve` by their names.
 cli::SolveOptions options_of(const py::dict& given) {
+  require_options(given, {"method", "tolerance", "limit", "certify", "ranges", "sensitivity", "null_space",
+                          "verbose", "plane", "onset", "probes"});
   cli::SolveOptions options;
   take(options.method, given, "method");
   take(options.tolerance, given, "tolerance");
@@ -38,7 +32,7 @@ cli::SolveOptions options_of(const py::dict& given) {
   take(options.verbose, given, "verbose");
   take(options.plane, given, "plane");
   take(options.liquid.onset, given, "onset");
-  if (given.contains("probes")) options.liquid.probes = py::cast<std::vector<std::string>>(given["probes"]);
+  take(options.liquid.probes, given, "probes");
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include "cli/python/arrays.hpp"
 #include "cli/python/bindings.hpp"
 #include "cli/python/document.hpp"
+#include "cli/python/options.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace py = pybind11;
@@ -37,9 +38,9 @@ std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& 
   const auto* text = std::get_if<cli::SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; Motion takes a problem with [system]");
   cli::MotionChoice choice;
-  if (given.contains("method")) choice.method = py::cast<std::string>(given["method"]);
-  if (given.contains("tolerance")) choice.tolerance = py::cast<double>(given["tolerance"]);
-  if (given.contains("step_limit")) choice.step_limit = py::cast<long>(given["step_limit"]);
+  take(choice.method, given, "method");
+  take(choice.tolerance, given, "tolerance");
+  take(choice.step_limit, given, "step_limit");
   const py::gil_scoped_release released;
   std::shared_ptr<const mechanics::LagrangianSystem> system = mechanics::lagrangian_system(text->system);
   const mechanics::State state = system->state(text->state);

@@ -5,6 +5,7 @@
 #include "cli/python/arrays.hpp"
 #include "cli/python/batch.hpp"
 #include "cli/python/bindings.hpp"
+#include "cli/python/options.hpp"
 #include "cli/python/solved_numbers.hpp"
 #include "cli/report/answer.hpp"
 #include "convex/invalid_input.hpp"
@@ -19,11 +20,11 @@ using convex::Index;
 using convex::InvalidInput;
 using Solved = SolvedNumbers;
 
-SolveChoice choice_of(const py::object& method, double tolerance) {
+SolveChoice choice_of(const py::object& method, const py::object& tolerance) {
   SolveChoice choice{&convex::methods().front(), {}};
-  choice.accuracy.tolerance = tolerance;
+  choice.accuracy.tolerance = option<double>(tolerance, "tolerance");
   if (method.is_none()) return choice;
-  const auto name = py::cast<std::string>(method);
+  const auto name = option<std::string>(method, "method");
   choice.method = convex::find_method(name);
   if (choice.method != nullptr) return choice;
   std::vector<std::string> known;
@@ -34,7 +35,7 @@ SolveChoice choice_of(const py::object& method, double tolerance) {
 
 std::shared_ptr<Solved> solve_numbers(const py::object& A, const py::object& z, const py::object& U,
                                       const py::object& s, const py::object& two_sided,
-                                      const py::object& method, double tolerance) {
+                                      const py::object& method, const py::object& tolerance) {
   convex::Vector force = vector_of(z, "z");
   const Index n = force.size();
   convex::NearestPointProblem problem{
@@ -44,7 +45,7 @@ std::shared_ptr<Solved> solve_numbers(const py::object& A, const py::object& z, 
       {},
       {}};
   problem.s = s.is_none() ? convex::Vector::Zero(problem.rows()) : vector_of(s, "s");
-  if (!two_sided.is_none()) problem.two_sided = py::cast<std::vector<Index>>(two_sided);
+  if (!two_sided.is_none()) problem.two_sided = option<std::vector<Index>>(two_sided, "two_sided");
   const SolveChoice choice = choice_of(method, tolerance);
   const py::gil_scoped_release released;
   return std::make_shared<Solved>(std::move(problem), choice);
@@ -143,7 +144,7 @@ Find q'' that minimises 1/2 q''.A q'' - z.q'' over U q'' >= s (Moreau 1966, (10)
              py::arg("two_sided"), py::arg("method"), py::arg("tolerance"));
   module.def("solve_batch",
              [](const py::object& A, const py::object& z, const py::object& U, const py::object& s,
-                const py::object& two_sided, const py::object& method, double tolerance) {
+                const py::object& two_sided, const py::object& method, const py::object& tolerance) {
                return solve_batch(A, z, U, s, two_sided, choice_of(method, tolerance));
              });
   module.def(

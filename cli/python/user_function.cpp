@@ -4,6 +4,7 @@
 #include <pybind11/pybind11.h>
 
 #include "cli/python/arrays.hpp"
+#include "cli/python/options.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/laws/trial.hpp"
 #include "convex/operations/operations.hpp"
@@ -38,7 +39,7 @@ class UserFunction : public convex::FunctionNode {
   convex::Call call() const override { return {name_, {}, {}, shared_from_this()}; }
   double value(const Vector& x) const override {
     const py::gil_scoped_acquire lock;
-    return py::cast<double>((*value_)(array_of(x)));
+    return option<double>((*value_)(array_of(x)), name_ + ": its value");
   }
   Prox prox(const Vector& z, const Metric& W) const override {
     Vector x;

@@ -1,6 +1,7 @@
 #include "cli/report/atlas_report.hpp"
 #include "cli/report/json_writer.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
+#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace cli {
 namespace {
@@ -124,6 +125,20 @@ void write_rule(JsonWriter& json, const convex::atlas::RuleVerdict& rule) {
   json.end_object();
 }
 
+/// Farkas weights by name, and in fractions.
+void write_culprits(JsonWriter& json, const SolvedAtlas& solved) {
+  const convex::Vector weights = convex::rounded_weights(solved.farkas);
+  json.key("farkas")
+      .numbers(solved.contacts, weights)
+      .key("exact")
+      .begin_object()
+      .key("farkas")
+      .begin_object();
+  for (std::size_t a = 0; a < solved.farkas.size(); ++a)
+    json.key(solved.contacts[a]).value(solved.farkas[a].text());
+  json.end_object().end_object();
+}
+
 const char* status(const SolvedAtlas& solved) {
   if (solved.atlas.cells.empty()) return "infeasible";
   return solved.is_accurate() ? "solved" : "inaccurate";
@@ -139,7 +154,9 @@ std::string atlas_json(const SolvedAtlas& solved) {
   json.key("numbers").value(solved.as_written ? "as written" : "doubles");
   json.key("contacts").begin_array();
   for (const std::string& name : solved.contacts) json.value(name);
-  json.end_array().key("dimension").value(static_cast<Index>(atlas.space.rank));
+  json.end_array();
+  if (atlas.cells.empty()) write_culprits(json, solved);
+  json.key("dimension").value(static_cast<Index>(atlas.space.rank));
   json.key("complete").value(atlas.is_complete());
   json.key("conical");
   if (atlas.space.cone.n > 0)

@@ -10,9 +10,31 @@ namespace cli {
 using convex::atlas::Probability;
 using convex::atlas::Wall;
 
+namespace {
+
+/// The root of a fraction >= 0 that no double need be near.
+double root(convex::Fraction square) {
+  int halvings = 0;
+  constexpr int step = 200;
+  const convex::Fraction factor = convex::fraction(std::ldexp(1, 2 * step));
+  for (; std::isinf(convex::nearest_double(square)); halvings += step) square = square / factor;
+  for (; sign(square) > 0 && convex::nearest_double(square) < 1 / std::ldexp(1, 2 * step); halvings -= step)
+    square = square * factor;
+  return std::ldexp(std::sqrt(convex::nearest_double(square)), halvings);
+}
+
+}  // namespace
+
 std::vector<std::string> SolvedAtlas::names(const convex::atlas::Cell& cell) const {
   std::vector<std::string> found;
   for (const std::size_t a : cell.rows) found.push_back(contacts[a]);
+  return found;
+}
+
+std::vector<std::size_t> SolvedAtlas::culprits() const {
+  std::vector<std::size_t> found;
+  for (std::size_t a = 0; a < farkas.size(); ++a)
+    if (!farkas[a].is_zero()) found.push_back(a);
   return found;
 }
 
@@ -37,7 +59,7 @@ std::vector<AtlasMargin> margins(const SolvedAtlas& solved) {
     AtlasMargin margin;
     margin.cell = wall.tighter == here ? wall.looser : wall.tighter;
     const convex::Fraction side = convex::atlas::side(wall, solved.z);
-    margin.distance = std::sqrt(convex::nearest_double(side * side / wall.squared_length));
+    margin.distance = root(side * side / wall.squared_length);
     const auto &now = cells[here].rows, &then = cells[margin.cell].rows;
     std::set_difference(then.begin(), then.end(), now.begin(), now.end(), std::back_inserter(margin.closing));
     std::set_difference(now.begin(), now.end(), then.begin(), then.end(), std::back_inserter(margin.opening));

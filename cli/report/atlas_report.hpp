@@ -46,7 +46,11 @@ struct SolvedAtlas {
   std::vector<std::size_t> here = {};                          ///< the cells that z lies in
   std::optional<convex::atlas::RuleVerdict> rule = {};         ///< where it is defined
   std::optional<AtlasMap> map = {};
+  /// Without a cell: integers w, one a row, w >= 0 on one-sided ones, wᵀU = 0, w·s > 0.
+  convex::IntegerVector farkas = {};
 
+  /// The contacts that exclude each other: those with a weight.
+  std::vector<std::size_t> culprits() const;
   /// The names of a cell's contacts.
   std::vector<std::string> names(const convex::atlas::Cell&) const;
   /// Of all cells; 1 within the sum of their bounds, for nothing is normalised.

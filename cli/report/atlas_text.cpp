@@ -72,7 +72,9 @@ std::string map_text(const SolvedAtlas& solved) {
 
 std::string atlas_text(const SolvedAtlas& solved) {
   const convex::atlas::Atlas& atlas = solved.atlas;
-  if (atlas.cells.empty()) return "no acceleration satisfies the contacts: there is no cell\n";
+  if (atlas.cells.empty())
+    return "no acceleration satisfies the contacts: there is no cell. " +
+           contact_set(solved, solved.culprits()) + " exclude each other.\n";
   std::string text = fmt::format("{} cell{} in {} dimension{}, {} wall{} between them\n", atlas.cells.size(),
                                  plural(atlas.cells.size()), atlas.space.rank, plural(atlas.space.rank),
                                  atlas.walls.size(), plural(atlas.walls.size()));

@@ -169,9 +169,7 @@ Probability CellProbability::of(const std::vector<SignedCone>& cones, const Inte
 }
 
 Probability CellProbability::of(const Cell& cell, double tolerance) const {
-  Probability found = product_or_sum(cell, tolerance);
-  found.value = std::max(found.value, 0.0);
-  return found;
+  return not_negative(product_or_sum(cell, tolerance));
 }
 
 Probability CellProbability::product_or_sum(const Cell& cell, double tolerance) const {
@@ -204,7 +202,7 @@ Probability CellProbability::of(const IntegerRows& halfspaces, double tolerance)
   const std::vector<std::vector<ConeFace>> levels = faces(cone);
   IntegerRows lines = cone.lines;
   for (IntegerVector& line : lines) line.pop_back();
-  return of(signed_cones(cone, levels, levels.back().front()), {}, lines, tolerance);
+  return not_negative(of(signed_cones(cone, levels, levels.back().front()), {}, lines, tolerance));
 }
 
 }  // namespace convex::atlas

@@ -49,6 +49,7 @@ RuleVerdict judge_rule(const Atlas& whole, const CellProbability& probability,
     add(verdict.wrong, 1, of_cells[c]);
     add(verdict.wrong, -1, right);
   }
+  verdict.wrong = not_negative(verdict.wrong);
   return verdict;
 }
 

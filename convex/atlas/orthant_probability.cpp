@@ -5,70 +5,79 @@
 #include <cmath>
 #include <numbers>
 
-#include "convex/atlas/quadrature.hpp"
+#include "convex/atlas/proved_integral.hpp"
+#include "convex/interval_arithmetic.hpp"
 #include "convex/invariant.hpp"
 
 namespace convex::atlas {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// Roundings of a closed form, and of what an integrand is made of.
+/// What angles and means may be off: units of the last place.
+constexpr int roundings_of_input = 8;
+/// Roundings of a closed form straight from angles, and of the angles.
 constexpr double roundings = 16 * unit_roundoff;
-/// Beyond so many standard deviations a probability is 0 or 1 but for 1e-300.
-constexpr double certain = 37.5;
+constexpr Interval all_correlations{-1, 1}, any_probability{0, 1};
 
-/// P(Z_i <= b_i), Z with the correlations r.
+const Interval enclosed_pi = outwards(pi, pi);
+
+/// P(Z_i <= b_i), Z with the correlations r, all of them known between two doubles.
 struct Bounds {
   std::size_t k = 0;
-  std::array<double, 6> b{};
-  std::array<std::array<double, 6>, 6> r{};
+  std::array<Interval, 6> b{};
+  std::array<std::array<Interval, 6>, 6> r{};
   bool is_centred() const {
     return std::all_of(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(k),
-                       [](double x) { return x == 0; });
+                       [](const Interval& x) { return x.low == 0 && x.high == 0; });
   }
 };
 
-Probability below(const Bounds& of, double tolerance);
+struct Enclosed {
+  Interval value;
+  bool closed = true;
+};
 
-double angle_of(double correlation) { return std::acos(std::clamp(correlation, -1.0, 1.0)); }
+Enclosed below(const Bounds& of, double tolerance);
 
-/// Without the variables that are below their bounds for certain.
-Bounds uncertain(const Bounds& of) {
-  Bounds left;
-  std::array<std::size_t, 6> kept{};
-  for (std::size_t i = 0; i < of.k; ++i)
-    if (of.b[i] < certain) kept[left.k++] = i;
-  for (std::size_t i = 0; i < left.k; ++i) {
-    left.b[i] = of.b[kept[i]];
-    for (std::size_t j = 0; j < left.k; ++j) left.r[i][j] = of.r[kept[i]][kept[j]];
-  }
-  return left;
+Interval arc_cosine(const Interval& r) {
+  return outwards(std::acos(std::min(r.high, 1.0)), std::acos(std::max(r.low, -1.0)), library_units);
+}
+/// Of one variable. Beyond every double it is 0 or 1 but for less than the least of them.
+Interval below_one(const Interval& b) {
+  return intersection(any_probability,
+                      increasing([](double x) { return std::erfc(-x * std::numbers::sqrt2 / 2) / 2; },
+                                 outwards(b.low, b.high, 2)));
 }
 
 /// The others when two variables, `first` and `second` of correlation sin θ, are at their bounds; `part` of
 /// the correlations of the first are left.
-Bounds conditional(const Bounds& of, std::size_t first, std::size_t second, double part, double sine) {
+Bounds conditional(const Bounds& of, std::size_t first, std::size_t second, const Interval& part,
+                   const Interval& sine, const Interval& rest) {
   Bounds left;
-  const double rest = std::max(1 - sine * sine, unit_roundoff);
-  std::array<double, 6> deviation{};
+  std::array<Interval, 6> x{}, y{}, deviation{};
   std::array<std::size_t, 6> place{};
-  const double b = of.b[first], c = of.b[second];
+  const Interval b = of.b[first], c = of.b[second];
   for (std::size_t l = 0; l < of.k; ++l) {
     if (l == first || l == second) continue;
-    const double x = part * of.r[first][l], y = of.r[second][l];
-    const double variance = 1 - (x * x - 2 * sine * x * y + y * y) / rest;
-    deviation[left.k] = std::sqrt(std::max(variance, unit_roundoff));
-    left.b[left.k] = (of.b[l] - (x * (b - sine * c) + y * (c - sine * b)) / rest) / deviation[left.k];
-    place[left.k++] = l;
+    const std::size_t i = left.k++;
+    place[i] = l;
+    x[i] = part * of.r[first][l];
+    y[i] = of.r[second][l];
+    // x² - 2 sin θ x y + y² = (x - sin θ y)² + cos² θ y².
+    deviation[i] = root(point(1) - square(y[i]) - square(x[i] - sine * y[i]) / rest);
+    if (of.is_centred()) continue;
+    const Interval shift = of.b[l] - (x[i] * (b - sine * c) + y[i] * (c - sine * b)) / rest;
+    left.b[i] = shift / deviation[i];
   }
-  for (std::size_t i = 0; i < left.k; ++i)
-    for (std::size_t j = 0; j < left.k; ++j) {
-      const double xi = part * of.r[first][place[i]], yi = of.r[second][place[i]];
-      const double xj = part * of.r[first][place[j]], yj = of.r[second][place[j]];
-      const double shared = (xi * xj - sine * (xi * yj + yi * xj) + yi * yj) / rest;
+  for (std::size_t i = 0; i < left.k; ++i) {
+    left.r[i][i] = point(1);
+    for (std::size_t j = 0; j < i; ++j) {
+      const Interval shared = y[i] * y[j] + (x[i] - sine * y[i]) * (x[j] - sine * y[j]) / rest;
       left.r[i][j] =
-          std::clamp((of.r[place[i]][place[j]] - shared) / (deviation[i] * deviation[j]), -1.0, 1.0);
+          intersection(all_correlations, (of.r[place[i]][place[j]] - shared) / (deviation[i] * deviation[j]));
+      left.r[j][i] = left.r[i][j];
     }
+  }
   return left;
 }
 
@@ -80,7 +89,7 @@ std::size_t loosest(const Bounds& of) {
   for (std::size_t i = 0; i < of.k; ++i) {
     double largest = 0;
     for (std::size_t j = 0; j < of.k; ++j)
-      if (j != i) largest = std::max(largest, std::abs(of.r[i][j]));
+      if (j != i) largest = std::max(largest, largest_size(of.r[i][j]));
     if (largest < least) {
       least = largest;
       best = i;
@@ -100,63 +109,136 @@ Bounds without(const Bounds& of, std::size_t out) {
   return left;
 }
 
-/// d/dρ P = φ_2(b_1, b_j; ρ) P(the others | both at their bounds), dρ = cos θ dθ.
-Probability along(const Bounds& of, std::size_t first, std::size_t second, double tolerance) {
-  const double whole = of.r[first][second], b = of.b[first], c = of.b[second];
-  const double end = std::asin(whole);
-  double inner = 0;
-  const auto integrand = [&](double theta) {
-    const double sine = std::sin(theta), cosine = std::cos(theta);
-    // b² - 2bc sin θ + c² = (b - c sin θ)² + c² cos² θ.
-    const double apart = b - c * sine;
-    const double exponent = (apart == 0 ? 0 : apart * apart / (cosine * cosine)) + c * c;
-    const double density = std::exp(-exponent / 2) / (2 * pi);
-    if (density == 0 || of.k == 2) return density;
-    const Probability others = below(conditional(of, first, second, sine / whole, sine), tolerance);
-    inner = std::max(inner, others.error * density);
-    return density * others.value;
-  };
-  const Quadrature found = integral(integrand, 0, end, tolerance);
-  return {found.value, found.error + (inner + roundings) * std::abs(end), false};
+/// 1 - rho², rho the multiple correlation of a variable with all others: the last pivot of Cholesky's
+/// factors. [0, 1] where the correlations are too near to singular to tell.
+Interval left_unexplained(const Bounds& of, std::size_t out) {
+  std::array<std::array<Interval, 6>, 6> L{};
+  const auto place = [&](std::size_t i) { return i + 1 == of.k ? out : i < out ? i : i + 1; };
+  for (std::size_t i = 0; i < of.k; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      Interval sum = i == j ? point(1) : of.r[place(i)][place(j)];
+      for (std::size_t l = 0; l < j; ++l) sum = sum - (i == j ? square(L[i][l]) : L[i][l] * L[j][l]);
+      if (i + 1 == of.k && i == j) return intersection(any_probability, sum);
+      if (i == j && !(sum.low > 0)) return any_probability;
+      L[i][j] = i == j ? root(sum) : sum / L[j][j];
+    }
+  return any_probability;
 }
 
-Probability below(const Bounds& given, double tolerance) {
-  const Bounds of = uncertain(given);
-  if (of.k == 0) return {1, given.k == 0 ? 0.0 : roundings, true};
-  for (std::size_t i = 0; i < of.k; ++i)
-    if (of.b[i] < -certain) return {0, roundings, true};
-  if (of.k == 1) return {std::erfc(-of.b[0] * std::numbers::sqrt2 / 2) / 2, roundings, true};
-  if (of.k <= 3 && of.is_centred()) {
-    const double first = angle_of(of.r[0][1]);
-    if (of.k == 2) return {(pi - first) / (2 * pi), roundings, true};
-    const double sum = first + angle_of(of.r[0][2]) + angle_of(of.r[1][2]);
-    return {std::max(0.0, 2 * pi - sum) / (4 * pi), roundings, true};
-  }
+/// At least |g(θ)|, θ = u + iv, for the g of `along`. g is the integral of the density of all variables over
+/// the others, their bounds real; with S the inverse of the real part of R⁻¹, R the complex correlations,
+///   |g| <= |cos θ| / 2π (det S / (|det R| det S_12))^(1/2).
+/// In coordinates in which the others are independent, and explain the first by one of them alone, these are
+/// determinants of order two in sin θ / c, c = r_12 / rho.
+double size_of_derivative(const Interval& u, const Interval& v, const Interval& c) {
+  const auto hyperbolic = [&](double (*f)(double)) { return increasing([f](double x) { return f(x); }, v); };
+  const Interval cosh_v = hyperbolic(std::cosh), sinh_v = hyperbolic(std::sinh);
+  const double quarter = pi / 2;
+  if (!(u.low >= -quarter && u.high <= quarter)) return std::numeric_limits<double>::infinity();
+  const Interval sine = increasing([](double x) { return std::sin(x); }, u);
+  const double ends[] = {std::cos(u.low), std::cos(u.high)};
+  const Interval cosine{
+      moved_down(std::min(ends[0], ends[1]), library_units),
+      u.low <= 0 && u.high >= 0 ? 1.0 : moved_up(std::max(ends[0], ends[1]), library_units)};
+  const Interval a = sine * cosh_v / c, beta = square(cosine * sinh_v / c);
+  if (!(largest_size(a) < 1)) return std::numeric_limits<double>::infinity();
+  const Interval one = point(1), kappa = beta / (one - square(a));
+  const Interval plus = one + kappa, minus = a * (one - kappa);
+  const Interval det_S = (plus - minus) * (plus + minus);
+  const Interval det_12 = plus * (one + kappa * square(c)) - square(minus * c);
+  const Interval det_R = root((square(one - a) + beta) * (square(one + a) + beta));
+  const Interval bound = (square(cosine) + square(sinh_v)) * det_S / (det_R * det_12);
+  if (!(det_12.low > 0 && det_R.low > 0 && bound.high < std::numeric_limits<double>::infinity()))
+    return std::numeric_limits<double>::infinity();
+  return moved_up(std::sqrt(bound.high), 2) / (2 * pi) * (1 + 8 * unit_roundoff);
+}
+
+/// d/dρ P = φ_2(b_1, b_j; ρ) P(the others | both at their bounds), dρ = cos θ dθ.
+Enclosed along(const Bounds& of, std::size_t first, std::size_t second, const Interval& unexplained,
+               double tolerance) {
+  const Interval whole = of.r[first][second], b = of.b[first], c = of.b[second];
+  const Interval end =
+      outwards(std::asin(std::max(whole.low, -1.0)), std::asin(std::min(whole.high, 1.0)), library_units);
+  const double to = middle(end);
+  // c = r_12 / rho, whose sign does not matter.
+  const double least = whole.low > 0 ? whole.low : whole.high < 0 ? -whole.high : 0;
+  const Interval squared = square(Interval{least, largest_size(whole)});
+  const Interval explained = intersection(point(1) - unexplained, {squared.low, 1});
+  const Interval steep = intersection(any_probability, root(squared / explained));
+  const double farther = std::max(square(b).low, square(c).low);
+  const Interval most = increasing([](double x) { return std::exp(x); }, point(-farther / 2));
+  AnalyticFunction g;
+  g.range = {0, (most / (point(2) * enclosed_pi)).high};
+  g.singularity = std::asin(steep.low);
+  g.size = [steep](const Interval& u, const Interval& v) { return size_of_derivative(u, v, steep); };
+  g.at = [&](const Interval& theta) {
+    const Interval sine = increasing([](double x) { return std::sin(x); }, theta);
+    const double cosines[] = {std::cos(theta.low), std::cos(theta.high)};
+    const Interval rest = square(
+        {std::max(0.0, moved_down(std::min(cosines[0], cosines[1]), library_units)),
+         theta.low <= 0 && theta.high >= 0 ? 1 : moved_up(std::max(cosines[0], cosines[1]), library_units)});
+    // b² - 2bc sin θ + c² = (b - c sin θ)² + c² cos² θ.
+    const Interval exponent = square(b - c * sine) / rest + square(c);
+    const Interval density =
+        increasing([](double x) { return std::exp(x); }, exponent * point(-0.5)) / (point(2) * enclosed_pi);
+    const Interval known = intersection({0, density.high}, density);
+    if (of.k == 2 || known.high == 0) return known;
+    const Interval part = sine / whole;
+    return known * below(conditional(of, first, second, part, sine, rest), tolerance).value;
+  };
+  const Interval found = proved_integral(g, to, tolerance / 2);
+  const double missed = moved_up((end.high - end.low) * g.range.high, 2);
+  return {found + Interval{-missed, missed}, false};
+}
+
+/// Centred, up to three: the solid angle.
+Interval solid_angle(const Bounds& of) {
+  const Interval first = arc_cosine(of.r[0][1]);
+  if (of.k == 2) return (enclosed_pi - first) / (point(2) * enclosed_pi);
+  const Interval sum = first + arc_cosine(of.r[0][2]) + arc_cosine(of.r[1][2]);
+  return (point(2) * enclosed_pi - sum) / (point(4) * enclosed_pi);
+}
+
+Enclosed below(const Bounds& of, double tolerance) {
+  if (of.k == 0) return {point(1), true};
+  if (of.k == 1) return {below_one(of.b[0]), true};
+  if (of.k <= 3 && of.is_centred()) return {intersection(any_probability, solid_angle(of)), true};
   const std::size_t out = loosest(of);
+  const auto is_zero = [](const Interval& r) { return r.low == 0 && r.high == 0; };
   double size = 0;
-  for (std::size_t j = 0; j < of.k; ++j) size += j != out && of.r[out][j] != 0 ? 1 : 0;
+  for (std::size_t j = 0; j < of.k; ++j) size += j != out && !is_zero(of.r[out][j]) ? 1 : 0;
   // Half of the tolerance for the product, half for the integrals; theirs holds within them as well.
   const double part = tolerance / (2 * (1 + size));
-  Bounds alone;
-  alone.k = 1;
-  alone.b[0] = of.b[out];
-  Probability sum = below(alone, part) * below(without(of, out), part);
+  Enclosed sum = below(without(of, out), part);
+  sum.value = below_one(of.b[out]) * sum.value;
+  if (size == 0) return sum;
+  const Interval unexplained = left_unexplained(of, out);
   for (std::size_t j = 0; j < of.k; ++j)
-    if (j != out && of.r[out][j] != 0) add(sum, 1, along(of, out, j, part));
-  return sum;
+    if (j != out && !is_zero(of.r[out][j]))
+      sum.value = sum.value + along(of, out, j, unexplained, part).value;
+  return {intersection(any_probability, sum.value), false};
 }
 
 }  // namespace
 
 Probability operator*(const Probability& p, const Probability& q) {
-  return {p.value * q.value, p.error * (q.value + q.error) + p.value * q.error + unit_roundoff,
+  const double value = p.value * q.value;
+  return {value,
+          moved_up(p.error * (std::abs(q.value) + q.error) + std::abs(p.value) * q.error +
+                       unit_roundoff * std::abs(value),
+                   4),
           p.closed && q.closed};
 }
 
 void add(Probability& sum, int sign, const Probability& p) {
   sum.value += sign * p.value;
-  sum.error += p.error + unit_roundoff * std::abs(sum.value);
+  sum.error = moved_up(sum.error + p.error + unit_roundoff * std::abs(sum.value), 2);
   sum.closed = sum.closed && p.closed;
+}
+
+Probability not_negative(Probability p) {
+  p.value = std::max(p.value, 0.0);
+  return p;
 }
 
 Probability orthant_probability(const NormalVariables& of, double tolerance) {
@@ -165,22 +247,26 @@ Probability orthant_probability(const NormalVariables& of, double tolerance) {
   // Closed forms straight from the angles; elsewhere the cosine's rounding is paid for.
   if (of.mean.isZero(0) && k == 2) return {(pi - of.angles(0, 1)) / (2 * pi), roundings, true};
   if (of.mean.isZero(0) && k == 3)
-    return {(2 * pi - of.angles(0, 1) - of.angles(0, 2) - of.angles(1, 2)) / (4 * pi), roundings, true};
+    return {std::max(0.0, 2 * pi - of.angles(0, 1) - of.angles(0, 2) - of.angles(1, 2)) / (4 * pi), roundings,
+            true};
   Bounds bounds;
   bounds.k = static_cast<std::size_t>(k);
-  double rounding = 0;
   for (Index i = 0; i < k; ++i) {
-    bounds.b[static_cast<std::size_t>(i)] = of.mean[i];
+    const double b = of.mean[i];
+    const auto row = static_cast<std::size_t>(i);
+    bounds.b[row] = b == 0 ? Interval{} : outwards(b, b, roundings_of_input);
     for (Index j = 0; j < k; ++j) {
-      const double angle = of.angles(i, j), sine = std::sin(angle);
-      bounds.r[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = i == j ? 1 : std::cos(angle);
-      // |dP/dρ| <= 1/(2pi sin θ).
-      if (i < j) rounding += std::min(unit_roundoff / sine, std::sqrt(2 * unit_roundoff)) / pi;
+      const double angle = of.angles(i, j);
+      const Interval around = outwards(angle, angle, roundings_of_input);
+      bounds.r[row][static_cast<std::size_t>(j)] =
+          i == j ? point(1)
+                 : intersection(all_correlations,
+                                outwards(std::cos(around.high), std::cos(around.low), library_units));
     }
   }
-  Probability found = below(bounds, tolerance);
-  found.error += rounding;
-  return found;
+  const Enclosed found = below(bounds, tolerance);
+  const double value = middle(found.value);
+  return {value, moved_up(std::max(found.value.high - value, value - found.value.low)), found.closed};
 }
 
 }  // namespace convex::atlas

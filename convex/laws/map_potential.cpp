@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "convex/atlas/quadrature.hpp"
+#include "convex/laws/quadrature.hpp"
 
 namespace convex {
 namespace {
@@ -103,8 +103,8 @@ std::vector<PotentialPoint> potential(const Map& T, const ExactMetric& W, double
       return nearest(value->value);
     };
     const Vector covector = gram * z;
-    const atlas::Quadrature phi = atlas::integral([&](double t) { return covector.dot(image(t * z)); }, 0, 1,
-                                                  1e-9 * (1 + z.dot(covector)));
+    const Quadrature phi =
+        integral([&](double t) { return covector.dot(image(t * z)); }, 0, 1, 1e-9 * (1 + z.dot(covector)));
     const Vector p = image(z);
     if (std::isfinite(phi.value) && p.allFinite())
       found.push_back({z, p, covector.dot(p) - phi.value - 0.5 * p.dot(gram * p), phi.error});

@@ -1,11 +1,11 @@
-#include "convex/atlas/quadrature.hpp"
+#include "convex/laws/quadrature.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-namespace convex::atlas {
+namespace convex {
 namespace {
 
 /// Kronrod's nodes on [0, 1], every second one Gauss' (from the odd places), with both weights.
@@ -64,4 +64,4 @@ Quadrature integral(const std::function<double(double)>& f, double a, double b, 
   return sum;
 }
 
-}  // namespace convex::atlas
+}  // namespace convex
