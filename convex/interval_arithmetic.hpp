@@ -14,7 +14,8 @@ namespace convex {
 inline double moved_down(double x, int units = 1) {
   constexpr double unit = std::numeric_limits<double>::epsilon(), least = 1e-320;
   const double moved = x - (std::abs(x) * (units * unit) + least);
-  return std::isfinite(x) ? moved : -std::numeric_limits<double>::infinity();
+  // inf - inf, and what is no number.
+  return moved == moved ? moved : -std::numeric_limits<double>::infinity();
 }
 inline double moved_up(double x, int units = 1) { return -moved_down(-x, units); }
 
@@ -23,7 +24,7 @@ inline constexpr int library_units = 8;
 inline Interval outwards(double low, double high, int units = 1) {
   return {moved_down(low, units), moved_up(high, units)};
 }
-inline Interval point(double x) { return {x, x}; }
+inline Interval interval_at(double x) { return {x, x}; }
 inline double middle(const Interval& a) { return a.low + 0.5 * (a.high - a.low); }
 inline Interval intersection(const Interval& a, const Interval& b) {
   return {std::max(a.low, b.low), std::min(a.high, b.high)};
@@ -36,12 +37,14 @@ inline Interval operator+(const Interval& a, const Interval& b) {
 }
 inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
 inline Interval operator*(const Interval& a, const Interval& b) {
-  if (a.low >= 0 && b.low >= 0 && std::isfinite(a.high) && std::isfinite(b.high))
-    return outwards(a.low * b.low, a.high * b.high);
-  const double p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
-  if (std::isnan(p + q + r + s))
-    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  return outwards(std::min({p, q, r, s}), std::max({p, q, r, s}));
+  if (a.low >= 0) {
+    if (b.low >= 0) return outwards(a.low * b.low, a.high * b.high);
+    return outwards(a.high * b.low, (b.high <= 0 ? a.low : a.high) * b.high);
+  }
+  if (a.high <= 0) return -(-a * b);
+  if (b.low >= 0) return outwards(a.low * b.high, a.high * b.high);
+  if (b.high <= 0) return outwards(a.high * b.low, a.low * b.low);
+  return outwards(std::min(a.low * b.high, a.high * b.low), std::max(a.low * b.low, a.high * b.high));
 }
 /// Unbounded where b contains 0.
 inline Interval operator/(const Interval& a, const Interval& b) {

@@ -140,7 +140,7 @@ std::string subdifferential_text(const ToldSubdifferential& told) {
   if (told.least && !at.is_single())
     text += fmt::format("of least norm: {}, norm {}\n", row_text(convex::fractions(*told.least)),
                         number_text(told.least_norm));
-  if (told.contains) text += fmt::format("The covector is {}a subgradient.\n", *told.contains ? "" : "no ");
+  if (told.contains) text += fmt::format("The covector is {}a subgradient.\n", *told.contains ? "" : "not ");
   if (told.along) text += fmt::format("directional derivative: {}\n", number_text(*told.along));
   if (told.tangent) text += cone_lines("tangent cone", *told.tangent);
   if (told.critical) text += cone_lines("critical cone", *told.critical);

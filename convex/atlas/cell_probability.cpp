@@ -11,6 +11,15 @@
 namespace convex::atlas {
 namespace {
 
+/// Bounds on truncation fall so fast that a rule which is sure of a coarse tolerance often keeps a fine one:
+/// the coarse one is tried first.
+template <class Measure>
+Probability to_tolerance(const Measure& measured, double tolerance) {
+  constexpr double coarse = 64;
+  const Probability quick = measured(coarse * tolerance);
+  return not_negative(quick.error <= tolerance ? quick : measured(tolerance));
+}
+
 /// M v for the rows of M.
 IntegerVector applied(const IntegerRows& M, const IntegerVector& v) {
   IntegerVector products;
@@ -169,7 +178,7 @@ Probability CellProbability::of(const std::vector<SignedCone>& cones, const Inte
 }
 
 Probability CellProbability::of(const Cell& cell, double tolerance) const {
-  return not_negative(product_or_sum(cell, tolerance));
+  return to_tolerance([&](double part) { return product_or_sum(cell, part); }, tolerance);
 }
 
 Probability CellProbability::product_or_sum(const Cell& cell, double tolerance) const {
@@ -202,7 +211,8 @@ Probability CellProbability::of(const IntegerRows& halfspaces, double tolerance)
   const std::vector<std::vector<ConeFace>> levels = faces(cone);
   IntegerRows lines = cone.lines;
   for (IntegerVector& line : lines) line.pop_back();
-  return not_negative(of(signed_cones(cone, levels, levels.back().front()), {}, lines, tolerance));
+  const std::vector<SignedCone> cones = signed_cones(cone, levels, levels.back().front());
+  return to_tolerance([&](double part) { return of(cones, {}, lines, part); }, tolerance);
 }
 
 }  // namespace convex::atlas

@@ -64,13 +64,13 @@ Bounds conditional(const Bounds& of, std::size_t first, std::size_t second, cons
     x[i] = part * of.r[first][l];
     y[i] = of.r[second][l];
     // x² - 2 sin θ x y + y² = (x - sin θ y)² + cos² θ y².
-    deviation[i] = root(point(1) - square(y[i]) - square(x[i] - sine * y[i]) / rest);
+    deviation[i] = root(interval_at(1) - square(y[i]) - square(x[i] - sine * y[i]) / rest);
     if (of.is_centred()) continue;
     const Interval shift = of.b[l] - (x[i] * (b - sine * c) + y[i] * (c - sine * b)) / rest;
     left.b[i] = shift / deviation[i];
   }
   for (std::size_t i = 0; i < left.k; ++i) {
-    left.r[i][i] = point(1);
+    left.r[i][i] = interval_at(1);
     for (std::size_t j = 0; j < i; ++j) {
       const Interval shared = y[i] * y[j] + (x[i] - sine * y[i]) * (x[j] - sine * y[j]) / rest;
       left.r[i][j] =
@@ -116,7 +116,7 @@ Interval left_unexplained(const Bounds& of, std::size_t out) {
   const auto place = [&](std::size_t i) { return i + 1 == of.k ? out : i < out ? i : i + 1; };
   for (std::size_t i = 0; i < of.k; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
-      Interval sum = i == j ? point(1) : of.r[place(i)][place(j)];
+      Interval sum = i == j ? interval_at(1) : of.r[place(i)][place(j)];
       for (std::size_t l = 0; l < j; ++l) sum = sum - (i == j ? square(L[i][l]) : L[i][l] * L[j][l]);
       if (i + 1 == of.k && i == j) return intersection(any_probability, sum);
       if (i == j && !(sum.low > 0)) return any_probability;
@@ -142,7 +142,7 @@ double size_of_derivative(const Interval& u, const Interval& v, const Interval& 
       u.low <= 0 && u.high >= 0 ? 1.0 : moved_up(std::max(ends[0], ends[1]), library_units)};
   const Interval a = sine * cosh_v / c, beta = square(cosine * sinh_v / c);
   if (!(largest_size(a) < 1)) return std::numeric_limits<double>::infinity();
-  const Interval one = point(1), kappa = beta / (one - square(a));
+  const Interval one = interval_at(1), kappa = beta / (one - square(a));
   const Interval plus = one + kappa, minus = a * (one - kappa);
   const Interval det_S = (plus - minus) * (plus + minus);
   const Interval det_12 = plus * (one + kappa * square(c)) - square(minus * c);
@@ -163,12 +163,12 @@ Enclosed along(const Bounds& of, std::size_t first, std::size_t second, const In
   // c = r_12 / rho, whose sign does not matter.
   const double least = whole.low > 0 ? whole.low : whole.high < 0 ? -whole.high : 0;
   const Interval squared = square(Interval{least, largest_size(whole)});
-  const Interval explained = intersection(point(1) - unexplained, {squared.low, 1});
+  const Interval explained = intersection(interval_at(1) - unexplained, {squared.low, 1});
   const Interval steep = intersection(any_probability, root(squared / explained));
   const double farther = std::max(square(b).low, square(c).low);
-  const Interval most = increasing([](double x) { return std::exp(x); }, point(-farther / 2));
+  const Interval most = increasing([](double x) { return std::exp(x); }, interval_at(-farther / 2));
   AnalyticFunction g;
-  g.range = {0, (most / (point(2) * enclosed_pi)).high};
+  g.range = {0, (most / (interval_at(2) * enclosed_pi)).high};
   g.singularity = std::asin(steep.low);
   g.size = [steep](const Interval& u, const Interval& v) { return size_of_derivative(u, v, steep); };
   g.at = [&](const Interval& theta) {
@@ -179,8 +179,8 @@ Enclosed along(const Bounds& of, std::size_t first, std::size_t second, const In
          theta.low <= 0 && theta.high >= 0 ? 1 : moved_up(std::max(cosines[0], cosines[1]), library_units)});
     // b² - 2bc sin θ + c² = (b - c sin θ)² + c² cos² θ.
     const Interval exponent = square(b - c * sine) / rest + square(c);
-    const Interval density =
-        increasing([](double x) { return std::exp(x); }, exponent * point(-0.5)) / (point(2) * enclosed_pi);
+    const Interval density = increasing([](double x) { return std::exp(x); }, exponent * interval_at(-0.5)) /
+                             (interval_at(2) * enclosed_pi);
     const Interval known = intersection({0, density.high}, density);
     if (of.k == 2 || known.high == 0) return known;
     const Interval part = sine / whole;
@@ -194,13 +194,13 @@ Enclosed along(const Bounds& of, std::size_t first, std::size_t second, const In
 /// Centred, up to three: the solid angle.
 Interval solid_angle(const Bounds& of) {
   const Interval first = arc_cosine(of.r[0][1]);
-  if (of.k == 2) return (enclosed_pi - first) / (point(2) * enclosed_pi);
+  if (of.k == 2) return (enclosed_pi - first) / (interval_at(2) * enclosed_pi);
   const Interval sum = first + arc_cosine(of.r[0][2]) + arc_cosine(of.r[1][2]);
-  return (point(2) * enclosed_pi - sum) / (point(4) * enclosed_pi);
+  return (interval_at(2) * enclosed_pi - sum) / (interval_at(4) * enclosed_pi);
 }
 
 Enclosed below(const Bounds& of, double tolerance) {
-  if (of.k == 0) return {point(1), true};
+  if (of.k == 0) return {interval_at(1), true};
   if (of.k == 1) return {below_one(of.b[0]), true};
   if (of.k <= 3 && of.is_centred()) return {intersection(any_probability, solid_angle(of)), true};
   const std::size_t out = loosest(of);
@@ -259,7 +259,7 @@ Probability orthant_probability(const NormalVariables& of, double tolerance) {
       const double angle = of.angles(i, j);
       const Interval around = outwards(angle, angle, roundings_of_input);
       bounds.r[row][static_cast<std::size_t>(j)] =
-          i == j ? point(1)
+          i == j ? interval_at(1)
                  : intersection(all_correlations,
                                 outwards(std::cos(around.high), std::cos(around.low), library_units));
     }

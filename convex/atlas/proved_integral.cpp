@@ -45,10 +45,10 @@ double size_around(const AnalyticFunction& f, double middle_of, double half, dou
   constexpr int pieces = 4;
   const double across = moved_up(half * (rho + 1 / rho) / 2, 4), up = moved_up(half * (rho - 1 / rho) / 2, 4);
   const double left = moved_down(middle_of - across), right = moved_up(middle_of + across);
-  double most = std::max(f.size(point(left), {0, up}), f.size(point(right), {0, up}));
+  double most = std::max(f.size(interval_at(left), {0, up}), f.size(interval_at(right), {0, up}));
   for (int k = 0; k < pieces && std::isfinite(most); ++k) {
     const auto at = [&](int j) { return j == pieces ? right : left + (right - left) * j / pieces; };
-    most = std::max(most, f.size({at(k), at(k + 1)}, point(up)));
+    most = std::max(most, f.size({at(k), at(k + 1)}, interval_at(up)));
   }
   return most;
 }
@@ -82,8 +82,8 @@ std::optional<ChosenRule> chosen_rule(const AnalyticFunction& f, double low, dou
 }
 
 Interval by_rule(const AnalyticFunction& f, double low, double high, const ChosenRule& rule) {
-  const Interval centre = (point(low) + point(high)) * point(0.5),
-                 half = (point(high) - point(low)) * point(0.5);
+  const Interval centre = (interval_at(low) + interval_at(high)) * interval_at(0.5),
+                 half = (interval_at(high) - interval_at(low)) * interval_at(0.5);
   Interval sum;
   for (const Node& node : rule.nodes) {
     const Interval away = half * outwards(node.place, node.place);
@@ -93,7 +93,7 @@ Interval by_rule(const AnalyticFunction& f, double low, double high, const Chose
 }
 
 Interval over_panel(const AnalyticFunction& f, double low, double high, double share) {
-  const Interval crude = (point(high) - point(low)) * f.range;
+  const Interval crude = (interval_at(high) - interval_at(low)) * f.range;
   if (crude.high - crude.low <= share) return crude;
   if (const auto rule = chosen_rule(f, low, high, share)) return by_rule(f, low, high, *rule);
   const double between = 0.5 * (low + high);

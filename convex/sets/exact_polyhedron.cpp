@@ -111,6 +111,104 @@ ExactPolyhedron translated(ExactPolyhedron P, const Fractions& shift) {
   return P;
 }
 
+namespace {
+
+/// The polyhedron of these vertices, rays and lines.
+ExactPolyhedron generated(const std::vector<Fractions>& vertices, const std::vector<Fractions>& rays,
+                          const std::vector<Fractions>& lines, std::size_t n) {
+  if (vertices.empty()) return empty_polyhedron(n);
+  const auto with = [](const std::vector<Fractions>& all, int last) {
+    ExactRows rows;
+    for (Fractions one : all) {
+      one.push_back(Fraction{last});
+      rows.push_back(exact_vector(one));
+    }
+    return rows;
+  };
+  ExactRows generators = with(vertices, 1);
+  for (ExactVector& ray : with(rays, 0)) generators.push_back(std::move(ray));
+  return section_at_one(generated_cone(generators, with(lines, 0), static_cast<Index>(n + 1)));
+}
+
+Fractions as_fractions(const IntegerVector& v) {
+  Fractions made;
+  for (const Integer& entry : v) made.push_back({entry});
+  return made;
+}
+
+std::vector<Fractions> as_fractions(const IntegerRows& rows) {
+  std::vector<Fractions> made;
+  for (const IntegerVector& row : rows) made.push_back(as_fractions(row));
+  return made;
+}
+
+Fractions joined(Fractions v, const Fractions& w) {
+  v.insert(v.end(), w.begin(), w.end());
+  return v;
+}
+
+template <class Rows>
+Rows both(Rows first, const Rows& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+}  // namespace
+
+ExactPolyhedron image(const ExactPolyhedron& P, const std::vector<ExactRow>& M) {
+  const auto of = [&](const std::vector<Fractions>& all) {
+    std::vector<Fractions> made;
+    for (const Fractions& v : all) {
+      made.emplace_back();
+      for (const ExactRow& row : M) made.back().push_back(dot(row, v));
+    }
+    return made;
+  };
+  return generated(of(P.vertices), of(as_fractions(P.rays)), of(as_fractions(P.lines)), M.size());
+}
+
+ExactPolyhedron sum(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
+  if (P.is_point() && !Q.is_empty()) return translated(Q, P.vertices.front());
+  if (Q.is_point() && !P.is_empty()) return translated(P, Q.vertices.front());
+  std::vector<Fractions> vertices;
+  for (const Fractions& v : P.vertices)
+    for (const Fractions& w : Q.vertices) {
+      vertices.push_back(v);
+      for (std::size_t i = 0; i < P.n; ++i) vertices.back()[i] = v[i] + w[i];
+    }
+  return generated(vertices, as_fractions(both(P.rays, Q.rays)), as_fractions(both(P.lines, Q.lines)), P.n);
+}
+
+ExactPolyhedron product(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
+  ExactPolyhedron made = empty_polyhedron(P.n + Q.n);
+  for (const Fractions& v : P.vertices)
+    for (const Fractions& w : Q.vertices) made.vertices.push_back(joined(v, w));
+  if (made.is_empty()) return made;
+  const auto first = [&](IntegerVector v) {
+    v.resize(made.n);
+    return v;
+  };
+  const auto second = [&](const IntegerVector& w) {
+    IntegerVector v(P.n);
+    v.insert(v.end(), w.begin(), w.end());
+    return v;
+  };
+  for (const auto part : {&ExactPolyhedron::rays, &ExactPolyhedron::lines}) {
+    for (const IntegerVector& v : P.*part) (made.*part).push_back(first(v));
+    for (const IntegerVector& w : Q.*part) (made.*part).push_back(second(w));
+  }
+  for (const auto part : {&ExactPolyhedron::halfspaces, &ExactPolyhedron::equations}) {
+    for (const ExactHalfspace& row : P.*part) (made.*part).push_back({first(row.normal), row.limit});
+    for (const ExactHalfspace& row : Q.*part) (made.*part).push_back({second(row.normal), row.limit});
+  }
+  return made;
+}
+
+ExactPolyhedron hull(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
+  return generated(both(P.vertices, Q.vertices), as_fractions(both(P.rays, Q.rays)),
+                   as_fractions(both(P.lines, Q.lines)), P.n);
+}
+
 ExactProgram program_of(const ExactPolyhedron& P) {
   ExactProgram form(P.n, 0);
   for (const ExactHalfspace& row : P.halfspaces) {

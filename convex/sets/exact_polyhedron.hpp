@@ -39,6 +39,15 @@ std::optional<Fraction> support_of(const ExactPolyhedron& P, const Fractions& d)
 /// {v + shift}.
 ExactPolyhedron translated(ExactPolyhedron P, const Fractions& shift);
 
+/// {Mv : v in P}, M by rows of its nonzero entries.
+ExactPolyhedron image(const ExactPolyhedron& P, const std::vector<ExactRow>& M);
+/// {v + w : v in P, w in Q}.
+ExactPolyhedron sum(const ExactPolyhedron& P, const ExactPolyhedron& Q);
+/// {(v, w) : v in P, w in Q}.
+ExactPolyhedron product(const ExactPolyhedron& P, const ExactPolyhedron& Q);
+/// The convex hull of P and Q, which are not empty, closed.
+ExactPolyhedron hull(const ExactPolyhedron& P, const ExactPolyhedron& Q);
+
 /// The indicator of P as a program in fractions.
 ExactProgram program_of(const ExactPolyhedron& P);
 

@@ -7,11 +7,10 @@
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
-#include "convex/functions/sets.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/proved_prox/entry_formulas.hpp"
-#include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
+#include "convex/sets/subdifferential_rules.hpp"
 
 namespace convex {
 namespace {
@@ -46,75 +45,6 @@ ExactPolyhedron of_program(const ExactProgram& f, const Fractions& x) {
   return section_at_one(image(weights, image_rows));
 }
 
-Subdifferential of_polyhedron(ExactPolyhedron P, bool is_exact) {
-  Subdifferential made;
-  made.n = P.n;
-  made.is_exact = is_exact;
-  if (!P.is_empty()) made.set = as_set(P);
-  made.polyhedron = std::move(P);
-  return made;
-}
-
-Subdifferential single(const Fractions& v, bool is_exact) {
-  ExactPolyhedron P = empty_polyhedron(v.size());
-  P.vertices.push_back(v);
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    IntegerVector unit(v.size());
-    unit[i] = v[i].denominator;
-    P.equations.push_back({std::move(unit), v[i].numerator});
-  }
-  return of_polyhedron(std::move(P), is_exact);
-}
-
-Subdifferential ray(const Fractions& direction) {
-  const ExactVector d = exact_vector(direction);
-  return of_polyhedron(polyhedron_of(generated_cone({d}, {}, d.size())), true);
-}
-
-Subdifferential of_set(Set set, std::size_t n) {
-  Subdifferential made;
-  made.n = n;
-  made.set = std::move(set);
-  made.is_exact = true;
-  return made;
-}
-
-/// The root of a positive fraction, rounded, also of one that no double is near.
-Fraction norm_rounded(Fraction square) {
-  constexpr double step = 0x1p+400, least = 0x1p-900;
-  const Fraction factor = fraction(step), inverse = Fraction{1} / factor;
-  Fraction scale{1};
-  for (; std::isinf(nearest_double(square)); scale = scale * factor) square = square * inverse * inverse;
-  for (; nearest_double(square) < least; scale = scale * inverse) square = square * factor * factor;
-  return fraction(std::sqrt(nearest_double(square))) * scale;
-}
-
-/// The Euclidean norm and its ball, and the second-order cone; none of other names.
-std::optional<Subdifferential> of_round_set(const Call& f, const Fractions& x) {
-  const ExactArguments a(f, x.size());
-  const std::size_t n = x.size();
-  if (f.name == "norm2") {
-    const Fraction square = pairs::square_of(x), weight = a.number("weight");
-    if (sign(square) == 0) return of_set(ball2(nearest_double(weight)), n);
-    return single(pairs::multiple_of(weight / norm_rounded(square), x), false);
-  }
-  if (f.name == "ball2") {
-    const Fractions d = difference(x, a.vector("center"));
-    const Fraction left = a.number("radius") * a.number("radius") - pairs::square_of(d);
-    if (sign(left) < 0) return of_polyhedron(empty_polyhedron(n), true);
-    return sign(left) > 0 ? single(Fractions(n), true) : ray(d);
-  }
-  if (f.name == "second_order_cone") {
-    Fractions normal = x;
-    normal.back() = -x.back();
-    const Fraction left = x.back() * x.back() - pairs::square_of({x.begin(), x.end() - 1});
-    if (sign(x.back()) < 0 || sign(left) < 0) return of_polyhedron(empty_polyhedron(n), true);
-    if (sign(left) > 0) return single(Fractions(n), true);
-    if (sign(x.back()) > 0) return ray(normal);
-  }
-  return std::nullopt;
-}
-
 /// Of a separable function with formulas: one slope each, the whole line where the domain is one number,
 /// nothing where the slope is vertical or the entry outside.
 std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
@@ -137,61 +67,25 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
       unit[i] = vertex[i].denominator;
       P.equations.push_back({unit, vertex[i].numerator});
     } else {
-      return of_polyhedron(empty_polyhedron(x.size()), true);
+      return subgradients::none(x.size());
     }
   }
   P.vertices.push_back(std::move(vertex));
-  return of_polyhedron(std::move(P), false);
-}
-
-/// A gradient in doubles, of a function that is finite and differentiable everywhere.
-std::optional<Subdifferential> of_gradient(const Call& f, const ExactGram& W, const Fractions& x) {
-  const Function made = make_function(f, {rounded(W)});
-  if (!made.facts().smooth || !made.facts().finite) return std::nullopt;
-  const auto v = made.subgradient(nearest(x));
-  if (!v || !v->allFinite()) return std::nullopt;
-  return single(fractions(*v), false);
-}
-
-Call sum_call(const std::vector<const Call*>& parts) {
-  Call sum{"sum"};
-  for (const Call* part : parts) sum.arguments.push_back(argument(*part));
-  return sum;
-}
-
-/// Parts with programs as one, the others differentiable: ∂(f + g)(x) = ∂f(x) + g'(x) (Rockafellar 1970,
-/// theorem 23.8).
-std::optional<Subdifferential> of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
-  std::vector<const Call*> programs;
-  Fractions gradient(x.size());
-  for (const Call* part : ExactArguments(f, x.size()).calls()) {
-    if (exact_program(*part, W)) {
-      programs.push_back(part);
-      continue;
-    }
-    const Subdifferential one = subdifferential(*part, W, x);
-    if (one.is_empty()) return one;
-    if (!one.is_single()) return std::nullopt;
-    gradient = pairs::sum_of(gradient, one.polyhedron->vertices.front());
-  }
-  if (programs.empty()) return single(gradient, false);
-  ExactPolyhedron P = of_program(*exact_program(sum_call(programs), W), x);
-  return of_polyhedron(P.is_empty() ? P : translated(std::move(P), gradient), false);
+  return subgradients::of_polyhedron(std::move(P), false);
 }
 
 }  // namespace
 
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x) {
+  using namespace subgradients;
   if (const auto program = exact_program(f, W)) return of_polyhedron(of_program(*program, x), true);
-  if (f.name == "indicator") return subdifferential(ExactArguments(f, x.size()).call("set"), W, x);
-  if (auto found = of_round_set(f, x)) return std::move(*found);
-  if (f.name == "sum")
-    if (auto found = of_sum(f, W, x)) return std::move(*found);
+  if (auto found = by_calculus(f, W, x)) return std::move(*found);
+  if (auto found = of_curved_norm_or_set(f, x)) return std::move(*found);
   if (auto found = of_entries(f, x)) return std::move(*found);
-  if (auto found = of_gradient(f, W, x)) return std::move(*found);
+  if (auto found = of_smooth_or_homogeneous(f, W, x)) return std::move(*found);
   throw InvalidInput(f.name +
-                     ": no rule gives its subdifferential as a set; give a piecewise linear-quadratic or "
-                     "differentiable function, norm2, ball2, second_order_cone, or a sum with one such part");
+                     ": no rule gives its subdifferential at this point as a set; "
+                     "docs/subdifferentials.md lists the functions that have one");
 }
 
 bool Subdifferential::contains(const Fractions& v) const {
@@ -204,7 +98,7 @@ double Subdifferential::support(const Fractions& d) const {
     const auto value = support_of(*polyhedron, d);
     return value ? nearest_double(*value) : INFINITY;
   }
-  return set->indicator.conjugate()(nearest(d));
+  return make_function(*support_function, {Metric::identity(static_cast<Index>(n))})(nearest(d));
 }
 
 Vector Subdifferential::projection(const Vector& u, const Metric& V) const {

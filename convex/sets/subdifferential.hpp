@@ -20,6 +20,10 @@ struct Subdifferential {
   std::optional<ExactPolyhedron> polyhedron;  ///< where it is one
   std::optional<Set> set;                     ///< none when empty
   bool is_exact = false;
+  /// Of a set that is no polyhedron: d -> f'(x; d), as an expression of the language in the plain product,
+  /// and whether the set is bounded.
+  std::optional<Call> support_function;
+  bool is_bounded_set = false;
 
   bool is_empty() const { return !set; }
   bool is_single() const { return polyhedron && polyhedron->is_point(); }
@@ -33,7 +37,10 @@ struct Subdifferential {
   Vector projection(const Vector& u, const Metric& V) const;
 };
 
-/// Throws InvalidInput where no rule gives the set (docs/subdifferentials.md lists the rules).
+/// By the calculus of Rockafellar (1970, section 23) from the parts that f is made of, where its conditions
+/// are met: of a sum, all parts but one are polyhedral or finite around x; of f(Ax + b), f is finite around
+/// Ax + b, or A is onto. Throws InvalidInput where they are not, or no rule gives the set
+/// (docs/subdifferentials.md lists the rules).
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x);
 
 /// The tangent cone of C at x, {d : a·d <= 0 for all normals a}, polar to the normal cone; the critical cone

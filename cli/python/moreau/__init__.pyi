@@ -1,12 +1,14 @@
 import os
 from collections.abc import Callable, Sequence
+from fractions import Fraction
 from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .catalogue import *
-from .functions import Inaccurate as Inaccurate
+from .contact_atlas import Atlas as Atlas, Cell as Cell
+from .functions import Inaccurate as Inaccurate, MapReport as MapReport
 from .motion import Event as Event, Motion as Motion, Trajectory as Trajectory
 from .problems import Result as Result, SceneWarning as SceneWarning, Solutions as Solutions
 
@@ -48,6 +50,21 @@ class Function:
 class Set(Function):
     def __contains__(self, x: ArrayLike) -> bool: ...
     def __and__(self, other: Set) -> Function: ...
+
+class Subdifferential:
+    f: str
+    x: list[Fraction]
+    is_empty: bool
+    is_single: bool
+    is_exact: bool
+    set: Set | None
+    polyhedron: dict[str, list[Any]] | None
+    least: Vector
+    tangent_cone: dict[str, list[Any]] | None
+    def __contains__(self, v: ArrayLike) -> bool: ...
+    def support(self, d: ArrayLike) -> float: ...
+    def projection(self, u: ArrayLike, V: Any = None) -> Vector: ...
+    def critical_cone(self, v: ArrayLike) -> dict[str, list[Any]]: ...
 
 class Solution:
     status: Status
@@ -106,5 +123,15 @@ def conjugate(f: Function, W: Any = None) -> Function: ...
 def function(text: str) -> Function: ...
 def user_function(value: Callable[[Vector], float], prox: Callable[[Vector, Metric], ArrayLike], n: int = 0,
                   name: str = "user_function", check: int = 3) -> Function: ...
+def subdifferential(f: Function, x: Sequence[Any] | ArrayLike, W: Any = None) -> Subdifferential: ...
+@overload
 def laws(f: Function, n: int = 3) -> LawReport: ...
+@overload
+def laws(f: Callable[[Vector], ArrayLike], n: int = 3, W: Any = None,
+         box: tuple[float, float] = (-4, 4)) -> MapReport: ...
+def atlas(problem: str | os.PathLike[str] | dict[str, Any] | None = None, /, *, A: Any = None,
+          z: ArrayLike | None = None, U: Any = None, s: ArrayLike | None = None,
+          two_sided: Sequence[int] | None = None, mean: Literal["file"] | ArrayLike | None = None,
+          covariance: ArrayLike | None = None, over: dict[str, tuple[float, float]] | None = None,
+          tolerance: float = 1e-6, cells: int | None = None, set: dict[str, Any] | None = None) -> Atlas: ...
 def methods() -> dict[str, str]: ...

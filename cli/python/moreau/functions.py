@@ -20,6 +20,11 @@ class Inaccurate(ArithmeticError):
         self.x, self.status, self.error_bound = x, status, error_bound
 
 
+def _require_function(f):
+    if not isinstance(f, Function):
+        raise InvalidInput(f"f: a {type(f).__name__}; give a Function, such as norm1() or function(\"norm1()\")")
+
+
 def prox(f, z, W=None):
     """prox_f z = argmin over u of 1/2 ||u - z||_W^2 + f(u) (Moreau 1965).
 
@@ -29,6 +34,7 @@ def prox(f, z, W=None):
     Raises InvalidInput when sizes do not fit or f is not convex, closed and proper; Inaccurate, with what was found,
     when the error bound is not met.
     """
+    _require_function(f)
     if np.ndim(z) == 2:
         x, codes, bounds = _moreau.prox_batch(f, z, W)
         if codes.any():
@@ -47,11 +53,91 @@ def conjugate(f, W=None):
 
     W: the identity unless given. In a metric W, z = prox(f, z, W) + prox(conjugate(f, W), z, W).
     """
+    _require_function(f)
     return f.conjugate(W)
+
+
+def decompose(f, z, W=None, tolerance=1e-9):
+    """The decomposition of z (Moreau 1965): x = prox_f z, y = prox_g z, g the conjugate in the metric W.
+
+    f: a Function; z: n numbers; W: a Metric, a symmetric positive definite matrix, its diagonal, or None (identity).
+    Raises InvalidInput when sizes do not fit, or f is not convex, closed and proper.
+    """
+    _require_function(f)
+    return _moreau.decompose(f, z, W, _number(tolerance, "tolerance"))
+
+
+def subdifferential(f, x, W=None):
+    """All subgradients of f at x (Moreau 1963), as a Subdifferential: membership, support function, projection, and the
+    polyhedron in fractions where it is one. Of a set: its normal cone, with tangent and critical cones.
+
+    x: floats at their exact value, integers, fractions.Fraction, or texts such as "1/3". No tolerance decides which
+    constraints x touches. W: the product that conjugates, envelopes and the like of f take.
+    Raises InvalidInput where no rule gives the set (docs/subdifferentials.md).
+    """
+    _require_function(f)
+    return _moreau.subdifferential(f, x, W)
+
+
+class MapReport:
+    """What sampling a map came to. `passed` is not a proof: sampling can only refute.
+
+    counterexample: None, or a dict: law ('nonexpansive' or 'cyclically monotone'), points and images in fractions,
+    radii of what the images may be off, and excess, by how much the law fails there. asymmetry: the largest
+    |S_ij - S_ji| over the largest |S_ij|, S = W T' by differences, 0 for a prox.
+    """
+
+    def __init__(self, counterexample, points, undefined, asymmetry):
+        self.counterexample, self.points, self.undefined = counterexample, points, undefined
+        self.asymmetry = asymmetry
+
+    @property
+    def passed(self):
+        return self.counterexample is None
+
+    def __bool__(self):
+        return self.passed
+
+    def __repr__(self):
+        if self.passed:
+            return f"MapReport(not refuted at {self.points} points; that is no proof)"
+        found = self.counterexample
+        points = "; ".join("(" + ", ".join(map(str, z)) + ")" for z in found["points"])
+        return f"MapReport(no prox: not {found['law']} at {points}, by {float(found['excess']):.3g})"
+
+
+def laws(f, n=3, W=None, box=(-4, 4)):
+    """Puts a function, or a map, to Moreau's theorem on n entries.
+
+    A Function, at trial points in trial metrics: z - x is a subgradient at x = prox_f z; the prox is firmly
+    nonexpansive; one subgradient serves every metric. Of functions of the language also that z = x + y by two routes,
+    f(x) + g(y) = (x|y), and f** = f. Gives a LawReport.
+
+    A map T(z) -> array of n numbers: is it the prox of some function in the metric W (Moreau 1965, corollary 10.c)?
+    It is exactly when it is nonexpansive and cyclically monotone; both are tried in the box, every coordinate within
+    its bounds. Gives a MapReport, with a counterexample in fractions where there is one.
+
+    What sampling finds refutes; what it does not find proves nothing.
+    """
+    if isinstance(f, Function):
+        return _moreau.laws(f, n)
+    if not callable(f):
+        raise InvalidInput(f"f: a {type(f).__name__}; give a Function, or a map as a callable")
+    low, high = box
+    return MapReport(**_moreau.map_laws(f, n, W, _number(low, "box"), _number(high, "box")))
+
+
+def _number(value, name):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise InvalidInput(f"{name}: a {type(value).__name__}; give a number") from None
 
 
 def function(text):
     """The function or set that a text of docs/functions.md means: function("norm1(weight=2)")."""
+    if not isinstance(text, str):
+        raise InvalidInput(f"text: a {type(text).__name__}; give a text such as \"norm1(weight=2)\"")
     return _moreau.parse(text)
 
 
@@ -66,6 +152,9 @@ def user_function(value, prox, n=0, name="user_function", check=3):
     Sums of such functions with others have no prox unless the others are quadratic; conjugates, envelopes,
     translations, multiples and separable sums have one.
     """
+    for called, argument in ((value, "value"), (prox, "prox")):
+        if not callable(called):
+            raise InvalidInput(f"{argument}: a {type(called).__name__}; give a callable")
     made = _moreau.user(value, prox, n, name)
     if check:
         report = _moreau.laws(made, n or check)

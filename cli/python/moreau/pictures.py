@@ -7,6 +7,7 @@ import tempfile
 import numpy as np
 
 from . import _moreau
+from .contact_atlas import Atlas
 from .motion import Motion
 from .problems import Result, Solutions
 
@@ -23,14 +24,14 @@ def _table(heading, rows):
     return "<table>" + cells(heading, "th") + "".join(cells(row, "td") for row in rows[:_MOST_ROWS]) + f"</table>{more}"
 
 
-def _svg_of(document, options):
-    """The picture of `moreau solve --plot`; None where there is none, or no gnuplot."""
+def _svg_of(draw):
+    """What `draw` writes into a file; None where there is no picture, or no gnuplot."""
     if not _moreau.can_draw():
         return None
     with tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, "picture.svg")
         try:
-            document.draw(file, options)
+            draw(file)
         except _moreau.InvalidInput:  # one coordinate, no answer: nothing to draw
             return None
         with open(file, encoding="utf-8") as stream:
@@ -103,17 +104,27 @@ def attach():
     """Gives the results their looks in a notebook."""
     solution, split, report = _moreau.Solution, _moreau.Decomposition, _moreau.LawReport
     solution.__repr__, solution._repr_html_ = _solution_repr, _solution_html
-    solution._repr_svg_ = lambda self: _svg_of(_moreau.document_of(self), {})
+    solution._repr_svg_ = lambda self: _svg_of(lambda file: _moreau.document_of(self).draw(file, {}))
     solution.result = property(_solution_result)
     split.__repr__ = lambda self: f"Decomposition(f={self.f!r}, x={self.x}, y={self.y}, status={self.status!r})"
     split._repr_html_, split._repr_svg_ = _split_html, _split_svg
     report._repr_html_ = lambda self: f"<pre>{html.escape(repr(self))}</pre>"
     Result._repr_html_ = _result_html
-    Result._repr_svg_ = lambda self: _svg_of(self._document, self._options)
+    Result._repr_svg_ = lambda self: _svg_of(lambda file: self._document.draw(file, self._options))
     Solutions._repr_html_ = lambda self: f"<p>{html.escape(repr(self))}</p>"
     Motion._repr_html_ = _motion_html
+    Atlas._repr_html_ = _atlas_html
+    Atlas._repr_svg_ = lambda self: _svg_of(self.plot)
+    _moreau.Subdifferential._repr_html_ = lambda self: f"<pre>{html.escape(repr(self))}</pre>"
 
 
 def _motion_html(motion):
     rows = [(event.t, event.kind, ", ".join(event.constraints)) for event in motion.events]
     return f"<p>{html.escape(repr(motion))}</p>" + _table(("t", "event", "constraints"), rows)
+
+
+def _atlas_html(atlas):
+    rows = [(", ".join(one.contacts) or "none", one.freedom, len(one.walls), one.probability, one.error_bound)
+            for one in atlas.cells]
+    heading = ("contacts that persist", "freedom", "walls", "probability", "error at most")
+    return f"<p>{html.escape(repr(atlas))}</p>" + _table(heading, rows)

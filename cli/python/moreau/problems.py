@@ -88,9 +88,18 @@ def _plain(value):
     raise TypeError(f"a problem cannot hold a {type(value).__name__}; give numbers, texts, lists, dicts or arrays")
 
 
+def written(numbers):
+    """A vector or matrix as the command line has it: "[1.5, 1/3]"."""
+    if np.ndim(numbers) == 0:
+        return str(numbers.item() if isinstance(numbers, np.generic) else numbers)
+    return "[" + ", ".join(written(entry) for entry in numbers) + "]"
+
+
 def document_of(problem, settings):
     """The document of a path or a dict. settings: {"m": 3, "position.x": 0.2}."""
     given = [f"{key}={value}" for key, value in (settings or {}).items()]
+    if not isinstance(problem, (dict, str, os.PathLike)):
+        raise _moreau.InvalidInput(f"a {type(problem).__name__} is no problem; give a file, a dict, or A=, z=, U=, s=")
     if isinstance(problem, dict):
         return _moreau.Document(json.dumps(problem, default=_plain, allow_nan=False), True, given, "dict")
     return _moreau.Document(os.fspath(problem), False, given, "")

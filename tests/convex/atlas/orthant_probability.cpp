@@ -100,7 +100,9 @@ TEST_CASE("an integral lies in its enclosure, and a size bound that is too small
       return factor / std::hypot(1 - y * y + 25 * x2, 0);
     };
   };
-  const auto at = [](const Interval& x) { return point(1) / (point(1) + point(25) * square(x)); };
+  const auto at = [](const Interval& x) {
+    return interval_at(1) / (interval_at(1) + interval_at(25) * square(x));
+  };
   for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-13}) {
     const Interval found = proved_integral({at, size(1), {1.0 / 26 - 1e-3, 1}}, 1, tolerance);
     CAPTURE(tolerance);

@@ -1,0 +1,271 @@
+#include <algorithm>
+
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/exact/elimination.hpp"
+#include "convex/exact_program/exact_arguments.hpp"
+#include "convex/exact_program/exact_minimum.hpp"
+#include "convex/exact_program/program_of_call.hpp"
+#include "convex/interval_arithmetic.hpp"
+#include "convex/proved_prox/pair_search.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
+#include "convex/sets/subdifferential_rules.hpp"
+
+namespace convex::subgradients {
+namespace {
+
+[[noreturn]] void refuse(const Call& f, const std::string& why) {
+  throw InvalidInput(f.name + ": no rule gives its subdifferential at this point as a set: " + why);
+}
+
+/// ∂(f + g) = ∂f + ∂g where all but one of them are finite around x (Rockafellar 1970, theorem 23.8). Parts
+/// with programs count as one.
+Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
+  std::vector<const Call*> programs;
+  std::vector<Subdifferential> parts;
+  for (const Call* part : ExactArguments(f, x.size()).calls()) {
+    if (exact_program(*part, W))
+      programs.push_back(part);
+    else
+      parts.push_back(subdifferential(*part, W, x));
+  }
+  if (!programs.empty()) {
+    Call together{f.name};
+    for (const Call* part : programs) together.arguments.push_back(argument(*part));
+    parts.push_back(subdifferential(together, W, x));
+  }
+  if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.is_empty(); }))
+    return none(x.size());
+  if (std::count_if(parts.begin(), parts.end(), [](const auto& part) { return !is_bounded(part); }) > 1)
+    refuse(f,
+           "x lies on the edge of two of its domains, and these may meet there alone; make one of them "
+           "polyhedral");
+  Subdifferential total = parts.front();
+  for (std::size_t k = 1; k < parts.size(); ++k) total = sum(total, parts[k]);
+  return total;
+}
+
+/// Aᵀ ∂f(Ax + b) where f is finite around Ax + b, or A is onto (theorem 23.9).
+Subdifferential of_precompose(const Call& f, const Fractions& x) {
+  const ExactArguments a(f, x.size());
+  const std::vector<ExactRow> A = a.rows("A");
+  Fractions at = a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"));
+  for (std::size_t i = 0; i < A.size(); ++i) at[i] = at[i] + dot(A[i], x);
+  const Subdifferential inner = subdifferential(a.call("f"), identity_gram(A.size()), at);
+  if (inner.is_empty()) return none(x.size());
+  if (!is_bounded(inner)) {
+    IntegerRows rows;
+    for (const ExactRow& row : A) {
+      Fractions entries(x.size());
+      for (const auto& [j, value] : row) entries[j] = value;
+      rows.push_back(exact_vector(entries).numerators);
+    }
+    if (echelon(rows, x.size()).rank() < A.size())
+      refuse(f, "Ax + b lies on the edge of the domain, and A is not onto; write the part as a polyhedron");
+  }
+  return transposed_image(inner, A, x.size());
+}
+
+std::vector<ExactRow> multiple_of_identity(const Fraction& factor, std::size_t n) {
+  std::vector<ExactRow> rows(n);
+  for (std::size_t i = 0; i < n; ++i) add(rows[i], i, factor);
+  return rows;
+}
+
+Subdifferential of_blocks(const Call& f, const ExactGram& W, const Fractions& x) {
+  std::vector<Subdifferential> parts;
+  std::size_t first = 0;
+  for (std::size_t k = 0; k + 1 < f.arguments.size(); k += 2) {
+    const auto& part = std::get<std::shared_ptr<const Call>>(f.arguments[k].value);
+    const auto n = static_cast<std::size_t>(std::get<double>(f.arguments[k + 1].value));
+    const auto begin = x.begin() + static_cast<std::ptrdiff_t>(first);
+    parts.push_back(
+        subdifferential(*part, block(W, first, n), {begin, begin + static_cast<std::ptrdiff_t>(n)}));
+    first += n;
+  }
+  return product(parts);
+}
+
+/// f(x), in fractions or between two doubles.
+struct KnownValue {
+  std::optional<Fraction> exact;
+  Interval between;
+};
+
+KnownValue value_of(const Call& f, const ExactGram& W, const Fractions& x) {
+  if (const auto program = exact_program(f, W)) {
+    const ExactValue found = exact_value(*program, x);
+    if (found.end != ProgramEnd::minimum) return {std::nullopt, {INFINITY, INFINITY}};
+    const double rounded = nearest_double(found.value);
+    return {found.value, outwards(rounded, rounded)};
+  }
+  const Vector doubles = nearest(x);
+  const Value found = make_function(f, {rounded(W)}).evaluate(doubles);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(fraction(doubles[static_cast<Index>(i)]) == x[i])) return {std::nullopt, {-INFINITY, INFINITY}};
+  if (found.error == 0 && std::isfinite(found.value))
+    return {fraction(found.value), interval_at(found.value)};
+  return {std::nullopt, outwards(found.value - found.error, found.value + found.error)};
+}
+
+/// The convex hull of ∂f_i over the largest f_i, where all parts are finite around x (Dubovitskii and
+/// Milyutin 1965).
+Subdifferential of_maximum(const Call& f, const ExactGram& W, const Fractions& x) {
+  std::vector<KnownValue> values;
+  std::vector<Subdifferential> parts;
+  for (const Call* part : ExactArguments(f, x.size()).calls()) {
+    values.push_back(value_of(*part, W, x));
+    parts.push_back(subdifferential(*part, W, x));
+    if (values.back().between.low == INFINITY) return none(x.size());
+    if (parts.back().is_empty() || !is_bounded(parts.back()))
+      refuse(f, "x lies on the edge of the domain of a part; make the part finite around x");
+  }
+  const auto largest = std::max_element(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return a.between.low < b.between.low;
+  });
+  std::vector<Subdifferential> active;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const KnownValue& value = values[k];
+    if (value.between.high < largest->between.low) continue;
+    const bool both_exact = value.exact && largest->exact;
+    if (both_exact && *value.exact < *largest->exact) continue;
+    if (!both_exact && &value != &*largest)
+      refuse(f, "doubles do not tell which of its parts is the largest; give x in numbers that are doubles");
+    active.push_back(parts[k]);
+  }
+  return hull(active);
+}
+
+Prox found_prox(const Call& f, const Function& made, const Vector& x, const Metric& W) {
+  Prox found = made.prox(x, W);
+  if (found.status != Status::solved) refuse(f, "its prox is not found to the accuracy that it aims at");
+  return found;
+}
+
+/// (W/gamma)(x - prox x), the covector that the prox comes with: no difference of large numbers (Moreau 1965,
+/// proposition 7.d).
+Subdifferential of_envelope(const Call& f, const ExactGram& W, const Fractions& x) {
+  const ExactArguments a(f, x.size());
+  const Metric metric = rounded(W);
+  const Function inner = make_function(a.call("f"), {metric});
+  const double gamma = nearest_double(a.number("gamma"));
+  return single(fractions(found_prox(f, inner, nearest(x), metric.scaled(1 / gamma)).v), false);
+}
+
+/// weight (N ∩ unit ball) at a point of the set, N its normals there: the support function is the distance to
+/// the tangent cone. Elsewhere the direction from the nearest point.
+Subdifferential of_distance(const Call& f, const Fractions& x) {
+  const std::size_t n = x.size();
+  const ExactArguments a(f, n);
+  const Fraction weight = a.number("weight");
+  const ExactGram identity = identity_gram(n);
+  const Subdifferential normals = subdifferential(a.call("set"), identity, x);
+  if (normals.is_empty()) {
+    const Metric plain = Metric::identity(static_cast<Index>(n));
+    const Vector away = found_prox(f, make_function(a.call("set"), {plain}), nearest(x), plain).v;
+    const double length = away.stableNorm();
+    if (!(length > 0)) refuse(f, "x is nearer to the set than doubles tell; move it");
+    return single(fractions(Vector(nearest_double(weight) / length * away)), false);
+  }
+  if (normals.is_single() || sign(weight) == 0) return single(Fractions(n), true);
+  if (!normals.polyhedron)
+    refuse(f, "the normals at this point of the set are no polyhedron; give another point");
+  Call tangent = as_set(polyhedron_of(tangent_cone(normals))).call;
+  return of_support({"distance",
+                     {argument("set", std::make_shared<const Call>(std::move(tangent))),
+                      argument("weight", nearest_double(weight))}},
+                    n, true);
+}
+
+/// weight (x - proj x).
+Subdifferential of_squared_distance(const Call& f, const Fractions& x) {
+  const ExactArguments a(f, x.size());
+  const Metric plain = Metric::identity(static_cast<Index>(x.size()));
+  const Prox found = found_prox(f, make_function(a.call("set"), {plain}), nearest(x), plain);
+  return single(fractions(Vector(nearest_double(a.number("weight")) * found.v)), false);
+}
+
+/// s f(x/s) for s > 0: {(v, f(y) - v·y) : v in ∂f(y)}, y = x/s, f(y) rounded.
+Subdifferential of_perspective(const Call& f, const Fractions& x) {
+  const std::size_t n = x.size() - 1;
+  const Fraction s = x.back();
+  if (sign(s) < 0) return none(x.size());
+  if (sign(s) == 0) refuse(f, "s is 0; give s > 0");
+  const Call& inner = ExactArguments(f, x.size()).call("f");
+  Fractions y(x.begin(), x.end() - 1);
+  for (Fraction& entry : y) entry = entry / s;
+  const ExactGram identity = identity_gram(n);
+  std::vector<ExactRow> A = multiple_of_identity(Fraction{1}, n);
+  for (std::size_t i = 0; i < n; ++i) add(A[i], n, -y[i]);
+  Fractions last(n + 1);
+  last.back() = fraction(make_function(inner, {rounded(identity)})(nearest(y)));
+  return sum(transposed_image(subdifferential(inner, identity, y), A, n + 1), single(last, false));
+}
+
+bool is_identity(const ExactGram& W) {
+  for (std::size_t i = 0; i < W.dimension(); ++i)
+    if (W.rows[i].size() != 1 || !(W.rows[i].begin()->second == Fraction{1})) return false;
+  return W.is_diagonal;
+}
+
+/// Of a conjugate or support function that has another name: g(y) = f*(Wy), so W ∂f*(Wy). f has no parts, for
+/// these might take the product.
+std::optional<Subdifferential> of_renamed(const Call& f, const ExactGram& W, const Fractions& x) {
+  const ExactArguments a(f, x.size());
+  const Call inner = f.name == "support" ? indicator_call(a.call("set")) : a.call("f");
+  const Call& leaf = inner.name == "indicator" ? ExactArguments(inner, x.size()).call("set") : inner;
+  if (!is_identity(W) && !ExactArguments(leaf, x.size()).calls().empty()) return std::nullopt;
+  const ExactGram plain = identity_gram(x.size());
+  const Call renamed = make_function(inner, {rounded(plain)}).conjugate().call();
+  if (renamed.name == f.name) return std::nullopt;
+  return transposed_image(subdifferential(renamed, plain, multiply(W, x)), W.rows, x.size());
+}
+
+}  // namespace
+
+std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, const Fractions& x) {
+  const std::string& name = f.name;
+  if (name == "separable") return of_blocks(f, W, x);
+  const ExactArguments a(f, x.size());
+  const std::size_t n = x.size();
+  if (name == "indicator") return subdifferential(a.call("set"), W, x);
+  if (name == "sum" || name == "intersection") return of_sum(f, W, x);
+  if (name == "precompose") return of_precompose(f, x);
+  if (name == "pointwise_max") return of_maximum(f, W, x);
+  if (name == "translate") return subdifferential(a.call("f"), W, difference(x, a.vector("by")));
+  if (name == "tilt") return sum(subdifferential(a.call("f"), W, x), single(a.vector("c"), true));
+  if (name == "scale")
+    return transposed_image(subdifferential(a.call("f"), W, x), multiple_of_identity(a.number("alpha"), n),
+                            n);
+  if (name == "dilate") {
+    const Fraction inverse = Fraction{1} / a.number("rho");
+    return transposed_image(subdifferential(a.call("f"), W, pairs::multiple_of(inverse, x)),
+                            multiple_of_identity(inverse, n), n);
+  }
+  if (name == "envelope") return of_envelope(f, W, x);
+  if (name == "distance") return of_distance(f, x);
+  if (name == "squared_distance") return of_squared_distance(f, x);
+  if (name == "perspective") return of_perspective(f, x);
+  if (name == "conjugate" || name == "support") return of_renamed(f, W, x);
+  return std::nullopt;
+}
+
+std::optional<Subdifferential> of_smooth_or_homogeneous(const Call& f, const ExactGram& W,
+                                                        const Fractions& x) {
+  const Function made = make_function(f, {rounded(W)});
+  const Facts facts = made.facts();
+  const bool at_zero = sign(pairs::square_of(x)) == 0;
+  if (at_zero && (facts.support || facts.cone) &&
+      (is_identity(W) || ExactArguments(f, x.size()).calls().empty()))
+    return of_support(facts.cone && find_entry(f.name)->kind == EntryKind::set ? indicator_call(f) : f,
+                      x.size(), facts.finite);
+  // The norm of a space that is smooth but at 0.
+  const bool is_smooth_norm = f.name == "schatten" && Fraction{1} < ExactArguments(f, x.size()).number("p") &&
+                              !at_zero &&
+                              std::isfinite(nearest_double(ExactArguments(f, x.size()).number("p")));
+  if (!is_smooth_norm && !(facts.smooth && facts.finite)) return std::nullopt;
+  const auto v = made.subgradient(nearest(x));
+  if (!v || !v->allFinite()) return std::nullopt;
+  return single(fractions(*v), false);
+}
+
+}  // namespace convex::subgradients

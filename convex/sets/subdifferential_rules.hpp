@@ -1,0 +1,22 @@
+#pragma once
+
+#include "convex/sets/subgradients.hpp"
+
+/// The rules behind `subdifferential`; each returns none for names that it has no rule for.
+namespace convex::subgradients {
+
+/// From the parts of an operation. Throws InvalidInput where a condition of the calculus is not met, or a
+/// part has no rule.
+std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, const Fractions& x);
+
+/// Norms, balls and cones that are round: norm2, group_norm, nuclear_norm, ball2, group_ball, the
+/// second-order cones, psd_cone; and neg_log_det. What decides between a corner, an edge and a smooth point
+/// is decided in fractions.
+std::optional<Subdifferential> of_curved_norm_or_set(const Call& f, const Fractions& x);
+
+/// A gradient in doubles, of a function that is finite and differentiable everywhere; at 0, of a positively
+/// homogeneous function with f(0) = 0, the set whose support function it is.
+std::optional<Subdifferential> of_smooth_or_homogeneous(const Call& f, const ExactGram& W,
+                                                        const Fractions& x);
+
+}  // namespace convex::subgradients
