@@ -97,7 +97,9 @@ std::optional<double> assemble_declared(Problem& problem) {
     throw InvalidInput(found.status == mechanics::AssemblyStatus::infeasible
                            ? "state.in_contact: no state was found, " +
                                  fighting_text(*system, found.fighting) +
-                                 " exclude each other near the one given; see `moreau assemble`"
+                                 (found.proved ? " exclude each other (proved)"
+                                               : " do not hold together near the one given") +
+                                 "; see `moreau assemble`"
                            : "state.in_contact: no state was found from the one given; give a closer one",
                        text->declared->place);
   text->state = state_text(*system, found.state, text->state);

@@ -98,8 +98,8 @@ bool is_proved(const LagrangianSystem& system, const PositionSearch& search, con
   return expression::excludes(model.tape, demands, held, guess.t);
 }
 
-/// The constraints that exclude each other, proved where that is possible: those that the search ends on, or
-/// else those of all constraints that a proof needs.
+/// The constraints of which no search meets all, proved to exclude each other where that is possible: those
+/// that the search ends on, or else those of all constraints that a proof needs.
 void find_fighters(const LagrangianSystem& system, PositionSearch& search, const State& guess,
                    const TriedPosition& best, Assembly& found) {
   found.fighting = fighters(search, guess, best);
@@ -121,7 +121,7 @@ void find_fighters(const LagrangianSystem& system, PositionSearch& search, const
   found.proved = true;
 }
 
-/// The nearest velocity; returns the constraints that exclude each other, if any.
+/// The nearest velocity; returns the constraints whose rates exclude each other, if any.
 std::vector<Index> set_velocity(const LagrangianSystem& system, const PositionSearch& search, State& state) {
   std::vector<Index> rows, two_sided;
   const ConstraintRates rates = system.constraint_rates(state);
@@ -157,6 +157,31 @@ std::vector<Index> set_velocity(const LagrangianSystem& system, const PositionSe
     state.v(search.free()) = v0 + change;
   }
   return {};
+}
+
+/// The rows that are held with equality and whose gradient at the position is nothing beside that at other
+/// positions, while d²f/dt² at the velocity, to which no acceleration adds, is not 0.
+std::vector<Index> singular_rows(const LagrangianSystem& system, const PositionSearch& search,
+                                 const TriedPosition& found, const State& state) {
+  std::vector<Index> rows;
+  Vector beside = found.q;
+  for (const Index i : search.free()) beside[i] += std::max(1.0, std::abs(beside[i]));
+  try {
+    const TriedPosition there = search.at(beside);
+    for (Index a = 0; a < found.f.size(); ++a)
+      if (search.is_equal(a) && found.U.row(a).norm() < not_found * there.U.row(a).norm()) rows.push_back(a);
+    if (rows.empty()) return {};
+    const Vector s = system.contact_rows(state, rows).s;
+    const double speed = state.v.norm() / std::max(1.0, state.q.norm());
+    std::vector<Index> left;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (std::abs(s[static_cast<Index>(k)]) >
+          not_found * there.U.row(rows[k]).norm() * speed * state.v.norm())
+        left.push_back(rows[k]);
+    return left;
+  } catch (const convex::InvalidInput&) {  // not finite beside the position: nothing is told
+    return {};
+  }
 }
 
 double residual_of(const LagrangianSystem& system, const PositionSearch& search, const State& state) {
@@ -199,9 +224,11 @@ Assembly assemble(const LagrangianSystem& system, const State& guess, const Asse
   }
   found.fighting = set_velocity(system, search, found.state);
   found.residual = residual_of(system, search, found.state);
-  found.status = !found.fighting.empty()                                 ? AssemblyStatus::infeasible
-                 : found.residual <= not_found && best.step <= not_found ? AssemblyStatus::solved
-                                                                         : AssemblyStatus::gave_up;
+  if (found.fighting.empty()) found.singular = singular_rows(system, search, best, found.state);
+  const bool is_met = found.residual <= not_found && best.step <= not_found && found.singular.empty();
+  found.status = !found.fighting.empty() ? AssemblyStatus::infeasible
+                 : is_met                ? AssemblyStatus::solved
+                                         : AssemblyStatus::gave_up;
   return found;
 }
 

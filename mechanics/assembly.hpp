@@ -21,8 +21,11 @@ struct Assembly {
   AssemblyStatus status = AssemblyStatus::gave_up;
   State state;
   double residual = 0, moved = 0;
-  std::vector<Index> fighting;  ///< infeasible: constraints that exclude each other
-  bool proved = false;          ///< that they do
+  std::vector<Index> fighting;  ///< infeasible: constraints of which no search met all
+  bool proved = false;          ///< that no state does: they exclude each other
+  /// gave_up: two-sided constraints and contacts whose gradient vanishes at the position found, and which the
+  /// velocity leaves to second order.
+  std::vector<Index> singular;
 };
 
 /// A position locally nearest to that of the guess, in its kinetic metric A, with f_a = 0 for two-sided

@@ -46,6 +46,11 @@ std::string assembly_json(const LagrangianSystem& system, const Assembly& found,
   for (const Index a : found.fighting) json.value(system.constraints()[static_cast<std::size_t>(a)].name);
   json.end_array();
   if (found.status == AssemblyStatus::infeasible) json.key("proved").value(found.proved);
+  if (!found.singular.empty()) {
+    json.key("singular").begin_array();
+    for (const Index a : found.singular) json.value(system.constraints()[static_cast<std::size_t>(a)].name);
+    json.end_array();
+  }
   return json.end_object().text();
 }
 
@@ -55,7 +60,12 @@ std::string assembly_text(const LagrangianSystem& system, const Assembly& found)
            " exclude each other at every position (proved).\n";
   if (found.status == AssemblyStatus::infeasible)
     return "No such state was found from many starts: " + fighting_text(system, found.fighting) +
-           " exclude each other.\n";
+           (found.fighting.size() == 1 ? " does not hold" : " do not hold together") +
+           " where the searches end (not proved).\n";
+  if (!found.singular.empty())
+    return "A position was found, but the gradient of " + fighting_text(system, found.singular) +
+           " vanishes there, and the velocity leaves it to second order. Give position and velocity in the "
+           "file.\n";
   if (found.status == AssemblyStatus::gave_up)
     return "No state was found: what should be 0 is still " + number_text(found.residual) +
            ". Give a closer guess, or hold fewer coordinates.\n";

@@ -327,6 +327,12 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
         "at t = " + number_text(state.t) +
         ": no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along "
         "the place where it changes, as with dry friction");
+  for (const Index a : answer->excluding)
+    if (expansion_.is_singular(a))
+      return stop(
+          "at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+          " vanishes here, and derivatives do not tell what it demands; write it so that its gradient "
+          "does not vanish, as y >= 0 for y^3 >= 0");
   if (!answer->excluding.empty()) {
     status = MotionStatus::infeasible;
     excluding = answer->excluding;

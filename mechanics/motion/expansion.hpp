@@ -65,6 +65,8 @@ class Expansion {
   /// ∂f_a/∂t = df_a/dt - u_a·v.
   double drift(Index a) const;
   Vector row(Index a) const;
+  /// The gradient of f_a is 0 here, though f_a has q in it.
+  bool is_singular(Index a) const { return !equations_.row[index(a)].empty() && row(a).isZero(0); }
   /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.
   double rate_scale(Index a) const;
   /// The largest of |u_i q_i| and |f|: what f is about the sum of.

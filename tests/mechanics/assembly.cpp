@@ -95,3 +95,20 @@ TEST_CASE("a four-bar closes from a guess that is a tenth off") {
   CHECK(s->constraint_rates(found.state).f.norm() <= 1e-14);
   CHECK(s->constraint_rates(found.state).df.norm() <= 1e-13);
 }
+
+TEST_CASE("where the gradient of a constraint vanishes at the position found, no velocity is made up") {
+  // x^2 + y^2 = 0 is the origin, at rest.
+  const auto s = system({{"x", "y"}, "(x'^2 + y'^2)/2", "y", {}, {}, {}, {{"c", "x^2 + y^2 = 0"}}});
+  const Assembly found = mechanics::assemble(*s, state({0.3, 0.2}, {1, 0.5}), {});
+  CHECK(found.status == AssemblyStatus::gave_up);
+  CHECK(found.singular == std::vector<mechanics::Index>{0});
+  CHECK(mechanics::assemble(*s, state({0.3, 0.2}, {0, 0}), {}).status == AssemblyStatus::solved);
+}
+
+TEST_CASE("a square that is to be 0 is met by a velocity that keeps it so") {
+  const auto s = system({{"x", "y"}, "(x'^2 + y'^2)/2", "y", {}, {}, {}, {{"c", "(x - y)^2 = 0"}}});
+  const Assembly found = mechanics::assemble(*s, state({0.3, 0.1}, {1, 0}), {});
+  CHECK(found.status == AssemblyStatus::solved);
+  CHECK(found.state.v[0] == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(found.state.v[1] == doctest::Approx(0.5).epsilon(1e-9));
+}

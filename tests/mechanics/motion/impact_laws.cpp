@@ -86,6 +86,17 @@ TEST_CASE("no velocity satisfies walls that close on each other: the two are nam
   CHECK(caught.end().t == doctest::Approx(1));
 }
 
+TEST_CASE(
+    "a contact whose gradient vanishes stops a motion, and is not told as one that excludes all others") {
+  const SystemText cubed{{"y"}, "y'^2/2", "y", {}, {}, {}, {{"floor", "y^3 >= 0"}}};
+  const Followed found = followed(cubed, state({0}, {0}), 1);
+  CHECK(found.motion.status() == MotionStatus::stopped);
+  CHECK(found.motion.excluding().empty());
+  // That of a constraint on t alone is 0 everywhere: nothing meets it.
+  const SystemText timed{{"y"}, "y'^2/2", "y", {}, {}, {}, {{"end", "1 - (t - 1)^2 >= 1"}}};
+  CHECK(followed(timed, {1, Vector{{0}}, Vector{{0}}}, 2).motion.status() == MotionStatus::infeasible);
+}
+
 TEST_CASE("the ledger of impulses has the kinetic energy that impacts take, moving walls and b included") {
   const SystemText text{
       {"x", "y"},
