@@ -129,6 +129,17 @@ class MultiplierPolyhedron {
   MultiplierTableau tableau_;
 };
 
+/// 1 for a positive multiplier of a one-sided row, else 0. Whether there are other multipliers is a question
+/// of directions w, Uᵀw = 0, that leave lambda + t w admissible for small t > 0: w_a >= 0 where lambda_a is
+/// 0. The sizes of the positive ones do not enter, however far apart they are.
+Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
+                const std::vector<bool>& is_free) {
+  Vector signs = Vector::Zero(lambda.size());
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (!is_free[static_cast<std::size_t>(a)] && lambda[a] * length[a] > rounding) signs[a] = 1 / length[a];
+  return signs;
+}
+
 }  // namespace
 
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
@@ -182,21 +193,24 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
   length = (length.array() > 0).select(length, 1);
   const double largest =
       solution.lambda.size() > 0 ? solution.lambda.cwiseAbs().cwiseProduct(length).maxCoeff() : 0;
-  const double noise = tolerance * std::max(largest, std::numeric_limits<double>::min());
+  // Where z is rounded, so are the multipliers that hold against it.
+  constexpr double roundings_of_multipliers = 64 * unit_roundoff;
+  const double rounding = largest * (problem.radii ? tolerance : roundings_of_multipliers);
+  const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
   for (const Dependence& rows : *groups) {
     const auto start = std::chrono::steady_clock::now();
-    MultiplierPolyhedron polyhedron(rows, solution.lambda, length, is_free);
-    bool unique = true;
-    for (Index p : rows.dependent) {
-      const Interval force = polyhedron.range_of_force(p);
-      ranges[static_cast<std::size_t>(p)] = {force.low / length[p], force.high / length[p]};
-      if (force.high - force.low > noise) unique = false;
-      if (!unique && !want_ranges) break;
-    }
+    MultiplierPolyhedron directions(rows, signs, length, is_free);
+    const bool unique = std::none_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) {
+      const Interval force = directions.range_of_force(p);
+      return force.high - force.low > tolerance;
+    });
     if (unique) continue;
     found.unique = false;
-    if (want_ranges)
+    if (want_ranges) {
+      MultiplierPolyhedron polyhedron(rows, solution.lambda, length, is_free);
+      for (Index a : rows.dependent) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
       for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
+    }
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     least_norm(rows, is_free, found.least_norm);
   }

@@ -197,3 +197,20 @@ TEST_CASE("forces that cancel make no row tight that is open by as much as its b
   CHECK(solution.slack[2] == 3);
   CHECK(convex::tight_rows(problem, solution, tolerance) == std::vector<Index>{0, 1});
 }
+
+TEST_CASE("whether multipliers are unique is told by their signs, however far apart their sizes are") {
+  // y >= 0 and 2y >= 0 share a force of 1 beside one of 2^34.
+  RowMatrix U(3, 2);
+  U << 1, 0, 0, 1, 0, 2;
+  const double load = 0x1p34;
+  const NearestPointProblem problem{
+      convex::Metric::identity(2), Vector{{-load, -1}}, convex::ConstraintRows(U), Vector::Zero(3), {}};
+  const Multipliers found = all_multipliers(problem);
+  CHECK_FALSE(found.unique);
+  REQUIRE(found.ranges.has_value());
+  CHECK((*found.ranges)[0].low == load);
+  CHECK((*found.ranges)[0].high == load);
+  CHECK((*found.ranges)[1].low == 0);
+  CHECK((*found.ranges)[1].high == doctest::Approx(1).epsilon(1e-12));
+  CHECK((*found.ranges)[2].high == doctest::Approx(0.5).epsilon(1e-12));
+}
