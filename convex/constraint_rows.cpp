@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "convex/dense/dense_kernels.hpp"
+
 namespace convex {
 
 Index ConstraintRows::count() const { return is_sparse() ? sparse().rows() : dense().rows(); }
@@ -10,10 +12,9 @@ Index ConstraintRows::count() const { return is_sparse() ? sparse().rows() : den
 Index ConstraintRows::dimension() const { return is_sparse() ? sparse().cols() : dense().cols(); }
 
 bool ConstraintRows::is_finite() const {
-  // Zero times a number that is not finite is not zero; the sum of all these vectorises, a test of each does
-  // not.
-  if (is_sparse()) return (0 * Eigen::Map<const Vector>(sparse().valuePtr(), sparse().nonZeros())).sum() == 0;
-  return (0 * dense()).sum() == 0;
+  const auto all_finite = dense_kernels().is_finite;
+  return is_sparse() ? all_finite(sparse().nonZeros(), sparse().valuePtr())
+                     : all_finite(dense().size(), dense().data());
 }
 
 Vector ConstraintRows::row(Index a) const {

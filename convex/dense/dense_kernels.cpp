@@ -81,9 +81,11 @@ namespace {
                                       double* d) {                                                         \
       K::precise_slacks(n, X, q, s, d);                                                                    \
     }                                                                                                      \
+    target static bool is_finite(Index n, const double* x) { return K::is_finite(n, x); }                  \
     static constexpr DenseKernels table{                                                                   \
-        factor,  invert_blocks, forward, backward, forward_pack, backward_pack, gram,     dots,            \
-        combine, add_multiple,  dot,     slacks,   squares,      stationarity,  residual, precise_slacks}; \
+        factor,  invert_blocks, forward,  backward,       forward_pack, backward_pack,                     \
+        gram,    dots,          combine,  add_multiple,   dot,          slacks,                            \
+        squares, stationarity,  residual, precise_slacks, is_finite};                                      \
   };
 
 MOREAU_TABLE(Portable, , 2, false)

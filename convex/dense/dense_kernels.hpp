@@ -63,6 +63,8 @@ struct DenseKernels {
                    const Index* rows, const double* lambda, const double* z, double* into);
   /// into_k := X_k·q - s_k, k < 8, sums in twice the working precision, rounded once.
   void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, double* into);
+  /// Whether all of n numbers are finite.
+  bool (*is_finite)(Index n, const double* x);
 };
 
 /// Those for the processor that the program runs on.

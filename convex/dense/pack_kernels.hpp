@@ -34,7 +34,16 @@ struct Kernels : TriangleKernels<W, Fused> {
   }
 
   MOREAU_INLINE void combine(Index n, Index count, const double* X, const double* y, double* w) {
-    for (Index i = 0; i < n; ++i) {
+    Index i = 0;
+    for (; i + 8 <= n && W == 8; i += 8) {
+      Pack sum[8] = {};
+      for (Index k = 0; k < count; ++k) {
+        const Pack factor = P::load(y + 8 * k);
+        for (int r = 0; r < 8; ++r) P::add_products(sum[r], P::load(X + 8 * (k * n + i + r)), factor);
+      }
+      P::store(w + i, P::plus(P::load(w + i), P::totals(sum)));
+    }
+    for (; i < n; ++i) {
       Pack sum{};
       for (Index k = 0; k < count; ++k)
         P::add_products(sum, P::load(X + 8 * (k * n + i)), P::load(y + 8 * k));
@@ -56,6 +65,8 @@ struct Kernels : TriangleKernels<W, Fused> {
     return P::total(sum);
   }
 
+  static constexpr int rows = W == 8 ? 8 : 4;  ///< at a time, as registers allow
+
   /// Σ of products of packs along `count` rows of U, from which nothing may be read beyond `end`; factors are
   /// 0 where rows have ended.
   template <int count, class Factor>
@@ -72,7 +83,10 @@ struct Kernels : TriangleKernels<W, Fused> {
         const Pack u = P::load_before(U + r * n + i, end);
         P::add_products(sum[r], factor(i, u), u);
       }
-    for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
+    if constexpr (count == 8)
+      P::store(into, P::totals(sum));
+    else
+      for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
   }
 
   /// into_a := Σ_i factor(i, u_ai) u_ai, row by row, for so few entries that a pack would be mostly empty.
@@ -115,7 +129,7 @@ struct Kernels : TriangleKernels<W, Fused> {
     const double* const end = U + m * n;
     const auto factor = [x](Index i, const Pack&) __attribute__((always_inline)) { return P::load(x + i); };
     Index a = 0;
-    for (; a + 4 <= m; a += 4, U += 4 * n) along<4>(n, U, end, factor, into + a);
+    for (; a + rows <= m; a += rows, U += rows * n) along<rows>(n, U, end, factor, into + a);
     for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
     for (a = 0; a < m; ++a) into[a] -= s[a];
   }
@@ -130,7 +144,7 @@ struct Kernels : TriangleKernels<W, Fused> {
       return P::times(u, P::load(weight + i));
     };
     Index a = 0;
-    for (; a + 4 <= m; a += 4, U += 4 * n) along<4>(n, U, end, factor, into + a);
+    for (; a + rows <= m; a += rows, U += rows * n) along<rows>(n, U, end, factor, into + a);
     for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
   }
 
@@ -173,6 +187,19 @@ struct Kernels : TriangleKernels<W, Fused> {
     Pack hi = P::times(P::load(s), -1), lo{};
     for (Index i = 0; i < n; ++i) P::add_precisely(hi, lo, P::load(X + 8 * i), q[i]);
     P::store(into, P::plus(hi, lo));
+  }
+
+  /// Zero times a number that is not finite is not zero.
+  MOREAU_INLINE bool is_finite(Index n, const double* x) {
+    Pack even{}, odd{};
+    Index i = 0;
+    for (; i + 16 <= n; i += 16) {
+      P::add_product(even, P::load(x + i), 0);
+      P::add_product(odd, P::load(x + i + 8), 0);
+    }
+    double rest = 0;
+    for (; i < n; ++i) rest += 0 * x[i];
+    return P::total(P::plus(even, odd)) + rest == 0;
   }
 };
 

@@ -66,6 +66,39 @@ struct Packs {
     for (int k = 0; k < parts; ++k) most.part[k] = x.part[k] > y.part[k] ? x.part[k] : y.part[k];
     return most;
   }
+  MOREAU_INLINE Pack plus(const Pack& x, double c) {
+    Pack sum;
+    for (int k = 0; k < parts; ++k) sum.part[k] = x.part[k] + c;
+    return sum;
+  }
+  MOREAU_INLINE Pack over(const Pack& x, const Pack& y) {
+    Pack quotient;
+    for (int k = 0; k < parts; ++k) quotient.part[k] = x.part[k] / y.part[k];
+    return quotient;
+  }
+  /// Where x > c, y; otherwise `other`.
+  MOREAU_INLINE Pack where_larger(const Pack& x, double c, const Pack& y, double other) {
+    Pack chosen;
+    for (int k = 0; k < parts; ++k) chosen.part[k] = x.part[k] > c ? y.part[k] : other - Part{};
+    return chosen;
+  }
+  /// least := x where that is smaller, and there at := now.
+  MOREAU_INLINE void keep_smaller(Pack& least, Pack& at, const Pack& x, const Pack& now) {
+    for (int k = 0; k < parts; ++k) {
+      const auto smaller = x.part[k] < least.part[k];
+      least.part[k] = smaller ? x.part[k] : least.part[k];
+      at.part[k] = smaller ? now.part[k] : at.part[k];
+    }
+  }
+  /// 1 over the root of x within a thirtieth of it: half the exponent, read as a whole number (Lomont 2003).
+  MOREAU_INLINE Pack halved_exponent(const Pack& x) {
+    using Wholes [[gnu::vector_size(W * sizeof(double))]] = unsigned long long;
+    Pack guess;
+    for (int k = 0; k < parts; ++k)
+      guess.part[k] =
+          reinterpret_cast<Part>(0x5fe6eb50c7b537a9ULL - (reinterpret_cast<Wholes>(x.part[k]) >> 1));
+    return guess;
+  }
   MOREAU_INLINE void add_product(Pack& sum, const Pack& x, double c) {
     for (int k = 0; k < parts; ++k) sum.part[k] = sum.part[k] + x.part[k] * c;
   }
@@ -79,6 +112,27 @@ struct Packs {
     double t[8];
     store(t, x);
     return ((t[0] + t[4]) + (t[2] + t[6])) + ((t[1] + t[5]) + (t[3] + t[7]));
+  }
+  /// The totals of eight packs, each as above.
+  MOREAU_INLINE Pack totals(const Pack (&x)[8]) {
+    if constexpr (W == 8) {
+      using Places [[gnu::vector_size(64)]] = long long;
+      constexpr Places low{0, 1, 2, 3, 8, 9, 10, 11}, high{4, 5, 6, 7, 12, 13, 14, 15};
+      constexpr Places first{0, 1, 4, 5, 8, 9, 12, 13}, second{2, 3, 6, 7, 10, 11, 14, 15};
+      constexpr Places even{0, 2, 4, 6, 8, 10, 12, 14}, odd{1, 3, 5, 7, 9, 11, 13, 15};
+      const auto halved =
+          [](const Part& a, const Part& b, const Places& p, const Places& q) __attribute__((always_inline)) {
+        return __builtin_shuffle(a, b, p) + __builtin_shuffle(a, b, q);
+      };
+      Part half[4];
+      for (int k = 0; k < 4; ++k) half[k] = halved(x[2 * k].part[0], x[2 * k + 1].part[0], low, high);
+      return {{halved(halved(half[0], half[1], first, second), halved(half[2], half[3], first, second), even,
+                      odd)}};
+    } else {
+      double sum[8];
+      for (int k = 0; k < 8; ++k) sum[k] = total(x[k]);
+      return load(sum);
+    }
   }
   /// Σ_c columns[8c…] y_c, eight columns.
   MOREAU_INLINE Pack block_times(const double* columns, const double* y) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace convex {
@@ -14,7 +15,7 @@ void require_size(const char* name, Index size, Index expected, const char* unit
 }
 
 void require_finite(const char* name, const Vector& x) {
-  if ((0 * x).sum() == 0) return;  // zero times a number that is not finite is not zero
+  if (dense_kernels().is_finite(x.size(), x.data())) return;
   for (Index i = 0; i < x.size(); ++i)
     if (!std::isfinite(x[i]))
       throw InvalidInput(std::string(name) + ": " + name + "[" + std::to_string(i) +

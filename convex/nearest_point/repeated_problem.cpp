@@ -35,7 +35,8 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   if (z.size() != state.problem.dimension() || s.size() != state.problem.rows())
     throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + std::to_string(s.size()) +
                        " entries; give one per coordinate and one per row");
-  if (!z.allFinite() || !s.allFinite())
+  const auto all_finite = dense_kernels().is_finite;
+  if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
   state.problem.z = z;
   state.problem.s = s;

@@ -138,6 +138,15 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
 
 std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Vector& q,
                                      const std::vector<Index>& held, const std::vector<Index>& touched) {
+  if ((q.array() == 0).all()) {
+    const auto is_kept = [&](Index a) {
+      return problem.s[a] == 0 || (problem.s[a] < 0 && !is_two_sided(problem, a));
+    };
+    if (std::any_of(held.begin(), held.end(), [&](Index a) { return problem.s[a] != 0; }) ||
+        !std::all_of(touched.begin(), touched.end(), is_kept))
+      return std::nullopt;
+    return Vector(-problem.s(touched));
+  }
   const GridSum on_grid(q);
   // A slack that is too small for a double has its sign all the same.
   const auto slack_of = [&](Index a) {

@@ -37,11 +37,11 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
     return weights && solution.status == Status::infeasible;
   };
   if (SmallGramSolve::fits(problem)) {
-    SmallTableau tableau;
-    SmallGramSolve small(problem, tableau);
+    thread_local const auto tableau = std::make_unique_for_overwrite<SmallTableau>();
+    SmallGramSolve small(problem, *tableau);
     if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) return found;
-    if (is_contradiction(small.contradiction(), small.scale(), small.steps())) return found;
     found.rows = small.one_sided_rows_held();
+    if (is_contradiction(small.contradiction(), small.scale(), small.steps())) return found;
   }
   thread_local Arena arena;
   GramSolve gram(problem, arena);

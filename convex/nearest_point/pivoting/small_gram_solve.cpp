@@ -5,8 +5,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
-#include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
-#include "convex/processor.hpp"
+#include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
@@ -15,102 +14,175 @@ namespace {
 /// Sweeps add up their rounding: after so many a row, all is swept anew.
 constexpr Index sweeps_kept = 16;
 
-bool one_pack(const SmallTableau& t) { return t.ld == 8 && t.stride == 8; }
-
-#define MOREAU_SMALL_TABLE(name, target, W, fused)                                                           \
-  struct name {                                                                                              \
-    using One = SmallTableauSteps<W, fused, 1>;                                                              \
-    using Four = SmallTableauSteps<W, fused, 4>;                                                             \
-    target static bool begin(SmallTableau& t) { return one_pack(t) ? One::begin(t) : Four::begin(t); }       \
-    target static bool begin_again(SmallTableau& t) {                                                        \
-      return one_pack(t) ? One::begin_again(t) : Four::begin_again(t);                                       \
-    }                                                                                                        \
-    target static bool settle(SmallTableau& t) { return one_pack(t) ? One::settle(t) : Four::settle(t); }    \
-    target static bool correct(SmallTableau& t) { return one_pack(t) ? One::correct(t) : Four::correct(t); } \
-    target static void measure_precisely(SmallTableau& t) {                                                  \
-      return one_pack(t) ? One::measure_precisely(t) : Four::measure_precisely(t);                           \
-    }                                                                                                        \
-    target static void measure(SmallTableau& t) { return one_pack(t) ? One::measure(t) : Four::measure(t); } \
-    static constexpr SmallKernels table{begin, begin_again, settle, correct, measure_precisely, measure};    \
-  };
-
-MOREAU_SMALL_TABLE(Portable, , 2, false)
-#ifdef MOREAU_HAS_FAMILIES
-MOREAU_SMALL_TABLE(Wide, [[gnu::target("avx2,fma")]], 4, true)
-MOREAU_SMALL_TABLE(Widest, [[gnu::target("avx512f")]], 8, true)
-constexpr const SmallKernels* tables[] = {&Portable::table, &Wide::table, &Widest::table};
-#else
-constexpr const SmallKernels* tables[] = {&Portable::table};
-#endif
+/// Where rows are many their lengths are known within a hundredth: so much longer they may be taken for.
+constexpr double at_most_longer = 1.01;
 
 }  // namespace
 
-std::span<const SmallKernels* const> all_small_kernels() { return {tables, all_dense_kernels().size()}; }
-
-const SmallKernels& small_kernels() { return *all_small_kernels().back(); }
-
 bool SmallGramSolve::fits(const NearestPointProblem& problem) {
-  return problem.dimension() <= SmallTableau::most && problem.rows() <= SmallTableau::most;
+  return problem.dimension() <= SmallTableau::most_coordinates;
 }
 
 SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau& tableau)
-    : problem_(problem), tableau_(tableau) {
+    : problem_(problem),
+      tableau_(tableau),
+      row_scale_(tableau.row_scale),
+      slack_(tableau.slack),
+      close_(tableau.close) {
   const DenseFactor factor = problem.A.dense_factor();
+  tableau.m = tableau.stride = tableau.size = tableau.steps = 0;
+  tableau.dependent = -1;
   tableau.n = problem.dimension();
-  tableau.m = problem.rows();
+  tableau.all = problem.rows();
   tableau.ld = factor.ld;
-  tableau.stride = padded(tableau.m);
   tableau.T = factor.T;
   tableau.inverse = factor.inverse;
   tableau.A = problem.A.dense_gram().data();
   tableau.U = problem.U.dense().data();
+  fill_packs(tableau.ld, 0, tableau.inverse_diagonal);
   const auto diagonal = problem.A.diagonal().array();
   Eigen::Map<Eigen::ArrayXd>(tableau.inverse_diagonal, tableau.n) = diagonal.inverse();
   Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = diagonal.sqrt().inverse();
+  if (tableau.all <= SmallTableau::few_rows) return;
+  const Index rows = padded(tableau.all);
+  const auto size = static_cast<std::size_t>(rows);
+  numbers_ = std::make_unique_for_overwrite<double[]>(3 * size);
+  indices_ = std::make_unique_for_overwrite<Index[]>(2 * size);
+  row_scale_ = numbers_.get();
+  slack_ = row_scale_ + rows;
+  inverse_scale_ = slack_ + rows;
+  close_ = indices_.get();
+  place_ = close_ + rows;
+  fill_packs(8, 0, row_scale_ + rows - 8);
+  fill_packs(8, 0, slack_ + rows - 8);
+  dense_kernels().squares(tableau.all, tableau.n, tableau.U, tableau.inverse_diagonal, row_scale_);
+  small_kernels().rough_inverse_roots(tableau.all, row_scale_, inverse_scale_);
+  for (Index a = 0; a < rows; ++a) row_scale_[a] *= at_most_longer * inverse_scale_[a];
 }
 
 void SmallGramSolve::take_force() {
   for (Index i = 0; i < tableau_.n; ++i) tableau_.z[i] = problem_.z[i];
   for (Index i = tableau_.n; i < tableau_.ld; ++i) tableau_.z[i] = 0;
-  for (Index a = 0; a < tableau_.m; ++a) tableau_.level[a] = problem_.s[a];
-  for (Index a = tableau_.m; a < tableau_.stride; ++a) tableau_.level[a] = 0;
+  for (Index p = 0; p < tableau_.stride; ++p)
+    tableau_.level[p] = tableau_.row[p] < 0 ? 0 : problem_.s[tableau_.row[p]];
 }
 
 void SmallGramSolve::begin(const std::vector<Index>& guess) {
+  SmallTableau& t = tableau_;
+  t.m = 0;
+  t.steps = 0;
+  for (bool& two_sided : t.two_sided) two_sided = false;
+  if (looks_at_all()) {
+    for (t.m = 0; t.m < t.all; ++t.m) {
+      t.row[t.m] = t.m;
+      t.held[t.m] = false;
+    }
+    for (Index a : guess) t.held[a] = true;
+  } else {
+    std::fill_n(place_, t.all, -1);
+    const auto begin_with = [&](Index a) {
+      if (place(a) >= 0 || t.m == SmallTableau::most_coordinates) return;
+      t.held[t.m] = true;
+      t.row[t.m] = a;
+      place_[a] = t.m++;
+    };
+    for (Index a : problem_.two_sided) begin_with(a);
+    for (Index a : guess) begin_with(a);
+  }
+  for (Index a : problem_.two_sided)
+    if (place(a) >= 0) t.two_sided[place(a)] = true;
+  t.stride = padded(t.m);
+  for (Index p = t.m; p < t.stride; ++p) {
+    t.row[p] = -1;
+    t.held[p] = false;
+  }
   take_force();
-  for (Index a = 0; a < tableau_.stride; ++a) tableau_.held[a] = tableau_.two_sided[a] = false;
-  for (Index a : problem_.two_sided) tableau_.two_sided[a] = true;
-  for (Index a : guess) tableau_.held[a] = true;
 }
 
 bool SmallGramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
-  begin(guess);
-  const SmallKernels& kernels = small_kernels();
-  const bool settled = kernels.begin(tableau_) && kernels.settle(tableau_);
   sweeps_ = 0;
-  return settled && answer(accuracy, solution);
+  // Rows too long or many to be measured are left to others.
+  if (!looks_at_all() && (problem_.two_sided.size() > SmallTableau::most_coordinates ||
+                          !std::isfinite(dense_kernels().dot(padded(tableau_.all), row_scale_, row_scale_))))
+    return false;
+  begin(guess);
+  return small_kernels().begin(tableau_) && settle() && answer(accuracy, solution);
 }
 
 bool SmallGramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   if (sweeps_ > sweeps_kept * tableau_.m) return solve(solution.basis, accuracy, solution);
   take_force();
-  const SmallKernels& kernels = small_kernels();
-  const bool settled = kernels.begin_again(tableau_) && kernels.settle(tableau_);
+  tableau_.steps = 0;
+  const bool settled = small_kernels().begin_again(tableau_) && settle();
   sweeps_ += tableau_.steps;
   return settled && answer(accuracy, solution);
+}
+
+/// Pivots until no row is violated. False when something is in doubt.
+bool SmallGramSolve::settle() {
+  for (Index round = 0; round <= tableau_.all && small_kernels().settle(tableau_); ++round) {
+    if (looks_at_all()) return true;
+    Index rows[8];
+    const Index count = fresh_violated_rows(rows);
+    if (count == 0) return true;
+    if (!look_at(rows, count)) return false;
+  }
+  return false;
+}
+
+/// Up to eight rows, not looked at yet, that the point violates, those that lie deep below their edge.
+Index SmallGramSolve::fresh_violated_rows(Index* rows) {
+  SmallTableau& t = tableau_;
+  dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
+  alignas(64) double depth[8], row[8];
+  small_kernels().deepest(t.all, slack_, inverse_scale_, depth, row);
+  const double least = GramPivoting::least_violation * (t.force_norm + t.acceleration_norm);
+  Index count = 0;
+  for (int k = 0; k < 8; ++k)
+    if (const Index a = static_cast<Index>(row[k]); depth[k] < -least && place(a) < 0) rows[count++] = a;
+  return count;
+}
+
+/// Looks at more rows. Where there is no room for them those outside are forgotten. False when there is none
+/// then.
+bool SmallGramSolve::look_at(const Index* rows, Index count) {
+  SmallTableau& t = tableau_;
+  constexpr Index most = SmallTableau::most;
+  if (t.stride + padded(count) > most) {
+    const std::vector<Index> held(t.rows, t.rows + t.size);
+    const Index steps = t.steps;
+    begin(held);
+    t.steps = steps;
+    if (!small_kernels().begin(t)) return false;
+    if (t.stride + padded(count) > most) return false;
+  }
+  for (Index first = 0; first < count; first += 8) {
+    const Index at = t.stride;
+    for (Index k = 0; k < 8; ++k) {
+      const bool is_row = first + k < count;
+      t.row[at + k] = is_row ? rows[first + k] : -1;
+      t.level[at + k] = is_row ? problem_.s[rows[first + k]] : 0;
+      t.slack[at + k] = is_row ? slack_[rows[first + k]] : 0;
+      t.held[at + k] = false;
+      if (is_row) place_[rows[first + k]] = at + k;
+    }
+    t.m = at + std::min<Index>(8, count - first);
+    small_kernels().append(t);
+  }
+  return true;
 }
 
 std::optional<Vector> SmallGramSolve::contradiction() const {
   const SmallTableau& t = tableau_;
   if (t.dependent < 0) return std::nullopt;
   const double* const coefficients = t.swept + t.dependent * t.stride;
-  Vector weights = Vector::Zero(t.m);
-  weights[t.dependent] = 1;
+  Vector weights = Vector::Zero(t.all);
+  weights[t.row[t.dependent]] = 1;
   for (Index a = 0; a < t.m; ++a) {
     const double part = coefficients[a] * t.row_scale[a] * t.inverse_scale[t.dependent];
     if (!t.held[a] || std::abs(part) <= zero_coefficient) continue;
     if (part > 0 && !t.two_sided[a]) return std::nullopt;
-    weights[a] = -coefficients[a];
+    weights[t.row[a]] = -coefficients[a];
   }
   return weights;
 }
@@ -118,7 +190,7 @@ std::optional<Vector> SmallGramSolve::contradiction() const {
 std::vector<Index> SmallGramSolve::one_sided_rows_held() const {
   std::vector<Index> rows;
   for (Index a = 0; a < tableau_.m; ++a)
-    if (tableau_.held[a] && !tableau_.two_sided[a]) rows.push_back(a);
+    if (tableau_.held[a] && !tableau_.two_sided[a]) rows.push_back(tableau_.row[a]);
   return rows;
 }
 
@@ -137,7 +209,7 @@ void SmallGramSolve::mark_weak(double small) {
     zeroed_ += std::abs(t.lambda[a]) * length;
     t.lambda[a] = 0;
   }
-  for (Index k = 0; k < t.size; ++k) t.held_lambda[k] = t.lambda[t.rows[k]];
+  for (Index k = 0; k < t.size; ++k) t.held_lambda[k] = t.lambda[t.place[k]];
 }
 
 bool SmallGramSolve::correct(bool is_first, double small) {
@@ -148,8 +220,8 @@ bool SmallGramSolve::correct(bool is_first, double small) {
   const Index steps = t.steps;
   if (!small_kernels().correct(t)) return false;
   for (Index k = 0; k < t.size; ++k) {
-    t.length[k] = std::sqrt(t.square[t.rows[k]]);
-    t.pull[k] = t.two_sided[t.rows[k]] ? 0 : t.length[k];
+    t.length[k] = std::sqrt(t.square[t.place[k]]);
+    t.pull[k] = t.two_sided[t.place[k]] ? 0 : t.length[k];
   }
   // An inverse loses as much again as a factor: where it is small, it is the difference of large entries.
   const double grown = std::max(t.gram_condition, t.growth), inverse_error = unit_roundoff * grown * grown;
@@ -169,97 +241,21 @@ bool SmallGramSolve::take_noise_for_zero(bool more) {
   const bool told = known_.take_noise_for_zero({t.n, t.q, t.q_low, t.dq, problem_.A.diagonal().data(), t.unit,
                                                 t.size, t.held_lambda, t.correction, t.length, t.pull},
                                                more);
-  for (Index k = 0; k < t.size; ++k) t.lambda[t.rows[k]] = t.held_lambda[k];
+  for (Index k = 0; k < t.size; ++k) t.lambda[t.place[k]] = t.held_lambda[k];
   return told;
-}
-
-void SmallGramSolve::find_magnitude() {
-  double square = 0;
-  for (Index i = 0; i < tableau_.n; ++i) square += problem_.A.diagonal()[i] * tableau_.q[i] * tableau_.q[i];
-  magnitude_ = std::sqrt(square);
-}
-
-/// Whether no row outside is close, of ||q||_A or that size if it is larger.
-bool SmallGramSolve::is_clear(double size) {
-  const SmallTableau& t = tableau_;
-  find_magnitude();
-  Index close = 0;
-  for (Index a = 0; a < t.m; ++a)
-    close += !t.held[a] &&
-             !(t.slack[a] > near_zero * (std::abs(t.level[a]) + t.row_scale[a] * std::max(size, magnitude_)) +
-                                known_.missing_slack(t.row_scale[a]));
-  return close == 0;
-}
-
-Slacks SmallGramSolve::measure_slacks() {
-  SmallTableau& t = tableau_;
-  small_kernels().measure(t);
-  find_magnitude();
-  const double rounding = 2 * static_cast<double>(t.n) * unit_roundoff;
-  touched_.clear();
-  for (Index a = 0; a < t.m; ++a) {
-    if (t.held[a]) continue;
-    const double unsure = rounding * (std::abs(t.level[a]) + t.row_scale[a] * magnitude_) +
-                          known_.missing_slack(t.row_scale[a]);
-    if (t.slack[a] > unsure) continue;
-    if (t.slack[a] < -unsure)
-      known_.wrong = std::max(known_.wrong, -t.slack[a] / t.row_scale[a]);
-    else
-      touched_.push_back(a);
-  }
-  if (!std::isfinite(known_.wrong)) return Slacks::doubtful;  // 0 >= s > 0
-  if (known_.wrong > 0) return Slacks::violated;
-  return touched_.empty() ? Slacks::kept : decide_degenerate_rows();
-}
-
-/// As in `GramSolve`, but for the way up, which is left to it.
-Slacks SmallGramSolve::decide_degenerate_rows() {
-  SmallTableau& t = tableau_;
-  if (problem_.radii) return Slacks::doubtful;
-  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
-    for (std::size_t k = 0; k < touched_.size(); ++k) t.slack[touched_[k]] = (*slacks)[static_cast<Index>(k)];
-    return Slacks::kept;
-  }
-  alignas(64) double in_doubles[SmallTableau::most];
-  copy_packs(t.stride, t.slack, in_doubles);
-  small_kernels().measure_precisely(t);
-  for (Index a = 0; a < t.m; ++a)
-    if (t.held[a]) t.slack[a] = in_doubles[a];
-  for (Index a : touched_) {
-    const double noise = zero_of_pairs * (std::abs(t.level[a]) + t.row_scale[a] * known_.scale) +
-                         known_.missing_slack(t.row_scale[a]);
-    if (t.slack[a] > noise) continue;
-    if (t.slack[a] < -noise) {
-      known_.wrong = std::max(known_.wrong, -t.slack[a] / t.row_scale[a]);
-      continue;
-    }
-    // Swept, the column of a row outside has its coefficients over the rows held.
-    double coefficients[SmallTableau::most];
-    for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[a * t.stride + t.rows[k]];
-    if (!edge_) edge_.emplace(problem_, t.row_scale);
-    const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
-    if (!on_edge || *on_edge < 0) return Slacks::doubtful;
-    t.slack[a] = *on_edge;
-  }
-  return known_.wrong > 0 ? Slacks::violated : Slacks::kept;
-}
-
-std::optional<Vector> SmallGramSolve::slacks_of_touched_rows_if_kept() const {
-  const SmallTableau& t = tableau_;
-  return slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
-                        std::vector<Index>(t.rows, t.rows + t.size), touched_);
 }
 
 /// Whether the answer in doubles is within so much, no row close to tipping over.
 bool SmallGramSolve::doubles_do(double close) {
   const SmallTableau& t = tableau_;
-  small_kernels().measure(tableau_);
   known_ = Corrections();
+  touched_violation_ = 0;
+  measure();
   known_.scale = std::max(t.acceleration_norm, t.force_norm);
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
-    const Index a = t.rows[k];
+    const Index a = t.place[k];
     weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near_zero * known_.scale);
     missing += t.slack[a] * t.slack[a];
   }
@@ -292,9 +288,12 @@ bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
   solution.model.islands.clear();
   solution.steps = t.steps;
   solution.q = Eigen::Map<const Vector>(t.q, t.n);
-  solution.lambda = Eigen::Map<const Vector>(t.lambda, t.m);
-  solution.slack = Eigen::Map<const Vector>(t.slack, t.m);
-  for (Index k = 0; k < t.size; ++k) solution.slack[t.rows[k]] = 0;
+  solution.lambda.setZero(t.all);
+  solution.slack = Eigen::Map<const Vector>(slack_, t.all);
+  for (Index k = 0; k < t.size; ++k) {
+    solution.lambda[t.rows[k]] = t.held_lambda[k];
+    solution.slack[t.rows[k]] = 0;
+  }
   solution.basis.assign(t.rows, t.rows + t.size);
   solution.acceleration_norm = t.acceleration_norm;
   solution.force_norm = t.force_norm;
@@ -311,10 +310,12 @@ Residuals SmallGramSolve::residuals() const {
   for (Index k = 0; k < t.size; ++k) most = std::max(most, std::abs(t.held_lambda[k]));
   HeldResiduals held(t.stationarity, t.acceleration_norm, known_.scale, most);
   for (Index k = 0; k < t.size; ++k) {
-    const Index a = t.rows[k];
+    const Index a = t.place[k];
     held.add(t.level[a], std::sqrt(t.square[a]), t.held_lambda[k], t.slack[a], t.two_sided[a]);
   }
-  return held.all();
+  Residuals found = held.all();
+  found.feasibility = std::max(found.feasibility, touched_violation_);
+  return found;
 }
 
 }  // namespace convex

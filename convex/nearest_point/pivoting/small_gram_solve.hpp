@@ -12,10 +12,12 @@
 
 namespace convex {
 
-/// `GramSolve` where coordinates and rows are few: the Gram matrix of all whitened rows is swept at the rows
+/// `GramSolve` where coordinates are few: the Gram matrix of the whitened rows looked at is swept at the rows
 /// held, so that one pivot gives all multipliers and slacks (principal pivoting: Keller 1973; the sweep:
-/// Beaton 1964). The row that is violated most comes in, the multiplier that is most negative goes out. Where
-/// corrections leave a doubt, the rows held are handed on.
+/// Beaton 1964), by the steps of the dual method (Goldfarb and Idnani 1983). Few rows are looked at all at
+/// once; of many those that are violated, eight at a time: what has been looked at is settled before all are
+/// measured again, so that the dual objective grows each time and this ends. Where corrections leave a doubt,
+/// the rows held are handed on.
 class SmallGramSolve {
  public:
   static bool fits(const NearestPointProblem&);
@@ -41,28 +43,43 @@ class SmallGramSolve {
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
   void take_force();
+  bool look_at(const Index* rows, Index count);
+  bool settle();
+  Index fresh_violated_rows(Index* rows);
+  bool looks_at_all() const { return slack_ == tableau_.slack; }
+  Index place(Index a) const { return looks_at_all() ? a : place_[a]; }
+  void measure();
   bool answer(const Accuracy& accuracy, Solution& solution);
   Corrections& corrections() { return known_; }
   bool correct(bool is_first, double small);
   void mark_weak(double small);
   bool take_noise_for_zero(bool more);
   Slacks measure_slacks();
+  Slacks look_at_violated(const std::vector<Index>& rows);
   Slacks decide_degenerate_rows();
+  bool holds(Index a) const { return place(a) >= 0 && tableau_.held[place(a)]; }
+  bool leave_sums_of_rows_held();
   std::optional<Vector> slacks_of_touched_rows_if_kept() const;
   void find_magnitude();
   bool is_clear(double size);
+  Index close_rows(double absolute, double by_length);
   bool doubles_do(double close);
   bool write(const Accuracy& accuracy, Solution& solution);
   Residuals residuals() const;
 
   const NearestPointProblem& problem_;
   SmallTableau& tableau_;
+  double *row_scale_, *slack_;  ///< of all rows; ||u_a||_(D⁻¹), where rows are many no less and hardly more
+  double* inverse_scale_ = nullptr;
+  Index *close_, *place_ = nullptr;  ///< place_: of a row, -1 for one not looked at; where rows are many
+  std::unique_ptr<double[]> numbers_;
+  std::unique_ptr<Index[]> indices_;
   Index sweeps_ = 0;
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
-  std::vector<Index> touched_;
+  std::vector<Index> touched_, violated_;
   double zeroed_ = 0;  ///< the multipliers of weak rows, times their lengths
-  double magnitude_ = 0;
+  double magnitude_ = 0, touched_violation_ = 0;
 };
 
 }  // namespace convex

@@ -7,17 +7,21 @@
 
 namespace convex {
 
-/// What `SmallGramSolve` and its kernels work on: a dense problem of at most `most` coordinates and rows, in
-/// arrays that stay in the first cache. Blocks are of eight rows side by side (`DenseKernels`).
+/// What `SmallGramSolve` and its kernels work on: the rows looked at of a dense problem of few coordinates,
+/// in arrays that stay in the first caches. Each has a place; blocks are of eight rows side by side
+/// (`DenseKernels`). Places without a row hold zeros.
 struct SmallTableau {
-  static constexpr Index most = 32;
+  static constexpr Index most_coordinates = 32, most = 64;  // of places
+  /// Up to so many rows all are looked at from the start, row a at place a.
+  static constexpr Index few_rows = 32;
 
-  Index n = 0, m = 0, ld = 0, stride = 0;  // stride: m in whole packs
+  Index n = 0, m = 0, ld = 0, stride = 0;  // m: places; stride: m in whole packs
+  Index all = 0;                           // rows of the problem
   const double *T = nullptr, *inverse = nullptr, *A = nullptr, *U = nullptr;
   double factor_condition = 1;
 
-  alignas(64) double raw[most * most];       ///< u_a
-  alignas(64) double whitened[most * most];  ///< v_a = L⁻¹u_a
+  alignas(64) double raw[most_coordinates * most];       ///< u_a
+  alignas(64) double whitened[most_coordinates * most];  ///< v_a = L⁻¹u_a
   /// The Gram matrix G of the v_a, by columns of `stride`, swept at the rows held S: -G_SS⁻¹ there, G_oS
   /// G_SS⁻¹ beside it, and the Schur complement of G_SS elsewhere (Beaton 1964).
   alignas(64) double swept[most * most];
@@ -26,16 +30,18 @@ struct SmallTableau {
   alignas(64) double load[most];   ///< s_a - v_a·w_free
   alignas(64) double level[most],  ///< s_a
       square[most], row_scale[most], inverse_scale[most], inverse_diagonal[most], unit[most];
-  /// Per row, by its state: `leave` and `stay` make a number that is not negative of a multiplier that asks
-  /// to leave, `enter` a positive one of a violated row; share: 1 for a row held.
-  alignas(64) double leave[most], stay[most], enter[most], share[most];
+  /// Per row, by its state: `leave` is minus the scale of a row that may leave, `enter` the inverse of that
+  /// of one that may enter, 0 otherwise; share: 1 for a row held.
+  alignas(64) double leave[most], enter[most], share[most];
   alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
   alignas(64) double slack[most];
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
-  alignas(64) double lambda[most];                                       ///< of all rows, 0 outside
+  alignas(64) double lambda[most];                                       ///< of all places, 0 outside
   double held_lambda[most], correction[most], length[most], pull[most];  ///< of the rows held
   bool is_weak[most];                                                    ///< may change sides in a correction
-  Index rows[most], size = 0;                                            ///< rows held, and how many
+  Index row[most];                                                       ///< at a place; -1 for none
+  Index close[most];  ///< rows whose slack doubles do not tell from 0, where rows are few
+  Index rows[most], place[most], size = 0;  ///< rows held, their places, and how many
   bool held[most], two_sided[most];
 
   Index steps = 0;
@@ -52,6 +58,8 @@ struct SmallTableau {
 struct SmallKernels {
   /// Whitens, and takes in the rows marked in `held` and `two_sided`.
   bool (*begin)(SmallTableau&);
+  /// Looks at eight more rows, at the places from `stride` on, which are to have their `row` and `level`.
+  void (*append)(SmallTableau&);
   /// Whitens z anew and goes on with the rows that are held.
   bool (*begin_again)(SmallTableau&);
   /// Pivots until no row is violated and no multiplier negative; then q, w, lambda.
@@ -61,8 +69,21 @@ struct SmallKernels {
   bool (*correct)(SmallTableau&);
   /// slack: Uq - s in twice the working precision.
   void (*measure_precisely)(SmallTableau&);
-  /// slack = Uq - s, and what is missing of the equations of motion, in doubles.
+  /// slack = Uq - s where all rows have been looked at, and what is missing of the equations of motion, in
+  /// doubles.
   void (*measure)(SmallTableau&);
+  /// n rows of `size` in whole packs: times a row u of U they are its coefficients over the rows held.
+  void (*dual_rows)(const SmallTableau&, double* dual);
+  void (*coefficients)(const SmallTableau&, const double* dual, const double* u, double* into);
+  /// Lists the rows of m whose slack is not above `absolute` |s| + `by_length` times the length; s may be
+  /// read up to `end`. Their number.
+  Index (*close_rows)(Index m, const double* slack, const double* s, const double* end, const double* length,
+                      double absolute, double by_length, Index* rows);
+  /// About 1 over the root of each of m numbers, within a hundredth of it; 0 for 0.
+  void (*rough_inverse_roots)(Index m, const double* squares, double* into);
+  /// Of the rows a = k mod 8 the one that lies deepest below its edge, by slack over length, and how deep,
+  /// negative for violated ones: 8 each, for k = 0, ..., 7.
+  void (*deepest)(Index m, const double* slack, const double* inverse_length, double* depth, double* row);
 };
 
 const SmallKernels& small_kernels();

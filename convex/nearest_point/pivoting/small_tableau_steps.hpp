@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "convex/dense/pack_kernels.hpp"
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
-#include "convex/nearest_point/pivoting/small_tableau.hpp"
+#include "convex/nearest_point/pivoting/small_tableau_rows.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex {
 
@@ -12,85 +12,36 @@ namespace convex {
 /// dependent, and left to `GramSolve`.
 inline constexpr double nearly_dependent = 1e-6;
 
-/// `SmallKernels`, to be compiled for a processor family each. Packs: one when n and m are at most 8, so that
-/// loops over packs vanish; 4 otherwise.
+/// Roundings, times the growth of the sweeps, that stand for 0 in what a row has outside that span.
+inline constexpr double sweep_roundings = 64;
+
+/// `SmallKernels`, to be compiled for a processor family each. Packs of places at most: 1 when n and they are
+/// at most 8, so that loops over packs vanish; 4 or 8 otherwise.
 template <int W, bool Fused, int packs>
-struct SmallTableauSteps : Kernels<W, Fused> {
+struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
+  using Rows = SmallTableauRows<W, Fused, packs>;
   using K = Kernels<W, Fused>;
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
+  using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::set_state, Rows::stride,
+      Rows::whiten_block, Rows::whiten_force;
+  static constexpr double infinite = __builtin_inf();
 
-  MOREAU_INLINE Index ld(const SmallTableau& t) { return packs == 1 ? 8 : t.ld; }
-  MOREAU_INLINE Index stride(const SmallTableau& t) { return packs == 1 ? 8 : t.stride; }
-
-  /// X := f(X) for each pack of `count` doubles.
-  template <class Work>
-  MOREAU_INLINE void each(Index count, Work work) {
-    for (Index i = 0; i < count; i += 8) work(i);
+  /// Whether row k, outside, lies in the span of those held, as far as doubles tell; or nearly so.
+  MOREAU_INLINE bool is_dependent(const SmallTableau& t, Index k) {
+    const double rounding = sweep_roundings * unit_roundoff * t.growth;
+    return !(t.swept[k * (stride(t) + 1)] >
+             (GramPivoting::dependence > rounding ? GramPivoting::dependence : rounding) * t.square[k]);
+  }
+  MOREAU_INLINE bool is_nearly_dependent(const SmallTableau& t, Index k) {
+    return !(t.swept[k * (stride(t) + 1)] > nearly_dependent * t.square[k]);
   }
 
-  MOREAU_INLINE void whiten_force(SmallTableau& t) {
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
-    K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
-    t.force_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
-    for (Index r = 0; r < stride(t); r += 8) {
-      K::dots(t.n, t.whitened + r * t.n, t.w_free, t.load + r);
-      P::store(t.load + r, P::minus(P::load(t.level + r), P::load(t.load + r)));
-    }
-  }
-
-  MOREAU_INLINE void whiten_rows(SmallTableau& t) {
-    for (Index r = 0; r < stride(t); r += 8) {
-      double* const raw = t.raw + r * t.n;
-      const Index count = t.m - r < 8 ? t.m - r : 8;
-      if (count < 8) fill_packs(8 * t.n, 0, raw);
-      for (Index k = 0; k < count; ++k) {
-        const double* const u = t.U + (r + k) * t.n;
-        for (Index i = 0; i < t.n; ++i) raw[8 * i + k] = u[i];
-      }
-      double* const whitened = t.whitened + r * t.n;
-      Pack scale{};
-      for (Index i = 0; i < t.n; ++i) {
-        const Pack u = P::load(raw + 8 * i);
-        P::store(whitened + 8 * i, u);
-        P::add_products(scale, P::times(u, t.inverse_diagonal[i]), u);
-      }
-      P::store(t.row_scale + r, scale);
-      K::forward_pack(t.n, ld(t), t.T, t.inverse, whitened);
-      for (Index other = 0; other <= r; other += 8) {
-        K::gram(t.n, t.whitened + other * t.n, whitened, t.swept + r * stride(t) + other, stride(t));
-        if (other < r)
-          for (Index k = 0; k < 8; ++k)
-            for (Index l = 0; l < 8; ++l)
-              t.swept[(other + k) * stride(t) + r + l] = t.swept[(r + l) * stride(t) + other + k];
-      }
-    }
-    for (Index a = 0; a < stride(t); ++a) {
-      t.row_scale[a] = std::sqrt(t.row_scale[a]);
-      t.inverse_scale[a] = t.row_scale[a] > 0 ? 1 / t.row_scale[a] : 0;
-      t.square[a] = t.swept[a * (stride(t) + 1)];
-    }
-  }
-
-  MOREAU_INLINE void set_state(SmallTableau& t, Index a, bool held) {
-    t.held[a] = held;
-    t.share[a] = held ? 1 : 0;
-    const bool may_leave = held && !t.two_sided[a];
-    t.leave[a] = may_leave ? -t.row_scale[a] : 0;
-    t.stay[a] = may_leave ? 0 : 1;
-    t.enter[a] = held ? 0 : t.inverse_scale[a];
-  }
-
-  /// Takes row k in or out. False when it is nearly dependent on those held.
-  MOREAU_INLINE bool sweep(SmallTableau& t, Index k) {
+  /// Takes row k in or out.
+  MOREAU_INLINE void sweep(SmallTableau& t, Index k) {
     const Index step = stride(t);
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
-    if (!t.held[k] && !(pivot > nearly_dependent * t.square[k])) {
-      if (!(pivot > GramPivoting::dependence * t.square[k])) t.dependent = k;
-      return false;
-    }
     const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
     t.growth = growth > t.growth ? growth : t.growth;
     alignas(64) double part[SmallTableau::most];
@@ -106,7 +57,7 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     }
     for (Index j = 0; j < t.m; ++j) {
       double* const other = t.swept + j * step;
-#pragma GCC unroll 4
+#pragma GCC unroll 8
       for (int r = 0; r < packs; ++r) {
         if (8 * r == step) break;
         Pack x = P::load(other + 8 * r);
@@ -119,11 +70,13 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     column[k] = -inverse;
     t.b[k] = sign * load;
     set_state(t, k, !t.held[k]);
-    return true;
   }
 
   MOREAU_INLINE bool begin(SmallTableau& t) {
-    whiten_rows(t);
+    for (Index r = 0; r < stride(t); r += 8) {
+      whiten_block(t, r);
+      mirror_block(t, r);
+    }
     whiten_force(t);
     t.growth = 1;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
@@ -133,7 +86,10 @@ struct SmallTableauSteps : Kernels<W, Fused> {
       set_state(t, a, false);
     }
     for (Index a = 0; a < t.m; ++a)
-      if (wanted[a] && !sweep(t, a) && t.two_sided[a]) return false;
+      if (wanted[a] && !is_nearly_dependent(t, a))
+        sweep(t, a);
+      else if (wanted[a] && t.two_sided[a])
+        return false;
     return true;
   }
 
@@ -172,41 +128,82 @@ struct SmallTableauSteps : Kernels<W, Fused> {
   }
 
   MOREAU_INLINE bool settle(SmallTableau& t) {
-    t.steps = 0;
     t.dependent = -1;
-    if (!pivot(t, t.load, t.force_norm)) return false;
+    if (t.m > 0 && !pivot(t, t.load, t.force_norm)) return false;
     find_point(t);
     return true;
   }
 
-  /// Sweeps until no multiplier b that may leave is negative and no row that may enter is violated. norm:
-  /// ||·|| of the whitened force that the load is of.
+  /// The dual method of Goldfarb and Idnani (1983) on the swept tableau: rows whose multiplier b is negative
+  /// go, the most negative first; then the row violated most has its multiplier raised until it holds. Its
+  /// column tells by how much all others change with it; those held whose multiplier comes down to 0 on the
+  /// way go. norm: ||·|| of the whitened force that the load is of.
   MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
     const Index patience = t.steps + 4 * t.m + 8;
+    alignas(64) double wrong[SmallTableau::most];
     for (;; ++t.steps) {
-      alignas(64) double out[SmallTableau::most], in[SmallTableau::most];
+      for (Index r = 0; r < stride(t); r += 8)
+        P::store(wrong + r, P::times(P::load(t.b + r), P::load(t.leave + r)));
+      const Index a = largest(wrong, stride(t));
+      if (!(wrong[a] > 0)) break;
+      if (t.steps == patience) return false;
+      sweep(t, a);
+    }
+    for (;; ++t.steps) {
       Pack energy{};
       for (Index r = 0; r < stride(t); r += 8) {
-        const Pack b = P::load(t.b + r), enter = P::times(b, P::load(t.enter + r));
-        P::store(in + r, enter);
-        P::store(out + r, P::minus(P::times(b, P::load(t.leave + r)), P::load(t.stay + r)));
+        const Pack b = P::load(t.b + r);
+        P::store(wrong + r, P::times(b, P::load(t.enter + r)));
         P::add_products(energy, P::times(b, P::load(t.share + r)), P::load(load + r));
       }
-      Index a = largest(out, stride(t));
-      if (!(out[a] >= 0)) {
-        a = largest(in, stride(t));
-        if (!(in[a] > GramPivoting::least_violation * norm)) break;
-        const double scale = GramPivoting::least_violation * (norm + std::sqrt(std::abs(P::total(energy))));
-        if (!(in[a] > scale)) break;
-      }
-      if (t.steps == patience || !sweep(t, a)) return false;
+      const Index a = largest(wrong, stride(t));
+      if (!(wrong[a] > GramPivoting::least_violation * norm)) return true;
+      if (!(wrong[a] > GramPivoting::least_violation * (norm + std::sqrt(std::abs(P::total(energy))))))
+        return true;
+      if (!raise(t, a, patience)) return false;
     }
-    return true;
+  }
+
+  /// Takes in row a, which is violated.
+  MOREAU_INLINE bool raise(SmallTableau& t, Index a, Index patience) {
+    const double* const column = t.swept + a * stride(t);
+    alignas(64) double falls[SmallTableau::most];
+    for (double raised = 0; t.steps < patience; ++t.steps) {
+      const bool dependent = is_dependent(t, a);
+      if (!dependent && is_nearly_dependent(t, a)) return false;
+      // What falls fast enough beside the length of row a that it is no rounding comes to 0 after b / column.
+      const double least = zero_coefficient * t.row_scale[a];
+      for (Index r = 0; r < stride(t); r += 8) {
+        const Pack c = P::load(column + r);
+        P::store(falls + r, P::where_larger(P::times(c, P::times(P::load(t.leave + r), -1)), least,
+                                            P::times(P::over(P::load(t.b + r), c), -1), -infinite));
+      }
+      const Index first = largest(falls, stride(t));
+      const double partial = falls[first] < 0 ? -falls[first] : 0;
+      if (!dependent && t.b[a] <= partial * column[a]) {
+        sweep(t, a);
+        t.b[a] += raised;
+        return true;
+      }
+      if (!(partial < infinite)) {
+        t.dependent = a;
+        return false;
+      }
+      raised += partial;
+      for (Index r = 0; r < stride(t); r += 8) {
+        Pack b = P::load(t.b + r);
+        P::subtract_product(b, P::load(column + r), partial);
+        P::store(t.b + r, b);
+      }
+      t.b[first] = 0;
+      sweep(t, first);
+    }
+    return false;
   }
 
   /// sum += Σ_k weight_k u_k over the rows held.
   MOREAU_INLINE void add_rows(const SmallTableau& t, const double* weight, double* sum) {
-    const double* const end = t.U + t.m * t.n;
+    const double* const end = t.U + t.all * t.n;
     for (Index k = 0; k < t.size; ++k)
       for (Index i = 0; i < ld(t); i += 8) {
         Pack x = P::load(sum + i);
@@ -224,7 +221,8 @@ struct SmallTableauSteps : Kernels<W, Fused> {
       if (!t.held[a]) continue;
       t.correction[t.size] = t.b[a];
       t.held_lambda[t.size] = t.lambda[a] += t.b[a];
-      t.rows[t.size++] = a;
+      t.rows[t.size] = t.row[a];
+      t.place[t.size++] = a;
       squares -= t.swept[a * (stride(t) + 1)];
       t.gram_condition -= t.swept[a * (stride(t) + 1)] * t.square[a];
     }
@@ -251,7 +249,6 @@ struct SmallTableauSteps : Kernels<W, Fused> {
     for (Index a = 0; a < t.m; ++a)
       if (!t.is_weak[a]) {
         t.leave[a] = t.enter[a] = 0;
-        t.stay[a] = 1;
       }
   }
   MOREAU_INLINE void free_all(SmallTableau& t) {
@@ -260,16 +257,22 @@ struct SmallTableauSteps : Kernels<W, Fused> {
 
   /// Multipliers of weak rows count as 0 here: what they are is found anew.
   MOREAU_INLINE bool correct(SmallTableau& t) {
-    K::stationarity(t.n, t.A, t.q, t.m, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
+    K::stationarity(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
     if (!t.is_first) {
       each(
           ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
-      K::residual(t.n, t.A, t.q_low, t.m, t.U, 0, t.rows, t.held_lambda, t.dq, t.r);
+      K::residual(t.n, t.A, t.q_low, t.all, t.U, 0, t.rows, t.held_lambda, t.dq, t.r);
     }
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
     K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
     for (Index r = 0; r < stride(t); r += 8) {
+      bool any = t.any_weak;
+      for (Index k = r; k < r + 8; ++k) any |= t.held[k];
+      if (!any) {
+        P::store(t.rest + r, Pack{});
+        continue;
+      }
       K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.rest + r);
       alignas(64) double moved[8];
       K::dots(t.n, t.whitened + r * t.n, t.dq, moved);
@@ -308,11 +311,11 @@ struct SmallTableauSteps : Kernels<W, Fused> {
   }
 
   MOREAU_INLINE void measure(SmallTableau& t) {
-    for (Index r = 0; r < stride(t); r += 8) {
+    for (Index r = 0; r < stride(t) && t.all <= SmallTableau::few_rows; r += 8) {
       K::dots(t.n, t.raw + r * t.n, t.q, t.slack + r);
       P::store(t.slack + r, P::minus(P::load(t.slack + r), P::load(t.level + r)));
     }
-    K::residual(t.n, t.A, t.q, t.m, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
+    K::residual(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
     for (Index i = t.n; i < ld(t); ++i) t.r[i] = 0;
     K::forward(t.n, ld(t), t.T, t.inverse, t.r);
     t.stationarity = std::sqrt(K::dot(ld(t), t.r, t.r));

@@ -1,0 +1,158 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+#include "convex/zero_tolerances.hpp"
+
+namespace convex {
+
+void SmallGramSolve::find_magnitude() {
+  double square = 0;
+  for (Index i = 0; i < tableau_.n; ++i) square += problem_.A.diagonal()[i] * tableau_.q[i] * tableau_.q[i];
+  magnitude_ = std::sqrt(square);
+}
+
+/// Slacks of all rows and what is missing of the equations of motion, in doubles.
+void SmallGramSolve::measure() {
+  SmallTableau& t = tableau_;
+  small_kernels().measure(t);
+  find_magnitude();
+  if (looks_at_all()) return;
+  dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
+  for (Index p = 0; p < t.m; ++p)
+    if (t.row[p] >= 0) t.slack[p] = slack_[t.row[p]];
+}
+
+/// Whether no row outside is close, of ||q||_A or that size if it is larger.
+bool SmallGramSolve::is_clear(double size) {
+  const Index close = close_rows(near_zero, near_zero * std::max(size, magnitude_) + known_.missing_slack(1));
+  return std::all_of(close_, close_ + close, [&](Index a) { return holds(a); });
+}
+
+/// Lists those in close_ whose slack is not above `absolute` |s| + `by_length` times the length.
+Index SmallGramSolve::close_rows(double absolute, double by_length) {
+  const SmallTableau& t = tableau_;
+  const double *const s = looks_at_all() ? t.level : problem_.s.data(), *const end =
+                                                                            s + (looks_at_all() ? t.stride
+                                                                                                : t.all);
+  return small_kernels().close_rows(t.all, slack_, s, end, row_scale_, absolute, by_length, close_);
+}
+
+Slacks SmallGramSolve::measure_slacks() {
+  measure();
+  const double rounding = 2 * static_cast<double>(tableau_.n) * unit_roundoff,
+               by_length = rounding * magnitude_ + known_.missing_slack(1);
+  const Index close = close_rows(rounding, by_length);
+  touched_violation_ = 0;
+  const Index open = std::remove_if(close_, close_ + close, [&](Index a) { return holds(a); }) - close_;
+  touched_.clear();
+  violated_.clear();
+  if (open > 0) {
+    const auto violated = std::partition(close_, close_ + open, [&](Index a) {
+      return !(slack_[a] < -(rounding * std::abs(problem_.s[a]) + by_length * row_scale_[a]));
+    });
+    touched_.assign(close_, violated);
+    violated_.assign(violated, close_ + open);
+  }
+  if (!violated_.empty()) return look_at_violated(violated_);
+  if (known_.wrong > 0) return Slacks::violated;
+  return touched_.empty() ? Slacks::kept : decide_degenerate_rows();
+}
+
+/// Rows violated beyond rounding are to come in with the next correction.
+Slacks SmallGramSolve::look_at_violated(const std::vector<Index>& rows) {
+  std::vector<Index> fresh;
+  for (Index a : rows) {
+    known_.wrong = std::max(known_.wrong, -slack_[a] / row_scale_[a]);
+    if (place(a) < 0) fresh.push_back(a);
+  }
+  if (!std::isfinite(known_.wrong)) return Slacks::doubtful;  // 0 >= s > 0
+  const Index count = static_cast<Index>(fresh.size());
+  return tableau_.stride + padded(count) <= SmallTableau::most && (count == 0 || look_at(fresh.data(), count))
+             ? Slacks::violated
+             : Slacks::doubtful;
+}
+
+/// As in `GramSolve`, but for the way up, which is left to it.
+Slacks SmallGramSolve::decide_degenerate_rows() {
+  SmallTableau& t = tableau_;
+  if (problem_.radii) return Slacks::doubtful;
+  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
+    for (std::size_t k = 0; k < touched_.size(); ++k) slack_[touched_[k]] = (*slacks)[static_cast<Index>(k)];
+    return Slacks::kept;
+  }
+  // ||u||_(A⁻¹) is at least this part of ||u||_(D⁻¹).
+  const double part = 1 / std::sqrt(static_cast<double>(t.n));
+  for (Index a : touched_) {
+    const double size = std::abs(problem_.s[a]) + part * row_scale_[a] * t.acceleration_norm;
+    if (slack_[a] < 0 && size > 0) touched_violation_ = std::max(touched_violation_, -slack_[a] / size);
+  }
+  if (!leave_sums_of_rows_held()) return Slacks::doubtful;
+  if (touched_.empty()) return Slacks::kept;
+  violated_.clear();
+  for (Index a : touched_)
+    if (place(a) < 0) violated_.push_back(a);
+  const Index count = static_cast<Index>(violated_.size());
+  if (t.stride + padded(count) > t.most || (count > 0 && !look_at(violated_.data(), count)))
+    return Slacks::doubtful;
+  alignas(64) double known[SmallTableau::most], precise[SmallTableau::most];
+  copy_packs(t.stride, t.slack, known);
+  small_kernels().measure_precisely(t);
+  copy_packs(t.stride, t.slack, precise);
+  copy_packs(t.stride, known, t.slack);
+  violated_.clear();
+  for (Index a : touched_) {
+    const Index p = place(a);
+    slack_[a] = t.slack[p] = precise[p];
+    const double noise = zero_of_pairs * (std::abs(t.level[p]) + t.row_scale[p] * known_.scale) +
+                         known_.missing_slack(t.row_scale[p]);
+    if (slack_[a] < -noise)
+      violated_.push_back(a);
+    else if (!(slack_[a] > noise))
+      return Slacks::doubtful;
+  }
+  return violated_.empty() ? Slacks::kept : look_at_violated(violated_);
+}
+
+/// Takes out of touched_ the rows that are sums of rows held with short fractions as coefficients, not one
+/// bit left over, and ask for no more than they do. False when one asks for more.
+bool SmallGramSolve::leave_sums_of_rows_held() {
+  const SmallTableau& t = tableau_;
+  if (t.size == 0) return true;
+  alignas(64) double dual[SmallTableau::most_coordinates * SmallTableau::most_coordinates];
+  double coefficients[SmallTableau::most];
+  bool has_dual = false, asks_more = false;
+  if (!edge_) edge_.emplace(problem_, row_scale_);
+  std::erase_if(touched_, [&](Index a) {
+    if (const Index p = place(a); p >= 0) {  // swept, its column has its coefficients
+      if (t.swept[p * (t.stride + 1)] > zero_coefficient * t.square[p]) return false;
+      for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[p * t.stride + t.place[k]];
+    } else {
+      if (!std::exchange(has_dual, true)) small_kernels().dual_rows(t, dual);
+      small_kernels().coefficients(t, dual, t.U + a * t.n, coefficients);
+    }
+    // Most rows that are no sum show it in their first entry.
+    double first = t.U[a * t.n], size = std::abs(first);
+    for (Index k = 0; k < t.size; ++k) {
+      const double term = coefficients[k] * t.U[t.rows[k] * t.n];
+      first -= term;
+      size += std::abs(term);
+    }
+    if (std::abs(first) > zero_coefficient * size) return false;
+    const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
+    if (!on_edge) return false;
+    asks_more = asks_more || *on_edge < 0;
+    slack_[a] = *on_edge;
+    return true;
+  });
+  return !asks_more;
+}
+
+std::optional<Vector> SmallGramSolve::slacks_of_touched_rows_if_kept() const {
+  const SmallTableau& t = tableau_;
+  return slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
+                        std::vector<Index>(t.rows, t.rows + t.size), touched_);
+}
+
+}  // namespace convex

@@ -1,0 +1,199 @@
+#pragma once
+
+#include <cmath>
+
+#include "convex/dense/pack_kernels.hpp"
+#include "convex/nearest_point/pivoting/small_tableau.hpp"
+
+namespace convex {
+
+/// The rows that a `SmallTableau` looks at: whitened, with their Gram matrix, swept as that of those before.
+/// Packs of places at most: 1 when n and they are at most 8, so that loops over packs vanish; 4 or 8
+/// otherwise.
+template <int W, bool Fused, int packs>
+struct SmallTableauRows : Kernels<W, Fused> {
+  using K = Kernels<W, Fused>;
+  using P = Packs<W, Fused>;
+  using Pack = typename P::Pack;
+
+  MOREAU_INLINE Index ld(const SmallTableau& t) { return packs == 1 ? 8 : t.ld; }
+  MOREAU_INLINE Index stride(const SmallTableau& t) { return packs == 1 ? 8 : t.stride; }
+
+  /// X := f(X) for each pack of `count` doubles.
+  template <class Work>
+  MOREAU_INLINE void each(Index count, Work work) {
+    for (Index i = 0; i < count; i += 8) work(i);
+  }
+
+  MOREAU_INLINE void set_state(SmallTableau& t, Index a, bool held) {
+    t.held[a] = held;
+    t.share[a] = held ? 1 : 0;
+    const bool may_leave = held && !t.two_sided[a];
+    t.leave[a] = may_leave ? -t.row_scale[a] : 0;
+    t.enter[a] = held ? 0 : t.inverse_scale[a];
+  }
+
+  MOREAU_INLINE void whiten_force(SmallTableau& t) {
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
+    K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
+    t.force_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
+    for (Index r = 0; r < stride(t); r += 8) load_block(t, r);
+  }
+
+  /// Looks at the rows of the block at r, and at their products with those before.
+  MOREAU_INLINE void whiten_block(SmallTableau& t, Index r) {
+    double* const raw = t.raw + r * t.n;
+    const Index count = t.m - r < 8 ? t.m - r : 8;
+    if (count < 8) fill_packs(8 * t.n, 0, raw);
+    for (Index k = 0; k < count; ++k) {
+      const double* const u = t.U + t.row[r + k] * t.n;
+      for (Index i = 0; i < t.n; ++i) raw[8 * i + k] = u[i];
+    }
+    double* const whitened = t.whitened + r * t.n;
+    Pack scale{};
+    for (Index i = 0; i < t.n; ++i) {
+      const Pack u = P::load(raw + 8 * i);
+      P::store(whitened + 8 * i, u);
+      P::add_products(scale, P::times(u, t.inverse_diagonal[i]), u);
+    }
+    P::store(t.row_scale + r, scale);
+    K::forward_pack(t.n, ld(t), t.T, t.inverse, whitened);
+    for (Index other = 0; other <= r; other += 8)
+      K::gram(t.n, t.whitened + other * t.n, whitened, t.swept + r * stride(t) + other, stride(t));
+    for (Index a = r; a < r + 8; ++a) {
+      t.row_scale[a] = std::sqrt(t.row_scale[a]);
+      t.inverse_scale[a] = t.row_scale[a] > 0 ? 1 / t.row_scale[a] : 0;
+      t.square[a] = t.swept[a * (stride(t) + 1)];
+    }
+  }
+
+  /// Rows r to r + 7 of the columns before are those of the columns r to r + 7.
+  MOREAU_INLINE void mirror_block(SmallTableau& t, Index r) {
+    for (Index other = 0; other < r; ++other)
+      for (Index l = 0; l < 8; ++l) t.swept[other * stride(t) + r + l] = t.swept[(r + l) * stride(t) + other];
+  }
+
+  /// The loads of the block at r.
+  MOREAU_INLINE void load_block(SmallTableau& t, Index r) {
+    K::dots(t.n, t.whitened + r * t.n, t.w_free, t.load + r);
+    P::store(t.load + r, P::minus(P::load(t.level + r), P::load(t.load + r)));
+  }
+
+  MOREAU_INLINE void append(SmallTableau& t) {
+    const Index before = t.stride, step = before + 8;
+    for (Index j = before - 1; j > 0; --j)
+      for (Index r = before - 8; r >= 0; r -= 8)
+        P::store(t.swept + j * step + r, P::load(t.swept + j * before + r));
+    t.stride = step;
+    whiten_block(t, before);
+    load_block(t, before);
+    alignas(64) double products[8 * SmallTableau::most];  // with the rows held
+    Index held[SmallTableau::most], count = 0;
+    for (Index k = 0; k < before; ++k)
+      if (t.held[k]) {
+        held[count] = k;
+        for (Index l = 0; l < 8; ++l) {
+          double& product = t.swept[(before + l) * step + k];
+          products[8 * count + l] = product;
+          product = 0;
+        }
+        ++count;
+      }
+    for (Index l = 0; l < 8; ++l) {
+      double *const column = t.swept + (before + l) * step, load = t.load[before + l];
+      for (Index r = 0; r < before; r += 8) {
+        Pack x = P::load(column + r);
+        for (Index k = 0; k < count; ++k)
+          P::subtract_product(x, P::load(t.swept + held[k] * step + r), products[8 * k + l]);
+        P::store(column + r, x);
+      }
+      Pack own = P::load(column + before);
+      for (Index k = 0; k < count; ++k) {
+        P::subtract_product(own, P::load(products + 8 * k), column[held[k]]);
+        load -= t.load[held[k]] * column[held[k]];
+      }
+      P::store(column + before, own);
+      t.b[before + l] = load;
+      t.two_sided[before + l] = false;
+      t.lambda[before + l] = 0;
+      set_state(t, before + l, false);
+    }
+    mirror_block(t, before);
+  }
+
+  /// D = A⁻¹U_Sᵀ (U_S A⁻¹U_Sᵀ)⁻¹.
+  MOREAU_INLINE void dual_rows(const SmallTableau& t, double* dual) {
+    const Index width = padded(t.size);
+    alignas(64) double block[8 * SmallTableau::most_coordinates], inverse[8 * SmallTableau::most];
+    fill_packs(t.n * width, 0, dual);
+    for (Index first = 0; first < t.size; first += 8) {
+      const Index count = t.size - first < 8 ? t.size - first : 8;
+      fill_packs(8 * t.n, 0, block);
+      fill_packs(8 * width, 0, inverse);
+      for (Index l = 0; l < count; ++l) {
+        const Index p = t.place[first + l];
+        const double *const from = t.whitened + p / 8 * 8 * t.n + p % 8, *const swept =
+                                                                             t.swept + p * t.stride;
+        for (Index i = 0; i < t.n; ++i) block[8 * i + l] = from[8 * i];
+        for (Index k = 0; k < t.size; ++k) inverse[width * l + k] = -swept[t.place[k]];
+      }
+      K::backward_pack(t.n, t.ld, t.T, t.inverse, block);
+      for (Index i = 0; i < t.n; ++i)
+        for (Index k = 0; k < width; k += 8) {
+          Pack sum = P::load(dual + i * width + k);
+          for (Index l = 0; l < count; ++l)
+            P::add_product(sum, P::load(inverse + width * l + k), block[8 * i + l]);
+          P::store(dual + i * width + k, sum);
+        }
+    }
+  }
+
+  MOREAU_INLINE void coefficients(const SmallTableau& t, const double* dual, const double* u, double* into) {
+    const Index width = padded(t.size);
+    for (Index k = 0; k < width; k += 8) {
+      Pack sum{};
+      for (Index i = 0; i < t.n; ++i) P::add_product(sum, P::load(dual + i * width + k), u[i]);
+      P::store(into + k, sum);
+    }
+  }
+
+  MOREAU_INLINE Index close_rows(Index m, const double* slack, const double* s, const double* end,
+                                 const double* length, double absolute, double by_length, Index* rows) {
+    Index count = 0;
+    for (Index a = 0; a < m; a += 8) {
+      const Pack level = P::load_before(s + a, end);
+      Pack bound = P::times(P::larger(level, P::times(level, -1)), absolute);
+      P::add_product(bound, P::load(length + a), by_length);
+      double above[8];
+      P::store(above, P::minus(P::load(slack + a), bound));
+      for (Index k = 0; k < 8 && a + k < m; ++k) {
+        rows[count] = a + k;
+        count += !(above[k] > 0);
+      }
+    }
+    return count;
+  }
+
+  /// The exponent halved, and one step of Newton's method.
+  MOREAU_INLINE void rough_inverse_roots(Index m, const double* squares, double* into) {
+    for (Index a = 0; a < m; a += 8) {
+      const Pack x = P::load_before(squares + a, squares + m), guess = P::halved_exponent(x);
+      const Pack cube = P::times(P::times(guess, guess), P::times(guess, P::times(x, 0.5)));
+      P::store(into + a, P::where_larger(x, 0, P::minus(P::times(guess, 1.5), cube), 0));
+    }
+  }
+
+  MOREAU_INLINE void deepest(Index m, const double* slack, const double* inverse_length, double* depth,
+                             double* row) {
+    alignas(64) constexpr double first[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    Pack least{}, at{}, now = P::load(first);
+    const Pack eight = P::plus(Pack{}, 8);
+    for (Index a = 0; a < m; a += 8, now = P::plus(now, eight))
+      P::keep_smaller(least, at, P::times(P::load(slack + a), P::load(inverse_length + a)), now);
+    P::store(depth, least);
+    P::store(row, at);
+  }
+};
+
+}  // namespace convex
