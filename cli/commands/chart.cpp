@@ -211,7 +211,7 @@ void write_chart(const ChartOptions& options, const std::vector<Trial>& trials, 
 Exit make_chart(const ChartOptions& options) {
   const Source source{options.files.empty() ? "chart" : options.files.front(), ""};
   return answered(options, source, [&] {
-    const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or("")};
+    const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or(""), options.motion};
     if (options.output) require_drawable(*options.output);
     if (options.files.empty() && !options.settings.empty())
       throw InvalidInput("--set goes with problem files; give one");

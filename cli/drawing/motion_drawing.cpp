@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
+#include <map>
 
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/taylor_series.hpp"
@@ -17,7 +19,8 @@ using convex::Vector;
 
 constexpr Index most_curves = 8;
 constexpr long points = 1201;
-constexpr std::size_t most_marks = 300;
+/// Events are told apart no closer than so many to the picture's length.
+constexpr long mark_places = 500;
 constexpr int panel_height = 190;
 
 constexpr std::array line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -39,6 +42,10 @@ const char* colour(mechanics::EventKind kind) {
   return "#888888";
 }
 
+std::string style(mechanics::EventKind kind) {
+  return fmt::format("lc rgb \"{}\" lw 0.5 dt 3", colour(kind));
+}
+
 /// One panel: curves of some columns of the points.
 struct Panel {
   std::string label;
@@ -46,7 +53,7 @@ struct Panel {
   Index first_column;
 };
 
-std::string panel_script(const Panel& panel, bool is_last) {
+std::string panel_script(const Panel& panel, bool is_last, const std::string& key_of_events) {
   std::string text = fmt::format("set ylabel {} font \",10\"\n", quoted(panel.label));
   text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
   text += "plot ";
@@ -54,15 +61,17 @@ std::string panel_script(const Panel& panel, bool is_last) {
     text += fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}",
                         k > 0 ? ", \\\n  " : "", panel.first_column + static_cast<Index>(k),
                         line_colours[k % line_colours.size()], quoted(panel.names[k]));
-  return text + "\n";
+  return text + key_of_events + "\n";
 }
 
-/// What is constant but for rounding is a line, and not its noise.
-std::string range_script(const std::pair<double, double>& range) {
+/// What is constant but for rounding is a line, and not its noise; f and lambda, which are not below 0, begin
+/// there.
+std::string range_script(const std::pair<double, double>& range, bool from_zero) {
   constexpr double rounding = 1e-9;
   const auto [low, high] = range;
   const double size = std::max(std::abs(low), std::abs(high));
-  if (!(high - low <= rounding * std::max(size, rounding))) return "set autoscale y\n";
+  if (!(high - low <= rounding * std::max(size, rounding)))
+    return from_zero && low >= -rounding * high ? "set yrange [0:*]\n" : "set autoscale y\n";
   const double half = size > rounding ? 0.1 * size : 1;
   return fmt::format("set yrange [{}:{}]\n", low - half, high + half);
 }
@@ -86,7 +95,7 @@ void MotionDrawing::add(double t, const Vector& q, const Vector& f, const Vector
     range = {std::min(range.first, x), std::max(range.second, x)};
   };
   widen(energies_, energy);
-  for (Index a = 0; a < constraints_; ++a) widen(gaps_, f[a]);
+  for (Index a = 0; a < constraints_; ++a) widen(gaps_, f[a]), widen(forces_, lambda[a]);
   ++point_;
 }
 
@@ -103,7 +112,8 @@ void MotionDrawing::follow(const mechanics::Motion& motion) {
     add(t, arc.position(tau), f, arc.multipliers(tau), system_.energy(arc.state(tau)));
   }
   for (const mechanics::MotionEvent& event : motion.events())
-    if (events_.size() < most_marks) events_.push_back(event);
+    events_.emplace(event.kind,
+                    std::lround((event.t - begin_) / (end_ - begin_) * static_cast<double>(mark_places)));
 }
 
 void MotionDrawing::finish(const mechanics::Motion& motion) {
@@ -126,19 +136,25 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
   made.height = panel_height * static_cast<int>(panels.size()) + 40;
   made.script = "$points << EOD\n" + points_ + "EOD\n";
   made.script += fmt::format(
-      "set multiplot layout {},1 title {} font \",11\" margins 0.11,0.82,0.07,0.94 spacing 0.03\n"
+      "set multiplot layout {},1 title {} font \",11\" margins 0.14,0.82,0.07,0.94 spacing 0.03\n"
       "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
       panels.size(), quoted(title), begin_, end_);
-  for (const mechanics::MotionEvent& event : events_)
+  std::map<mechanics::EventKind, std::string> kinds;
+  for (const auto& [kind, place] : events_) {
+    const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
     fmt::format_to(std::back_inserter(made.script),
-                   "set arrow from {0}, graph 0 to {0}, graph 1 nohead lc rgb \"{1}\" lw 0.5 dt 3 back\n",
-                   event.t, colour(event.kind));
+                   "set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
+    kinds[kind] =
+        fmt::format(", \\\n  NaN with lines lc rgb \"{}\" lw 1 title {}", colour(kind), quoted(name(kind)));
+  }
   for (std::size_t k = 0; k < panels.size(); ++k) {
-    const auto& range = panels[k].label == "energy" ? energies_ : gaps_;
-    const bool is_watched = panels[k].label == "energy" || panels[k].label == "f";
-    made.script += is_watched ? range_script(range) : "set autoscale y\n";
-    made.script += panel_script(panels[k], k + 1 == panels.size());
+    const std::string& label = panels[k].label;
+    const auto& range = label == "energy" ? energies_ : label == "f" ? gaps_ : forces_;
+    made.script += label == "q" ? "set autoscale y\n" : range_script(range, label != "energy");
+    std::string key;  // of events, once, below the names of coordinates
+    for (const auto& [kind, line] : kinds) key += k == 0 ? line : "";
+    made.script += panel_script(panels[k], k + 1 == panels.size(), key);
   }
   made.script += "unset multiplot\n";
   return made;

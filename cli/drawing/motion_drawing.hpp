@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,9 +31,9 @@ class MotionDrawing {
   convex::Index coordinates_, constraints_;  // that are drawn
   long point_ = 0;
   std::string points_;
-  std::pair<double, double> energies_{INFINITY, -INFINITY},
-      gaps_{INFINITY, -INFINITY};  ///< least and largest
-  std::vector<mechanics::MotionEvent> events_;
+  std::pair<double, double> energies_{INFINITY, -INFINITY}, gaps_{INFINITY, -INFINITY},
+      forces_{INFINITY, -INFINITY};                         ///< least and largest
+  std::set<std::pair<mechanics::EventKind, long>> events_;  // where they are marked
 };
 
 }  // namespace cli

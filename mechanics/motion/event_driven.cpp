@@ -28,6 +28,10 @@ constexpr double weakest_multiplier = 1e-12;
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
+bool is_in(const std::vector<Index>& all, Index a) {
+  return std::find(all.begin(), all.end(), a) != all.end();
+}
+
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
@@ -37,6 +41,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_lambda_.assign(m, 0);
   zeros_of_switch_.assign(expansion_.switches(), 0);
   is_weak_.assign(m, false);
+  is_blurred_.assign(m, false);
   elapsed_.assign(m, 0.0);
   history_.resize(m);
   begin(at);
@@ -44,17 +49,27 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
 
 void Motion::EventDriven::begin(const State& at) {
   state = at;
-  const Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
+  Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
+  // What is above 0 by more than rounding and falls closes when it comes there.
+  const auto left_by_rounding = [&](Index a) { return roundings_of_f * epsilon * found.rates.f_scale[a]; };
+  std::erase_if(found.closing, [&](Index a) { return found.rates.f[a] > left_by_rounding(a); });
   done.t = state.t;
   done.q = state.q;
   expansion_.set(state);
   const std::vector<Index> switches = find_branches();
   std::vector<Index> touching;
-  for (const Index a : found.present)
-    if (!is_two_sided(a)) touching.push_back(a);
+  for (const Index a : found.present) {
+    if (!is_two_sided(a)) {
+      touching.push_back(a);
+      if (std::abs(found.rates.f[a]) > left_by_rounding(a))
+        remark(constraint_name(a) + ": f = " + number_text(found.rates.f[a]) +
+               " at the start counts as 0, within the contact tolerance");
+    }
+  }
   std::vector<Index> opening;  // f = 0 and df/dt > 0
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     if (is_two_sided(a) || found.rates.f[a] > options.contact_tolerance[a] * found.rates.f_scale[a]) continue;
+    if (found.rates.f[a] > left_by_rounding(a) && found.rates.df[a] < 0 && !is_in(touching, a)) continue;
     zeros_of_f_[static_cast<std::size_t>(a)] = 1;
     if (found.rates.df[a] > options.contact_tolerance[a] * found.rates.df_scale[a]) opening.push_back(a);
   }

@@ -29,6 +29,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool fits(double tau);
   void move_time(double by);
   void handle(const std::vector<Zero>& zeros);
+  void tell_blur(const std::vector<Index>& closing);
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                const std::vector<Index>& switches);
@@ -59,7 +60,8 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Index> persist_;  // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<bool> is_weak_;                                        // held without a multiplier
-  std::vector<double> elapsed_;                                      // since the last impact, by constraint
+  std::vector<bool> is_blurred_;  // of an impact it was told that its time is uncertain
+  std::vector<double> elapsed_;   // since the last impact, by constraint
   std::vector<ImpactHistory> history_;
   std::vector<Ending> endings_;
   std::vector<Watched> watched_;  // on the next arc
