@@ -92,23 +92,26 @@ Interval by_rule(const AnalyticFunction& f, double low, double high, const Chose
   return half * sum + Interval{-rule.error, rule.error};
 }
 
-Interval over_panel(const AnalyticFunction& f, double low, double high, double share) {
+/// Panels are halved towards one end alone, where the function's singularity is near: mostly a few. Where
+/// intervals are too wide for any bound, all would be; then what is left counts by its range.
+constexpr int few_panels = 4, many_panels = 40, most_panels = 200;
+
+Interval over_panel(const AnalyticFunction& f, double low, double high, double share, int& panels) {
   const Interval crude = (interval_at(high) - interval_at(low)) * f.range;
-  if (crude.high - crude.low <= share) return crude;
+  if (crude.high - crude.low <= share || ++panels > most_panels) return crude;
   if (const auto rule = chosen_rule(f, low, high, share)) return by_rule(f, low, high, *rule);
   const double between = 0.5 * (low + high);
   if (!(low < between && between < high)) return crude;
-  return over_panel(f, low, between, share) + over_panel(f, between, high, share);
+  return over_panel(f, low, between, share, panels) + over_panel(f, between, high, share, panels);
 }
 
 }  // namespace
 
 Interval proved_integral(const AnalyticFunction& f, double end, double tolerance) {
   const auto with_share = [&](double share) {
-    return end < 0 ? -over_panel(f, end, 0, share) : over_panel(f, 0, end, share);
+    int panels = 0;
+    return end < 0 ? -over_panel(f, end, 0, share, panels) : over_panel(f, 0, end, share, panels);
   };
-  // Panels are halved towards one end alone, where the function's singularity is near: mostly a few.
-  constexpr double few_panels = 4, many_panels = 40;
   const Interval found = with_share(tolerance / few_panels);
   return found.high - found.low <= 2 * tolerance ? found : with_share(tolerance / many_panels);
 }

@@ -45,6 +45,10 @@ ExactCurve sum(const ExactCurve&, const ExactCurve&);
 /// inf_u f(u) + g(x - u) = (f* + g*)*. Throws InvalidInput when it is identically -inf.
 ExactCurve inf_convolution(const ExactCurve&, const ExactCurve&);
 
+/// max(f(x), g(x)). Throws InvalidInput when the domains do not meet, or pieces cross at a number that is no
+/// fraction.
+ExactCurve pointwise_max(const ExactCurve&, const ExactCurve&);
+
 /// A piece slope z + offset for low <= z <= high.
 struct AffinePiece {
   std::optional<Fraction> low, high;

@@ -170,13 +170,14 @@ Function sum(const Function& f, const Function& g) {
   const auto *first = std::get_if<ExactCurve>(&f), *second = std::get_if<ExactCurve>(&g);
   if (first != nullptr && second != nullptr) return sum(*first, *second);
   if (first != nullptr) return sum(g, f);
+  if (second == nullptr) return sum_of_rules(std::get<RuleFunction>(f), std::get<RuleFunction>(g));
   // One quadratic on the whole line is a square, a tilt and a constant.
-  const std::vector<ExactPiece> quadratic = second == nullptr ? std::vector<ExactPiece>{} : pieces(*second);
+  const std::vector<ExactPiece> quadratic = pieces(*second);
   if (quadratic.size() != 1 || quadratic.front().low || quadratic.front().high)
     throw InvalidInput(
-        "sum: a function by rules can be added to one quadratic on the whole line, and to nothing else "
-        "in "
-        "symbols");
+        "sum: a function by rules can be added to one quadratic on the whole line or to another one by "
+        "rules, "
+        "and to no pieces in symbols");
   const ExactPiece& q = quadratic.front();
   const Function tilted = add_constant(tilt(f, q.c1), q.c0);
   if (sign(q.c2) == 0) return tilted;
@@ -191,6 +192,13 @@ Function inf_convolution(const Function& f, const Function& g) {
   const auto *first = std::get_if<ExactCurve>(&f), *second = std::get_if<ExactCurve>(&g);
   if (first != nullptr && second != nullptr) return inf_convolution(*first, *second);
   return conjugate(sum(conjugate(f), conjugate(g)));
+}
+
+Function pointwise_max(const Function& f, const Function& g) {
+  const auto *first = std::get_if<ExactCurve>(&f), *second = std::get_if<ExactCurve>(&g);
+  if (first != nullptr && second != nullptr) return pointwise_max(*first, *second);
+  throw InvalidInput(
+      "pointwise_max: a function by rules has no maximum in symbols; its pieces must be quadratic");
 }
 
 }  // namespace convex::symbolic

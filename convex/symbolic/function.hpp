@@ -22,8 +22,9 @@ Cases formula(const Function&);
 Cases conjugate_formula(const Function&);
 Cases prox_formula(const Function&, const Fraction& gamma);
 
-/// As those of exact_curve.hpp. Sums of two functions by rules, and envelopes of such with a prox by cases,
-/// have no rule: InvalidInput.
+/// As those of exact_curve.hpp. Of two functions by rules the prox is the root of u + gamma (f + g)'(u) = z,
+/// and so is the conjugate, where one of theirs is finite everywhere. Sums of a function by rules with
+/// pieces, maxima of such, and envelopes of such with a prox by cases, have no rule: InvalidInput.
 Function conjugate(const Function&);
 Function envelope(const Function&, const Fraction& gamma);
 Function scale(const Function&, const Fraction& alpha);
@@ -33,6 +34,9 @@ Function tilt(const Function&, const Fraction& c);
 Function add_constant(const Function&, const Fraction& c);
 Function sum(const Function&, const Function&);
 Function inf_convolution(const Function&, const Function&);
+Function pointwise_max(const Function&, const Function&);
+/// The sum of two by rules; see `sum`.
+RuleFunction sum_of_rules(const RuleFunction&, const RuleFunction&);
 
 /// e^x; x log x; -log x; log(1 + e^x); |x|^p, p > 1; x^-q for x > 0; x log(x/r) - x + r.
 /// Conjugates: Rockafellar 1970, section 12; Bauschke and Combettes 2017, chapter 13. Proxes: Chaux,

@@ -155,6 +155,15 @@ ExactCurve set_in(const CallReader& in) {
     const Fraction radius = in.number("radius"), centre = name == "ball2" ? in.number("center") : nought;
     return interval(centre - radius, centre + radius);
   }
+  if (name == "halfspace" || name == "hyperplane") {
+    const Fraction a = in.number("a"), b = in.number("b");
+    if (sign(a) == 0) no_rule(in.itself(), "a is 0");
+    if (name == "hyperplane") return interval(b / a, b / a);
+    return sign(a) > 0 ? interval(std::nullopt, b / a) : interval(b / a, std::nullopt);
+  }
+  if (name == "simplex" || name == "spectraplex") return interval(in.number("total"), in.number("total"));
+  if (name == "second_order_cone" || name == "psd_cone") return interval(nought, std::nullopt);
+  if (name == "monotone_cone") return interval(std::nullopt, std::nullopt);
   no_rule(in.itself(), "it has no rule in symbols");
 }
 
@@ -167,6 +176,52 @@ ExactCurve set_of(const Call& call) {
 
 /// g(w y): the conjugate in the product w x y.
 Function in_product(const Function& g, const Fraction& weight) { return dilate(g, single / weight); }
+
+ExactCurve with_curvature(const ExactCurve& f, const Fraction& c2) {
+  std::vector<ExactPiece> all = pieces(f);
+  for (ExactPiece& one : all) one.c2 = one.c2 + c2;
+  return exact_curve(all);
+}
+
+const ExactCurve& curve_of(const CallReader& in, const Function& f) {
+  const auto* curve = std::get_if<ExactCurve>(&f);
+  if (curve == nullptr) no_rule(in.itself(), "its parts are not quadratic by pieces");
+  return *curve;
+}
+
+/// With j = x²/(2 gamma) in the product: the inf-convolution of weight (f + j)(x/weight) and rest (g +
+/// j)(x/rest), less j (Bauschke, Goebel, Lucet and Wang 2008).
+Function proximal_average(const CallReader& in) {
+  const Function f = in.function("f"), g = in.function("g");
+  const Fraction weight = in.number("weight"), rest = single - weight, c = in.weight() / in.number("gamma");
+  if (sign(rest) == 0) return f;
+  if (sign(weight) == 0) return g;
+  const auto part = [&](const Function& h, const Fraction& share) {
+    return scale(dilate(with_curvature(curve_of(in, h), c), share), share);
+  };
+  return with_curvature(inf_convolution(part(f, weight), part(g, rest)), -c);
+}
+
+/// max_i a_i x + b_i.
+Function max_affine(const CallReader& in) {
+  const Argument *slopes = in.find("A"), *offsets = in.find("b");
+  const auto* A = slopes != nullptr ? std::get_if<Matrix>(slopes) : nullptr;
+  if (A == nullptr || A->cols() != 1)
+    no_rule(in.itself(), "A has not one column, and symbols have one variable");
+  const auto* b = offsets != nullptr ? std::get_if<Vector>(offsets) : nullptr;
+  std::optional<ExactCurve> highest;
+  for (Index i = 0; i < A->rows(); ++i) {
+    const Fraction offset = b != nullptr ? simplest_fraction((*b)[i]) : in.number("b");
+    const ExactCurve line = quadratic(nought, simplest_fraction((*A)(i, 0)), offset);
+    highest = highest ? pointwise_max(*highest, line) : line;
+  }
+  return *highest;
+}
+
+Function absolute_of(const CallReader& in, std::string_view weight) {
+  return absolute(in.number(weight), nought);
+}
+Function itself(const CallReader&) { return quadratic(nought, single, nought); }
 
 using Maker = Function (*)(const CallReader&);
 
@@ -185,6 +240,44 @@ const std::map<std::string, Maker>& makers() {
       {"norm1", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
       {"norm2", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
       {"norm_inf", [](const CallReader& in) -> Function { return absolute(in.number("weight"), nought); }},
+      {"max", itself},
+      {"log_sum_exp", itself},
+      {"sum_largest",
+       [](const CallReader& in) {
+         if (!(in.number("k") == single)) no_rule(in.itself(), "symbols have one variable, and k is more");
+         return itself(in);
+       }},
+      {"max_affine", max_affine},
+      {"sorted_norm1", [](const CallReader& in) { return absolute_of(in, "weights"); }},
+      {"max_eigenvalue",
+       [](const CallReader& in) -> Function { return quadratic(nought, in.number("weight"), nought); }},
+      {"neg_log_det", [](const CallReader&) -> Function { return log_barrier(); }},
+      {"squared_hinge",
+       [](const CallReader&) -> Function {
+         return exact_curve({piece(std::nullopt, single, {2, 1}, {-2, 1}, single),
+                             piece(single, std::nullopt, nought, nought, nought)});
+       }},
+      {"distance",
+       [](const CallReader& in) -> Function {
+         return inf_convolution(set_of(in.call("set")), absolute(in.number("weight"), nought));
+       }},
+      {"squared_distance",
+       [](const CallReader& in) -> Function {
+         return envelope(set_of(in.call("set")), single / in.number("weight"));
+       }},
+      {"intersection",
+       [](const CallReader& in) {
+         Function both = in.function_at(0);
+         for (std::size_t k = 1; k < in.count(); ++k) both = sum(both, in.function_at(k));
+         return both;
+       }},
+      {"pointwise_max",
+       [](const CallReader& in) {
+         Function highest = in.function_at(0);
+         for (std::size_t k = 1; k < in.count(); ++k) highest = pointwise_max(highest, in.function_at(k));
+         return highest;
+       }},
+      {"proximal_average", proximal_average},
       {"elastic_net",
        [](const CallReader& in) -> Function { return absolute(in.number("l1"), in.number("l2")); }},
       {"huber", [](const CallReader& in) -> Function { return huber(in.number("mu")); }},

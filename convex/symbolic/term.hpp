@@ -36,6 +36,9 @@ bool is_number(const Term&, const Fraction&);
 /// The term with another in place of the variable of that name.
 Term substituted(const Term&, const std::string& name, const Term& by);
 
+/// Its derivative by the variable of that name; none where it holds a root or Lambert's function.
+std::optional<Term> derivative(const Term&, const std::string& name);
+
 /// At a value of the variable of that name; roots by bisection to the last digits.
 double evaluate(const Term&, const std::string& name, double at);
 

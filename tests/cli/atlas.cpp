@@ -73,7 +73,24 @@ TEST_CASE("contacts that exclude each other have no atlas") {
   const Outcome outcome =
       run_json_on("atlas", "[projection]\nA = [[1]]\nz = [0]\nU = [[1], [-1]]\ns = [1, 0]\n");
   CHECK(outcome.code == 1);
-  CHECK(Json::parse(outcome.out).at("status") == "infeasible");
+  const Json atlas = Json::parse(outcome.out);
+  CHECK(atlas.at("status") == "infeasible");
+  // 1 u_0 + 1 u_1 = 0, and 1 s_0 + 1 s_1 > 0.
+  CHECK(atlas.at("exact").at("farkas") == Json({{"c[0]", "1"}, {"c[1]", "1"}}));
+}
+
+TEST_CASE("margins are told where their squares are beyond doubles") {
+  const Json atlas =
+      Json::parse(run_json_on("atlas", "[projection]\nA = [[1]]\nz = [3e200]\nU = [[1]]\ns = [0]\n").out);
+  CHECK(double(atlas.at("here").at("margins")[0].at("distance")) == doctest::Approx(3e200));
+}
+
+TEST_CASE("a covariance that is none is called by its name") {
+  const Folder folder;
+  const Outcome outcome = run({"atlas", folder.write("a.toml", corner), "--covariance", "[[1, 2], [2, 1]]"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("--covariance: ") != std::string::npos);
+  CHECK(outcome.err.find("metric") == std::string::npos);
 }
 
 TEST_CASE("the regions of a map fill it, and their corners and areas are exact") {

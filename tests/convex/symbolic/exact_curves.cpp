@@ -133,6 +133,33 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "the larger of two curves is that at every point, also where domains differ and pieces cross twice") {
+  for (const ExactCurve& f : curves())
+    for (const ExactCurve& g : curves()) {
+      std::optional<ExactCurve> highest;
+      try {
+        highest = pointwise_max(f, g);
+      } catch (const InvalidInput&) {  // apart, or a root that is none
+        continue;
+      }
+      for (int k = -84; k <= 84; ++k) {
+        const Fraction x = q(k, 21);
+        const auto at_f = value(f, x), at_g = value(g, x), there = value(*highest, x);
+        REQUIRE(there.has_value() == (at_f && at_g));
+        if (there) CHECK(*there == (*at_f < *at_g ? *at_g : *at_f));
+      }
+    }
+  const ExactCurve square = exact_curve({{std::nullopt, std::nullopt, q(2), q(0), q(0)}});
+  const auto line = [](const Fraction& slope, const Fraction& at_zero) {
+    return exact_curve({{std::nullopt, std::nullopt, q(0), slope, at_zero}});
+  };
+  CHECK(pieces(pointwise_max(square, line(q(1), q(6)))).size() == 3);      // x² = x + 6 at -2 and 3
+  CHECK_THROWS_AS(pointwise_max(square, line(q(0), q(2))), InvalidInput);  // x² = 2
+  const ExactCurve beyond = exact_curve({{q(3, 2), std::nullopt, q(2), q(0), q(0)}});
+  CHECK(pieces(pointwise_max(beyond, line(q(0), q(2)))).size() == 1);  // both roots are outside
+}
+
 TEST_CASE("pieces that jump, bend down or leave a gap are refused") {
   CHECK_THROWS_AS(
       exact_curve({{std::nullopt, q(0), q(0), q(1), q(0)}, {q(0), std::nullopt, q(0), q(-1), q(0)}}),

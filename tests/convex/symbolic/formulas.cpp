@@ -62,6 +62,25 @@ const char* const symbolic_calls[] = {"norm1(weight=2)",
                                       "inf_convolution(exponential(), squared_norm2(1/2))",
                                       "sum(norm1(), indicator(box(-1, 3)), squared_norm2())",
                                       "precompose(huber(1), [[2]], [1])",
+                                      "max()",
+                                      "sum_largest(1)",
+                                      "max_affine([[-1],[1/2],[2]], [0,1,-3])",
+                                      "squared_hinge()",
+                                      "sorted_norm1([2])",
+                                      "log_sum_exp()",
+                                      "distance(box(-1, 1/2), 2)",
+                                      "squared_distance(box(-1, 1/2), 3)",
+                                      "intersection(halfspace([2], 3), halfspace([-1], 2))",
+                                      "pointwise_max(norm1(), constant(1))",
+                                      "pointwise_max(squared_norm2(2), linear([2]), constant(1/4))",
+                                      "pointwise_max(sum(norm1(), indicator(box(-2, 3))), huber(0.5))",
+                                      "pointwise_max(squared_norm2(2), tilt(squared_norm2(2), [1]))",
+                                      "proximal_average(norm1(), squared_norm2(2), 1/3, 2)",
+                                      "proximal_average(indicator(box(-1, 2)), hinge(), 0.5)",
+                                      "sum(exponential(), entropy())",
+                                      "sum(exponential(), power(4))",
+                                      "sum(entropy(), translate(log_barrier(), 1/2))",
+                                      "sum(logistic(), power(3), inverse_power(1))",
                                       "translate(scale(dilate(kullback_leibler(1/3), 2), 1/2), -1)"};
 
 }  // namespace
@@ -74,8 +93,13 @@ TEST_CASE("formulas by cases have the values of the function, its conjugate and 
       const Fraction w{weight, 1};
       const Function number = make_function(call, {W}), dual = number.conjugate(W);
       const symbolic::Function f = symbolic::function_of(call, w);
-      const symbolic::Cases formula = symbolic::formula(f),
-                            conjugate = symbolic::conjugate_formula(dilate(f, w));
+      const symbolic::Cases formula = symbolic::formula(f);
+      symbolic::Cases conjugate;
+      try {
+        conjugate = symbolic::conjugate_formula(dilate(f, w));
+      } catch (const InvalidInput&) {  // of a sum by rules that is not known to grow
+        CHECK(std::string(text).rfind("sum(", 0) == 0);
+      }
       CAPTURE(text);
       CAPTURE(weight);
       for (const double at : {-3.7, -1.3, -0.61, -0.2, 0.17, 0.43, 0.9, 1.6, 2.4, 5.1}) {
@@ -84,9 +108,11 @@ TEST_CASE("formulas by cases have the values of the function, its conjugate and 
         const double f_value = number(point), f_formula = evaluate(formula, "x", at);
         CHECK(std::isfinite(f_value) == std::isfinite(f_formula));
         if (std::isfinite(f_value)) CHECK(f_formula == doctest::Approx(f_value).epsilon(1e-9));
-        const double g_value = dual(point), g_formula = evaluate(conjugate, "y", at);
-        CHECK(std::isfinite(g_value) == std::isfinite(g_formula));
-        if (std::isfinite(g_value)) CHECK(g_formula == doctest::Approx(g_value).epsilon(1e-9));
+        if (!conjugate.empty()) {
+          const double g_value = dual(point), g_formula = evaluate(conjugate, "y", at);
+          CHECK(std::isfinite(g_value) == std::isfinite(g_formula));
+          if (std::isfinite(g_value)) CHECK(g_formula == doctest::Approx(g_value).epsilon(1e-9));
+        }
         for (const double gamma : {1.0, 0.25, 4.0}) {
           const double x = number.prox(point, W.scaled(1 / gamma)).x[0];
           const symbolic::Cases prox = symbolic::prox_formula(f, symbolic::simplest_fraction(gamma) / w);
@@ -99,6 +125,8 @@ TEST_CASE("formulas by cases have the values of the function, its conjugate and 
 
 TEST_CASE("what has no rule is refused by name") {
   for (const char* text :
-       {"nuclear_norm(1, 1)", "sum(entropy(), exponential())", "sum(entropy(), norm1())", "max()"})
+       {"nuclear_norm(1, 1)", "sum(entropy(), norm1())", "pointwise_max(entropy(), norm1())",
+        "pointwise_max(squared_norm2(1), constant(1))", "sum_largest(2)",
+        "sum(exponential(), dilate(log_barrier(), -1))"})
     CHECK_THROWS_AS(symbolic::function_of(cli::parse_call(text, "f")), InvalidInput);
 }
