@@ -23,10 +23,8 @@ std::vector<Index> members_named(const std::vector<std::string>& known, const st
     for (std::size_t k = 0; k < known.size(); ++k)
       if (known[k] == name || known[k].rfind(name + "[", 0) == 0) found.push_back(static_cast<Index>(k));
     if (found.size() > before) continue;
-    const std::string nearest = convex::nearest_name(name, known);
-    throw InvalidInput(
-        what + ": there is no " + kind + " \"" + shown(name) + "\"" +
-        (nearest.empty() ? "; see the names in the file" : "; did you mean \"" + nearest + "\"?"));
+    throw InvalidInput(what + ": there is no " + kind + " \"" + shown(name) + "\"; " +
+                       convex::suggestion(name, known));
   }
   return found;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 
 #include "cli/report/json_writer.hpp"
@@ -46,6 +47,11 @@ Exit answered(const Printing& printing, const Source& source, const std::functio
     return work();
   } catch (const convex::InvalidInput& error) {
     report(printing, source, error.what(), error.place().value_or(convex::Place{}));
+  } catch (const std::filesystem::filesystem_error& error) {
+    report(printing, source,
+           "cannot write " + error.path1().string() + ", " + error.code().message() +
+               "; check its folder and permissions",
+           {});
   } catch (const std::bad_alloc&) {
     report(printing, source, "needs more memory than there is; make the problem smaller", {});
   }

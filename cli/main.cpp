@@ -45,16 +45,36 @@ std::string unexpected(const CLI::App& app) {
   const std::vector<std::string> left = app.remaining(true);
   const auto option_like = [](const std::string& text) { return text.rfind("--", 0) == 0; };
   const auto found = std::find_if(left.begin(), left.end(), option_like);
+  const auto is_negative = [](const std::string& text) {
+    return text.rfind('-', 0) == 0 && text.find('(') != std::string::npos;
+  };
+  if (const auto minus = std::find_if(left.begin(), left.end(), is_negative); minus != left.end())
+    return "\"" + *minus +
+           "\" begins with a minus; a negative multiple of a convex function is none, give f itself";
   if (found == left.end())
     return left.empty()
                ? ""
                : "\"" + left.front() + "\" is more than " + command.get_name() + " takes; " + help_on(app);
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  const std::string nearest = convex::nearest_name(*found, known);
-  return command.get_name() + " has no option " + *found + "; " +
-         (nearest.empty() ? help_on(app) : "did you mean " + nearest + "?");
+    for (const std::string& name : option->get_lnames()) known.push_back(name);
+  const std::string name = found->substr(2, found->find('=') - 2);
+  const std::string has_none = command.get_name() + " has no option --" + name + "; ";
+  const bool takes_settings = std::find(known.begin(), known.end(), "set") != known.end();
+  for (const char* key : {"step", "samples", "restitution", "impact_law"})
+    if (takes_settings && name == key)
+      return has_none + "it is a key of the file, --set \"simulate." + key + "=…\"";
+  const std::string nearest = convex::nearest_name(name, known);
+  return has_none + (nearest.empty() ? help_on(app) : "did you mean --" + nearest + "?");
+}
+
+/// "--until: "x" is no number", of CLI11's own "Could not convert: --until = x".
+std::string in_own_words(const std::string& said) {
+  const std::string prefix = "Could not convert: ";
+  const std::size_t equals = said.find(" = ");
+  if (said.rfind(prefix, 0) != 0 || equals == std::string::npos) return said;
+  return said.substr(prefix.size(), equals - prefix.size()) + ": \"" + said.substr(equals + 3) +
+         "\" is no number here";
 }
 
 }  // namespace
@@ -87,7 +107,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (argc < 2) std::fputs(app.help().c_str(), stderr);
     const std::string message = unexpected(app);
-    return wrong(message.empty() ? std::string(error.what()) + "; " + help_on(app) : message);
+    return wrong(message.empty() ? in_own_words(error.what()) + "; " + help_on(app) : message);
   }
   try {
     return static_cast<int>(chosen());

@@ -62,7 +62,9 @@ double value_of(const Problem& problem, const mechanics::LagrangianSystem& syste
   try {
     return system.state(state).t;
   } catch (const InvalidInput& error) {
-    throw InvalidInput(where + " " + expression + ": " + error.what());
+    const std::string what = error.what(), prefix = "t of the state: ";  // it was read as one
+    throw InvalidInput(where + " " + expression + ": " +
+                       (what.starts_with(prefix) ? what.substr(prefix.size()) : what));
   }
 }
 
@@ -76,7 +78,8 @@ convex::Vector multiples_of_turns(const Problem& problem, const mechanics::Lagra
     if (equals == std::string::npos || place == coordinates.end())
       throw InvalidInput("--modulo " + text + ": no coordinate and multiple; write --modulo \"a=2*pi\"");
     const double multiple = value_of(problem, system, text.substr(equals + 1), "--modulo");
-    if (!(multiple > 0)) throw InvalidInput("--modulo " + text + ": the multiple is not positive");
+    if (!(multiple > 0))
+      throw InvalidInput("--modulo " + text + ": the multiple is not positive; give one > 0");
     found[place - coordinates.begin()] = multiple;
   }
   return found;

@@ -21,12 +21,13 @@ convex::Vector numbers_by_coordinate(const json& state, const char* key, const m
   if (found->size() != coordinates.size())
     throw InvalidInput(where + ": \"" + key + "\" is of another system; it has " +
                        std::to_string(found->size()) + " coordinates, this one " +
-                       std::to_string(coordinates.size()));
+                       std::to_string(coordinates.size()) + "; give the file of this system");
   convex::Vector numbers(static_cast<Index>(coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const auto number = found->find(coordinates[i]);
     if (number == found->end() || !number->is_number() || !std::isfinite(number->get<double>()))
-      throw InvalidInput(where + ": \"" + key + "\" has no number for " + coordinates[i]);
+      throw InvalidInput(where + ": \"" + key + "\" has no number for " + coordinates[i] +
+                         "; give every coordinate one");
     numbers[static_cast<Index>(i)] = number->get<double>();
   }
   return numbers;
@@ -36,7 +37,12 @@ convex::Vector numbers_by_coordinate(const json& state, const char* key, const m
 
 mechanics::State resumed_state(const std::string& file, const mechanics::System& system) {
   const std::string where = "--resume " + file;
-  const std::string text = read_file(file);
+  std::string text;
+  try {
+    text = read_file(file);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(where + ": " + error.what());
+  }
   const json state = json::parse(text.substr(0, text.find('\n')), nullptr, false);
   const json whole = state.is_discarded() ? json::parse(text, nullptr, false) : state;
   if (!whole.is_object())

@@ -114,13 +114,14 @@ Exit assemble_file(const AssembleOptions& options) {
     question.contacts.push_back(a);
   for (const Index i : coordinates_named(*system, options.held, "--hold")) question.held.push_back(i);
   const Assembly found = mechanics::assemble(*system, system->state(text->state), question);
+  if (options.output && found.status == AssemblyStatus::solved)
+    write_file(*options.output, assembled_file(document, *system, found.state));
   if (options.json)
     fmt::print("{}\n", assembly_json(*system, found, options.file));
   else if (!options.quiet)
     fmt::print("{}{}", heading(problem.title, options.file), assembly_text(*system, found));
   if (found.status == AssemblyStatus::infeasible) return Exit::no_solution;
   if (found.status == AssemblyStatus::gave_up) return Exit::inaccurate;
-  if (options.output) write_file(*options.output, assembled_file(document, *system, found.state));
   return Exit::solved;
 }
 

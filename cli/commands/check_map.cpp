@@ -65,7 +65,9 @@ MapTable read_map_table(const std::string& path) {
     if (line.find_first_not_of(" \r") == std::string::npos) continue;
     const bool fits = is_row && row.size() >= 2 && row.size() % 2 == 0 &&
                       (table.n == 0 || static_cast<Index>(row.size()) == 2 * table.n);
-    if (!fits) throw InvalidInput(path + ": a row is z1, …, zn, T1, …, Tn", convex::Place{number, 1});
+    if (!fits)
+      throw InvalidInput(path + ": no row of numbers z1, …, zn, T1, …, Tn; give every row as many",
+                         convex::Place{number, 1});
     const auto half = static_cast<std::ptrdiff_t>(row.size() / 2);
     table.n = static_cast<Index>(half);
     table.z.push_back(convex::exact_vector(std::vector<Fraction>(row.begin(), row.begin() + half)));
@@ -106,7 +108,9 @@ void read_box(const MapOptions& options, convex::MapSamples& samples) {
   const auto low = convex::read_fraction(options.box->substr(0, colon));
   const auto high =
       colon == std::string::npos ? std::nullopt : convex::read_fraction(options.box->substr(colon + 1));
-  if (!low || !high) throw InvalidInput("--box " + shown(*options.box) + ": write low:high, such as -4:4");
+  if (!low || !high)
+    throw InvalidInput("--box " + shown(*options.box) +
+                       ": no range of numbers; write low:high, such as -4:4");
   samples.low = convex::nearest_double(*low);
   samples.high = convex::nearest_double(*high);
 }

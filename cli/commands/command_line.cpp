@@ -36,7 +36,14 @@ std::string positive_number(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (end != text.c_str() && *end == '\0' && std::isfinite(value) && value > 0) return "";
-  return text + " is not a positive number; give one, such as 1e-9";
+  return text + " is not a positive number; give one above 0";
+}
+
+std::string nonnegative_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end != text.c_str() && *end == '\0' && std::isfinite(value) && value >= 0) return "";
+  return text + " is not a number from 0 on; give 0 or more";
 }
 
 void add_accuracy(CLI::App& command, AccuracyOptions& options) {
@@ -52,7 +59,7 @@ void add_accuracy(CLI::App& command, AccuracyOptions& options) {
           "--limit", options.limit,
           "let fractions take N times their usual share (some seconds) where doubles cannot decide; 0: never")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
+      ->check(nonnegative_number);
 }
 
 void add_step_tolerance(CLI::App& command, MotionChoice& options) {

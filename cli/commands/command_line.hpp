@@ -67,6 +67,7 @@ void add_step_tolerance(CLI::App& command, MotionChoice&);
 
 /// Of the text of an option: "", or what is wrong with it.
 std::string positive_number(const std::string& text);
+std::string nonnegative_number(const std::string& text);
 
 /// A function with a point and a metric, as `prox` and `conjugate` are asked for.
 struct FunctionOptions : Printing, AccuracyOptions {

@@ -108,7 +108,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   question.is_free = *options.period == "free";
   if (!question.is_free) {
     const double period = value_of(problem, *system, *options.period, "--period");
-    if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive");
+    if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive; give a time > 0");
     question.period = period * static_cast<double>(options.periods);
   }
   if (options.over) return orbit_branch(file, problem, question, options);
@@ -145,7 +145,7 @@ void add_orbit(CLI::App& program, Work& chosen) {
       ->type_name("P");
   command.add_option("--periods", options->periods, "it comes back after so many periods; default 1")
       ->type_name("K")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number);
   command
       .add_option("--modulo", options->modulo, "a coordinate that comes back up to a multiple: \"a=2*pi\"")
       ->type_name("a=M");

@@ -53,7 +53,7 @@ Problem with_parameter(Problem problem, const std::string& name, double value) {
       parameter.value.text = fmt::format("{}", value);
       return problem;
     }
-  throw InvalidInput("--over: no parameter \"" + name + "\" in the file");
+  throw InvalidInput("--over: no parameter \"" + name + "\" in the file; name one of [system.parameters]");
 }
 
 /// An orbit of the branch, at a value of the parameter.

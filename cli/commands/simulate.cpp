@@ -16,6 +16,7 @@
 #include "cli/report/motion_report.hpp"
 #include "cli/resumed_state.hpp"
 #include "cli/scene.hpp"
+#include "convex/nearest_name.hpp"
 #include "mechanics/motion/motion.hpp"
 
 namespace cli {
@@ -60,7 +61,8 @@ class MotionFiles {
     Instants instants = evenly;
     if (options.strobe) {
       const double period = value_of(problem, system, *options.strobe, "--strobe");
-      if (!(period > 0)) throw InvalidInput("--strobe " + *options.strobe + ": not positive");
+      if (!(period > 0))
+        throw InvalidInput("--strobe " + *options.strobe + ": not positive; give a time > 0");
       instants = Instants::strobe(begin, end, period);
       if (!options.output && !options.phase)
         throw InvalidInput(
@@ -72,7 +74,9 @@ class MotionFiles {
       if (!options.plot) throw InvalidInput("--phase says what --plot draws; add --plot F.svg");
       const auto& names = system.coordinates();
       const auto found = std::find(names.begin(), names.end(), *options.phase);
-      if (found == names.end()) throw InvalidInput("--phase " + *options.phase + ": no such coordinate");
+      if (found == names.end())
+        throw InvalidInput("--phase " + *options.phase + ": no such coordinate; " +
+                           convex::suggestion(*options.phase, names));
       constexpr long curve_points = 4001;
       phase_.emplace(system, found - names.begin(),
                      options.strobe ? instants : Instants::evenly(begin, end, curve_points),
@@ -83,6 +87,9 @@ class MotionFiles {
     if (options.output) trajectory_.emplace(*options.output, system, instants, modulo);
     if (options.events) events_.emplace(*options.events, system);
     if (options.animate) {
+      if (!options.animate->ends_with(".html") && !options.animate->ends_with(".htm"))
+        throw InvalidInput("--animate " + *options.animate +
+                           ": it is a page; give a name that ends with .html");
       page_.emplace(opened(*options.animate));
       animation_.emplace(system, scene_, evenly);
     }

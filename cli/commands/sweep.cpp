@@ -272,7 +272,8 @@ std::string summary_text(const SweepSummary& summary) {
 
 Exit sweep(const SweepOptions& options) {
   if (options.plot) require_drawable(*options.plot);
-  if (options.resume && !options.output) throw InvalidInput("--resume goes with --output F.csv");
+  if (options.resume && !options.output)
+    throw InvalidInput("--resume goes with --output F.csv; add the file to go on with");
   TomlValue document = read_document(options.file);
   apply_settings(document, parsed_settings(options.settings));
   Sweep sweep(options, std::move(document));

@@ -122,6 +122,13 @@ void require_drawable(const std::string& file) {
   terminal_text(file, picture_width, picture_width);
   if (!has_gnuplot())
     throw InvalidInput(file + ": pictures are drawn by gnuplot, which is not in PATH; " + gnuplot_advice);
+  // Asked before the work, and without a trace of it where this ends without a picture.
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const fs::path folder = fs::path(file).has_parent_path() ? fs::path(file).parent_path() : fs::path(".");
+  const bool is_writable = fs::is_directory(folder, none) && !fs::is_directory(file, none) &&
+                           access(fs::exists(file, none) ? file.c_str() : folder.c_str(), W_OK) == 0;
+  if (!is_writable) throw InvalidInput("cannot write " + file + "; check its folder and permissions");
 }
 
 void draw(const std::string& file, const Drawing& drawing) {
@@ -131,7 +138,13 @@ void draw(const std::string& file, const Drawing& drawing) {
   std::string said;
   std::array<char, 512> block{};
   while (std::fgets(block.data(), block.size(), program) != nullptr) said += block.data();
-  if (pclose(program) != 0) throw InvalidInput("gnuplot says: " + said + "; install version 5.2 or later");
+  if (pclose(program) != 0) {
+    for (char& c : said)
+      if (static_cast<unsigned char>(c) < 0x20U) c = ' ';
+    throw InvalidInput(
+        file +
+        ": gnuplot cannot draw it; version 5.2 or later is needed, and room on the disk. It says: " + said);
+  }
   if (file.ends_with(".svg")) write_ampersands_as_entities(file);
 }
 

@@ -60,9 +60,66 @@ constexpr OtherWord other_words[] = {
     {"function", "f"},
     {"rays", "generators"},
     {"name", "title"},
+    {"body", "bodies"},
+    {"rigid_bodies", "bodies"},
+    {"simulation", "simulate"},
 };
 
-std::string advice_on_key(const std::string& unknown, const std::vector<std::string>& known) {
+/// The table that a key belongs to; "" for a table by itself.
+constexpr OtherWord homes[] = {
+    {"coordinates", "system"},
+    {"kinetic", "system"},
+    {"potential", "system"},
+    {"parameters", "system"},
+    {"definitions", "system"},
+    {"forces", "system"},
+    {"constraints", "system"},
+    {"looseness", "system"},
+    {"position", "state"},
+    {"velocity", "state"},
+    {"in_contact", "state"},
+    {"solve_for", "state"},
+    {"until", "simulate"},
+    {"samples", "simulate"},
+    {"step", "simulate"},
+    {"restitution", "simulate"},
+    {"impact_law", "simulate"},
+    {"contact_tolerance", "solve"},
+    {"points", "draw"},
+    {"segments", "draw"},
+    {"circles", "draw"},
+    {"state", ""},
+    {"solve", ""},
+    {"simulate", ""},
+    {"draw", ""},
+    {"bodies", ""},
+};
+
+/// What there is not here, and what is done about it.
+constexpr OtherWord not_here[] = {
+    {"friction", "contacts have no friction here; a force along a surface goes into [system.forces]"},
+    {"mu", "contacts have no friction here; a force along a surface goes into [system.forces]"},
+    {"damping", "write it as a force, [system.forces] x = \"-c*x'\""},
+    {"stiffness", "write it into the potential, potential = \"k/2*x^2\""},
+    {"lagrangian", "give T and V apart, kinetic = and potential ="},
+    {"L", "give T and V apart, kinetic = and potential ="},
+    {"mass", "write it into the kinetic energy, kinetic = \"m/2*x'^2\", m below [system.parameters]"},
+    {"masses", "write them into the kinetic energy, kinetic = \"m/2*x'^2\", m below [system.parameters]"},
+};
+
+std::string advice_on_key(const std::string& unknown, bool is_table, const std::string& where,
+                          const std::vector<std::string>& known) {
+  const bool is_of_system =
+      where.empty() || where == "system" || where == "state" || where == "simulate" || where == "solve";
+  for (const OtherWord& home : homes)
+    if (is_of_system && unknown == home.word && where != home.key) {
+      const std::string table(home.key);
+      if (table.empty()) return "it is a table by itself, write [" + unknown + "]";
+      return is_table ? "it is a part of [" + table + "], write [" + table + "." + unknown + "]"
+                      : "it belongs below [" + table + "]";
+    }
+  for (const OtherWord& other : not_here)
+    if (is_of_system && unknown == other.word) return other.key;
   for (const OtherWord& other : other_words)
     if (unknown == other.word && std::find(known.begin(), known.end(), other.key) != known.end())
       return "did you mean \"" + std::string(other.key) + "\"?";
@@ -86,14 +143,15 @@ void require_known_keys(const TomlValue& table, const std::string& where,
     if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
     throw InvalidInput("unknown key \"" + shown(entry.key) + "\"" +
                            (where.empty() ? "" : " in [" + where + "]") + "; " +
-                           advice_on_key(entry.key, names),
+                           advice_on_key(entry.key, entry.value.kind == TomlValue::Kind::table, where, names),
                        entry.place);
   }
 }
 
 const TomlValue& require_table(const TomlValue& value, const std::string& where) {
   if (value.kind != TomlValue::Kind::table)
-    throw InvalidInput(where + ": not a table; write [" + where + "] and its keys below it", value.place);
+    throw InvalidInput(where + ": not a table; write [" + where + "] and its keys below it, as name = value",
+                       value.place);
   return value;
 }
 

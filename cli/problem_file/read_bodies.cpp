@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cctype>
+#include <limits>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/tables.hpp"
 
 namespace cli {
@@ -13,28 +15,54 @@ using mechanics::Text;
 
 bool is_letter_or_digit(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// How a mass or a moment of inertia stands in T: a number or a name as it is, another expression as a
-/// definition `name`, so that what is wrong with it is told at its own place.
-std::string quantity(const TomlValue& value, const std::string& where, const std::string& name,
-                     LagrangianText& system) {
+/// A mass or a moment of inertia: how it stands in T, and how it was written.
+struct Quantity {
+  std::string name, written;
+  convex::Place place;
+};
+
+/// A number or the name of a parameter as it is, another expression as a parameter `name`: it may not depend
+/// on the motion, for which T would be another.
+Quantity quantity(const TomlValue& value, const std::string& where, const std::string& name,
+                  LagrangianText& system) {
   if (value.is_number()) {
-    if (!(value.number > 0) || value.number > 1e300)
-      throw InvalidInput(where + ": " + shown(value.text) + " is not positive; give a number > 0",
-                         value.place);
-    return value.text;
+    require_positive(value, where);
+    return {value.text, value.text, value.place};
   }
   const std::string& text = require_string(value, where);
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_letter_or_digit)) return text;
-  system.definitions.push_back({{name, value.place}, {text, value.content}});
-  return name;
+  const auto is_it = [&](const mechanics::NamedText& p) { return p.name.text == text; };
+  const bool is_parameter = std::any_of(system.parameters.begin(), system.parameters.end(), is_it);
+  if (!is_parameter) system.parameters.push_back({{name, value.place}, {text, value.content}});
+  const std::optional<double> number = value_in_parameters(system, is_parameter ? text : name);
+  if (number && !(*number > 0))
+    throw InvalidInput(where + ": " + shown(text) + " is not positive; give a number > 0", value.place);
+  return {is_parameter ? text : name, text, value.place};
+}
+
+/// Each principal moment is at most the sum of the other two, for I_x + I_y - I_z is twice the sum of m z^2
+/// (Goldstein, Poole and Safko 2002, section 5.3).
+void require_triangle(const std::string& where, const Quantity (&moments)[3], const LagrangianText& system) {
+  std::optional<double> value[3];
+  for (int k = 0; k < 3; ++k) {
+    value[k] = value_in_parameters(system, moments[k].name);
+    if (!value[k]) return;  // wrong in itself, which is told of it
+  }
+  for (int k = 0; k < 3; ++k) {
+    const double one = *value[k], others = *value[(k + 1) % 3] + *value[(k + 2) % 3];
+    constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();  // of three moments and a sum
+    if (one - others <= rounding * one) continue;
+    throw InvalidInput(where + ": no body has moments of which one, " + shown(moments[k].written) +
+                           ", is more than the sum of the others; give those about the body's principal axes",
+                       moments[k].place);
+  }
 }
 
 /// The part of T of one body: its centre moves, and it turns with the angular velocity w = 2 G(e) e' in its
 /// own axes (Euler's parameters; Goldstein, Poole and Safko 2002, section 4.8). The last term is 0 where |e|
 /// = 1 is kept; without it T would not be definite in e'. Its factor is that of a ball of the same mean
 /// inertia.
-std::string kinetic_energy(const std::string& body, const std::string& mass,
-                           const std::string (&inertia)[3]) {
+std::string kinetic_energy(const std::string& body, const std::string& mass, const Quantity (&moments)[3]) {
+  const std::string inertia[3] = {moments[0].name, moments[1].name, moments[2].name};
   const auto q = [&](const char* suffix) { return body + "_" + suffix; };
   const auto v = [&](const char* suffix) { return body + "_" + suffix + "'"; };
   const auto turn = [&](const char* const(&order)[4], const char* const(&signs)[4]) {
@@ -66,11 +94,12 @@ void add_bodies(const TomlValue& bodies, LagrangianText& system) {
       throw InvalidInput(
           where + ".inertia: not three moments; write inertia = [Ix, Iy, Iz], about the body's own axes",
           inertia == nullptr ? entry.place : inertia->place);
-    const std::string m = quantity(*mass, where + ".mass", entry.key + "_mass", system);
-    std::string moments[3];
+    const std::string m = quantity(*mass, where + ".mass", entry.key + "_mass", system).name;
+    Quantity moments[3];
     for (std::size_t k = 0; k < 3; ++k)
       moments[k] = quantity(inertia->array[k], where + ".inertia",
                             entry.key + "_I" + std::string(1, "xyz"[k]), system);
+    require_triangle(where + ".inertia", moments, system);
     for (const char* suffix : {"_x", "_y", "_z", "_e0", "_e1", "_e2", "_e3"})
       system.coordinates.push_back({entry.key + suffix, entry.place});
     const std::string kinetic = kinetic_energy(entry.key, m, moments);

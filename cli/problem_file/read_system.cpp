@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "cli/problem_file/keys.hpp"
+#include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/table_points.hpp"
 #include "cli/problem_file/tables.hpp"
 
@@ -110,7 +111,9 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
                          between == nullptr ? entry.place : between->place);
     if (gap == nullptr)
       throw InvalidInput(where + ".gap: missing; write gap = 0.01, the whole play", entry.place);
-    if (gap->is_number() && gap->number < 0)
+    const std::optional<double> width =
+        gap->is_string() ? value_in_parameters(problem.system, gap->text) : std::optional(gap->number);
+    if (width && *width < 0)
       throw InvalidInput(where + ".gap: " + shown(gap->text) + " is negative; give the whole play, >= 0",
                          gap->place);
     const Text a = expression(between->array[0], where + ".between"),

@@ -2,7 +2,8 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
-#include <cctype>
+
+#include "cli/problem_file/toml_slip.hpp"
 
 namespace cli {
 namespace {
@@ -96,45 +97,6 @@ class Converter {
   mutable std::size_t offset_before_ = 0;
 };
 
-/// The value that a place of the text is in, from its = or [ or comma to the end of the line or the next
-/// comma or bracket; "" where there is none.
-std::string value_around(const std::string& text, convex::Place at) {
-  std::size_t begin = 0;
-  for (int line = 1; line < at.line && begin != std::string::npos; ++line) {
-    begin = text.find('\n', begin);
-    if (begin != std::string::npos) ++begin;
-  }
-  if (begin == std::string::npos) return "";
-  const std::string line = text.substr(begin, text.find_first_of("\r\n", begin) - begin);
-  const std::size_t here = std::min(line.size(), static_cast<std::size_t>(at.column - 1));
-  std::size_t first = here;
-  // The = of a key has that key alone before it; that of a relation is part of its expression.
-  const auto assigns = [&](std::size_t i) {
-    if (line[i] != '=') return false;
-    while (i > 0 && (std::isalnum(static_cast<unsigned char>(line[i - 1])) != 0 ||
-                     std::string(" \t_-.\"[]").find(line[i - 1]) != std::string::npos))
-      --i;
-    return i == 0 || line[i - 1] == '{' || line[i - 1] == ',';
-  };
-  while (first > 0 && !assigns(first - 1) && line[first - 1] != ',' && line[first - 1] != '{' &&
-         !(line[first - 1] == '[' && first > 1 && (line[first - 2] == ' ' || line[first - 2] == '=')))
-    --first;
-  std::size_t last = line.find_first_of(",}#", here);
-  std::string value = line.substr(first, last == std::string::npos ? last : last - first);
-  while (!value.empty() && value.front() == ' ') value.erase(0, 1);
-  while (!value.empty() && (value.back() == ' ' || value.back() == ']')) value.pop_back();
-  return value;
-}
-
-/// Whether it reads as an expression that lacks its quotation marks.
-bool is_bare_expression(const std::string& value) {
-  constexpr std::size_t longest = 80;
-  if (value.empty() || value.size() > longest || value.find_first_of("\"\\") != std::string::npos)
-    return false;
-  const unsigned char first = static_cast<unsigned char>(value.front());
-  return std::isalnum(first) != 0 || first == '-' || first == '+' || first == '(';
-}
-
 /// A key of more parts than this is refused before it is followed into the depth.
 constexpr int most_key_parts = 64;
 
@@ -193,11 +155,9 @@ TomlValue parse_toml(const std::string& text) {
     return Converter(text).value(document);
   } catch (const toml::parse_error& error) {
     const convex::Place at = Converter::place(error.source().begin);
-    const std::string value = value_around(text, at);
-    if (is_bare_expression(value))
-      throw convex::InvalidInput(
-          "not a TOML value: " + value + "; put it in quotation marks, \"" + value + "\"", at);
     std::string what(error.description());
+    if (const std::string advice = advice_on_slip(text, at, what); !advice.empty())
+      throw convex::InvalidInput(advice, at);
     const std::string prefix = "Error while parsing ";
     if (what.rfind(prefix, 0) == 0) what = "cannot read " + what.substr(prefix.size());
     constexpr std::size_t longest = 200;

@@ -17,7 +17,9 @@ ForceRange parse_force_range(const std::string& text, const std::vector<std::str
   const std::string prefix = "force.";
   const std::size_t equals = text.find('='), colon = text.find(':', equals);
   if (text.rfind(prefix, 0) != 0 || equals == std::string::npos || colon == std::string::npos)
-    refuse("write force.x=-5:5, a force on the coordinate x from -5 to 5, added to that of the file");
+    refuse(
+        "no range of a force; write force.x=-5:5, a force on the coordinate x from -5 to 5, added to that of "
+        "the file");
   ForceRange range;
   range.key = text.substr(0, equals);
   const std::string name = range.key.substr(prefix.size());
@@ -27,7 +29,7 @@ ForceRange parse_force_range(const std::string& text, const std::vector<std::str
   const auto low = convex::read_fraction(text.substr(equals + 1, colon - equals - 1)),
              high = convex::read_fraction(text.substr(colon + 1));
   if (!low || !high) refuse("a bound is no number; write force.x=-5:5");
-  if (!(*low < *high)) refuse("the first bound is not below the second");
+  if (!(*low < *high)) refuse("the first bound is not below the second; write low:high");
   range.low = *low;
   range.high = *high;
   return range;

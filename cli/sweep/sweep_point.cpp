@@ -77,11 +77,16 @@ std::vector<Watched> SweepScene::watched(const std::vector<std::string>& names,
     } else if (name.size() > 2 && name.compare(name.size() - 2, 2, "''") == 0) {
       place = place_of(known.coordinates, name.substr(0, name.size() - 2));
     }
-    if (!place)
-      throw InvalidInput(
-          "--watch " + shown(name) +
-          ": there is no such number; write x'', lambda[floor], reaction[x] or gauss with names "
-          "of the file");
+    if (!place) {
+      std::vector<std::string> numbers{"gauss"};
+      for (const std::string& coordinate : known.coordinates) {
+        numbers.push_back(coordinate + "''");
+        numbers.push_back("reaction[" + coordinate + "]");
+      }
+      for (const std::string& constraint : known.constraints) numbers.push_back("lambda[" + constraint + "]");
+      throw InvalidInput("--watch " + shown(name) + ": there is no such number; " +
+                         convex::suggestion(name, numbers));
+    }
     found.push_back({name, of, *place});
   }
   return found;

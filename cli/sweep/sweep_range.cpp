@@ -51,14 +51,14 @@ SweepRange parse_sweep_range(const std::string& text) {
       range.values.push_back(convex::nearest_double(number(part, text)));
     return range;
   }
-  if (bounds.size() != 3) refuse_range(text, "a range is first:step:last");
+  if (bounds.size() != 3) refuse_range(text, "a range has three numbers; write first:step:last, a=0:0.1:1");
   range.is_range = true;
   const Fraction first = number(bounds[0], text), step = number(bounds[1], text),
                  last = number(bounds[2], text);
-  if (convex::sign(step) == 0) refuse_range(text, "the step is 0");
+  if (convex::sign(step) == 0) refuse_range(text, "the step is 0; give another");
   const Fraction steps = (last - first) / step;
   const double count = std::floor(convex::nearest_double(steps));
-  if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value");
+  if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value; change its sign");
   if (count >= most_values) refuse_range(text, "more than 1e9 values; choose a larger step");
   for (double k = 0; k <= count; ++k)
     range.values.push_back(convex::nearest_double(first + step * Fraction{static_cast<std::int64_t>(k), 1}));

@@ -100,6 +100,14 @@ std::string unknown_entry(std::string_view name) {
   std::vector<std::string> names;
   for (const CatalogueEntry& entry : catalogue()) names.emplace_back(entry.name);
   const std::string nearest = nearest_name(name, names);
+  if (nearest.empty()) {
+    std::vector<std::string> elsewhere;
+    for (const OtherName& other : other_names) elsewhere.emplace_back(other.name);
+    const std::string near = nearest_name(name, elsewhere);
+    for (const OtherName& other : other_names)
+      if (other.name == near && name.size() > 2)
+        return there_is_none + "did you mean \"" + near + "\", here " + std::string(other.here) + "?";
+  }
   return there_is_none + (nearest.empty() ? "" : "did you mean \"" + nearest + "\"? ") +
          "`moreau functions` lists them";
 }

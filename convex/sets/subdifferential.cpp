@@ -124,7 +124,8 @@ PolyhedralCone tangent_cone(const Subdifferential& normal) {
 
 PolyhedralCone critical_cone(const Subdifferential& normal, const Fractions& v) {
   const PolyhedralCone T = tangent_cone(normal);
-  if (!normal.contains(v)) throw InvalidInput("critical cone: the covector is no normal at the point");
+  if (!normal.contains(v))
+    throw InvalidInput("critical cone: the covector is no normal at the point; give one of the normal cone");
   const ExactVector row = exact_vector(v);
   return intersection(T, halfspace_cone({}, {row}, T.n));
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "mechanics/expression/unknown_function.hpp"
+
 namespace mechanics::expression {
 namespace {
 
@@ -77,8 +79,9 @@ Token Lexer::next() {
   std::size_t length = 1;
   while (begin + length < text.size() && (static_cast<unsigned char>(text[begin + length]) & 0xC0U) == 0x80U)
     ++length;
-  source_->fail(begin, "the character " + quoted(text.substr(begin, length)) +
-                           " has no meaning in an expression; write it with names, numbers and + - * / ^ '");
+  const std::string_view character = text.substr(begin, length);
+  source_->fail(begin, "the character " + quoted(character) + " has no meaning in an expression; write " +
+                           instead_of_character(character));
 }
 
 Token Lexer::number() {

@@ -39,7 +39,11 @@ void Parsing::unexpected(const char* wanted) const {
     source_->fail(token_.offset, "\"" + sign + "\" is no relation; write " + sign + "=");
   }
   const std::string got = token_.kind == Kind::end ? "the end" : quoted(token_.text);
-  source_->fail(token_.offset, "got " + got + "; expected " + wanted);
+  const bool is_factor =
+      token_.kind == Kind::name || token_.kind == Kind::number || token_.kind == Kind::open;
+  const bool is_product = is_factor && std::string_view(wanted).starts_with("an operator");
+  source_->fail(token_.offset,
+                "got " + got + "; expected " + wanted + (is_product ? ": a product is written with *" : ""));
 }
 
 Instruction& Parsing::emit(Step step, std::size_t offset, std::uint32_t operand) {
@@ -215,8 +219,11 @@ void Parsing::unknown(const Token& name) const {
     if (!index.empty()) indices.push_back(index);
   std::vector<Name::Kind> kinds{parameter};
   if (vocabulary_ == Vocabulary::system) kinds = {coordinate, parameter, definition};
-  source_->fail(name.offset,
-                quoted(name.text) + " is unknown" + names_->suggestion(name.text, kinds, indices, true));
+  const std::string is_unknown = quoted(name.text) + " is unknown";
+  for (const std::string& other : names_behind_velocity(name.text))
+    if (const Name* meaning = names_->find(other); meaning != nullptr && meaning->kind == coordinate)
+      source_->fail(name.offset, is_unknown + "; the velocity of " + other + " is " + other + "'");
+  source_->fail(name.offset, is_unknown + names_->suggestion(name.text, kinds, indices, true));
 }
 
 void Parsing::call(Operation function, const Token& name) {

@@ -47,7 +47,7 @@ void Parsing::vector_component(int k) {
   if (!is_vector_)
     source_->fail(begin,
                   "a number where a vector stands; give a family of three members, \"r[1..3]\", by its "
-                  "name alone, or a list [a, b, c]");
+                  "name alone, or a list [a, b, c]; the velocity of x is x'");
 }
 
 void Parsing::dot_product(const Token& name) {

@@ -46,7 +46,58 @@ constexpr Saying sayings[] = {
     {"mod", "it jumps, and motions need derivatives; an angle may grow beyond 2*pi"},
 };
 
+constexpr Saying characters[] = {
+    {"≥", ">="},
+    {"≤", "<="},
+    {"≠", "two constraints"},
+    {"·", "*"},
+    {"×", "*"},
+    {"−", "-"},
+    {"–", "-"},
+    {"÷", "/"},
+    {"²", "^2"},
+    {"³", "^3"},
+    {"½", "1/2"},
+    {"′", "'"},
+    {"’", "'"},
+    {"|", "abs(x) for |x|"},
+    {"√", "sqrt(x)"},
+    {"π", "pi"},
+    {"∞", "no bound at all"},
+    {"&", "one constraint each"},
+    {"ẋ", "x'"},
+    {"ẏ", "y'"},
+    {"ż", "z'"},
+    {"\u0307", "x' for the velocity"},
+    {"α", "alpha"},
+    {"β", "beta"},
+    {"γ", "gamma"},
+    {"θ", "theta"},
+    {"φ", "phi"},
+    {"ω", "omega"},
+    {"λ", "lambda"},
+    {"μ", "mu"},
+    {"ρ", "rho"},
+    {"!", "no factorial"},
+    {";", "one expression alone"},
+};
+
 }  // namespace
+
+std::string instead_of_character(std::string_view character) {
+  for (const Saying& saying : characters)
+    if (saying.unknown == character) return std::string(saying.here);
+  return "it with names, numbers and + - * / ^ '";
+}
+
+std::vector<std::string> names_behind_velocity(std::string_view unknown) {
+  std::vector<std::string> names;
+  for (const std::string_view before : {"d", "d_", "v", "v_", "dot", "dot_"})
+    if (unknown.starts_with(before)) names.emplace_back(unknown.substr(before.size()));
+  for (const std::string_view behind : {"dot", "_dot", "_d", "d", "p", "_t"})
+    if (unknown.ends_with(behind)) names.emplace_back(unknown.substr(0, unknown.size() - behind.size()));
+  return names;
+}
 
 std::string instead_of_function(std::string_view unknown) {
   for (const Saying& saying : sayings)

@@ -85,7 +85,9 @@ State TangentChart::projected(State at) const {
       return at;
     last = size;
   }
-  throw convex::InvalidInput("the two-sided constraints cannot be brought to hold near a state on the way");
+  throw convex::InvalidInput(
+      "the two-sided constraints cannot be brought to hold near a state on the way; they contradict each "
+      "other there: stop before, with a smaller until");
 }
 
 Vector TangentChart::state_of(const Vector& y) const {

@@ -1,0 +1,171 @@
+#include "cli/problem_file/toml_slip.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+namespace cli {
+namespace {
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+bool is_of_key(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_-.\"'[]").find(c) != std::string_view::npos;
+}
+
+std::string without_spaces_around(std::string text) {
+  while (!text.empty() && text.front() == ' ') text.erase(0, 1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.pop_back();
+  return text;
+}
+
+/// The line of a place, and the value on it that the place is in.
+struct Spot {
+  std::string line;
+  std::size_t here = 0;   ///< the place
+  std::size_t first = 0;  ///< behind the = or [ or comma before it
+  std::string value;      ///< from there to the next comma or bracket
+};
+
+/// The = of a key has that key alone before it; that of a relation is part of its expression.
+bool assigns(const std::string& line, std::size_t i) {
+  if (line[i] != '=') return false;
+  while (i > 0 && (std::isalnum(static_cast<unsigned char>(line[i - 1])) != 0 ||
+                   std::string(" \t_-.\"[]").find(line[i - 1]) != std::string::npos))
+    --i;
+  return i == 0 || line[i - 1] == '{' || line[i - 1] == ',';
+}
+
+Spot spot_of(const std::string& text, convex::Place at) {
+  std::size_t begin = 0;
+  for (int line = 1; line < at.line && begin != std::string::npos; ++line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return {};
+  Spot spot{text.substr(begin, text.find_first_of("\r\n", begin) - begin), 0, 0, ""};
+  const std::string& line = spot.line;
+  spot.here = std::min(line.size(), static_cast<std::size_t>(at.column - 1));
+  std::size_t& first = spot.first;
+  first = spot.here;
+  while (first > 0 && !assigns(line, first - 1) && line[first - 1] != ',' && line[first - 1] != '{' &&
+         !(line[first - 1] == '[' && first > 1 && (line[first - 2] == ' ' || line[first - 2] == '=')))
+    --first;
+  const std::size_t last = line.find_first_of(",}#", spot.here);
+  spot.value = without_spaces_around(line.substr(first, last == std::string::npos ? last : last - first));
+  while (!spot.value.empty() && spot.value.back() == ']') spot.value.pop_back();
+  return spot;
+}
+
+/// Whether it reads as an expression that lacks its quotation marks.
+bool is_bare_expression(const std::string& value) {
+  constexpr std::size_t longest = 80;
+  if (value.empty() || value.size() > longest || value.find_first_of("\"\\") != std::string::npos)
+    return false;
+  const unsigned char first = static_cast<unsigned char>(value.front());
+  return std::isalnum(first) != 0 || first == '-' || first == '+' || first == '(';
+}
+
+/// Whether another key and its = begin here, behind a comma, a semicolon or nothing.
+bool begins_a_key(const std::string& rest) {
+  std::size_t i = rest.find_first_not_of(" \t,;");
+  if (i == std::string::npos || !(is_letter(rest[i]) || rest[i] == '"' || rest[i] == '_')) return false;
+  while (i < rest.size() && is_of_key(rest[i])) ++i;
+  i = rest.find_first_not_of(" \t", i);
+  return i != std::string::npos && rest[i] == '=' && rest.compare(i, 2, "==") != 0;
+}
+
+/// What stands behind a whole number or text, where the line should end.
+std::string advice_on_rest(const std::string& token, const std::string& given) {
+  if (begins_a_key(given)) return "two keys on a line; give each a line of its own, or join them in { }";
+  const std::string rest = without_spaces_around(given);
+  if (token.empty() || rest.empty()) return "";
+  const char c = rest.front();
+  if (rest.rfind("//", 0) == 0 || c == '%' || (c == ';' && token.front() != '"'))
+    return "\"" + rest.substr(0, 2) + "\" begins no comment; write # before it";
+  if (token.front() == '"') return "";
+  const std::string behind = rest.substr(0, rest.find_first_of("#,}"));
+  if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0)
+    return "a decimal comma; write " + token + "." + without_spaces_around(rest.substr(1));
+  if (is_letter(c) && behind.find_first_of("*^()=<>+") == std::string::npos)
+    return token + " " + without_spaces_around(behind) + " is no number; write " + token +
+           " with its unit in a comment, # " + without_spaces_around(behind) +
+           ", or an expression in quotation marks";
+  return "";
+}
+
+/// What the value is and what follows it, when it is a number or a text.
+std::string advice_on_value(const Spot& spot) {
+  const std::string from = without_spaces_around(spot.line.substr(spot.first));
+  if (!from.empty() && from.front() == '"') {
+    const std::size_t close = from.find('"', 1);
+    return close == std::string::npos ? ""
+                                      : advice_on_rest(from.substr(0, close + 1), from.substr(close + 1));
+  }
+  if (from.size() > 1 && from.front() == '.' && std::isdigit(static_cast<unsigned char>(from[1])) != 0)
+    return "a number begins with a digit; write 0" + spot.value;
+  char* end = nullptr;
+  std::strtod(from.c_str(), &end);
+  const auto length = static_cast<std::size_t>(end - from.c_str());
+  const std::string token = from.substr(0, length);
+  if (token.empty() || is_letter(token.front())) return "";
+  if (token.back() == '.' && without_spaces_around(from.substr(length)).empty())
+    return "a number ends with a digit; write " + token + "0";
+  return advice_on_rest(token, from.substr(length));
+}
+
+bool says(std::string_view description, std::string_view words) {
+  return description.find(words) != std::string_view::npos;
+}
+
+/// "m" of "cannot redefine existing floating-point 'm'".
+std::string name_in(std::string_view description) {
+  const std::size_t first = description.find('\''), last = description.rfind('\'');
+  return first == std::string_view::npos || last <= first + 1
+             ? ""
+             : std::string(description.substr(first + 1, last - first - 1));
+}
+
+/// Of tables, lists and the = between a key and its value.
+std::string advice_on_structure(const Spot& spot, std::string_view description) {
+  if (says(description, "redefine existing table")) {
+    const std::string name = name_in(description);
+    return "the table [" + name + "] is there twice; put its keys into one";
+  }
+  if (says(description, "redefine existing"))
+    return "the key " + name_in(description) + " is there twice; take one of them out";
+  if (says(description, "dangling comma")) return "a comma behind the last entry of { }; take it out";
+  if (says(description, "inline table: expected comma"))
+    return "two entries of { } without a comma between them; write { x = 0.0, y = 0.0 }";
+  if (says(description, "inline table")) return "no } closes this {; a table in { } stands on one line";
+  if (says(description, "array: expected comma"))
+    return "a list without its ], or two entries without a comma between them; write [1, 2]";
+  if (says(description, "table header: expected ']'"))
+    return "the name of a table without its ]; write [system.parameters]";
+  if (says(description, "unescaped control characters") || says(description, "string: encountered end"))
+    return "a text without its closing quotation mark; add it";
+  if (!says(description, "expected '='")) return "";
+  const std::string key = without_spaces_around(spot.line.substr(0, spot.line.find_first_of(":=' ")));
+  if (says(description, "saw ':'")) return "a colon between a key and its value; write " + key + " = …";
+  if (says(description, "saw '''"))
+    return "a key has no prime; velocities are named as their coordinates, velocity = { x = 1.0 }";
+  return "no = between a key and its value; write " + key + " = …";
+}
+
+}  // namespace
+
+std::string advice_on_slip(const std::string& text, convex::Place place, std::string_view description) {
+  if (says(description, "root table") && says(description, "saw '{'"))
+    return "this is JSON, not TOML; name the file .json";
+  const Spot spot = spot_of(text, place);
+  std::string advice = advice_on_structure(spot, description);
+  if (advice.empty()) advice = advice_on_value(spot);
+  if (!advice.empty()) return advice;
+  if (spot.value == "True" || spot.value == "False")
+    return "\"" + spot.value + "\" is written small; write " + (spot.value == "True" ? "true" : "false");
+  if (!is_bare_expression(spot.value)) return "";
+  return "not a TOML value: " + spot.value + "; put it in quotation marks, \"" + spot.value + "\"";
+}
+
+}  // namespace cli
