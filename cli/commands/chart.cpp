@@ -19,6 +19,7 @@
 #include "cli/measurement/rank_correlation.hpp"
 #include "cli/measurement/trial_files.hpp"
 #include "cli/problem_file/documents.hpp"
+#include "cli/problem_file/problem.hpp"
 #include "cli/report/text_table.hpp"
 #include "convex/nearest_name.hpp"
 
@@ -208,11 +209,22 @@ void write_chart(const ChartOptions& options, const std::vector<Trial>& trials, 
   draw(*options.output, options.profile ? profile_drawing(trials) : work_precision_drawing(trials, drawn));
 }
 
+/// A table that --data wrote is drawn as it is.
+bool is_table(const ChartOptions& options) {
+  return options.files.size() == 1 && options.files.front().ends_with(".csv");
+}
+
 Exit make_chart(const ChartOptions& options) {
   const Source source{options.files.empty() ? "chart" : options.files.front(), ""};
   return answered(options, source, [&] {
     const DrawnAs drawn{options.error == "multipliers", options.relative_to.value_or(""), options.motion};
     if (options.output) require_drawable(*options.output);
+    if (is_table(options)) {
+      if (!options.output) throw InvalidInput("a table of numbers is drawn; add --output F.svg");
+      read_file(options.files.front());  // says what is wrong with the path
+      draw(*options.output, work_precision_drawing(read_chart_csv(options.files.front()), drawn));
+      return Exit::solved;
+    }
     if (options.files.empty() && !options.settings.empty())
       throw InvalidInput("--set goes with problem files; give one");
     const std::vector<ChartedProblem> problems = asked_problems(options);
@@ -239,7 +251,9 @@ void add_chart(CLI::App& program, Work& chosen) {
   CLI::App& command =
       add_command(program, "chart", "speed against accuracy, every method, one diagram a problem", chosen,
                   [options] { return make_chart(*options); });
-  command.add_option("FILE", options->files, "problem files; without one, a set from the gallery");
+  command.add_option(
+      "FILE", options->files,
+      "problem files; without one, a set from the gallery; F.csv: a table of --data, drawn again");
   add_overrides(command, *options);
   command.add_option("--relative", options->relative_to, "times as multiples of this method's")
       ->type_name("NAME");

@@ -11,8 +11,8 @@ namespace cli {
 inline constexpr double good_error = 1e-9;
 
 /// How a method is drawn, the same on every picture. Iterations have a colour each, which the colour-blind
-/// can tell apart (Okabe and Ito 2008; two of Tol's, 2021), and a dash pattern; direct methods, a marker
-/// each, are dark and differ by its shape; the default stands out.
+/// can tell apart (Okabe and Ito 2008; two of Tol's, 2021), and a dash pattern; direct methods are darker and
+/// differ by colour and by the shape of their marker; the default stands out.
 struct MethodStyle {
   std::string colour;
   int marker = 7;  ///< gnuplot's number of a filled one; the one before it is the same hollow
@@ -20,6 +20,8 @@ struct MethodStyle {
   double size = 0.7;
 
   int hollow() const { return marker - 1; }
+  /// The colour, dark enough for small letters.
+  std::string text_colour() const;
 };
 
 /// The methods of a picture in their order.

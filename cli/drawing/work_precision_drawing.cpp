@@ -15,27 +15,32 @@
 namespace cli {
 namespace {
 
-/// In pixels. A diagram's box lies between `left` and its width less `right`.
-struct Layout {
-  int columns = 1;
-  double letters = 1;  ///< their size over the usual one
-  double width = 700, left = 62, right = 8, heading = 62, box_height = 212, title_height = 26, foot = 40,
-         label_height = 11.5;
-  double names_from = -28, x_end = 12.2;  ///< along x, in decades of the error
-  double title_rise = 0.8;                ///< of the title, in lines
+/// Pixels. A diagram's box lies between `left` and its width less `right`.
+constexpr double left = 50, right = 8, heading = 62, box_height = 218, title_height = 44, foot = 40,
+                 label_height = 11.5;
 
-  double panel_width() const { return width / columns; }
-  double panel_height() const { return title_height + box_height + foot; }
-  /// A size of letters that is usually this one.
-  int font(double usual) const { return static_cast<int>(std::lround(usual * letters)); }
-};
-
-constexpr Layout two_columns{2, 1.5, 1200, 96, 14, 80, 240, 56, 64, 18, -33, 20, 2.0};
-
-Layout layout(const DrawnAs& drawn) { return drawn.two_columns ? two_columns : Layout{}; }
-
-/// Along x: where names of methods end, answers from exact ones (at -18.6) to 1, failures.
+/// Along x, in decades of the error: names of methods, answers from exact ones (at -18.6) to 1, failures.
 constexpr double names_end = -19.5, exact_at = -18.6, errors_end = 0.6, failed_at = 1.3, failed_name = 1.9;
+
+/// Diagrams side by side on a page: their width in pixels, and what their x goes through. Names need as many
+/// pixels in a narrow one.
+struct PageLayout {
+  int columns;
+  double width;
+  double decade, names_from, x_end;
+
+  PageLayout(std::size_t diagrams, const DrawnAs& drawn)
+      : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, drawn.two_columns ? 2 : 3))),
+        width(columns == 1 ? alone : beside_others),
+        decade((width - left - right - names_width - failures_width) / (errors_end - names_end)),
+        names_from(names_end - names_width / decade),
+        x_end(errors_end + failures_width / decade) {}
+
+  double page_width() const { return width * columns; }
+
+ private:
+  static constexpr double alone = 700, beside_others = 490, names_width = 116, failures_width = 148;
+};
 
 double error_of(const Trial& trial, const DrawnAs& drawn) {
   return drawn.multipliers ? trial.judgement.multiplier_error : trial.judgement.error;
@@ -90,8 +95,8 @@ struct Mark {
 class Panel {
  public:
   Panel(const std::vector<Trial>& trials, const std::string& problem, std::size_t index,
-        const MethodStyles& styles, const DrawnAs& drawn)
-      : index_(index), styles_(styles), drawn_(drawn), page_(layout(drawn)) {
+        const MethodStyles& styles, const DrawnAs& drawn, const PageLayout& layout)
+      : index_(index), styles_(styles), drawn_(drawn), layout_(layout) {
     for (const Trial& trial : trials)
       if (trial.problem == problem) here_.push_back(trial);
     unit_ = unit_of(here_, drawn);
@@ -107,11 +112,9 @@ class Panel {
     high_ = std::ceil(high_ + 0.1);
   }
 
-  std::string script(double height) {
-    const auto column = static_cast<double>(index_ % static_cast<std::size_t>(page_.columns));
-    const auto line = static_cast<double>(index_ / static_cast<std::size_t>(page_.columns));
-    const double top = page_.heading + page_.title_height + page_.panel_height() * line;
-    const double begin = page_.panel_width() * column;
+  /// With its upper left corner there on a page of that height, in pixels.
+  std::string script(double from_left, double from_top, double height) {
+    const double page = layout_.page_width(), top = from_top + title_height;
     for (const std::string& method : styles_.methods()) add(method);
     add_names(names_, names_end, -1, "right");
     add_names(failures_, failed_name, 1, "left");
@@ -126,12 +129,11 @@ class Panel {
            fmt::format(
                "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\n"
                "set bmargin at screen {}\nset yrange [{}:{}]\nset ytics ({})\n"
-               "set label 1 {} at graph 0, 1 left offset 0,{} font \",{}\" tc rgb \"#111111\"\n"
-               "set label 2 {} at graph 1, 1 right offset 0,0.8 font \",{}\" tc rgb \"#111111\"\nplot {}\n",
-               (begin + page_.left) / page_.width, (begin + page_.panel_width() - page_.right) / page_.width,
-               1 - top / height, 1 - (top + page_.box_height) / height, low_, high_, tics,
-               quoted(first.problem + " (" + size + ")"), page_.title_rise, page_.font(11),
-               quoted(best_text(here_, drawn_)), page_.font(9), plots_.empty() ? "NaN notitle" : plots_);
+               "set label 1 {} at graph 0, 1 left offset 0,1.9 font \",11\" tc rgb \"#111111\"\n"
+               "set label 2 {} at graph 0, 1 left offset 0,0.7 font \",9\" tc rgb \"#111111\"\nplot {}\n",
+               (from_left + left) / page, (from_left + layout_.width - right) / page, 1 - top / height,
+               1 - (top + box_height) / height, low_, high_, tics, quoted(first.problem + " (" + size + ")"),
+               quoted(best_text(here_, drawn_)), plots_.empty() ? "NaN notitle" : plots_);
   }
 
  private:
@@ -156,10 +158,13 @@ class Panel {
         Mark& mark = trial.judgement.polished ? refined : best;
         if (x < mark.x - 1e-9) mark.x = x, mark.y = y;
       } else if (!trial.is_right()) {
-        failed.words = fmt::format("{} {}{}", method, verdict_text(trial.verdict()),
-                                   trial.kind == convex::MethodKind::iterative
-                                       ? fmt::format(", 1e{}", std::lround(std::log10(trial.setting)))
-                                       : "");
+        failed.words = fmt::format(
+            "{}{}{}",
+            trial.verdict() == Verdict::gave_up ? "" : std::string(verdict_text(trial.verdict())) + ": ",
+            method,
+            trial.kind == convex::MethodKind::iterative
+                ? fmt::format(", 1e{}", std::lround(std::log10(trial.setting)))
+                : "");
         failed.y = y;
       }
     }
@@ -183,9 +188,9 @@ class Panel {
   void add_names(std::vector<Mark>& marks, double x, int side, const char* aligned) {
     std::vector<double> wanted;
     for (const Mark& mark : marks) wanted.push_back(mark.y);
-    const double pixel = (high_ - low_) / page_.box_height;
+    const double pixel = (high_ - low_) / box_height;
     const std::vector<double> placed =
-        label_positions(wanted, page_.label_height * pixel, low_ + 7 * pixel, high_ - 7 * pixel);
+        label_positions(wanted, label_height * pixel, low_ + 7 * pixel, high_ - 7 * pixel);
     for (std::size_t k = 0; k < marks.size(); ++k) {
       const Mark& mark = marks[k];
       const MethodStyle& style = styles_.style(mark.method);
@@ -194,8 +199,8 @@ class Panel {
            fmt::format("using 1:2 with lines lc rgb \"{}\" lw 0.4", style.colour));
       plot(name + "text", fmt::format("{} {} {}\n", x, placed[k], quoted(mark.words)),
            fmt::format("using 1:2:3 with labels {} offset {},0 font \"{},{}\" tc rgb \"{}\"", aligned,
-                       0.9 * side, mark.method == "auto" ? "Helvetica:Bold" : "",
-                       page_.font(side < 0 ? 9 : 8), mark.method == "auto" ? "#b04a00" : "#222222"));
+                       0.9 * side, mark.method == "auto" ? "Helvetica:Bold" : "", side < 0 ? 9 : 8,
+                       style.text_colour()));
       plot(name + "mark", fmt::format("{} {}\n", side < 0 ? x : mark.x, side < 0 ? placed[k] : mark.y),
            fmt::format("using 1:2 with points lc rgb \"{}\" lw 1.2 pt {} ps {}", style.colour,
                        side < 0 ? style.marker : style.hollow(), side < 0 ? 0.6 : 0.8));
@@ -205,7 +210,7 @@ class Panel {
   std::size_t index_;
   const MethodStyles& styles_;
   const DrawnAs& drawn_;
-  Layout page_;
+  const PageLayout& layout_;
   std::vector<Trial> here_;
   double unit_ = 1, low_ = 0, high_ = 0;
   std::vector<Mark> names_, failures_;
@@ -214,15 +219,14 @@ class Panel {
 };
 
 /// What the marks mean, above the diagrams.
-std::string key(double height, const DrawnAs& drawn) {
-  const Layout page = layout(drawn);
-  const auto y = [&](double pixel) { return 1 - pixel * page.letters / height; };
+std::string key(double width, double height, const DrawnAs& drawn) {
+  const auto y = [&](double pixel) { return 1 - pixel / height; };
   std::string text;
   int number = 10;
   const auto add = [&](double x, double pixel, const std::string& words, const std::string& point) {
     fmt::format_to(std::back_inserter(text),
-                   "set label {} {} at screen {},{} left font \",{}\" tc rgb \"#111111\" {}\n", number++,
-                   quoted(words), x * page.letters / page.width, y(pixel), page.font(9), point);
+                   "set label {} {} at screen {},{} left font \",9\" tc rgb \"#111111\" {}\n", number++,
+                   quoted(words), x / width, y(pixel), point);
   };
   add(14, 14,
       fmt::format("{} against true error{}: lower and further left is better.",
@@ -234,7 +238,7 @@ std::string key(double height, const DrawnAs& drawn) {
   add(252, 34, "iterative: a mark a setting, 1e-1 to 1e-15",
       "point pt 9 ps 0.7 lc rgb \"#0072b2\" offset 0.8,0");
   add(482, 34, "after refinement", "point pt 3 ps 0.7 lw 1.3 lc rgb \"#222222\" offset 0.8,0");
-  add(590, 34, "failed", "point pt 6 ps 0.8 lw 1.2 lc rgb \"#222222\" offset 0.8,0");
+  add(590, 34, "gave up", "point pt 6 ps 0.8 lw 1.2 lc rgb \"#222222\" offset 0.8,0");
   return text;
 }
 
@@ -258,30 +262,31 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
                [](const Trial& trial) { return trial.verdict() != Verdict::refused; });
   const auto problems = in_order<std::string>(applied, [](const Trial& t) { return t.problem; });
   const MethodStyles styles(applied);
-  const Layout page = layout(drawn);
-  const auto columns = static_cast<std::size_t>(page.columns);
-  const auto lines = static_cast<double>((problems.size() + columns - 1) / columns);
+  const PageLayout layout(problems.size(), drawn);
+  const auto columns = static_cast<std::size_t>(layout.columns);
+  const std::size_t rows = (problems.size() + columns - 1) / columns;
+  const double panel = title_height + box_height + foot;
   Drawing drawing;
-  drawing.width = static_cast<int>(page.width);
-  drawing.height = static_cast<int>(page.heading + page.panel_height() * lines);
+  drawing.width = static_cast<int>(layout.page_width());
+  drawing.height = static_cast<int>(heading + panel * static_cast<double>(rows));
   const double height = drawing.height;
   const auto out = std::back_inserter(drawing.script);
-  fmt::format_to(out, "{}set multiplot\n", key(height, drawn));
+  fmt::format_to(out, "{}set multiplot\n", key(layout.page_width(), height, drawn));
   fmt::format_to(
       out,
-      "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.6 dt 1\nset tics font \",{}\" nomirror scale "
-      "0.5\n"
+      "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.6 dt 1\nset tics font \",9\" nomirror scale 0.5\n"
       "set border lw 0.7 lc rgb \"#666666\"\nunset key\n"
-      "set xtics (\"exact\" {}{}, \"1e-12\" -12, \"1e-8\" -8, \"1e-4\" -4, \"1\" 0)\n"
+      "set xtics (\"exact\" {}, \"1e-12\" -12, \"1e-8\" -8, \"1e-4\" -4, \"1\" 0)\n"
       "set object 1 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
       "set object 2 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
-      "set label 3 \"relative error{}\" at -9,graph 0 center offset 0,-2.1 font \",{}\"\n"
-      "set label 4 \"failed\" at {},graph 0 {} offset 0,-1.1 font \",{}\"\n",
-      page.names_from, page.x_end, page.font(9), exact_at, page.columns > 1 ? "" : ", \"1e-16\" -16",
-      page.names_from, exact_at - 0.6, errors_end, page.x_end, drawn.multipliers ? " of the multipliers" : "",
-      page.font(9), failed_at, page.columns > 1 ? "left" : "center", page.font(9));
+      "set label 3 \"relative error{}\" at -9,graph 0 center offset 0,-2.1 font \",9\"\n"
+      "set label 4 \"not solved\" at {},graph 0 center offset 0,-1.1 font \",9\"\n",
+      layout.names_from, layout.x_end, exact_at, layout.names_from, exact_at - 0.6, errors_end, layout.x_end,
+      drawn.multipliers ? " of the multipliers" : "", (errors_end + layout.x_end) / 2);
   for (std::size_t k = 0; k < problems.size(); ++k) {
-    drawing.script += Panel(applied, problems[k], k, styles, drawn).script(height);
+    const double across = layout.width * static_cast<double>(k % columns),
+                 down = heading + panel * static_cast<double>(k / columns);
+    drawing.script += Panel(applied, problems[k], k, styles, drawn, layout).script(across, down, height);
     if (k > 0) continue;
     for (int label = 10; label < 16; ++label) fmt::format_to(out, "unset label {}\n", label);
   }

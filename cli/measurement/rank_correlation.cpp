@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "cli/measurement/contest.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli {
@@ -109,9 +110,18 @@ std::vector<Trial> read_chart_csv(const std::string& file) {
     t.setting = number(row[4]);
     t.seconds = number(row[5]);
     t.judgement.error = number(row[6]);
-    t.judgement.verdict = row[7] == "ok"        ? Verdict::ok
-                          : row[7] == "refused" ? Verdict::refused
-                                                : Verdict::gave_up;
+    t.judgement.verdict = Verdict::gave_up;
+    for (const Verdict known :
+         {Verdict::ok, Verdict::wrong, Verdict::too_slow, Verdict::refused, Verdict::crashed})
+      if (row[7] == verdict_text(known)) t.judgement.verdict = known;
+    // Of one method and setting the second row is that after refinement; an iteration has many settings.
+    for (Trial& before : trials) {
+      if (before.problem != t.problem || before.method != t.method) continue;
+      if (before.setting == t.setting)
+        t.judgement.polished = true;
+      else
+        t.kind = before.kind = convex::MethodKind::iterative;
+    }
     trials.push_back(std::move(t));
   }
   return trials;
