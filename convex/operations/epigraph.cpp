@@ -19,6 +19,12 @@ Function with_last_reversed(const Function& h, Index n) {
   return precompose(h, signs.asDiagonal(), Vector::Zero(n + 1));
 }
 
+/// h at v and -r, for any number of entries: both arguments reversed, and the first once more.
+template <class Lift>
+Function reversed_in_last(Lift lift, const Function& h) {
+  return h.dimension() == 0 ? dilate(lift(dilate(h, -1)), -1) : with_last_reversed(lift(h), h.dimension());
+}
+
 Vector last_reversed(Vector v) {
   v[v.size() - 1] *= -1;
   return v;
@@ -112,8 +118,7 @@ class Epigraph : public Lifted {
   }
   /// sup v·x + r t over t >= f(x) is the perspective of f* at (v, -r).
   Function conjugate() const override {
-    if (f_.dimension() == 0) return computed_conjugate(self());
-    return with_last_reversed(perspective(f_.conjugate()), f_.dimension());
+    return reversed_in_last([](const Function& h) { return perspective(h); }, f_.conjugate());
   }
   double recession(const Vector& d) const override {
     const Index n = d.size() - 1;
@@ -168,8 +173,7 @@ class Perspective : public Lifted {
     return Operation::evaluate(closed);
   }
   Function conjugate() const override {
-    if (f_.dimension() == 0) return computed_conjugate(self());
-    return with_last_reversed(epigraph(f_.conjugate()), f_.dimension());
+    return reversed_in_last([](const Function& h) { return epigraph(h); }, f_.conjugate());
   }
   /// The domain is made of the rays through (x, 1), x in the domain of f.
   double domain_support(const Vector& v) const override {
