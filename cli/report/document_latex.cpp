@@ -100,7 +100,9 @@ std::string document_latex(const Document& document) {
       "\\documentclass[a4paper]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{inputenc}\n"
       "\\usepackage{amsmath}\n\\usepackage{textcomp}\n\\setlength{\\parindent}{0pt}\\setlength{\\parskip}{0."
       "5em}\n"
-      "\\sloppy\\allowdisplaybreaks\n\\begin{document}\n\\begin{center}\\Large " +
+      "\\setlength{\\textwidth}{165mm}\\setlength{\\oddsidemargin}{-3mm}\n"
+      "\\setlength{\\textheight}{245mm}\\setlength{\\topmargin}{-18mm}\n"
+      "\\raggedright\\allowdisplaybreaks\n\\begin{document}\n\\begin{center}\\Large " +
       latex_words(document.title) + "\\end{center}\n\n";
   for (const Block& block : document.blocks) text += std::visit(LatexWriter{}, block);
   return text + "\\end{document}\n";

@@ -29,7 +29,7 @@ Math vector_math(const convex::Vector& v) {
   for (convex::Index i = 0; i < shown; ++i) {
     const Math number = number_math(v[i]);
     made.plain += (i == 0 ? "" : ", ") + number.plain;
-    made.latex += (i == 0 ? "" : ",\\ ") + number.latex;
+    made.latex += (i == 0 ? "" : ",\\allowbreak\\ ") + number.latex;
   }
   if (shown < v.size()) {
     const std::string rest = std::to_string(v.size() - shown);

@@ -100,6 +100,8 @@ class ExpressionWriter {
            at_ < text_.size() && (is_name(at_) || text_[at_] == '-' || text_[at_] == '+') && power.size() < 5;
            ++at_)
         if (text_[at_] != '+') power += text_[at_];
+      const std::size_t sign = power.starts_with('-') ? 1 : 0;
+      while (power.size() > sign + 1 && power[sign] == '0') power.erase(sign, 1);
       made += "\\cdot 10^{" + power + "}";
     }
     if (made.empty()) made = std::string(1, text_[at_++]);
