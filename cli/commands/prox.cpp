@@ -14,6 +14,7 @@
 #include "cli/report/decomposition_report.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/symbolic_report.hpp"
+#include "convex/operations/takes_product.hpp"
 
 namespace cli {
 namespace {
@@ -76,9 +77,9 @@ std::vector<AskedPoint> read_points(const ProxOptions& options, Source& source) 
 }
 
 /// The same as written.
-convex::ExactGram exact_metric(const ProxOptions& options, std::size_t n) {
+convex::ExactGram exact_metric(const ProxOptions& options, bool is_divided, std::size_t n) {
   convex::ExactGram W = options.metric ? parse_exact_metric(*options.metric) : convex::identity_gram(n);
-  if (options.step) {
+  if (is_divided) {
     const convex::Fraction step = written_numbers("[" + *options.step + "]").at(0);
     for (convex::ExactRow& row : W.rows)
       for (auto& [column, entry] : row) entry = entry / step;
@@ -86,7 +87,8 @@ convex::ExactGram exact_metric(const ProxOptions& options, std::size_t n) {
   return W;
 }
 
-/// The metric of the command line over the step: the prox of gamma f in W is that of f in W/gamma.
+/// With a step, the metric of the command line over it: the prox of gamma f in W is that of f in W/gamma. A
+/// function that takes the product of W would be another one there: gamma f itself is then split, in W.
 DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& options, Source& source) {
   convex::Metric W = convex::Metric::identity(point.z.size());
   if (options.metric) {
@@ -96,13 +98,17 @@ DecompositionProblem read_problem(const AskedPoint& point, const ProxOptions& op
       throw InvalidInput(
           fmt::format("metric: {} rows; give {}, one per entry of z", W.dimension(), point.z.size()));
   }
-  if (options.step) W = W.scaled(1 / std::stod(*options.step));
   source = {"f", options.expression};
   convex::Call f = parse_call(options.expression, "f");
-  auto exact = [f, options, text = point.text] {
+  const bool is_divided = options.step && !convex::takes_product(f);
+  if (is_divided)
+    W = W.scaled(1 / std::stod(*options.step));
+  else if (options.step)
+    f = parse_call("scale(" + options.expression + ", " + *options.step + ")", "f");
+  auto exact = [f, options, is_divided, text = point.text] {
     convex::Fractions z = written_numbers(text);
     const std::size_t n = z.size();
-    return convex::SplitQuestion{f, std::move(z), exact_metric(options, n)};
+    return convex::SplitQuestion{f, std::move(z), exact_metric(options, is_divided, n)};
   };
   return {point.z, std::move(W), std::move(f), std::move(exact)};
 }

@@ -3,6 +3,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/takes_product.hpp"
 
 namespace convex {
 namespace {
@@ -14,19 +15,6 @@ constexpr std::string_view closed_as_part = "as its part's";
 constexpr std::string_view by_program =
     "exact by active set when its parts are piecewise linear-quadratic, else iterative to 1e-12";
 constexpr std::string_view in_other_metric = "as its part's in a derived metric";
-
-/// Do its values depend on the product of the space? Inside `precompose`, `perspective` and `epigraph` the
-/// product is the plain one.
-bool takes_product(const Call& call) {
-  if (call.name == "precompose" || call.name == "perspective" || call.name == "epigraph") return false;
-  if (call.name == "conjugate" || call.name == "envelope" || call.name == "support" ||
-      call.name == "proximal_average")
-    return true;
-  for (const NamedArgument& argument : call.arguments)
-    if (const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value))
-      if (takes_product(**nested)) return true;
-  return false;
-}
 
 Space plain(Index n) { return {Metric::identity(n)}; }
 

@@ -154,6 +154,13 @@ TEST_CASE("the prox with a step is that of the multiple, and that of the metric 
   CHECK(stepped == x({"prox", "norm1()", "--at", z, "--metric", "diagonal [2, 2, 2]", "--json"}));
   CHECK(stepped == std::vector<double>{2.5, -0.5, 0});
   CHECK(run({"prox", "norm1()", "--at", z, "--step", "0"}).code == 2);
+  // Functions that take the product of the space are those of W, not of W over the step.
+  for (const std::string f : {"envelope(norm1(), 1)", "support(ball2(2, [1,0,-1]))", "conjugate(norm2(3))",
+                              "tilt(proximal_average(norm1(), zero(), 0.5, 1), [1,2,3])"}) {
+    CAPTURE(f);
+    const auto multiple = x({"prox", "scale(" + f + ", 2)", "--at", z, "--json"});
+    CHECK(x({"prox", f, "--at", z, "--step", "2", "--json"}) == multiple);
+  }
 }
 
 TEST_CASE("several points of a file are answered line by line, and a wrong one is told by its place") {
