@@ -55,12 +55,11 @@ Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
   const Vector root = d.cwiseSqrt();
   result.values = {f.evaluate(result.x), f.conjugate().evaluate(result.v), 0};
   result.duality_gap = result.values->f_x.value + result.values->f_v.value - result.x.dot(result.v);
-  result.error_bound = (result.v - force).cwiseQuotient(root).norm() +
-                       f.subgradient_miss(result.x, result.v, d) +
-                       distance_in_gap(f.facts(), result.duality_gap, root.cwiseProduct(result.x).norm(),
-                                       result.v.cwiseQuotient(root).norm()) +
-                       roundings_of_a_formula * unit_roundoff *
-                           (root.cwiseProduct(z).norm() + root.cwiseProduct(result.x).norm());
+  const double size_of_x = root.cwiseProduct(result.x).stableNorm();
+  result.error_bound =
+      (result.v - force).cwiseQuotient(root).stableNorm() + f.subgradient_miss(result.x, result.v, d) +
+      distance_in_gap(f.facts(), result.duality_gap, size_of_x, result.v.cwiseQuotient(root).stableNorm()) +
+      roundings_of_a_formula * unit_roundoff * (root.cwiseProduct(z).stableNorm() + size_of_x);
   result.method = "closed form";
   result.by_conjugate = f.prox_by_conjugate();
   return result;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "convex/composite/work_limit.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/operations/operations.hpp"
 
@@ -28,15 +29,14 @@ void check(const Function& f, const Vector& x, const char* what) {
 /// itself is in the domain, it is the answer, and the bound says what was left out.
 void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Prox& found) {
   constexpr double roundings = 64 * unit_roundoff, negligible = 1e-13;
-  const double length = W.norm(found.x);
-  const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * W.norm(z);
+  if (found.x.isZero(0)) return;
+  const double length = norm_at_any_scale(W, found.x), size = norm_at_any_scale(W, z);
+  const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * size;
   if (!std::isfinite(rounding)) return;  // squares overflow: nothing is known of what is small beside it
-  // The length of what is not 0 may underflow.
-  if (found.x.isZero(0) || !std::isfinite(rounding) || !(length <= std::max(rounding, found.error_bound)))
-    return;
+  if (!(length <= std::max(rounding, found.error_bound))) return;
   const double here = f.value(found.x), at_zero = f.value(Vector::Zero(z.size()));
   if (!std::isfinite(at_zero) || at_zero > here) return;
-  if (std::isfinite(here) && length > negligible * W.norm(z)) return;
+  if (std::isfinite(here) && (found.method == "closed form" || length > negligible * size)) return;
   found.x.setZero();
   found.values.reset();
   found.error_bound += length;

@@ -71,7 +71,9 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   // there.
   const Value rest{square + linear + q.constant,
                    8 * unit_roundoff * size + part.error_bound * part.error_bound};
-  return {part.x, force + q.c, sum_of(f.evaluate(part.x), rest)};
+  // The prox's own covector is the slope too, and right where x - w is nothing beside x.
+  const bool own = part.v.size() == x.size() && part.v.allFinite();
+  return {part.x, own ? part.v : Vector(force + q.c), sum_of(f.evaluate(part.x), rest)};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -154,5 +155,34 @@ TEST_CASE("the subgradient of the Euclidean norm is the unit vector at any size 
     const Json answer = json_of({"subdifferential", "norm2()", "--at", at, "--json"});
     CHECK(answer["least"][0].get<double>() == doctest::Approx(0.6).epsilon(1e-15));
     CHECK(answer["least"][1].get<double>() == doctest::Approx(0.8).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("a prox near 0, and far out, is that of an ordinary point, scaled") {
+  // prox of w|.|_2 at z is (1 - w/|z|) z.
+  for (const double size : {1e-200, 1e-100, 1.0, 1e100}) {
+    CAPTURE(size);
+    const auto number = [&](double a) {
+      return std::to_string(a).substr(0, 3) + "e" +
+             std::to_string(static_cast<int>(std::lround(std::log10(size))));
+    };
+    const Json answer = json_of(
+        {"prox", "norm2(" + number(1) + ")", "--at", "[" + number(3) + "," + number(4) + "]", "--json"});
+    CHECK(answer["status"] == "solved");
+    CHECK(answer["x"][0].get<double>() / size == doctest::Approx(2.4).epsilon(1e-14));
+    CHECK(answer["y"][1].get<double>() / size == doctest::Approx(0.8).epsilon(1e-14));
+    CHECK(answer["certificate"]["error_bound"].get<double>() > 0);
+    CHECK(answer["certificate"]["error_bound"].get<double>() <= 1e-14 * size);
+  }
+  const Json box = json_of({"prox", "indicator(box(-1,2))", "--at", "[1e100]", "--json"});
+  CHECK(box["x"][0] == 2);
+}
+
+TEST_CASE("the gradient of an envelope is right where a point is no longer told from its prox") {
+  for (const char* at : {"[3,4]", "[3e16,4e16]", "[3e100,4e100]"}) {
+    CAPTURE(at);
+    const Json answer = json_of({"subdifferential", "envelope(norm2(),1)", "--at", at, "--json"});
+    CHECK(answer["least"][0].get<double>() == doctest::Approx(0.6).epsilon(1e-13));
+    CHECK(answer["least"][1].get<double>() == doctest::Approx(0.8).epsilon(1e-13));
   }
 }
