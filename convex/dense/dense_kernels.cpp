@@ -81,11 +81,23 @@ namespace {
                                       double* d) {                                                         \
       K::precise_slacks(n, X, q, s, d);                                                                    \
     }                                                                                                      \
+    target static void add_columns(Index n, Index count, const Index* columns, const double* c,            \
+                                   const double* X, Index stride, double* y) {                             \
+      K::add_columns(n, count, columns, c, X, stride, y);                                                  \
+    }                                                                                                      \
+    target static bool cancels(Index n, const double* U, Index p, double whole, Index count,               \
+                               const Index* rows, const double* c) {                                       \
+      return K::cancels(n, U, p, whole, count, rows, c);                                                   \
+    }                                                                                                      \
+    target static double largest_size(Index n, const double* x) { return K::largest_size(n, x); }          \
+    target static bool is_on_grid(Index n, const double* x, double shift) {                                \
+      return K::is_on_grid(n, x, shift);                                                                   \
+    }                                                                                                      \
     target static bool is_finite(Index n, const double* x) { return K::is_finite(n, x); }                  \
     static constexpr DenseKernels table{                                                                   \
-        factor,  invert_blocks, forward,  backward,       forward_pack, backward_pack,                     \
-        gram,    dots,          combine,  add_multiple,   dot,          slacks,                            \
-        squares, stationarity,  residual, precise_slacks, is_finite};                                      \
+        factor,   invert_blocks,  forward,      backward, forward_pack, backward_pack, gram,               \
+        dots,     combine,        add_multiple, dot,      slacks,       squares,       stationarity,       \
+        residual, precise_slacks, add_columns,  cancels,  largest_size, is_on_grid,    is_finite};         \
   };
 
 MOREAU_TABLE(Portable, , 2, false)

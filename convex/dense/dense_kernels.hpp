@@ -63,6 +63,16 @@ struct DenseKernels {
                    const Index* rows, const double* lambda, const double* z, double* into);
   /// into_k := X_k·q - s_k, k < 8, sums in twice the working precision, rounded once.
   void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, double* into);
+  /// y += Σ_k c_(column k) X_(column k) over `count` columns of n numbers, a multiple of 8, `stride` apart.
+  void (*add_columns)(Index n, Index count, const Index* columns, const double* c, const double* X,
+                      Index stride, double* y);
+  /// Whether Σ_k c_k u_(row k) - whole u_p is 0 in doubles, entry by entry, over `count` rows of n numbers.
+  bool (*cancels)(Index n, const double* U, Index p, double whole, Index count, const Index* rows,
+                  const double* c);
+  /// max |x_i| of n numbers.
+  double (*largest_size)(Index n, const double* x);
+  /// Whether adding `shift` rounds none of n numbers.
+  bool (*is_on_grid)(Index n, const double* x, double shift);
   /// Whether all of n numbers are finite.
   bool (*is_finite)(Index n, const double* x);
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "convex/dense/triangle_kernels.hpp"
 
 namespace convex {
@@ -187,6 +189,76 @@ struct Kernels : TriangleKernels<W, Fused> {
     Pack hi = P::times(P::load(s), -1), lo{};
     for (Index i = 0; i < n; ++i) P::add_precisely(hi, lo, P::load(X + 8 * i), q[i]);
     P::store(into, P::plus(hi, lo));
+  }
+
+  MOREAU_INLINE void add_columns(Index n, Index count, const Index* columns, const double* c, const double* X,
+                                 Index stride, double* y) {
+    Index i = 0;
+    for (; i + 8 * rows <= n; i += 8 * rows) {
+      Pack sum[rows];
+      for (int r = 0; r < rows; ++r) sum[r] = P::load(y + i + 8 * r);
+      for (Index k = 0; k < count; ++k) {
+        const double *const x = X + columns[k] * stride + i, factor = c[columns[k]];
+        for (int r = 0; r < rows; ++r) P::add_product(sum[r], P::load(x + 8 * r), factor);
+      }
+      for (int r = 0; r < rows; ++r) P::store(y + i + 8 * r, sum[r]);
+    }
+    for (; i < n; i += 8) {
+      Pack sum = P::load(y + i);
+      for (Index k = 0; k < count; ++k)
+        P::add_product(sum, P::load(X + columns[k] * stride + i), c[columns[k]]);
+      P::store(y + i, sum);
+    }
+  }
+
+  MOREAU_INLINE Pack size(const Pack& x) { return P::larger(x, P::times(x, -1)); }
+  MOREAU_INLINE double largest(const Pack& x) {
+    double most[8];
+    P::store(most, x);
+    for (int half = 4; half > 0; half /= 2)
+      for (int k = 0; k < half; ++k) most[k] = most[k] > most[k + half] ? most[k] : most[k + half];
+    return most[0];
+  }
+
+  MOREAU_INLINE bool cancels(Index n, const double* U, Index p, double whole, Index count, const Index* row,
+                             const double* c) {
+    const auto rest = [&](Index i) {
+      double sum = -whole * U[p * n + i];
+      for (Index k = 0; k < count; ++k) sum += c[k] * U[row[k] * n + i];
+      return sum;
+    };
+    if (n > 0 && rest(0) != 0) return false;  // most that are no sums show it here
+    Pack most{};
+    Index i = 0;
+    for (; i + 8 <= n; i += 8) {
+      Pack sum = P::times(P::load(U + p * n + i), -whole);
+      for (Index k = 0; k < count; ++k) P::add_product(sum, P::load(U + row[k] * n + i), c[k]);
+      most = P::larger(most, size(sum));
+    }
+    bool all = largest(most) == 0;
+    for (; i < n && all; ++i) all = rest(i) == 0;
+    return all;
+  }
+
+  MOREAU_INLINE double largest_size(Index n, const double* x) {
+    Pack most{};
+    Index i = 0;
+    for (; i + 8 <= n; i += 8) most = P::larger(most, size(P::load(x + i)));
+    double found = largest(most);
+    for (; i < n; ++i) found = found > std::abs(x[i]) ? found : std::abs(x[i]);
+    return found;
+  }
+
+  MOREAU_INLINE bool is_on_grid(Index n, const double* x, double shift) {
+    Pack most{};
+    Index i = 0;
+    for (; i + 8 <= n; i += 8) {
+      const Pack now = P::load(x + i);
+      most = P::larger(most, size(P::minus(P::plus(P::plus(now, shift), -shift), now)));
+    }
+    bool all = largest(most) == 0;
+    for (; i < n && all; ++i) all = (x[i] + shift) - shift == x[i];
+    return all;
   }
 
   /// Zero times a number that is not finite is not zero.

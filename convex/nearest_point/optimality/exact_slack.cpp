@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/double_double.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/exact/grid_sum.hpp"
@@ -66,39 +67,28 @@ void SlackOnEdge::find_grid() {
   grid_ = 0;
   if (problem_.U.is_sparse() || problem_.rows() == 0) return;
   const RowMatrix& U = problem_.U.dense();
-  const double largest = U.cwiseAbs().maxCoeff();
+  const DenseKernels& kernels = dense_kernels();
+  const double largest = kernels.largest_size(U.size(), U.data());
   if (!std::isnormal(largest)) return;
   const double grid = std::ldexp(1, std::ilogb(largest) + 1) / most_steps;
   if (!std::isnormal(grid)) return;
   // x + shift rounds x to the grid.
-  const double shift = 1.5 * grid / unit_roundoff * 0.5;
-  if (((U.array() + shift) - shift - U.array()).abs().maxCoeff() == 0) grid_ = grid;
+  if (kernels.is_on_grid(U.size(), U.data(), 1.5 * grid / unit_roundoff * 0.5)) grid_ = grid;
 }
 
 /// Whether Σ c_k u_k = whole u_p for the terms, not one bit off.
 bool SlackOnEdge::cancels(Index p, double whole) {
+  const Index count = static_cast<Index>(rows_.size());
   double sum = whole;
-  for (const auto& [a, c] : terms_) sum += std::abs(c);
-  if (grid_ > 0 && sum <= most_terms) {
-    const RowMatrix& U = problem_.U.dense();
-    constexpr Index part = 64;  // so many entries at a time: most that are no sums show it soon
-    double rest[part];
-    for (Index first = 0; first < U.cols(); first += part) {
-      const Index count = std::min(part, U.cols() - first);
-      const double* const u = U.data() + p * U.cols() + first;
-      for (Index i = 0; i < count; ++i) rest[i] = -whole * u[i];
-      for (const auto& [a, c] : terms_) {
-        const double* const v = U.data() + a * U.cols() + first;
-        for (Index i = 0; i < count; ++i) rest[i] += c * v[i];
-      }
-      if (std::any_of(rest, rest + count, [](double x) { return x != 0; })) return false;
-    }
-    return true;
-  }
+  for (const double c : coefficients_) sum += std::abs(c);
+  if (grid_ > 0 && sum <= most_terms)
+    return dense_kernels().cancels(problem_.dimension(), problem_.U.dense().data(), p, whole, count,
+                                   rows_.data(), coefficients_.data());
   for (Index i = 0; i < problem_.dimension(); ++i) {
     ExactSum rest;
     rest.add_product(-whole, entry(problem_.U, p, i));
-    for (const auto& [a, c] : terms_) rest.add_product(c, entry(problem_.U, a, i));
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      rest.add_product(coefficients_[k], entry(problem_.U, rows_[k], i));
     if (rest.sign() != 0) return false;
   }
   return true;
@@ -108,15 +98,16 @@ bool SlackOnEdge::cancels(Index p, double whole) {
 double SlackOnEdge::slack_of_loads(Index p, double whole) const {
   DoubleDouble sum = two_product(-whole, problem_.s[p]);
   bool is_exact = sum.lo == 0;
-  for (const auto& [a, c] : terms_) {
-    const DoubleDouble term = two_product(c, problem_.s[a]), next = two_sum(sum.hi, term.hi);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const DoubleDouble term = two_product(coefficients_[k], problem_.s[rows_[k]]),
+                       next = two_sum(sum.hi, term.hi);
     is_exact = is_exact && term.lo == 0 && next.lo == 0;
     sum.hi = next.hi;
   }
   if (is_exact) return sum.hi / whole;
   ExactSum slack;
   slack.add_product(-whole, problem_.s[p]);
-  for (const auto& [a, c] : terms_) slack.add_product(c, problem_.s[a]);
+  for (std::size_t k = 0; k < rows_.size(); ++k) slack.add_product(coefficients_[k], problem_.s[rows_[k]]);
   return quotient_with_sign(slack, whole);
 }
 
@@ -124,14 +115,16 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
                                          const double* coefficients) {
   if (grid_ < 0) find_grid();
   double whole = 1;
-  terms_.clear();
+  rows_.clear();
+  coefficients_.clear();
   for (Index k = 0; k < count; ++k) {
     if (!(std::abs(coefficients[k]) * row_scale_[held[k]] > zero_coefficient * row_scale_[p])) continue;
     whole *= denominator(coefficients[k] * whole);
     if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
-    terms_.emplace_back(held[k], coefficients[k]);
+    rows_.push_back(held[k]);
+    coefficients_.push_back(coefficients[k]);
   }
-  for (auto& [a, c] : terms_) c = nearest_whole(c * whole);
+  for (double& c : coefficients_) c = nearest_whole(c * whole);
   if (!cancels(p, whole)) return std::nullopt;
   return slack_of_loads(p, whole);
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "convex/exact/exact_sum.hpp"
@@ -29,7 +28,8 @@ class SlackOnEdge {
 
   const NearestPointProblem& problem_;
   const double* row_scale_;
-  std::vector<std::pair<Index, double>> terms_;
+  std::vector<Index> rows_;  // of a sum, with their coefficients
+  std::vector<double> coefficients_;
   double grid_ =
       -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
 };

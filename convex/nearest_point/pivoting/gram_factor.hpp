@@ -17,6 +17,7 @@ class GramFactor {
   Index capacity() const { return capacity_; }
   Index place(Index j) const { return at_[j]; }
   Index row(Index j) const { return rows_.row(at_[j]); }
+  const Index* places() const { return at_; }
   bool is_factored() const { return factored_; }
 
   /// Forgets all rows.

@@ -104,14 +104,16 @@ bool GramPivoting::factor() {
 bool GramPivoting::find_multipliers() {
   if (!set_.is_factored() && !factor()) return false;
   for (Index j = 0; j < padded(set_.size()); ++j) load_[j] = j < set_.size() ? target_[set_.place(j)] : 0;
-  energy_ = 0;
   set_.solve(load_);
   fill_packs(rows_.count(), 0, lambda_);
-  for (Index j = 0; j < set_.size(); ++j) {
-    lambda_[set_.place(j)] = load_[j];
-    energy_ += load_[j] * target_[set_.place(j)];
-  }
+  for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] = load_[j];
+  find_energy();
   return true;
+}
+
+void GramPivoting::find_energy() {
+  energy_ = 0;
+  for (Index j = 0; j < set_.size(); ++j) energy_ += lambda_[set_.place(j)] * target_[set_.place(j)];
 }
 
 void GramPivoting::find_point(double* w, double* q) const {
@@ -129,8 +131,8 @@ void GramPivoting::find_slacks() {
 
 void GramPivoting::find_known_slacks(double* at_places) const {
   for (Index p = 0; p < rows_.count(); ++p) at_places[p] = -target_[p];
-  for (Index j = 0; j < set_.size(); ++j)
-    kernels_.add_multiple(rows_.count(), lambda_[set_.place(j)], rows_.gram(set_.place(j)), at_places);
+  kernels_.add_columns(rows_.count(), set_.size(), set_.places(), lambda_, rows_.gram(0), rows_.stride(),
+                       at_places);
 }
 
 bool GramPivoting::settle(const std::vector<Index>& guess) { return start(guess) && pivot(); }

@@ -109,6 +109,7 @@ class GramPivoting {
   void collect();
   bool factor();
   bool find_multipliers();
+  void find_energy();
   void find_slacks();
   void find_known_slacks(double* at_places) const;
 

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Steps in which multipliers are brought up to date before they are solved for anew, as at the end.
+constexpr Index most_steps_since = 16;
+
 }  // namespace
 
 /// The dual method of Goldfarb and Idnani (1983) among the rows looked at, for what blocks do not settle:
@@ -16,15 +19,22 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// down to 0 go. Each row that has come in raises the dual objective, so that no set of rows returns. False
 /// when rows contradict each other or are nearly dependent.
 bool GramPivoting::descend_known() {
+  if (!find_multipliers()) return false;
+  Index steps_since = 0;  // the multipliers were those of the factor
   for (Index step = 0; step < 10 * (rows_.count() + n_); ++step) {
-    if (!find_multipliers()) return false;
-    if (drop_most_negative()) continue;
+    if (steps_since == 0 && drop_most_negative()) {
+      if (!find_multipliers()) return false;
+      continue;
+    }
     for (Index p = 0; p < rows_.count(); ++p)
       if (const Index a = rows_.row(p); a >= 0 && state_[a] == passed) state_[a] = outside;
     find_slacks_of_known();
     const Index count = list_violated_known(outside);
-    if (count == 0) return true;
-    if (!raise(deepest(count))) return false;
+    if (count == 0 && steps_since == 0) return true;
+    if (count > 0 && !raise(deepest(count))) return false;
+    find_energy();
+    steps_since = count == 0 || steps_since == most_steps_since ? 0 : steps_since + 1;
+    if (steps_since == 0 && !find_multipliers()) return false;
   }
   return false;
 }
@@ -58,6 +68,7 @@ Index GramPivoting::deepest(Index count) const {
 bool GramPivoting::raise(Index a) {
   const Index place = rows_.place(a);
   const double square = rows_.square(place);
+  double raised = 0;
   for (double violation = -slack_[a];; steps_ += 1) {
     double* const r = load_;  // u_a = Σ r_j u_j + what the rows held do not span
     const double rest = set_.distance(place, column_);
@@ -80,6 +91,8 @@ bool GramPivoting::raise(Index a) {
       }
     }
     if (full <= partial && !dependent) {
+      for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] -= full * r[j];
+      lambda_[place] = raised + full;
       state_[a] = held;
       set_.append(place, column_, rest);
       return true;
@@ -93,6 +106,7 @@ bool GramPivoting::raise(Index a) {
       return false;
     }
     for (Index j = 0; j < set_.size(); ++j) lambda_[set_.place(j)] -= partial * r[j];
+    raised += partial;
     if (!dependent) violation -= partial * rest;
     state_[row(blocking)] = outside;
     lambda_[set_.place(blocking)] = 0;

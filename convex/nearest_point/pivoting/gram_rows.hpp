@@ -32,6 +32,7 @@ class GramRows {
   const double* raw() const { return raw_; }            ///< count/8 blocks of n packs
   const double* whitened() const { return whitened_; }  ///< the same
   const double* gram(Index place) const { return gram_ + place * most_; }
+  Index stride() const { return most_; }                                   ///< of the Gram matrix
   double square(Index place) const { return gram_[place * (most_ + 1)]; }  ///< |v_a|²
   const double* s() const { return s_; }
   const double* load() const { return load_; }  ///< s_a - v_a·w_free

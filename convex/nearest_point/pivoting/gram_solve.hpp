@@ -56,8 +56,7 @@ class GramSolve {
   void find_dual_rows();
   Index leave_sums_of_rows_held(Index count);
   bool find_way_up(Index count);
-  double length_of(Index a);
-  double violation_of_touched_rows(double known);
+  double violation_of_touched_rows(double known) const;
   Residuals residuals_of_active();
 
   const NearestPointProblem& problem_;

@@ -252,27 +252,15 @@ double GramSolve::rise(Index a) const {
   return up;
 }
 
-/// ||u_a||_(A⁻¹).
-double GramSolve::length_of(Index a) {
-  if (const Index place = set_->rows().place(a); place >= 0) return std::sqrt(set_->rows().square(place));
-  fill_packs(ld_, 0, dw_);
-  std::copy_n(problem_.U.dense().data() + a * n_, n_, dw_);
-  kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
-  return std::sqrt(kernels_.dot(ld_, dw_, dw_));
-}
-
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
-/// what is known.
-double GramSolve::violation_of_touched_rows(double known) {
+/// what is known; or more, for ||u||_(A⁻¹) is at least the length that is taken here.
+double GramSolve::violation_of_touched_rows(double known) const {
+  const double part = 1 / std::sqrt(static_cast<double>(n_));
   for (Index k = 0; k < touched_count_; ++k) {
     const Index a = touched_[k];
-    const double violation = -touched_slack_[k], s = std::abs(problem_.s[a]);
-    if (!(violation > 0)) continue;
-    // ||u||_(A⁻¹) is at least this
-    const double shortest = row_scale_[a] / std::sqrt(static_cast<double>(n_));
-    if (!(violation > known * (s + shortest * acceleration_norm_))) continue;
-    const double length = length_of(a), size = s + length * acceleration_norm_;
-    known = std::max(known, violation / (size > 0 ? size : length * known_.scale));
+    const double size = std::abs(problem_.s[a]) + part * row_scale_[a] * acceleration_norm_;
+    if (!(-touched_slack_[k] > known * size)) continue;
+    known = -touched_slack_[k] / (size > 0 ? size : part * row_scale_[a] * known_.scale);
   }
   return known;
 }
