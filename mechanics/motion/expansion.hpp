@@ -9,6 +9,7 @@
 #include "mechanics/motion/held_rows.hpp"
 #include "mechanics/motion/inertia_factor.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
+#include "mechanics/motion/taylor_magnitude.hpp"
 #include "mechanics/motion/taylor_series.hpp"
 #include "mechanics/state.hpp"
 
@@ -118,6 +119,12 @@ class Expansion {
   void begin_order(int k);
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
   Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
+  /// What df/dt of these constraints and the forces are the sums of, at order k of the question.
+  struct Magnitudes {
+    Vector rates;
+    double force = 0;  ///< in the norm of A⁻¹
+  };
+  Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
   void give_velocity(int k, const Vector& v);
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
   Vector missing_rate(const std::vector<Index>& constraints) const;
@@ -137,6 +144,8 @@ class Expansion {
   std::vector<double> columns_;  // of every series, when velocities of highest order change
   std::vector<double> lambda_;   // by constraint and order
   std::vector<double> f_;        // likewise
+  TaylorMagnitude magnitude_;    // while it is open who persists
+  Vector unit_norms_;            // ||e_i||_(A⁻¹)
   std::vector<Index> in_doubt_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };

@@ -53,8 +53,11 @@ class TaylorSeries {
   /// `lanes` changes at once, so many numbers a series; 0 for series that do not depend on velocities.
   void carry(std::vector<double>& change, std::size_t lanes) const;
   std::size_t series() const { return rows_.series; }
+  /// How many operations lead to a coefficient of order 0 at most.
+  std::size_t operations() const { return steps_->steps.size(); }
 
  private:
+  friend class TaylorMagnitude;
   double* at(Slot series) { return c_.data() + series * width_; }
   const double* at(Slot series) const { return c_.data() + series * width_; }
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }

@@ -96,6 +96,24 @@ TEST_CASE("units do not decide whether a floor is met") {
   }
 }
 
+TEST_CASE("a ball just above the floor strikes it when it comes there, and what is not sure is told") {
+  const SystemText text = ball();
+  const double height = 1e-10, speed = 1e-4;
+  const auto motion = followed(text, state({height}, {-speed}), 1e-5, restitution(text, 0.5));
+  REQUIRE(!motion.events.empty());
+  const double strike = std::sqrt(speed * speed + 2 * 9.81 * height);
+  CHECK(motion.events[0].t == doctest::Approx((strike - speed) / 9.81).epsilon(1e-12));
+  CHECK(motion.motion.record().remarks.empty());
+  const auto within = followed(text, state({height}, {0}), 1, restitution(text, 0.5));
+  CHECK(within.motion.record().remarks.size() == 1);
+  // Up to a ceiling that it reaches with next to no speed.
+  SystemText under = ball("y <= 1");
+  const auto graze =
+      followed(under, state({0}, {std::sqrt(2 * 9.81 * (1 + 1e-14))}), 1, restitution(text, 1));
+  REQUIRE(graze.events.size() == 1);
+  CHECK(graze.motion.record().remarks.size() == 1);
+}
+
 TEST_CASE("with e = 1 energy is kept over 100000 impacts") {
   const SystemText text = ball();
   const Followed found = followed(text, state({1}, {0}), 90320, restitution(text, 1));

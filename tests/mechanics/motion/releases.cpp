@@ -102,3 +102,19 @@ TEST_CASE("a string is slack at half its turn, and taut again on the circle") {
   CHECK(std::abs(found.end().q[0] + 0.1097289875283429760222784) <= 1e-12);
   CHECK(std::abs(found.end().v[1] - 0.1166038101590431841832241) <= 1e-11);
 }
+
+TEST_CASE("forces that cancel but for rounding do not lift a body, one that is small beside nothing does") {
+  // The first is 0 by the theorem of addition, and 1e-7 by rounding.
+  const std::string none = "1e9*sin(x + 1) - 1e9*(sin(x)*cos(1) + cos(x)*sin(1))";
+  const auto height = [](const std::string& force, double x, double v) {
+    const auto s = system({{"x", "y"}, "x'^2/2 + y'^2/2", "", {}, {}, {{"y", force}}, {{"floor", "y >= 0"}}});
+    Motion motion(*s, state({x, 0}, {v, 0}), {});
+    while (motion.advance(1)) {
+    }
+    return motion.state().q[1];
+  };
+  for (const double x : {0.1, 0.3, 0.7}) CHECK(std::abs(height(none, x, 0)) <= 1e-100);
+  for (const double x : {0.1, 0.3, 0.7})
+    CHECK(height("t + " + none, x, 0.2) == doctest::Approx(1.0 / 6).epsilon(1e-6));
+  CHECK(height("1e-14", 0, 0) == doctest::Approx(5e-15).epsilon(1e-12));
+}

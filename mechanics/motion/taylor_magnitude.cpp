@@ -1,0 +1,126 @@
+#include "mechanics/motion/taylor_magnitude.hpp"
+
+#include <cmath>
+
+namespace mechanics {
+
+using expression::Slot;
+using Kind = TaylorStep::Kind;
+
+void TaylorMagnitude::begin() {
+  const TaylorRows& rows = of_.rows_;
+  m_.assign(rows.series * width(), 0.0);
+  slopes_.clear();
+  for (const TaylorRows::Term& term : rows.terms) slopes_.push_back(std::abs(term.c));
+  for (std::size_t slot = 0; slot < of_.steps_->variables; ++slot)
+    at(static_cast<Slot>(slot), 0) = std::abs(of_[static_cast<Slot>(slot)][0]);
+  for (const auto& [slot, value] : of_.steps_->constants) at(slot, 0) = std::abs(value);
+  for (std::size_t s = 0; s < of_.steps_->steps.size(); ++s) {
+    begin_step(of_.steps_->steps[s], rows.row_of_step[s]);
+    if (rows.row_of_step[s] != TaylorRows::none) amplify(of_.steps_->steps[s], rows.row_of_step[s]);
+  }
+}
+
+/// Order 0 of a step.
+void TaylorMagnitude::begin_step(const TaylorStep& step, std::uint32_t row) {
+  const bool names_function = step.kind == Kind::arc;  // in the place of b
+  const double a = at(step.a, 0), b = names_function ? 0 : at(step.b, 0);
+  double& out = at(step.out, 0);
+  const double f = std::abs(of_[step.out][0]);
+  const auto slope = [&](std::size_t i) { return slopes_[of_.rows_.rows[row].first + i]; };
+  switch (step.kind) {
+    case Kind::sum:
+    case Kind::difference:
+      out = a + b;
+      return;
+    case Kind::negative:
+    case Kind::absolute:
+      out = a;
+      return;
+    case Kind::multiple:
+      out = std::abs(step.number) * b;
+      return;
+    case Kind::share:
+      out = a / std::abs(step.number);
+      return;
+    case Kind::product:
+      out = a * b;
+      return;
+    case Kind::square:
+      out = a * a;
+      return;
+    case Kind::sign:
+      out = f;
+      return;
+    case Kind::where_not_negative:
+    case Kind::where_negative:
+      out = f > 0 ? b : 0;
+      return;
+    case Kind::either:
+      out = of_[step.out][0] == of_[step.a][0] ? a : b;
+      return;
+    case Kind::quotient:
+    case Kind::angle:
+      out = f + slope(0) * a + slope(1) * b;
+      return;
+    case Kind::sine:
+    case Kind::sinh:
+    case Kind::tangent:
+    case Kind::tanh: {
+      out = f + slope(0) * a;
+      const bool by_result = step.kind == Kind::tangent || step.kind == Kind::tanh;
+      at(step.partner, 0) = std::abs(of_[step.partner][0]) + slope(1) * (by_result ? out : a);
+      return;
+    }
+    default:
+      out = f + slope(0) * a;
+  }
+}
+
+/// Slopes are values of series themselves, with a rounding of their own.
+void TaylorMagnitude::amplify(const TaylorStep& step, std::uint32_t row) {
+  double* slope = slopes_.data() + of_.rows_.rows[row].first;
+  switch (step.kind) {
+    case Kind::product:
+      slope[0] = at(step.b, 0);
+      slope[1] = at(step.a, 0);
+      return;
+    case Kind::square:
+      slope[0] = 2 * at(step.a, 0);
+      return;
+    case Kind::exponential:
+      slope[0] = at(step.out, 0);
+      return;
+    case Kind::sine:
+    case Kind::sinh:
+      slope[0] = at(step.partner, 0);
+      slope[1] = at(step.out, 0);
+      return;
+    default:
+      return;
+  }
+}
+
+/// Σ |x_j| |y_(k-j)| over the products of a rest.
+double TaylorMagnitude::rest(std::uint32_t number, int k) {
+  double sum = 0;
+  for (const TaylorRows::Product& product : of_.rows_.products) {
+    if (product.rest != number) continue;
+    for (int j = 1; j < k; ++j) sum += std::abs(product.scale) * at(product.x, j) * at(product.y, k - j);
+  }
+  return sum;
+}
+
+void TaylorMagnitude::find(std::size_t group, int k) {
+  const TaylorRows& rows = of_.rows_;
+  for (std::size_t r = group == 0 ? 0 : rows.ends[group - 1].rows; r < rows.ends[group].rows; ++r) {
+    const TaylorRows::Row& row = rows.rows[r];
+    double sum = row.rest == 0 ? 0 : std::abs(of_.factor_[r]) * rest(row.rest, k);
+    if (row.over_order) sum /= k;
+    for (std::uint32_t t = row.first; t < row.end; ++t) sum += slopes_[t] * at(rows.terms[t].series, k);
+    at(row.out, k) = sum;
+  }
+  for (const TaylorRows::Weighted& one : rows.weighted) at(one.out, k) = k * at(one.of, k);
+}
+
+}  // namespace mechanics

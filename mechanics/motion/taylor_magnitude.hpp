@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "mechanics/motion/taylor_series.hpp"
+
+namespace mechanics {
+
+/// What the coefficients of a series are the sums of: the same recurrences with the absolute values of all
+/// terms, and a function of a with |f'(a)| |a| beside |f|. Where terms cancel, this is much larger than
+/// |c_k|; rounding moves c_k by about so many roundings of it as operations lead to it (Higham 2002, section
+/// 3.1).
+class TaylorMagnitude {
+ public:
+  using Slot = expression::Slot;
+
+  explicit TaylorMagnitude(const TaylorSeries& series) : of_(series) {}
+
+  /// Order 0 of all series, at the state of the series. The others are forgotten.
+  void begin();
+  /// Order k of the series of a group, from those of the variables and from lower orders.
+  void find(std::size_t group, int k);
+  double& at(Slot series, int k) { return m_[series * width() + static_cast<std::size_t>(k)]; }
+
+ private:
+  std::size_t width() const { return static_cast<std::size_t>(of_.order_) + 1; }
+  void begin_step(const TaylorStep& step, std::uint32_t row);
+  void amplify(const TaylorStep& step, std::uint32_t row);
+  double rest(std::uint32_t number, int k);
+
+  const TaylorSeries& of_;
+  std::vector<double> m_;       // by series and order
+  std::vector<double> slopes_;  // what stands for |c| in each term of the rows
+};
+
+}  // namespace mechanics
