@@ -21,7 +21,9 @@ class Ball2 : public ConvexSet {
   Call support_call() const override {
     return center_.size() > 0 ? ConvexSet::support_call() : Call{"norm2", {argument("weight", radius_)}};
   }
-  Facts facts() const override { return {.cone = radius_ == 0 && center_.size() == 0}; }
+  Facts facts() const override {
+    return {.cone = radius_ == 0 && center_.size() == 0, .radial = center_.isZero(0)};
+  }
   bool bounded() const override { return true; }
   double scale() const override { return radius_ + center_.norm(); }
 

@@ -71,7 +71,9 @@ class SetSupport : public Atom {
             .support = true,
             .separable = of_set.separable,
             .piecewise_quadratic = of_set.piecewise_quadratic,
-            .finite = S_->bounded()};
+            .finite = S_->bounded(),
+            .radial = of_set.radial,
+            .by_order = S_->is_base_polytope()};
   }
   Call call() const override { return S_->support_call(); }
   double value(const Vector& x) const override { return S_->support(x); }

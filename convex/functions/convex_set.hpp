@@ -29,6 +29,8 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   virtual Facts facts() const = 0;
   /// Facts of the support function beside those that follow from `facts()`; finite when S is bounded.
   virtual bool bounded() const = 0;
+  /// Is S the base polytope of a submodular function, so that its support function is a Lovász extension?
+  virtual bool is_base_polytope() const { return false; }
   /// Does S go on without end along d, which is not 0? Not known counts as no.
   virtual bool recedes(const Vector& d) const { return facts().cone && contains(d); }
   /// The size of the data, against which `membership_tolerance` is measured beside |x|; 0 for a cone.

@@ -68,6 +68,7 @@ class Simplex : public Polytope {
   explicit Simplex(double total) : total_(total) {}
   Call call() const override { return {"simplex", {argument("total", total_)}}; }
   Call support_call() const override { return total_ == 1 ? Call{"max"} : ConvexSet::support_call(); }
+  bool is_base_polytope() const override { return true; }
   double scale() const override { return total_; }
   Vector project(const Vector& z, const Vector& d) const override {
     return equal(d) ? prox_formulas::proj_simplex(z, total_) : prox_formulas::proj_simplex(z, total_, d);
@@ -113,6 +114,7 @@ class CappedSimplex : public Polytope {
   Call support_call() const override {
     return named_sum() ? Call{"sum_largest", {argument("k", total_)}} : ConvexSet::support_call();
   }
+  bool is_base_polytope() const override { return true; }
   double scale() const override { return total_; }
   Vector project(const Vector& z, const Vector& d) const override {
     return equal(d) ? prox_formulas::proj_capped_simplex(z, cap_, total_)

@@ -77,6 +77,14 @@ class PiecewiseNode : public Atom {
     return piecewise_sum(std::move(dual));
   }
 
+  std::optional<Function> entry(Index i) const override {
+    const PiecewiseQuadratic& f = piece(i);
+    return piecewise_sum({.call = plq_call(f),
+                          .conjugate_call = plq_call(convex::conjugate(f)),
+                          .pieces = {f},
+                          .dimension = 1});
+  }
+
   double value(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();
     double sum = parts_.offset;

@@ -37,6 +37,7 @@ class BoundedPartialSums : public DualBall {
   Call call() const override { return {"bounded_partial_sums", {argument("bound", bound_)}}; }
   Call support_call() const override { return {"total_variation", {argument("weight", bound_)}}; }
   Facts facts() const override { return {.piecewise_quadratic = true}; }
+  bool is_base_polytope() const override { return true; }
   bool takes_any_diagonal() const override { return true; }
   double scale() const override { return bound_; }
   /// The sum of all is 0 whatever the bound: it is measured by x alone.

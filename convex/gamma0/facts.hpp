@@ -11,6 +11,11 @@ struct Facts {
   bool piecewise_quadratic = false;  ///< piecewise linear-quadratic: its prox is exact in any metric
   bool smooth = false;               ///< differentiable wherever it is finite
   bool finite = false;               ///< finite everywhere
+  bool radial = false;               ///< a nondecreasing function of ||x||₂
+  /// The order of the entries alone decides on its slopes: ∂f(u) lies in ∂f at (p(u_1), …, p(u_n)) for every
+  /// nondecreasing p. So for the support functions of base polytopes (Bach 2013, section 8), such as max and
+  /// total_variation.
+  bool by_order = false;
 };
 
 /// A point x belongs to a set, and f(x) is finite at the rounded x, when x misses the set by at most this

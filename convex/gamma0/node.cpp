@@ -14,6 +14,11 @@ Value FunctionNode::evaluate(const Vector& x) const {
   return {found, std::isfinite(found) ? roundings_of_a_value * unit_roundoff * std::abs(found) : 0};
 }
 
+std::optional<Function> FunctionNode::entry(Index) const {
+  if (dimension() != 0 || !facts().separable) return std::nullopt;
+  return Function(shared_from_this());
+}
+
 double FunctionNode::recession(const Vector& d) const {
   if (d.isZero(0)) return 0;
   if (!facts().support) return std::numeric_limits<double>::infinity();

@@ -31,6 +31,9 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   /// the recession function of f*: f(x) is +inf where v·x exceeds it. +inf where none is known.
   virtual double domain_support(const Vector& v) const;
 
+  /// f_i of an f(x) = Σ_i f_i(x_i) + constant, a function of one entry; none where the f_i are not known.
+  virtual std::optional<Function> entry(Index i) const;
+
   /// f on Rⁿ as a quadratic program over x and auxiliary variables; exactly when facts().piecewise_quadratic.
   /// It is what makes the prox exact in any metric.
   virtual std::optional<LinearQuadratic> linear_quadratic(Index n) const;

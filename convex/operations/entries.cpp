@@ -14,6 +14,10 @@ constexpr auto operation = EntryKind::operation;
 constexpr std::string_view closed_as_part = "as its part's";
 constexpr std::string_view by_program =
     "exact by active set when its parts are piecewise linear-quadratic, else iterative to 1e-12";
+constexpr std::string_view by_entries =
+    "entry by entry when its parts are separable, else as in a general one";
+constexpr std::string_view by_parts =
+    "one part's after another's where that is a theorem, else as in a diagonal one";
 constexpr std::string_view in_other_metric = "as its part's in a derived metric";
 
 Space plain(Index n) { return {Metric::identity(n)}; }
@@ -171,9 +175,9 @@ std::vector<CatalogueEntry> operation_entries() {
        operation,
        {{"functions", functions}},
        "f(x) + g(x) + ...",
-       "Rockafellar 1970, Theorem 16.4",
-       by_program,
-       by_program,
+       "Rockafellar 1970, Theorem 16.4; Yu 2013",
+       by_parts,
+       by_entries,
        by_program,
        {"sum(norm1(), squared_norm2(2))", "sum(norm2(), indicator(box(-1, 2)))",
         "sum(entropy(), indicator(simplex(1)), linear([1,0,-1]))", "sum(norm1(), total_variation(0.5))"},

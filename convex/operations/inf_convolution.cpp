@@ -52,6 +52,10 @@ class InfConvolution : public Operation {
   double domain_support(const Vector& v) const override {
     return f_.node().domain_support(v) + g_.node().domain_support(v);
   }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = f_.node().entry(i), g = g_.node().entry(i);
+    return f && g ? std::optional(proper_inf_convolution(*f, *g)) : std::nullopt;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);
     if (!forms) return std::nullopt;

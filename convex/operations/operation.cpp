@@ -10,6 +10,7 @@
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/composed_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/open_domain.hpp"
@@ -117,6 +118,10 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
 std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W) const {
   std::optional<Prox> best = reduced_prox(z, W);
   if (best && is_settled(*best, z, W)) return best;
+  if (auto whole = prox_by_entries(*this, z, W)) {
+    take_better(best, *std::move(whole));
+    if (is_settled(*best, z, W)) return best;
+  }
   if (const auto form = linear_quadratic(z.size()))
     take_better(best, convex::prox(*form, z, W));
   else if (const auto program = graph(z.size()))

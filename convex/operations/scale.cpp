@@ -52,6 +52,10 @@ class Scale : public Operation {
   Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
   double recession(const Vector& d) const override { return alpha_ * f_.node().recession(d / rho_); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(rho_ * v); }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = f_.node().entry(i);
+    return f ? std::optional(scale(dilate(*f, rho_), alpha_)) : std::nullopt;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

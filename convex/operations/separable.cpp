@@ -1,31 +1,14 @@
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/composed_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 
 namespace convex {
 namespace {
-
-/// Which of two ways is the weaker evidence.
-int rank(ProxRoute route) { return static_cast<int>(route); }
-int rank(Status status) {
-  switch (status) {
-    case Status::solved:
-      return 0;
-    case Status::inaccurate:
-      return 1;
-    case Status::gave_up:
-      return 2;
-    case Status::infeasible:
-      return 3;
-  }
-  return 3;
-}
 
 class Separable : public Operation {
  public:
@@ -94,6 +77,13 @@ class Separable : public Operation {
     });
     return total;
   }
+  std::optional<Function> entry(Index i) const override {
+    std::optional<Function> found;
+    for_each([&](const Function& f, Index first, Index size) {
+      if (first <= i && i < first + size) found = size == 1 ? f : f.node().entry(i - first);
+    });
+    return found;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     if (!facts().piecewise_quadratic) return std::nullopt;
     std::vector<LinearQuadratic> forms;
@@ -113,34 +103,11 @@ class Separable : public Operation {
  protected:
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     if (couples(W, sizes_)) return std::nullopt;
-    Prox whole;
-    whole.values.emplace();
-    whole.x.resize(n_);
-    whole.v.resize(n_);
-    double squares = 0;
-    bool infeasible = false;
+    std::vector<Prox> blocks;
     for_each([&](const Function& f, Index first, Index size) {
-      const Prox part = f.prox(z.segment(first, size), block(W, first, size));
-      if (rank(part.status) > rank(whole.status)) whole.status = part.status;
-      if (rank(part.route) > rank(whole.route)) whole.route = part.route;
-      whole.by_conjugate = whole.by_conjugate || part.by_conjugate;
-      infeasible = infeasible || part.x.size() == 0;
-      if (infeasible) return;
-      whole.x.segment(first, size) = part.x;
-      whole.v.segment(first, size) = part.v;
-      squares += part.error_bound * part.error_bound;
-      whole.duality_gap += part.duality_gap;
-      if (whole.values && part.values)
-        whole.values = {sum_of(whole.values->f_x, part.values->f_x),
-                        sum_of(whole.values->f_v, part.values->f_v),
-                        std::max(whole.values->miss, part.values->miss)};
-      else
-        whole.values.reset();
-      if (whole.method.find(part.method) == std::string::npos)
-        whole.method += (whole.method.empty() ? "" : ", ") + part.method;
+      blocks.push_back(f.prox(z.segment(first, size), block(W, first, size)));
     });
-    whole.error_bound = std::sqrt(squares);
-    if (infeasible) whole.x.resize(0);
+    Prox whole = joined(blocks);
     if (parts_.size() > 1) whole.method += " by blocks";
     return whole;
   }

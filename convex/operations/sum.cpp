@@ -7,14 +7,13 @@
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/composed_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
 
 namespace convex {
-namespace {}  // namespace
-
 SplitSum split(std::span<const Function> parts, Index n) {
   SplitSum sorted;
   for (const Function& f : parts) {
@@ -40,7 +39,9 @@ Facts Sum::facts() const {
           .separable = all_of(parts_, &Facts::separable),
           .piecewise_quadratic = all_of(parts_, &Facts::piecewise_quadratic),
           .smooth = all_of(parts_, &Facts::smooth),
-          .finite = all_of(parts_, &Facts::finite)};
+          .finite = all_of(parts_, &Facts::finite),
+          .radial = all_of(parts_, &Facts::radial),
+          .by_order = all_of(parts_, &Facts::by_order)};
 }
 
 Call Sum::call() const {
@@ -77,6 +78,14 @@ double Sum::domain_support(const Vector& v) const {
   return least;
 }
 
+std::optional<Function> Sum::entry(Index i) const {
+  std::vector<Function> entries;
+  for (const Function& f : parts_)
+    if (auto one = f.node().entry(i)) entries.push_back(*std::move(one));
+  if (entries.size() != parts_.size()) return std::nullopt;
+  return proper_sum(entries);
+}
+
 std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
   const auto forms = programs(parts_, n);
   if (!forms) return std::nullopt;
@@ -91,7 +100,7 @@ std::optional<GraphForm> Sum::graph(Index n) const {
 
 std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   const SplitSum sorted = split(parts_, z.size());
-  if (!sorted.quadratic) return std::nullopt;
+  if (!sorted.quadratic) return composed_prox(parts_, z, W);
   const auto& [Q, c, constant] = *sorted.quadratic;
   const Metric V = plus(W, Q);
   const Vector y = V.solve(W.multiply(z) - c);

@@ -18,7 +18,7 @@ class Tilt : public Operation {
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
     Facts facts = f_.facts();
-    facts.indicator = facts.cone = false;
+    facts.indicator = facts.cone = facts.radial = false;
     return facts;
   }
   Call call() const override { return {"tilt", {argument(f_.call()), argument("c", c_)}}; }
@@ -31,6 +31,10 @@ class Tilt : public Operation {
   Function conjugate() const override { return translate(f_.conjugate(), c_); }
   double recession(const Vector& d) const override { return f_.node().recession(d) + c_.dot(d); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(v); }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = f_.node().entry(i);
+    return f ? std::optional(tilt(*f, c_.segment(i, 1))) : std::nullopt;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -15,7 +15,7 @@ class Translate : public Operation {
   Index dimension() const override { return by_.size(); }
   Facts facts() const override {
     Facts facts = f_.facts();
-    facts.cone = facts.support = false;
+    facts.cone = facts.support = facts.radial = facts.by_order = false;
     return facts;
   }
   Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
@@ -24,6 +24,10 @@ class Translate : public Operation {
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
   double recession(const Vector& d) const override { return f_.node().recession(d); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(v) + v.dot(by_); }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = f_.node().entry(i);
+    return f ? std::optional(translate(*f, by_.segment(i, 1))) : std::nullopt;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -1,0 +1,144 @@
+#include "convex/operations/composed_prox.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/operation.hpp"
+
+namespace convex {
+namespace {
+
+/// Which of two ways is the weaker evidence.
+int rank(ProxRoute route) { return static_cast<int>(route); }
+int rank(Status status) {
+  switch (status) {
+    case Status::solved:
+      return 0;
+    case Status::inaccurate:
+      return 1;
+    case Status::gave_up:
+      return 2;
+    case Status::infeasible:
+      return 3;
+  }
+  return 3;
+}
+
+/// What the whole is told by, as one of its parts was found by `part`.
+void take_weaker_evidence(Prox& whole, const Prox& part) {
+  if (rank(part.status) > rank(whole.status)) whole.status = part.status;
+  if (rank(part.route) > rank(whole.route)) whole.route = part.route;
+  whole.by_conjugate = whole.by_conjugate || part.by_conjugate;
+  if (whole.method.find(part.method) == std::string::npos)
+    whole.method += (whole.method.empty() ? "" : ", ") + part.method;
+}
+
+bool is_homogeneous(const Function& f) { return f.facts().support || f.facts().cone; }
+
+bool is_one_function_of_each_entry(const Function& f) { return f.facts().separable && f.dimension() == 0; }
+
+bool is_multiple_of_identity(const Metric& W) {
+  return is_diagonal_kind(W) && W.diagonal().minCoeff() == W.diagonal().maxCoeff();
+}
+
+/// The parts in order of application: the first before the rest, or the rest before the last.
+struct Composition {
+  Function first, last;
+};
+
+/// The k-th part of `parts`, and the sum of the others.
+std::pair<Function, Function> taken_out(std::span<const Function> parts, std::size_t k) {
+  std::vector<Function> others(parts.begin(), parts.end());
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+  return {parts[k], proper_sum(others)};
+}
+
+std::optional<Composition> composition(std::span<const Function> parts) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto all_others = [&](bool (*holds)(const Function&)) {
+      for (std::size_t j = 0; j < parts.size(); ++j)
+        if (j != k && !holds(parts[j])) return false;
+      return true;
+    };
+    const Facts facts = parts[k].facts();
+    if (facts.radial && all_others(is_homogeneous)) {
+      auto [f, g] = taken_out(parts, k);
+      return Composition{std::move(g), std::move(f)};
+    }
+    if (facts.by_order && all_others(is_one_function_of_each_entry)) {
+      auto [g, f] = taken_out(parts, k);
+      return Composition{std::move(g), std::move(f)};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W) {
+  if (parts.size() < 2 || !is_multiple_of_identity(W)) return std::nullopt;
+  const auto order = composition(parts);
+  if (!order) return std::nullopt;
+  const Prox u = order->first.prox(z, W);
+  if (u.x.size() == 0) return std::nullopt;
+  const Prox x = order->last.prox(u.x, W);
+  if (x.x.size() == 0) return std::nullopt;
+  Prox made = x;
+  take_weaker_evidence(made, u);
+  // A prox expands nothing: the error of u is one of x.
+  Prox whole = moved(made, x.x, u.v + x.v, u.error_bound + x.error_bound, z, W);
+  whole.duality_gap = u.duality_gap + x.duality_gap;
+  whole.values.reset();
+  whole.method += ", one prox after another";
+  return whole;
+}
+
+std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W) {
+  if (z.size() < 2 || !is_diagonal_kind(W) || !f.facts().separable) return std::nullopt;
+  std::vector<Prox> entries;
+  std::optional<Function> one;
+  for (Index i = 0; i < z.size(); ++i) {
+    if (i == 0 || f.dimension() != 0) one = f.entry(i);
+    if (!one) return std::nullopt;
+    entries.push_back(one->prox(z.segment(i, 1), block(W, i, 1)));
+  }
+  Prox whole = joined(entries);
+  whole.values.reset();  // those of the entries are without the constant
+  whole.method += " by entries";
+  return whole;
+}
+
+Prox joined(const std::vector<Prox>& blocks) {
+  Index n = 0;
+  for (const Prox& part : blocks) n += part.x.size();
+  Prox whole;
+  whole.values.emplace();
+  whole.x.resize(n);
+  whole.v.resize(n);
+  double squares = 0;
+  Index first = 0;
+  bool has_x = true;
+  for (const Prox& part : blocks) {
+    const Index size = part.x.size();
+    take_weaker_evidence(whole, part);
+    has_x = has_x && size > 0;
+    if (!has_x) continue;
+    whole.x.segment(first, size) = part.x;
+    whole.v.segment(first, size) = part.v;
+    first += size;
+    squares += part.error_bound * part.error_bound;
+    whole.duality_gap += part.duality_gap;
+    if (whole.values && part.values)
+      whole.values = {sum_of(whole.values->f_x, part.values->f_x),
+                      sum_of(whole.values->f_v, part.values->f_v),
+                      std::max(whole.values->miss, part.values->miss)};
+    else
+      whole.values.reset();
+  }
+  whole.error_bound = std::sqrt(squares);
+  if (!has_x) whole.x.resize(0);
+  return whole;
+}
+
+}  // namespace convex
