@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -45,32 +46,68 @@ Polygon ellipse(const Eigen::Matrix2d& A, const Point& centre, double radius) {
   return points;
 }
 
-/// The cone at x of directions d with n_k·d >= 0 as its two edges say, cut to the window.
+/// The part of the polygon in the window.
+Polygon in_window(Polygon polygon, const PageWindow& window) {
+  polygon = cut(polygon, {1, 0}, window.low.x());
+  polygon = cut(polygon, {-1, 0}, -window.high.x());
+  polygon = cut(polygon, {0, 1}, window.low.y());
+  return cut(polygon, {0, -1}, -window.high.y());
+}
+
+/// x + the cone of all nonnegative combinations, cut to the window: the complement of the widest angle
+/// between neighbouring generators. Empty where it has no area.
 Polygon cone_at(const Point& x, const Polygon& generators, const PageWindow& window) {
-  Polygon corners;
+  constexpr double turn = 2 * std::numbers::pi, half_turn = std::numbers::pi, rounding = 1e-9;
+  std::vector<double> angles;
+  for (const Point& g : generators) angles.push_back(std::atan2(g.y(), g.x()));
+  std::sort(angles.begin(), angles.end());
+  double widest = 0, begin = 0;
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const bool is_last = k + 1 == angles.size();
+    const double gap = (is_last ? angles.front() + turn : angles[k + 1]) - angles[k];
+    if (gap <= widest + rounding) continue;
+    widest = gap;
+    begin = angles[k] + gap;
+  }
+  if (widest < half_turn - rounding && !angles.empty()) return window.frame();  // they span the plane
+  const double opening = turn - widest;
+  const bool is_line = std::all_of(angles.begin(), angles.end(), [&](double angle) {
+    return std::abs(std::sin(angle - begin)) < rounding;
+  });
+  if (is_line) return {};
   const double far = 4 * window.size();
-  for (const Point& g : generators) corners.push_back(x + far * g.normalized());
-  if (corners.size() < 2) return {};
-  // The two generators that are farthest apart span the cone.
-  std::size_t first = 0, second = 1;
-  double least = 2;
-  for (std::size_t i = 0; i < generators.size(); ++i)
-    for (std::size_t j = i + 1; j < generators.size(); ++j) {
-      const double cosine = generators[i].normalized().dot(generators[j].normalized());
-      if (cosine < least) {
-        least = cosine;
-        first = i;
-        second = j;
+  Polygon cone{x};
+  for (const double part : {0.0, 0.5, 1.0}) {
+    const double angle = begin + part * opening;
+    cone.push_back(x + far * Point(std::cos(angle), std::sin(angle)));
+  }
+  return in_window(std::move(cone), window);
+}
+
+/// The accelerations of the plane that the rows allow, up to rounding, cut to the window. Where they have no
+/// area the two that are farthest apart: a part of a line; one where they are a point.
+Polygon admissible_part(const PlaneSection& section, const PageWindow& window) {
+  constexpr double rounding = 1e-7, thin = 1e-5, short_part = 1e-3;
+  Polygon kept = window.frame();
+  for (const PlaneSection::Row& row : section.rows) {
+    const double slack = rounding * window.size() * row.u.norm();
+    kept = cut(kept, row.u, row.s - slack);
+    if (row.two_sided) kept = cut(kept, -row.u, -row.s - slack);
+  }
+  if (kept.empty()) return kept;
+  double area = 0, longest = -1;
+  Polygon ends{kept.front(), kept.front()};
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Point &p = kept[i], &next = kept[(i + 1) % kept.size()];
+    area += p.x() * next.y() - p.y() * next.x();
+    for (std::size_t j = i + 1; j < kept.size(); ++j)
+      if ((p - kept[j]).norm() > longest) {
+        longest = (p - kept[j]).norm();
+        ends = {p, kept[j]};
       }
-    }
-  // Where the two nearly oppose each other, the chord between them would cut the cone off in the window.
-  const Point between = generators[first].normalized() + generators[second].normalized();
-  Polygon cone{x, corners[first], corners[second]};
-  if (between.norm() > 0) cone.insert(cone.begin() + 2, x + far * between.normalized());
-  cone = cut(cone, {1, 0}, window.low.x());
-  cone = cut(cone, {-1, 0}, -window.high.x());
-  cone = cut(cone, {0, 1}, window.low.y());
-  return cut(cone, {0, -1}, -window.high.y());
+  }
+  if (std::abs(area) > thin * window.size() * window.size()) return kept;
+  return longest > short_part * window.size() ? ends : Polygon{ends.front()};
 }
 
 /// The part of the line u·p = s that the window shows; empty when none.
@@ -107,8 +144,9 @@ double fallback_size(const PlaneSection& section) {
 }
 
 struct Words {
-  const char *cone = "A⁻¹N, N the normal cone at x", *free = "A⁻¹z, free",
-             *truth = "q'' = A⁻¹x, x = proj_C z", *reaction = "A⁻¹R, R the reaction", *allowed = "A⁻¹C";
+  std::vector<std::string> cone{"A⁻¹N, N the normal cone at x", "A⁻¹N"}, free{"A⁻¹z, free", "A⁻¹z"},
+      truth{"q'' = A⁻¹x, x = proj_C z", "q'' = A⁻¹x"}, all_free{"q'' = A⁻¹x = A⁻¹z, the free motion"},
+      reaction{"A⁻¹R, R the reaction", "A⁻¹R"}, allowed{"A⁻¹C"}, held{"all contacts held"};
 };
 
 void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection& section,
@@ -126,21 +164,22 @@ void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection
     }
   }
   for (const auto& [anchors, name] : named)
-    if (!page.label(anchors, name, "#00507d")) elsewhere.push_back(name);
+    if (!page.label(anchors, {name}, "#00507d")) elsewhere.push_back(name);
 }
 
 std::string heading_of(const SolvedScene& solved, const PlaneSection& section, bool ellipses,
-                       const std::vector<std::string>& elsewhere) {
+                       const std::vector<std::string>& elsewhere, bool is_beside) {
   const Scene& scene = solved.scene;
-  std::string text = scene.title.empty() ? scene.file : scene.title;
   std::string below;
   const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
   if (scene.problem.dimension() > 2)
     say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
         scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
   if (ellipses) say("ellipses: circles of the kinetic metric");
-  text = heading_line(text) + (below.empty() ? "" : "\n" + heading_line(below));
-  return text +
+  // Beside the mechanism, which has its name, there is room for two lines.
+  if (is_beside && below.empty()) below = "accelerations";
+  const std::string name = is_beside ? "" : heading_line(scene.title.empty() ? scene.file : scene.title);
+  return name + (below.empty() || is_beside ? "" : "\n") + heading_line(below) +
          (elsewhere.empty() ? "" : "\n" + heading_line("outside of the picture: " + listed(elsewhere)));
 }
 
@@ -166,10 +205,9 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   const PageWindow window(shown, fallback_size(section));
 
   LabelledPage page(window, area);
-  Polygon admissible = window.frame(), generators;
+  const Polygon admissible = admissible_part(section, window);
+  Polygon generators;
   for (const PlaneSection::Row& row : section.rows) {
-    admissible = cut(admissible, row.u, row.s);
-    if (row.two_sided) admissible = cut(admissible, -row.u, -row.s);
     if (!row.tight) continue;
     const Point normal = Point(section.A(1, 1) * row.u.x() - section.A(0, 1) * row.u.y(),
                                section.A(0, 0) * row.u.y() - section.A(1, 0) * row.u.x());
@@ -177,8 +215,9 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
     if (row.two_sided) generators.push_back(normal);
   }
   const Words words;
-  page.add(admissible, "with filledcurves closed fc rgb \"#d9e8f5\" notitle");
+  if (admissible.size() > 2) page.add(admissible, "with filledcurves closed fc rgb \"#d9e8f5\" notitle");
   page.add(cone_at(x, generators, window), "with filledcurves closed fc rgb \"#f7e3cf\" notitle");
+  if (admissible.size() == 2) page.add(admissible, "with lines lc rgb \"#a9cbe8\" lw 7 notitle");
   if (moved)
     for (const double part : {1.0 / 3, 2.0 / 3, 1.0})
       page.line(ellipse(section.A, free, part * radius), "with lines lc rgb \"#888888\" lw 0.8 notitle");
@@ -192,9 +231,9 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   page.point(x, "with points pt 7 ps 1 lc rgb \"#0072b2\" notitle");
   if (near) page.point(*section.classical, "with points pt 6 ps 1 lc rgb \"#cc79a7\" lw 1.5 notitle");
   draw_rows(page, solved, section, window, elsewhere);
-  page.label({x}, moved ? words.truth : "q'' = A⁻¹x = A⁻¹z, the free motion", "#000000");
+  page.label({x}, moved ? words.truth : words.all_free, "#000000");
   if (moved) page.label({free}, words.free, "#000000");
-  if (near) page.label({*section.classical}, "all contacts held", "#a04f80");
+  if (near) page.label({*section.classical}, words.held, "#a04f80");
   if (moved) page.label({(free + x) / 2, (2 * free + x) / 3, (free + 2 * x) / 3}, words.reaction, "#b04a00");
   if (!generators.empty()) {
     Polygon inside;
@@ -210,14 +249,14 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
       for (const Point& g : generators) inside.push_back(x + 0.25 * window.size() * g.normalized());
     page.label(inside, words.cone, "#b04a00");
   }
-  if (admissible.size() > 2) {
+  if (admissible.size() > 1) {
     Point middle = Point::Zero();
     for (const Point& p : admissible) middle += p / static_cast<double>(admissible.size());
     page.label({middle, (2 * middle + x) / 3}, words.allowed, "#00507d");
   }
   return {page.script("acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])],
                       "acceleration of " + scene.coordinates[static_cast<std::size_t>(section.axes[1])],
-                      heading_of(solved, section, moved, elsewhere)),
+                      heading_of(solved, section, moved, elsewhere, area.left > 0)),
           page_size, area.page_width};
 }
 

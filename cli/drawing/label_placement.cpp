@@ -49,6 +49,13 @@ double text_width(const std::string& text, double font_size) {
   return width * font_size;
 }
 
+int width_with_key(double right, const std::vector<std::string>& words) {
+  constexpr double usual = 700, letters = 9.5, sample = 56;
+  double widest = 0;
+  for (const std::string& text : words) widest = std::max(widest, text_width(text, letters));
+  return static_cast<int>(std::max(usual, right + sample + widest));
+}
+
 void LabelPlacement::avoid_point(const PagePoint& p, double radius) {
   points_.push_back({p.array() - radius, p.array() + radius});
 }
@@ -71,13 +78,12 @@ double LabelPlacement::cost(const Box& box) const {
   return sum;
 }
 
-std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& anchors,
-                                                 const std::string& text, double font_size) {
+LabelPlacement::Found LabelPlacement::best(const std::vector<PagePoint>& anchors, const std::string& text,
+                                           double font_size) const {
   const PagePoint half(text_width(text, font_size) / 2 + 2, line_height * font_size / 2);
   constexpr int directions = 16;
   constexpr double nearest = 6, farthest = 120, step = 6;
-  double least = impossible;
-  PagePoint best = PagePoint::Zero(), direction = PagePoint::Zero();
+  Found found{text, PagePoint::Zero(), half, PagePoint::Zero(), impossible, 0};
   for (const PagePoint& anchor : anchors)
     for (double away = nearest; away <= farthest; away += step)
       for (int k = 0; k < directions; ++k) {
@@ -85,18 +91,29 @@ std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& a
         const PagePoint way(std::cos(angle), std::sin(angle));
         // The nearest side of the box is that far away.
         const PagePoint middle = anchor + away * way + way.cwiseProduct(half);
-        const double total = away + cost({middle - half, middle + half});
-        if (total >= least) continue;
-        least = total;
-        best = middle;
-        direction = way;
+        if (away >= found.cost + found.distance) continue;
+        const double lies_on = cost({middle - half, middle + half});
+        if (away + lies_on >= found.cost + found.distance) continue;
+        found = {text, middle, half, way, lies_on, away};
       }
-  if (least >= impossible) return std::nullopt;
-  labels_.push_back({best - half, best + half});
+  return found;
+}
+
+std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& anchors,
+                                                 const std::vector<std::string>& texts, double font_size) {
+  std::optional<Found> chosen;
+  for (const std::string& text : texts) {
+    const Found found = best(anchors, text, font_size);
+    if (!chosen || found.cost + found.distance < chosen->cost + chosen->distance) chosen = found;
+    if (chosen->cost == 0) break;
+  }
+  if (!chosen || chosen->cost >= impossible) return std::nullopt;
+  const auto& [text, middle, half, direction, cost, distance] = *chosen;
+  labels_.push_back({middle - half, middle + half});
   constexpr double sideways = 0.3;
-  if (direction.x() > sideways) return PlacedLabel{{best.x() - half.x() + 2, best.y()}, "left"};
-  if (direction.x() < -sideways) return PlacedLabel{{best.x() + half.x() - 2, best.y()}, "right"};
-  return PlacedLabel{best, "center"};
+  if (direction.x() > sideways) return PlacedLabel{{middle.x() - half.x() + 2, middle.y()}, "left", text};
+  if (direction.x() < -sideways) return PlacedLabel{{middle.x() + half.x() - 2, middle.y()}, "right", text};
+  return PlacedLabel{middle, "center", text};
 }
 
 }  // namespace cli

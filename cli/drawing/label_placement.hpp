@@ -15,6 +15,7 @@ using PagePoint = Eigen::Vector2d;
 struct PlacedLabel {
   PagePoint at;
   const char* aligned = "center";
+  std::string text = {};
 };
 
 /// Finds room for the labels of a picture: inside the frame, off each other, and off lines and points as far
@@ -27,16 +28,23 @@ class LabelPlacement {
   void avoid_line(std::vector<PagePoint> corners) { lines_.push_back(std::move(corners)); }
   void avoid_point(const PagePoint&, double radius);
 
-  /// Where the label goes; none where every place would lie on another label or out of the frame. Later
-  /// labels keep off it.
-  std::optional<PlacedLabel> place(const std::vector<PagePoint>& anchors, const std::string& text,
-                                   double font_size);
+  /// Where the label goes, the first of `texts` that lies on no line and no point, or else the one that
+  /// stands best; none where every place would lie on another label or out of the frame. Later labels keep
+  /// off it.
+  std::optional<PlacedLabel> place(const std::vector<PagePoint>& anchors,
+                                   const std::vector<std::string>& texts, double font_size);
 
  private:
   struct Box {
     PagePoint low, high;
   };
+  struct Found {
+    std::string text;
+    PagePoint middle, half, direction;
+    double cost, distance;  ///< of what it lies on; from its anchor
+  };
   double cost(const Box&) const;
+  Found best(const std::vector<PagePoint>& anchors, const std::string& text, double font_size) const;
 
   PagePoint low_, high_;
   std::vector<std::vector<PagePoint>> lines_;
@@ -45,5 +53,9 @@ class LabelPlacement {
 
 /// The width in pixels that a text has at most in a font of that size (pixels an em), sans serif.
 double text_width(const std::string& text, double font_size);
+
+/// The width of a page with a key outside on the right, of these words in small letters, whose diagrams end
+/// at `right`, in pixels.
+int width_with_key(double right, const std::vector<std::string>& words);
 
 }  // namespace cli

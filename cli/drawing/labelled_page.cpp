@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include "cli/drawing/gnuplot.hpp"
@@ -12,6 +13,9 @@ namespace {
 
 /// Pixels of the square of numbers in the picture, and of letters.
 constexpr double frame_left = 92, frame_size = 580, frame_bottom = 56, label_size = 11.5;
+
+/// Points of letters, and of the numbers at the axes.
+constexpr double label_points = 11, axis_points = 9, title_points = 11;
 
 std::string number_rows(const Polygon& points) {
   std::string text;
@@ -71,14 +75,15 @@ void LabelledPage::arrow(const Point& from, const Point& to, const char* style) 
   labels_.avoid_line({window_.pixel(from), window_.pixel(to)});
 }
 
-bool LabelledPage::label(const Polygon& anchors, const std::string& text, const char* tint) {
+bool LabelledPage::label(const Polygon& anchors, const std::vector<std::string>& texts, const char* tint) {
   std::vector<PagePoint> pixels;
   for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
-  const auto placed = labels_.place(pixels, text, label_size);
+  const auto placed = labels_.place(pixels, texts, label_size * area_.letters());
   if (!placed) return false;
   fmt::format_to(std::back_inserter(blocks_),
-                 "set label {} at screen {},{} {} front font \",11\" tc rgb \"{}\"\n", quoted(text),
-                 across(placed->at.x()), placed->at.y() / page_size, placed->aligned, tint);
+                 "set label {} at screen {},{} {} front font \",{:g}\" tc rgb \"{}\"\n", quoted(placed->text),
+                 across(placed->at.x()), placed->at.y() / page_size, placed->aligned,
+                 label_points * area_.letters(), tint);
   return true;
 }
 
@@ -86,11 +91,15 @@ std::string LabelledPage::script(const std::string& x, const std::string& y, con
   return fmt::format(
              "unset label\nunset arrow\nset lmargin at screen {}\nset rmargin at screen {}\nset bmargin at "
              "screen {}\nset tmargin at screen {}\nset clip two\nset xrange [{}:{}]\nset yrange [{}:{}]\nset "
-             "xlabel {}\nset ylabel {}\nset title {}\nset border lw 0.7 lc rgb \"#444444\"\nset tics font "
-             "\",9\"\nunset key\n",
+             "xlabel {} font \",{:g}\"\nset ylabel {} font \",{:g}\"\nset title {} font \",{:g}\" offset "
+             "0,-0.4\nset "
+             "border lw 0.7 lc rgb \"#444444\"\nset tics font "
+             "\",{:g}\"\nunset key\n",
              across(frame_left), across(frame_left + frame_size), frame_bottom / page_size,
              (frame_bottom + frame_size) / page_size, window_.low.x(), window_.high.x(), window_.low.y(),
-             window_.high.y(), quoted(x), quoted(y), quoted(title)) +
+             window_.high.y(), quoted(x), label_points * area_.letters(), quoted(y),
+             label_points * area_.letters(), quoted(title), title_points * std::sqrt(area_.letters()),
+             axis_points * area_.letters()) +
          blocks_ + "plot " + plots_ + "\n";
 }
 

@@ -15,6 +15,9 @@ using Polygon = std::vector<Point>;
 inline constexpr int page_size = 700;
 struct PageArea {
   int left = 0, page_width = page_size;
+
+  /// Letters beside another picture are larger, for the page is shown in the same width.
+  double letters() const { return page_width > page_size ? 1.4 : 1; }
 };
 
 /// The window: all points with room around; where all are one, `otherwise` is its size.
@@ -38,8 +41,8 @@ class LabelledPage {
   void line(const Polygon& points, const std::string& how);
   void point(const Point& p, const std::string& how);
   void arrow(const Point& from, const Point& to, const char* style);
-  /// Whether there was room for it.
-  bool label(const Polygon& anchors, const std::string& text, const char* tint);
+  /// The first of the texts that lies on nothing, or the one that stands best. Whether there was room.
+  bool label(const Polygon& anchors, const std::vector<std::string>& texts, const char* tint);
   /// The whole, with the names of its axes and its title.
   std::string script(const std::string& x, const std::string& y, const std::string& title) const;
 

@@ -61,6 +61,14 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
     outlines.push_back(outline(shape, values));
     all.insert(all.end(), outlines.back().begin(), outlines.back().end());
   }
+  const std::vector<ContactArrow> arrows = arrows_of(solved, drawn, values);
+  double longest = 0;
+  for (const ContactArrow& arrow : arrows)
+    longest = std::max(longest, std::hypot(arrow.force[0], arrow.force[1]));
+  constexpr double longest_part = 0.28;  // of the picture of the mechanism alone
+  const double a_unit = longest > 0 ? longest_part * PageWindow(all, 1).size() / longest : 0;
+  for (const ContactArrow& arrow : arrows)
+    all.emplace_back(arrow.at[0] + a_unit * arrow.force[0], arrow.at[1] + a_unit * arrow.force[1]);
   const PageWindow window(all, 1);
   LabelledPage page(window, area);
   for (std::size_t k = 0; k < outlines.size(); ++k) {
@@ -69,24 +77,18 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
     else
       page.line(outlines[k], "with lines lc rgb \"#222222\" lw 2.2 notitle");
   }
-  const std::vector<ContactArrow> arrows = arrows_of(solved, drawn, values);
-  double longest = 0;
-  for (const ContactArrow& arrow : arrows)
-    longest = std::max(longest, std::hypot(arrow.force[0], arrow.force[1]));
-  constexpr double longest_part = 0.28;  // of the picture
   std::set<Index> named;
   for (const ContactArrow& arrow : arrows) {
     const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
-    const Point tip = at + longest_part * window.size() / longest * force;
-    page.arrow(at, tip, "lc rgb \"#d55e00\" lw 2");
+    page.arrow(at, at + a_unit * force, "lc rgb \"#d55e00\" lw 2");
   }
   std::vector<std::string> unnamed;
   for (const ContactArrow& arrow : arrows) {
     if (!named.insert(arrow.constraint).second) continue;
     const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
-    const Point step = longest_part * window.size() / longest * force;
+    const Point step = a_unit * force;
     const std::string& name = scene.constraints[static_cast<std::size_t>(arrow.constraint)];
-    if (!page.label({at + step, at + step / 2, at}, name + " " + number_text(force.norm()), "#b04a00"))
+    if (!page.label({at + step, at + step / 2, at}, {name + " " + number_text(force.norm())}, "#b04a00"))
       unnamed.push_back(name);
   }
   for (const Index a : scene.contacts)

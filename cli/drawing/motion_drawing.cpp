@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 
+#include "cli/drawing/label_placement.hpp"
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/taylor_series.hpp"
 
@@ -46,6 +47,9 @@ std::string style(mechanics::EventKind kind) {
   return fmt::format("lc rgb \"{}\" lw 0.5 dt 3", colour(kind));
 }
 
+/// Pixels; the key is beside them.
+constexpr double motion_left = 77, motion_right = 574;
+
 /// One panel: curves of some columns of the points.
 struct Panel {
   std::string label;
@@ -70,10 +74,12 @@ std::string range_script(const std::pair<double, double>& range, bool from_zero)
   constexpr double rounding = 1e-9;
   const auto [low, high] = range;
   const double size = std::max(std::abs(low), std::abs(high));
+  constexpr double short_part = 1e-4;  // below it the usual six digits are the same at each tick
   if (!(high - low <= rounding * std::max(size, rounding)))
-    return from_zero && low >= -rounding * high ? "set yrange [0:*]\n" : "set autoscale y\n";
+    return (from_zero && low >= -rounding * high ? "set yrange [0:*]\n" : "set autoscale y\n") +
+           std::string(high - low < short_part * size ? "set format y \"%.10g\"\n" : "set format y\n");
   const double half = size > rounding ? 0.1 * size : 1;
-  return fmt::format("set yrange [{}:{}]\n", low - half, high + half);
+  return fmt::format("set yrange [{}:{}]\nset format y\n", low - half, high + half);
 }
 
 }  // namespace
@@ -132,14 +138,17 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
     panels.push_back({"lambda", drawn, 2 + coordinates_ + constraints_});
   }
   panels.push_back({"energy", {"T + V"}, 2 + coordinates_ + 2 * constraints_});
+  std::vector<std::string> words;
+  for (const Panel& panel : panels) words.insert(words.end(), panel.names.begin(), panel.names.end());
   Drawing made;
+  made.width = width_with_key(motion_right, words);
   made.height = panel_height * static_cast<int>(panels.size()) + 40;
   made.script = "$points << EOD\n" + points_ + "EOD\n";
   made.script += fmt::format(
-      "set multiplot layout {},1 title {} font \",11\" margins 0.14,0.82,0.07,0.94 spacing 0.03\n"
+      "set multiplot layout {},1 title {} font \",11\" margins {},{},0.07,0.94 spacing 0.03\n"
       "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
-      panels.size(), quoted(title), begin_, end_);
+      panels.size(), quoted(title), motion_left / made.width, motion_right / made.width, begin_, end_);
   std::map<mechanics::EventKind, std::string> kinds;
   for (const auto& [kind, place] : events_) {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
@@ -151,7 +160,7 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const std::string& label = panels[k].label;
     const auto& range = label == "energy" ? energies_ : label == "f" ? gaps_ : forces_;
-    made.script += label == "q" ? "set autoscale y\n" : range_script(range, label != "energy");
+    made.script += label == "q" ? "set autoscale y\nset format y\n" : range_script(range, label != "energy");
     std::string key;  // of events, once, below the names of coordinates
     for (const auto& [kind, line] : kinds) key += k == 0 ? line : "";
     made.script += panel_script(panels[k], k + 1 == panels.size(), key);

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "cli/drawing/label_placement.hpp"
+
 namespace cli {
 namespace {
 
@@ -15,6 +17,9 @@ constexpr std::array band_colours{"#ffffff", "#fbd9a5", "#bfe0f5", "#a9dcc8", "#
 constexpr std::array curve_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                    "#000000", "#56b4e9", "#e69f00", "#7f7f7f"};
 constexpr std::size_t most_points = 20000, most_drawn = 8;
+
+/// Pixels, of the diagrams; the key is beside them.
+constexpr double sweep_left = 84, sweep_right = 500, sweep_key = 512;
 
 /// The sets that occur, in the order of their first point.
 class ContactSets {
@@ -108,11 +113,16 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
   constexpr int panel_height = 210;
   made.height = panel_height * static_cast<int>(panels.size()) + 50;
   made.script = "$points << EOD\n" + data + "EOD\n" + objects;
+  std::vector<std::string> words = sets.names();
+  for (const CurvePanel& panel : panels)
+    for (const std::size_t column : panel.columns) words.push_back(watched[column].name);
+  made.width = width_with_key(sweep_right, words);
   made.script += fmt::format(
-      "set multiplot layout {},1 margins 0.12,0.72,{},0.96 spacing 0.04\nset xrange [{}:{}]\n"
+      "set multiplot layout {},1 margins {},{},{},0.96 spacing 0.04\nset xrange [{}:{}]\n"
       "set border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror font \",9\"\n"
-      "set key outside right top Left reverse font \",9\" samplen 1.5\n",
-      panels.size(), 50.0 / made.height, first, last > first ? last : first + 1);
+      "set key at screen {}, graph 1 left top Left reverse font \",9\" samplen 1.5\n",
+      panels.size(), sweep_left / made.width, sweep_right / made.width, 50.0 / made.height, first,
+      last > first ? last : first + 1, sweep_key / made.width);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const bool is_last = p + 1 == panels.size();
     made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[p].label));
@@ -160,15 +170,17 @@ Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>
   }
   Drawing made;
   made.height = 480;
+  made.width = width_with_key(sweep_right, sets.names());
   for (std::size_t k = 0; k < data.size(); ++k)
     made.script += fmt::format("$set{} << EOD\n{}EOD\n", k, data[k]);
   made.script += fmt::format(
-      "set lmargin at screen 0.12\nset rmargin at screen 0.70\nset tmargin at screen 0.96\n"
+      "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen 0.96\n"
       "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
-      "set tics nomirror out font \",9\"\nset key outside right top Left reverse font \",9\" samplen "
-      "1.5\nplot ",
-      x.front(), x.back(), y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key));
+      "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font \",9\" "
+      "samplen 1.5\nplot ",
+      sweep_left / made.width, sweep_right / made.width, x.front(), x.back(), y.front(), y.back(),
+      quoted(ranges[0].key), quoted(ranges[1].key), sweep_key / made.width);
   constexpr std::size_t with_borders = 2500;
   const std::string border = points.size() <= with_borders ? "border lc rgb \"#bbbbbb\"" : "noborder";
   for (std::size_t k = 0; k < data.size(); ++k)

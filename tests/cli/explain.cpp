@@ -122,7 +122,7 @@ TEST_CASE("the HTML file asks nothing of a network, and the LaTeX file is whole"
 }
 
 TEST_SUITE("pdflatex") {
-  TEST_CASE("the LaTeX file of each problem compiles") {
+  TEST_CASE("the LaTeX file of each problem compiles, and no line of it leaves the page") {
     const Folder folder;
     for (const std::string& file : problem_library()) {
       CAPTURE(file);
@@ -131,6 +131,7 @@ TEST_SUITE("pdflatex") {
       CHECK(std::system(("cd " + fs::path(latex).parent_path().string() +
                          " && pdflatex -interaction=nonstopmode -halt-on-error a.tex > /dev/null 2>&1")
                             .c_str()) == 0);
+      CHECK(explained_bytes(folder.path("a.log")).find("Overfull") == std::string::npos);
     }
   }
 }

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -47,6 +48,26 @@ std::size_t times_named(const std::vector<SvgText>& texts, const std::string& na
     if (at != std::string::npos && text.text.find(name, at) != std::string::npos) ++count;
   }
   return count;
+}
+
+/// The area of all polygons of that colour, in square pixels.
+double area_of(const std::string& colour, const std::string& svg) {
+  double area = 0;
+  const std::string begin = "<polygon fill = '" + colour + "' points = '";
+  for (std::size_t at = 0; (at = svg.find(begin, at)) != std::string::npos;) {
+    at += begin.size();
+    std::istringstream points(svg.substr(at, svg.find('\'', at) - at));
+    std::vector<double> x, y;
+    char comma = ',';
+    for (double a = 0, b = 0; points >> a >> comma >> b;) x.push_back(a), y.push_back(b);
+    double twice = 0;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const std::size_t next = (k + 1) % x.size();
+      twice += x[k] * y[next] - x[next] * y[k];
+    }
+    area += std::abs(twice) / 2;
+  }
+  return area;
 }
 
 /// The measurements that are kept with the page on failures.
@@ -128,6 +149,64 @@ TEST_CASE("a scene with [draw] is drawn with the force of each contact on it, be
   const std::vector<SvgText> texts = svg_texts(svg);
   CHECK(times_named(texts, "floor 19.62") == 1);  // the arrow, m g
   CHECK(times_named(texts, "floor") == 1);        // its line in the plane of accelerations
+}
+
+TEST_CASE("normal cones are shaded whole: rays not, half-planes and planes up to the frame") {
+  if (!cli::has_gnuplot()) return;
+  struct Shaded {
+    std::string problem;
+    double least, most;  // parts of the frame
+  };
+  const Folder folder;
+  for (const Shaded& shaded : {Shaded{"string_pendulum_taut", 0, 0}, Shaded{"trammel_stop", 0.4, 0.8},
+                               Shaded{"coupled_wheels_dead_centre", 0.999, 1.001}}) {
+    CAPTURE(shaded.problem);
+    const std::string picture = folder.path("a.svg"),
+                      file = fs::path(MOREAU_SOURCE) / ("docs/problems/" + shaded.problem + ".toml");
+    CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
+    const double part = area_of("rgb(247, 227, 207)", picture_bytes(picture)) / (580.0 * 580.0);
+    CHECK(part >= shaded.least);
+    CHECK(part <= shaded.most);
+  }
+}
+
+TEST_CASE("a page of two pictures has larger letters than a page of one") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = fs::path(MOREAU_SOURCE) / "docs/tutorial/four_bar.toml",
+                    picture = folder.path("a.svg");
+  CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
+  const std::string svg = picture_bytes(picture);
+  check_legible(svg);
+  for (const char* name : {"along", "across"}) CHECK(times_named(svg_texts(svg), name) == 1);
+  CHECK(svg.find("font-size=\"15.40\"") != std::string::npos);
+}
+
+TEST_CASE(
+    "names of thirty letters stand beside the diagrams of a sweep, a map and a motion, and on the page") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string name = "the_left_trestle_under_the_bar",
+                    file = folder.write("a.toml", point_on_floor({{9, name + " = \"y >= 0\""}})),
+                    picture = folder.path("a.svg");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"sweep", file, "--over", "g=-2:0.5:2"},
+        {"sweep", file, "--over", "g=-2:0.5:2", "--over", "m=1:1:4"},
+        {"simulate", file, "--until", "1"}}) {
+    CAPTURE(arguments.size());
+    std::vector<std::string> drawn = arguments;
+    drawn.insert(drawn.end(), {"--quiet", "--plot", picture});
+    CHECK(run(drawn).code == 0);
+    const std::string svg = picture_bytes(picture);
+    check_legible(svg);
+    int named = 0;
+    for (const SvgText& text : svg_texts(svg)) {
+      if (text.text.find(name) == std::string::npos) continue;
+      ++named;
+      CHECK(text.left >= 500);  // where the diagrams end
+    }
+    CHECK(named >= 1);
+  }
 }
 
 TEST_CASE("a picture is written as PDF and as PNG too") {
