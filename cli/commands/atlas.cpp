@@ -27,9 +27,13 @@ using convex::InvalidInput;
 /// Where an atlas is explored: enough to see what is near.
 constexpr std::size_t default_cells = 50;
 
-/// A message without what the reader of it calls the matrix.
-std::string without_name(const std::string& message, const std::string& name) {
-  return message.rfind(name, 0) == 0 ? message.substr(name.size()) : message;
+/// A message about a matrix that its reader calls the metric.
+std::string about_covariance(std::string message) {
+  const std::string name = "metric: ", entry = "metric[";
+  if (message.rfind(name, 0) == 0) message = message.substr(name.size());
+  for (std::size_t at = message.find(entry); at != std::string::npos; at = message.find(entry))
+    message.replace(at, entry.size(), "covariance[");
+  return "--covariance: " + message;
 }
 
 /// The distribution of z that was asked for, and what it is in words.
@@ -52,7 +56,7 @@ std::pair<convex::atlas::NormalForce, std::string> distribution(const AtlasOptio
       rows.col(i) = covariance.multiply(convex::Vector::Unit(rows.rows(), i));
     force.covariance = convex::exact_rows(rows);
   } catch (const InvalidInput& error) {
-    throw InvalidInput("--covariance: " + without_name(error.what(), "metric: "));
+    throw InvalidInput(about_covariance(error.what()));
   }
   return {std::move(force), words + *options.covariance};
 }

@@ -90,7 +90,7 @@ TEST_CASE("a covariance that is none is called by its name") {
   const Outcome outcome = run({"atlas", folder.write("a.toml", corner), "--covariance", "[[1, 2], [2, 1]]"});
   CHECK(outcome.code == 2);
   CHECK(outcome.err.find("--covariance: ") != std::string::npos);
-  CHECK(outcome.err.find("metric") == std::string::npos);
+  CHECK(outcome.err.find("metric:") == std::string::npos);
 }
 
 TEST_CASE("the regions of a map fill it, and their corners and areas are exact") {
