@@ -66,6 +66,8 @@ struct DenseKernels {
   /// y += Σ_k c_(column k) X_(column k) over `count` columns of n numbers, a multiple of 8, `stride` apart.
   void (*add_columns)(Index n, Index count, const Index* columns, const double* c, const double* X,
                       Index stride, double* y);
+  /// into := Σ_i u_i D_i, D_i the i-th of n runs of `width` numbers, a multiple of 8.
+  void (*combine_runs)(Index n, Index width, const double* D, const double* u, double* into);
   /// Whether Σ_k c_k u_(row k) - whole u_p is 0 in doubles, entry by entry, over `count` rows of n numbers.
   bool (*cancels)(Index n, const double* U, Index p, double whole, Index count, const Index* rows,
                   const double* c);

@@ -211,6 +211,21 @@ struct Kernels : TriangleKernels<W, Fused> {
     }
   }
 
+  MOREAU_INLINE void combine_runs(Index n, Index width, const double* D, const double* u, double* into) {
+    Index k = 0;
+    for (; k + 32 <= width; k += 32) {
+      Pack sum[4] = {};
+      for (Index i = 0; i < n; ++i)
+        for (int r = 0; r < 4; ++r) P::add_product(sum[r], P::load(D + i * width + k + 8 * r), u[i]);
+      for (int r = 0; r < 4; ++r) P::store(into + k + 8 * r, sum[r]);
+    }
+    for (; k < width; k += 8) {
+      Pack sum{};
+      for (Index i = 0; i < n; ++i) P::add_product(sum, P::load(D + i * width + k), u[i]);
+      P::store(into + k, sum);
+    }
+  }
+
   MOREAU_INLINE Pack size(const Pack& x) { return P::larger(x, P::times(x, -1)); }
   MOREAU_INLINE double largest(const Pack& x) {
     double most[8];

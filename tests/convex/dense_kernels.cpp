@@ -4,7 +4,9 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 using convex::DenseKernels;
@@ -145,4 +147,51 @@ TEST_CASE("residuals in twice the working precision are the exact ones, rounded"
       CHECK(std::abs(difference.get_d()) <= 1e-15 * std::abs(exact.get_d()) + 1e-29);
     }
   }
+}
+
+TEST_CASE("what the kernels say of sums, grids and finite numbers holds to the last entry") {
+  for (const DenseKernels* kernels : convex::all_dense_kernels())
+    for (Index n : {1, 5, 8, 9, 30, 64, 67}) {
+      std::mt19937 generator(static_cast<unsigned>(n));
+      std::uniform_int_distribution<int> whole(-8, 8);
+      RowMatrix U(4, n);
+      for (Index i = 0; i < U.size(); ++i) U.data()[i] = whole(generator) / 4.0;
+      U.row(3) = (3 * U.row(0) - U.row(2)) / 2;
+      const Index rows[] = {0, 2};
+      const double coefficients[] = {3, -1}, shift = 0x1.8p50;  // whose neighbours are a quarter off
+      const auto cancels = [&] { return kernels->cancels(n, U.data(), 3, 2, 2, rows, coefficients); };
+      CHECK(cancels());
+      for (Index i = 0; i < n; ++i) {
+        const double entry = std::exchange(U(3, i), U(3, i) + 0x1p-30);
+        CHECK_FALSE(cancels());
+        U(3, i) = entry;
+      }
+      Vector x = 4 * U.row(0);
+      CHECK(kernels->is_on_grid(n, x.data(), shift));
+      CHECK(kernels->largest_size(n, x.data()) == x.cwiseAbs().maxCoeff());
+      for (Index i = 0; i < n; ++i) {
+        const double entry = std::exchange(x[i], 0.125);
+        CHECK_FALSE(kernels->is_on_grid(n, x.data(), shift));
+        x[i] = -33;
+        CHECK(kernels->largest_size(n, x.data()) == 33);
+        CHECK(kernels->is_finite(n, x.data()));
+        for (const double wrong : {std::nan(""), -HUGE_VAL}) {
+          x[i] = wrong;
+          CHECK_FALSE(kernels->is_finite(n, x.data()));
+        }
+        x[i] = entry;
+      }
+    }
+}
+
+TEST_CASE("columns added at once are the columns added one after the other, to the last bit") {
+  for (const DenseKernels* kernels : convex::all_dense_kernels())
+    for (Index n : {8, 24, 64, 136}) {
+      const Data data = draw(n, 3);
+      const Index columns[] = {0, 3, 4, 7};
+      Vector y = data.A.col(1), expected = y;
+      for (Index c : columns) kernels->add_multiple(n, data.x[c], data.A.data() + c * n, expected.data());
+      kernels->add_columns(n, 4, columns, data.x.data(), data.A.data(), n, y.data());
+      CHECK(y == expected);
+    }
 }

@@ -138,7 +138,7 @@ std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const V
     if (std::any_of(held.begin(), held.end(), [&](Index a) { return problem.s[a] != 0; }) ||
         !std::all_of(touched.begin(), touched.end(), is_kept))
       return std::nullopt;
-    return Vector(-problem.s(touched));
+    return Vector(0 - problem.s(touched).array());
   }
   const GridSum on_grid(q);
   // A slack that is too small for a double has its sign all the same.

@@ -54,10 +54,12 @@ class SmallGramSolve {
   bool correct(bool is_first, double small);
   void mark_weak(double small);
   bool take_noise_for_zero(bool more);
+  bool is_at_rest() const;
   Slacks measure_slacks();
   Slacks look_at_violated(const std::vector<Index>& rows);
   Slacks decide_degenerate_rows();
   bool holds(Index a) const { return place(a) >= 0 && tableau_.held[place(a)]; }
+  bool look_at_touched(Index most);
   bool leave_sums_of_rows_held();
   std::optional<Vector> slacks_of_touched_rows_if_kept() const;
   void find_magnitude();

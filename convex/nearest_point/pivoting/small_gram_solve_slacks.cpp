@@ -6,6 +6,12 @@
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
+namespace {
+
+/// Rows touched that are looked at before it is known whether they are sums of rows held.
+constexpr Index few_touched = 16;
+
+}  // namespace
 
 void SmallGramSolve::find_magnitude() {
   double square = 0;
@@ -39,12 +45,24 @@ Index SmallGramSolve::close_rows(double absolute, double by_length) {
   return small_kernels().close_rows(t.all, slack_, s, end, row_scale_, absolute, by_length, close_);
 }
 
+/// Whether q is 0, the point of the rows held, and keeps all others, without rounding.
+bool SmallGramSolve::is_at_rest() const {
+  const SmallTableau& t = tableau_;
+  const auto is_zero = [](double x) { return x == 0; };
+  return std::all_of(t.q, t.q + t.n, is_zero) && !problem_.radii && problem_.s.maxCoeff() <= 0 &&
+         std::all_of(t.rows, t.rows + t.size, [&](Index a) { return problem_.s[a] == 0; });
+}
+
 Slacks SmallGramSolve::measure_slacks() {
   measure();
+  touched_violation_ = 0;
+  if (known_.wrong == 0 && is_at_rest()) {
+    for (Index a = 0; a < tableau_.all; ++a) slack_[a] = 0 - problem_.s[a];
+    return Slacks::kept;
+  }
   const double rounding = 2 * static_cast<double>(tableau_.n) * unit_roundoff,
                by_length = rounding * magnitude_ + known_.missing_slack(1);
   const Index close = close_rows(rounding, by_length);
-  touched_violation_ = 0;
   const Index open = std::remove_if(close_, close_ + close, [&](Index a) { return holds(a); }) - close_;
   touched_.clear();
   violated_.clear();
@@ -88,14 +106,10 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
     const double size = std::abs(problem_.s[a]) + part * row_scale_[a] * t.acceleration_norm;
     if (slack_[a] < 0 && size > 0) touched_violation_ = std::max(touched_violation_, -slack_[a] / size);
   }
-  if (!leave_sums_of_rows_held()) return Slacks::doubtful;
+  // Few are looked at, so that their columns tell what they depend on; of many the sums are taken out first.
+  if (!look_at_touched(few_touched) || !leave_sums_of_rows_held()) return Slacks::doubtful;
   if (touched_.empty()) return Slacks::kept;
-  violated_.clear();
-  for (Index a : touched_)
-    if (place(a) < 0) violated_.push_back(a);
-  const Index count = static_cast<Index>(violated_.size());
-  if (t.stride + padded(count) > t.most || (count > 0 && !look_at(violated_.data(), count)))
-    return Slacks::doubtful;
+  if (!look_at_touched(t.all)) return Slacks::doubtful;
   alignas(64) double known[SmallTableau::most], precise[SmallTableau::most];
   copy_packs(t.stride, t.slack, known);
   small_kernels().measure_precisely(t);
@@ -115,6 +129,16 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
   return violated_.empty() ? Slacks::kept : look_at_violated(violated_);
 }
 
+/// Looks at the rows touched if they are no more than so many. False when there is no room for them.
+bool SmallGramSolve::look_at_touched(Index most) {
+  violated_.clear();
+  for (Index a : touched_)
+    if (place(a) < 0) violated_.push_back(a);
+  const Index count = static_cast<Index>(violated_.size());
+  return count == 0 || count > most ||
+         (tableau_.stride + padded(count) <= tableau_.most && look_at(violated_.data(), count));
+}
+
 /// Takes out of touched_ the rows that are sums of rows held with short fractions as coefficients, not one
 /// bit left over, and ask for no more than they do. False when one asks for more.
 bool SmallGramSolve::leave_sums_of_rows_held() {
@@ -130,16 +154,12 @@ bool SmallGramSolve::leave_sums_of_rows_held() {
       for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[p * t.stride + t.place[k]];
     } else {
       if (!std::exchange(has_dual, true)) small_kernels().dual_rows(t, dual);
-      small_kernels().coefficients(t, dual, t.U + a * t.n, coefficients);
+      dense_kernels().combine_runs(t.n, padded(t.size), dual, t.U + a * t.n, coefficients);
     }
     // Most rows that are no sum show it in their first entry.
-    double first = t.U[a * t.n], size = std::abs(first);
-    for (Index k = 0; k < t.size; ++k) {
-      const double term = coefficients[k] * t.U[t.rows[k] * t.n];
-      first -= term;
-      size += std::abs(term);
-    }
-    if (std::abs(first) > zero_coefficient * size) return false;
+    double first = t.U[a * t.n];
+    for (Index k = 0; k < t.size; ++k) first -= coefficients[k] * t.U[t.rows[k] * t.n];
+    if (std::abs(first) * t.unit[0] > zero_coefficient * row_scale_[a]) return false;
     const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
     if (!on_edge) return false;
     asks_more = asks_more || *on_edge < 0;

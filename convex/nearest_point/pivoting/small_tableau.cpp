@@ -23,10 +23,6 @@ namespace {
     target static void measure_precisely(SmallTableau& t) { MOREAU_BY_PACKS(measure_precisely); }          \
     target static void measure(SmallTableau& t) { MOREAU_BY_PACKS(measure); }                              \
     target static void dual_rows(const SmallTableau& t, double* dual) { Four::dual_rows(t, dual); }        \
-    target static void coefficients(const SmallTableau& t, const double* dual, const double* u,            \
-                                    double* into) {                                                        \
-      Four::coefficients(t, dual, u, into);                                                                \
-    }                                                                                                      \
     target static Index close_rows(Index m, const double* slack, const double* s, const double* end,       \
                                    const double* length, double absolute, double by_length, Index* rows) { \
       return Four::close_rows(m, slack, s, end, length, absolute, by_length, rows);                        \
@@ -38,18 +34,9 @@ namespace {
                                double* row) {                                                              \
       Four::deepest(m, slack, inverse_length, depth, row);                                                 \
     }                                                                                                      \
-    static constexpr SmallKernels table{begin,                                                             \
-                                        append,                                                            \
-                                        begin_again,                                                       \
-                                        settle,                                                            \
-                                        correct,                                                           \
-                                        measure_precisely,                                                 \
-                                        measure,                                                           \
-                                        dual_rows,                                                         \
-                                        coefficients,                                                      \
-                                        close_rows,                                                        \
-                                        rough_inverse_roots,                                               \
-                                        deepest};                                                          \
+    static constexpr SmallKernels table{                                                                   \
+        begin,     append,     begin_again,         settle, correct, measure_precisely, measure,           \
+        dual_rows, close_rows, rough_inverse_roots, deepest};                                              \
   };
 
 MOREAU_SMALL_TABLE(Portable, , 2, false)

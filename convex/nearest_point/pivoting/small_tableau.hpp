@@ -72,9 +72,8 @@ struct SmallKernels {
   /// slack = Uq - s where all rows have been looked at, and what is missing of the equations of motion, in
   /// doubles.
   void (*measure)(SmallTableau&);
-  /// n rows of `size` in whole packs: times a row u of U they are its coefficients over the rows held.
+  /// n runs of `size` in whole packs: combined by a row u of U they are its coefficients over the rows held.
   void (*dual_rows)(const SmallTableau&, double* dual);
-  void (*coefficients)(const SmallTableau&, const double* dual, const double* u, double* into);
   /// Lists the rows of m whose slack is not above `absolute` |s| + `by_length` times the length; s may be
   /// read up to `end`. Their number.
   Index (*close_rows)(Index m, const double* slack, const double* s, const double* end, const double* length,

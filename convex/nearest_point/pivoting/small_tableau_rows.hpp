@@ -149,15 +149,6 @@ struct SmallTableauRows : Kernels<W, Fused> {
     }
   }
 
-  MOREAU_INLINE void coefficients(const SmallTableau& t, const double* dual, const double* u, double* into) {
-    const Index width = padded(t.size);
-    for (Index k = 0; k < width; k += 8) {
-      Pack sum{};
-      for (Index i = 0; i < t.n; ++i) P::add_product(sum, P::load(dual + i * width + k), u[i]);
-      P::store(into + k, sum);
-    }
-  }
-
   MOREAU_INLINE Index close_rows(Index m, const double* slack, const double* s, const double* end,
                                  const double* length, double absolute, double by_length, Index* rows) {
     Index count = 0;
