@@ -111,6 +111,8 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive; give a time > 0");
     question.period = period * static_cast<double>(options.periods);
   }
+  if (options.plot && !options.over)
+    throw InvalidInput("--plot draws a branch of orbits; give --over \"w=1:0.01:3\" too");
   if (options.over) return orbit_branch(file, problem, question, options);
   const mechanics::State guess = system->state(text->state);
   mechanics::Orbit orbit;
@@ -152,6 +154,10 @@ void add_orbit(CLI::App& program, Work& chosen) {
   command.add_option("--over", options->over, "the orbit continued over a parameter: \"w=1:0.01:3\"")
       ->type_name("w=A:S:B");
   command.add_option("--output", options->output, "the branch of --over as a table")->type_name("F.csv");
+  command
+      .add_option("--plot", options->plot,
+                  "the branch of --over as a picture: F.svg, F.png or F.pdf (by gnuplot)")
+      ->type_name("FILE");
   add_step_tolerance(command, *options);
 }
 

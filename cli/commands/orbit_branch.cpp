@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "cli/commands/branch_event.hpp"
+#include "cli/commands/branch_range.hpp"
+#include "cli/drawing/branch_drawing.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/json_writer.hpp"
 
@@ -15,36 +17,6 @@ namespace cli {
 namespace {
 
 using convex::InvalidInput;
-
-/// "w=1:0.01:3".
-struct Range {
-  std::string parameter;
-  double first = 0, step = 0, last = 0;
-  long count() const { return static_cast<long>(std::floor((last - first) / step * (1 + 1e-12) + 1e-9)) + 1; }
-  double value(long k) const { return first + static_cast<double>(k) * step; }
-};
-
-Range parse_range(const std::string& text) {
-  const std::size_t equals = text.find('='), one = text.find(':'), two = text.find(':', one + 1);
-  const auto fail = [&]() -> InvalidInput {
-    return InvalidInput("--over " + text +
-                        ": no range; write --over \"w=1:0.01:3\", a parameter, first, step, last");
-  };
-  if (equals == std::string::npos || one == std::string::npos || two == std::string::npos || equals > one)
-    throw fail();
-  const auto number = [&](std::size_t from, std::size_t to) {
-    const std::string part = text.substr(from, to - from);
-    char* end = nullptr;
-    const double x = std::strtod(part.c_str(), &end);
-    if (part.empty() || *end != '\0' || !std::isfinite(x)) throw fail();
-    return x;
-  };
-  const Range range{text.substr(0, equals), number(equals + 1, one), number(one + 1, two),
-                    number(two + 1, text.size())};
-  constexpr long most = 1'000'000;
-  if (range.step == 0 || (range.last - range.first) / range.step < 0 || range.count() > most) throw fail();
-  return range;
-}
 
 /// The problem with another value of a parameter.
 Problem with_parameter(Problem problem, const std::string& name, double value) {
@@ -75,7 +47,7 @@ mechanics::State in_proportion(const Station& a, const Station& b, double value)
 class Branch {
  public:
   Branch(const Problem& problem, const mechanics::OrbitQuestion& asked, const OrbitOptions& options,
-         Range range)
+         BranchRange range)
       : problem_(problem), asked_(asked), options_(options), range_(std::move(range)) {}
 
   /// Why it ends before the range does, or nothing.
@@ -104,6 +76,7 @@ class Branch {
     return "";
   }
   const std::string& table() const { return table_; }
+  const std::vector<BranchPoint>& points() const { return points_; }
   long count() const { return static_cast<long>(stations_.size()); }
 
  private:
@@ -180,6 +153,7 @@ class Branch {
                           orbit.multipliers ? (orbit.is_stable ? "1" : "0") : "",
                           orbit.multipliers ? fmt::format("{}", std::abs(orbit.multipliers->front())) : "",
                           orbit.impacts.size(), event);
+    points_.push_back({at.value, orbit, event});
   }
 
   /// The next orbit, and before it those at which something happens on the way, each in a row of its own.
@@ -304,10 +278,11 @@ class Branch {
   const Problem& problem_;
   const mechanics::OrbitQuestion& asked_;
   const OrbitOptions& options_;
-  Range range_;
+  BranchRange range_;
   std::vector<Station> stations_;  // in the table
   std::vector<Station> trail_;     // the last two, those between values of the range too
   std::string table_, why_;
+  std::vector<BranchPoint> points_;
   int forward_ = 1;  // -1 behind a fold
   double fold_ = 0;
   mechanics::State top_, side_;  // near the fold states are top_ + side_ root(distance)
@@ -317,7 +292,8 @@ class Branch {
 
 Answer orbit_branch(const std::string& file, const Problem& problem, const mechanics::OrbitQuestion& asked,
                     const OrbitOptions& options) {
-  const Range range = parse_range(*options.over);
+  const BranchRange range = branch_range(*options.over);
+  if (options.plot) require_drawable(*options.plot);
   Branch branch(problem, asked, options, range);
   const std::string why = branch.follow();
   const std::string table =
@@ -330,6 +306,11 @@ Answer orbit_branch(const std::string& file, const Problem& problem, const mecha
     if (!out)
       throw InvalidInput("cannot write " + *options.output + "; check the folder and its permissions");
   }
+  if (options.plot && !branch.points().empty()) {
+    const auto system = mechanics::lagrangian_system(std::get<SystemProblem>(problem.content).system);
+    draw(*options.plot,
+         branch_drawing(branch.points(), system->coordinates(), range.parameter, problem.title));
+  }
   Answer answer{why.empty() ? Exit::solved : Exit::inaccurate, {}};
   if (options.json) {
     JsonWriter json;
@@ -341,7 +322,8 @@ Answer orbit_branch(const std::string& file, const Problem& problem, const mecha
     if (!why.empty()) json.key("why").value(why);
     answer.text = json.end_object().text() + "\n";
   } else {
-    answer.text = options.output ? fmt::format("{} orbits over {}.\n", found, range.parameter) : table;
+    answer.text =
+        options.output || options.plot ? fmt::format("{} orbits over {}.\n", found, range.parameter) : table;
   }
   if (!why.empty()) answer.warnings.push_back(why);
   return answer;

@@ -14,7 +14,7 @@ struct OrbitOptions : FileOptions, MotionChoice {
   long periods = 1;
   std::optional<std::string> over;  ///< "w=1:0.01:3"
   std::vector<std::string> modulo;  ///< "a=2*pi"
-  std::optional<std::string> output;
+  std::optional<std::string> output, plot;
 };
 
 /// `orbit --over w=1:0.01:3`: the orbit of each value from that of the one before, as a table with the

@@ -1,0 +1,116 @@
+#include "cli/drawing/branch_drawing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+namespace cli {
+namespace {
+
+constexpr std::array curve_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222"};
+constexpr int branch_panel_height = 230;
+
+std::string largest_multiplier(const mechanics::Orbit& orbit) {
+  if (!orbit.multipliers || orbit.multipliers->empty()) return "NaN";
+  return fmt::format("{}", std::abs(orbit.multipliers->front()));
+}
+
+/// Columns: value, q, v, largest multiplier. Pieces of one stability, each with the first point of the next.
+std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
+  std::string text;
+  bool is_inside = false;
+  for (const BranchPoint& point : points) {
+    const bool belongs = point.orbit.is_stable == stable;
+    if (belongs || is_inside) {
+      text += fmt::format("{}", point.value);
+      for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
+      for (const double v : point.orbit.start.v) text += fmt::format(" {}", v);
+      text += " " + largest_multiplier(point.orbit) + "\n";
+    }
+    if (is_inside && !belongs) text += "\n";
+    is_inside = belongs;
+  }
+  return text;
+}
+
+struct BranchPanel {
+  std::string label;
+  std::vector<std::string> names;
+  std::size_t first_column;
+};
+
+/// The curves of one panel: full where stable, dotted where not, and a mark at each event.
+std::string panel_curves(const BranchPanel& panel, bool has_stable, bool has_unstable,
+                         const std::map<std::string, int>& events) {
+  std::string text;
+  const auto add = [&](const std::string& curve) { text += (text.empty() ? "plot " : ", \\\n  ") + curve; };
+  for (std::size_t k = 0; k < panel.names.size(); ++k) {
+    const char* colour = curve_colours[k % curve_colours.size()];
+    const std::string name = quoted(panel.names[k]), column = std::to_string(panel.first_column + k);
+    if (has_stable)
+      add(fmt::format("$stable using 1:{} with lines lc rgb \"{}\" lw 2 title {}", column, colour, name));
+    if (has_unstable)
+      add(fmt::format("$unstable using 1:{} with lines lc rgb \"{}\" lw 1.6 dt 2 title {}", column, colour,
+                      quoted(panel.names[k] + ", unstable")));
+    for (const auto& [event, marker] : events)
+      add(fmt::format("${} using 1:{} with points pt {} ps 1.1 lw 1.5 lc rgb \"#d55e00\" {}", event, column,
+                      marker, k == 0 ? "title " + quoted(event) : "notitle"));
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector<std::string>& coordinates,
+                       const std::string& parameter, const std::string& title) {
+  Drawing made;
+  std::map<std::string, int> events;
+  constexpr std::array markers{7, 5, 9, 13, 11};
+  for (const BranchPoint& point : points)
+    if (!point.event.empty())
+      events.try_emplace(point.event, markers[std::min(events.size(), markers.size() - 1)]);
+  const std::string stable = pieces(points, true), unstable = pieces(points, false);
+  made.script = "$stable << EOD\n" + stable + "EOD\n$unstable << EOD\n" + unstable + "EOD\n";
+  for (const auto& [event, marker] : events) {
+    std::vector<BranchPoint> here;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(here),
+                 [&](const BranchPoint& point) { return point.event == event; });
+    made.script += "$" + event + " << EOD\n" + pieces(here, true) + pieces(here, false) + "EOD\n";
+  }
+  const std::size_t n = coordinates.size(), drawn = std::min(n, curve_colours.size());
+  BranchPanel q{"q", {}, 2}, v{"q'", {}, 2 + n}, multiplier{"|multiplier|", {"largest"}, 2 + 2 * n};
+  for (std::size_t i = 0; i < drawn; ++i) {
+    q.names.push_back(coordinates[i]);
+    v.names.push_back(coordinates[i] + "'");
+  }
+  const std::array panels{q, v, multiplier};
+  made.height = branch_panel_height * static_cast<int>(panels.size()) + 40;
+  made.script += fmt::format(
+      "set multiplot layout 3,1 title {} font \",11\" margins 0.13,0.78,0.07,0.94 spacing 0.03\n"
+      "set grid lc rgb \"#dddddd\" lw 0.5 dt 1\nset border 3 lc rgb \"#666666\" lw 0.7\n"
+      "set tics nomirror font \",9\"\nset key outside right top font \",9\" samplen 1.5\n",
+      quoted(title));
+  const auto [low, high] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.value < b.value; });
+  const double room = 0.02 * (high->value - low->value);
+  if (room > 0) made.script += fmt::format("set xrange [{}:{}]\n", low->value - room, high->value + room);
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const bool is_last = k + 1 == panels.size();
+    made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[k].label));
+    made.script += is_last ? fmt::format(
+                                 "set xlabel {} font \",10\"\nset format x\nset logscale y\n"
+                                 "set arrow from graph 0, first 1 to graph 1, first 1 nohead lc rgb "
+                                 "\"#888888\" lw 0.8 back\n",
+                                 quoted(parameter))
+                           : "unset xlabel\nset format x \"\"\n";
+    made.script += panel_curves(panels[k], !stable.empty(), !unstable.empty(), events);
+  }
+  made.script += "unset multiplot\n";
+  return made;
+}
+
+}  // namespace cli
