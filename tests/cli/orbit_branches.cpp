@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -74,6 +75,22 @@ TEST_CASE("a branch is followed through its folds, to the other end of the range
   CHECK(orbits_at[18] == 3);
   CHECK(orbits_at[13] == 1);
   CHECK(orbits_at[24] == 1);
+}
+
+TEST_CASE("a branch is drawn with its unstable part and its events, and nothing but a branch") {
+  const std::string duffing =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2 + x^4/4\"\n"
+      "[system.parameters]\nw = 1.3\n[system.forces]\nx = \"0.5*cos(w*t) - 0.1*x'\"\n"
+      "[state]\nposition = { x = 1.1 }\n";
+  const Folder folder;
+  const std::string file = folder.write("o.toml", duffing), picture = folder.path("b.svg");
+  CHECK(run({"orbit", file, "--period", "2*pi/w", "--plot", picture}).code == 2);
+  if (!cli::has_gnuplot()) return;
+  branch(duffing, {"--period", "2*pi/w", "--over", "w=1.3:0.1:2.4", "--plot", picture});
+  std::stringstream drawn;
+  drawn << std::ifstream(picture).rdbuf();
+  for (const char* words : {"x, unstable", "fold", "largest", "w"})
+    CHECK_MESSAGE(drawn.str().find(words) != std::string::npos, words);
 }
 
 TEST_CASE("a flip is told where the multiplier of the closed form is -1") {
