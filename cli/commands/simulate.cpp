@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 
 #include "cli/commands/command_line.hpp"
@@ -147,6 +148,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const mechanics::State state =
       options.resume ? resumed_state(*options.resume, *system) : system->state(text->state);
   const double until = options.until.value_or(settings.until.value_or(0));
+  if (!std::isfinite(until)) throw InvalidInput("simulate.until: not finite; give a time to end at");
   if (!(until >= state.t))
     throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
   const mechanics::MotionOptions chosen = motion_options(problem, *system, options);

@@ -123,6 +123,8 @@ std::string advice_on_key(const std::string& unknown, bool is_table, const std::
   for (const OtherWord& other : other_words)
     if (unknown == other.word && std::find(known.begin(), known.end(), other.key) != known.end())
       return "did you mean \"" + std::string(other.key) + "\"?";
+  if (where == "state" && !is_table && convex::nearest_name(unknown, known).empty())
+    return "a coordinate's value stands in position = { " + shown(unknown) + " = … } or velocity";
   return convex::suggestion(unknown, known);
 }
 

@@ -127,6 +127,15 @@ std::string name_in(std::string_view description) {
              : std::string(description.substr(first + 1, last - first - 1));
 }
 
+/// The key in front of a place.
+std::string key_before(const Spot& spot) {
+  std::size_t end = spot.here;
+  while (end > 0 && spot.line[end - 1] == ' ') --end;
+  std::size_t begin = end;
+  while (begin > 0 && is_of_key(spot.line[begin - 1])) --begin;
+  return spot.line.substr(begin, end - begin);
+}
+
 /// Of tables, lists and the = between a key and its value.
 std::string advice_on_structure(const Spot& spot, std::string_view description) {
   if (says(description, "redefine existing table")) {
@@ -143,13 +152,15 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
     return "a list without its ], or two entries without a comma between them; write [1, 2]";
   if (says(description, "table header: expected ']'"))
     return "the name of a table without its ]; write [system.parameters]";
-  if (says(description, "unescaped control characters") || says(description, "string: encountered end"))
+  if (says(description, "control characters other than TAB") || says(description, "string: encountered end"))
     return "a text without its closing quotation mark; add it";
   if (!says(description, "expected '='")) return "";
-  const std::string key = without_spaces_around(spot.line.substr(0, spot.line.find_first_of(":=' ")));
+  const std::string key = key_before(spot);
   if (says(description, "saw ':'")) return "a colon between a key and its value; write " + key + " = …";
   if (says(description, "saw '''"))
     return "a key has no prime; velocities are named as their coordinates, velocity = { x = 1.0 }";
+  if (spot.line.find('=', spot.here) != std::string::npos)
+    return "a key of several words; join them with _, or put the key in quotation marks";
   return "no = between a key and its value; write " + key + " = …";
 }
 
@@ -164,6 +175,11 @@ std::string advice_on_slip(const std::string& text, convex::Place place, std::st
   if (!advice.empty()) return advice;
   if (spot.value == "True" || spot.value == "False")
     return "\"" + spot.value + "\" is written small; write " + (spot.value == "True" ? "true" : "false");
+  if (spot.value.size() > 1 && spot.value.back() == '"' &&
+      std::count(spot.value.begin(), spot.value.end(), '"') == 1)
+    return "a text without its opening quotation mark; write \"" + spot.value;
+  if (spot.value.starts_with('(') && spot.value.find(" = ") != std::string::npos)
+    return "a table stands in braces; write { x = 0.0, y = 0.0 }";
   if (!is_bare_expression(spot.value)) return "";
   return "not a TOML value: " + spot.value + "; put it in quotation marks, \"" + spot.value + "\"";
 }

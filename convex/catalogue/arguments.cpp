@@ -63,7 +63,9 @@ Arguments::Arguments(const CatalogueEntry& entry, const Call& call, const Space&
       continue;
     }
     if (position >= entry.parameters.size())
-      throw InvalidInput(call.name + ": too many arguments; write " + signature(entry), place);
+      throw InvalidInput(call.name + ": too many arguments; write " + signature(entry) +
+                             (entry.name == "max" ? ", or pointwise_max(f, g) of functions" : ""),
+                         place);
     if (matched_[position] != nullptr)
       throw InvalidInput(
           call.name + "(" + std::string(entry.parameters[position].name) + "): given twice; give it once",

@@ -220,6 +220,7 @@ void Parsing::unknown(const Token& name) const {
   std::vector<Name::Kind> kinds{parameter};
   if (vocabulary_ == Vocabulary::system) kinds = {coordinate, parameter, definition};
   const std::string is_unknown = quoted(name.text) + " is unknown";
+  if (name.text == "e") source_->fail(name.offset, is_unknown + "; write exp(x) for e^x");
   for (const std::string& other : names_behind_velocity(name.text))
     if (const Name* meaning = names_->find(other); meaning != nullptr && meaning->kind == coordinate)
       source_->fail(name.offset, is_unknown + "; the velocity of " + other + " is " + other + "'");
