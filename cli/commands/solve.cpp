@@ -58,6 +58,7 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
   request.tolerance = options.tolerance ? options.tolerance : problem.solve.tolerance;
   request.certify = options.certify;
   request.plot = options.plot;
+  request.title = problem.title.empty() ? file : problem.title;
   const SolvedLiquid solved = solve_liquid_text(liquid.text, request);
   return {solved.exit(), options.json ? liquid_json(solved, file) + "\n"
                                       : heading(problem.title, file) + liquid_text(solved)};
@@ -154,6 +155,13 @@ void add_solve(CLI::App& program, Work& chosen) {
                   "of a liquid: a table of the coordinates, p, growth, cavity (0 or 1)")
       ->type_name("F.csv");
   command.add_option("--vtk", options->liquid.vtk, "of a liquid: the same for ParaView")->type_name("F.vti");
+  command.add_flag("--velocity", options->liquid.velocity, "of a liquid: u as arrows in the --plot");
+  command
+      .add_option("--animate", options->liquid.animate,
+                  "of a liquid: a page that plays inception as the parameter of --over grows")
+      ->type_name("F.html");
+  command.add_option("--over", options->liquid.over, "the values of a parameter that --animate plays")
+      ->type_name("NAME=0:0.05:3");
 }
 
 }  // namespace cli

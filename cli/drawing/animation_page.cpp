@@ -1,4 +1,5 @@
 #include "cli/drawing/animation.hpp"
+#include "cli/drawing/page_with_data.hpp"
 
 namespace cli {
 namespace {
@@ -242,8 +243,9 @@ std::string without_markup(const std::string& text) {
 
 }  // namespace
 
-std::string animation_page(const std::string& title, const std::string& data) {
-  std::string page(page_before_data);
+std::string page_with_data(std::string_view before, const std::string& title, const std::string& data,
+                           std::string_view after) {
+  std::string page(before);
   constexpr std::string_view mark = "@TITLE@";
   page.replace(page.find(mark), mark.size(), without_markup(title));
   for (const char c : data)  // "</script>" in a name would end the data
@@ -251,7 +253,11 @@ std::string animation_page(const std::string& title, const std::string& data) {
       page += "\\u003c";
     else
       page += c;
-  return page + std::string(page_after_data);
+  return page + std::string(after);
+}
+
+std::string animation_page(const std::string& title, const std::string& data) {
+  return page_with_data(page_before_data, title, data, page_after_data);
 }
 
 }  // namespace cli

@@ -7,6 +7,7 @@
 #include "cli/drawing/liquid_drawing.hpp"
 #include "cli/report/json_writer.hpp"
 #include "cli/report/liquid_files.hpp"
+#include "cli/report/liquid_frames.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "mechanics/liquid/liquid_language.hpp"
@@ -63,7 +64,7 @@ void write_point(JsonWriter& json, const std::vector<std::string>& names, const 
 
 void write_files(const SolvedLiquid& solved, const LiquidRequest& request) {
   if (solved.solution.status == Status::infeasible) return;
-  if (request.plot) draw(*request.plot, liquid_drawing(solved.scene, solved.solution));
+  if (request.plot) draw(*request.plot, liquid_drawing(solved.scene, solved.solution, request.velocity));
   if (!request.data && !request.vtk) return;
   const auto sample =
       mechanics::liquid::sample(solved.scene, solved.solution, mechanics::liquid::sample_cells(solved.scene));
@@ -112,6 +113,9 @@ void require_no_liquid_request(const LiquidRequest& request) {
                        : request.onset         ? "--onset"
                        : request.data          ? "--data"
                        : request.vtk           ? "--vtk"
+                       : request.velocity      ? "--velocity"
+                       : request.animate       ? "--animate"
+                       : request.over          ? "--over"
                                                : nullptr;
   if (option != nullptr)
     throw InvalidInput(std::string(option) +
@@ -126,6 +130,10 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
   for (const std::string& probe : request.probes) points.push_back(probe_point(text, probe));
   const mechanics::liquid::LiquidAccuracy accuracy{request.tolerance, request.certify};
   if (request.onset) mechanics::liquid::parameter_value(text, *request.onset);
+  if (request.velocity && !request.plot)
+    throw InvalidInput("--velocity goes with --plot; give a picture to draw it in");
+  std::optional<LiquidFrames> frames;
+  if (request.animate || request.over) frames.emplace(text, request.animate, request.over);
   solved.solution = mechanics::liquid::solve_liquid(solved.scene, accuracy);
   if (solved.solution.status != Status::infeasible)
     for (const Point& x : points)
@@ -137,6 +145,7 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
   if (request.certify) solved.level = solved.solution.is_proved ? "enclosure" : "none";
   solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_files(solved, request);
+  if (frames) frames->write(request.title);
   return solved;
 }
 
@@ -182,7 +191,16 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
   else
     json.null();
   json.key("certificate").begin_object().key("level").value(solved.level);
-  json.key("error_bound").value(found.error_bound).end_object().key("probes").begin_array();
+  json.key("error_bound").value(found.error_bound);
+  if (found.grid_bound)
+    json.key("grid")
+        .begin_object()
+        .key("level")
+        .value("enclosure")
+        .key("error_bound")
+        .value(*found.grid_bound)
+        .end_object();
+  json.end_object().key("probes").begin_array();
   for (const mechanics::liquid::LiquidProbe& probe : solved.probes) {
     json.begin_object().key("at");
     write_point(json, names, probe.at);
@@ -220,6 +238,10 @@ std::string liquid_text(const SolvedLiquid& solved) {
     }
     text += "\n" + table.text() + "\n";
   }
+  if (found.grid_bound)
+    text += fmt::format(
+        "Proved of the grid's equations alone: their solution is within {:.1e} of p at all nodes.\n",
+        *found.grid_bound);
   if (solved.level == "none") text += "Not proved: the bound below is an estimate.\n";
   if (found.status == Status::inaccurate) text += "The accuracy asked for was not met.\n";
   return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,

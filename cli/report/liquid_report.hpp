@@ -16,6 +16,9 @@ struct LiquidRequest {
   std::vector<std::string> probes;             ///< points, "x=0.3, y=0"
   std::optional<std::string> onset;            ///< a parameter
   std::optional<std::string> data, vtk, plot;  ///< files to write
+  bool velocity = false;                       ///< as arrows in the plot
+  std::optional<std::string> animate, over;    ///< a page to write, and NAME=first:step:last of a parameter
+  std::string title;                           ///< of the page
   std::optional<double> tolerance;
   bool certify = false;
 };

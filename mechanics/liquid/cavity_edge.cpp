@@ -64,8 +64,14 @@ void CavityEdge::find_levels(const convex::CutSolution& found) {
     if (grid.kind[k] == CutPoint::bounded)
       level_[k] = cavity_[k] ? -1.5 * shortest : 2 * shortest;
     else if (!std::isnan(cells_.given[k]))
-      level_[k] = cells_.given[k] > 0 ? 2 * shortest : -0.5 * shortest;
+      level_[k] = 2 * shortest;
   }
+  // Where p = 0 is given the cavity, if it is near, goes up to the boundary.
+  for (std::size_t k = 0; k < n; ++k)
+    if (cells_.given[k] == 0)
+      for (std::size_t axis = 0; axis < grid.dimension; ++axis)
+        for (const Index by : {-grid.stride(axis), grid.stride(axis)})
+          if (cavity_[place_of(static_cast<Index>(k) + by)]) level_[k] = -0.5 * shortest;
   std::vector<double> sum(n, 0), weight(n, 0);
   for (Index k = 0; k < grid.size(); ++k) {
     if (!cavity_[place_of(k)]) continue;
@@ -142,15 +148,36 @@ double CavityEdge::level(const Point& x) const {
   return weights > 0 ? sum / weights : 1;
 }
 
-double CavityEdge::measure() const {
+/// Whether the point or one of those around it has a pressure given.
+bool CavityEdge::is_near_given(Index k) const {
+  const convex::CutGrid& grid = cells_.grid;
+  for (Index code = 0; code < 27; ++code) {
+    Index there = k, rest = code;
+    bool is_used = true;
+    for (std::size_t axis = 0; axis < 3; ++axis, rest /= 3) {
+      if (axis < grid.dimension)
+        there += (rest % 3 - 1) * grid.stride(axis);
+      else
+        is_used = is_used && rest % 3 == 1;
+    }
+    if (is_used && grid.kind[place_of(there)] == CutPoint::fixed) return true;
+  }
+  return false;
+}
+
+double CavityEdge::measure(const Domain& domain) const {
   if (is_empty_) return 0;
   const convex::CutGrid& grid = cells_.grid;
-  double sum = 0;
+  const bool may_reach = std::any_of(cells_.pressures.begin(), cells_.pressures.end(),
+                                     [](const GivenPressure& given) { return given.pressure == 0; });
+  double sum = 0, whole = 1;
+  for (std::size_t i = 0; i < grid.dimension; ++i) whole *= cells_.step[i];
   for (Index c = 0; c < grid.points[2]; ++c)
     for (Index b = 0; b < grid.points[1]; ++b)
       for (Index a = 0; a < grid.points[0]; ++a) {
         const Index k = grid.at(a, b, c);
-        if (grid.kind[place_of(k)] != CutPoint::bounded) continue;
+        const bool is_given = may_reach && is_near_given(k);
+        if (grid.kind[place_of(k)] != CutPoint::bounded && !is_given) continue;
         CellLevels cell;
         cell.dimension = grid.dimension;
         bool below = false, above = false;
@@ -159,10 +186,10 @@ double CavityEdge::measure() const {
           Point corner = x;
           for (std::size_t i = 0; i < grid.dimension; ++i)
             corner[i] += ((code >> i & 1U) != 0 ? 0.5 : -0.5) * cells_.step[i];
-          cell.at[code] = level(corner);
+          cell.at[code] = is_given ? std::max(level(corner), domain.level(corner)) : level(corner);
           (cell.at[code] < 0 ? below : above) = true;
         }
-        if (below) sum += cells_.volume[place_of(k)] * (above ? cell.fraction() : 1);
+        if (below) sum += (is_given ? whole : cells_.volume[place_of(k)]) * (above ? cell.fraction() : 1);
       }
   return sum;
 }

@@ -18,10 +18,12 @@ class CavityEdge {
   bool is_empty() const { return is_empty_; }
   /// Below 0 in the cavity; linear between nodes.
   double level(const Point&) const;
-  double measure() const;
+  /// At parts of the boundary where p = 0 is given cells are cut by the domain's level.
+  double measure(const Domain&) const;
   std::pair<Point, Point> extent() const;
 
  private:
+  bool is_near_given(convex::Index) const;
   bool is_liquid(const convex::CutSolution&, convex::Index) const;
   std::pair<double, double> edge_beside(const convex::CutSolution&, convex::Index k, convex::Index by,
                                         double curvature, double step) const;

@@ -22,7 +22,12 @@ std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 class Cutting {
  public:
   Cutting(const LiquidScene& scene, const std::array<Index, 3>& cells, const Window& window)
-      : scene_(scene), domain_(scene.domain), d_(scene.dimension()), wall_level_(scene), cells_(cells) {
+      : scene_(scene),
+        domain_(scene.domain),
+        d_(scene.dimension()),
+        has_both_(scene.has_free_part() && scene.has_wall()),
+        wall_level_(scene),
+        cells_(cells) {
     made_.grid = CutGrid(d_, window.points);
     made_.first = window.first;
     made_.low = domain_.low;
@@ -226,13 +231,24 @@ class Cutting {
         const double weight = face / made_.step[axis];
         if (!(weight > 0)) continue;
         if (grid().is_unknown(other)) {
-          if (by > 0) grid().link[axis][at(k)] = weight;
+          if (is_cut_by_free(k, other)) {
+            if (side_[at(k)] == Side::inside) join_cut(k, axis, other, weight);
+          } else if (by > 0) {
+            grid().link[axis][at(k)] = weight;
+          }
         } else if (side_[at(other)] == Side::on) {
           give(k, weight, made_.given[at(other)]);
         } else if (side_[at(k)] != Side::outside) {
           join_cut(k, axis, other, weight);
         }
       }
+  }
+
+  /// Near a junction: two unknowns, of which a free part lies between.
+  bool is_cut_by_free(Index k, Index other) const {
+    if (side_[at(k)] != Side::inside) std::swap(k, other);
+    if (!has_both_ || side_[at(k)] != Side::inside || side_[at(other)] != Side::outside) return false;
+    return part(domain_.crossing(made_.at(k), made_.at(other))).is_free;
   }
 
   void give(Index k, double weight, double pressure) {
@@ -270,6 +286,7 @@ class Cutting {
   const LiquidScene& scene_;
   const Domain& domain_;
   std::size_t d_;
+  bool has_both_ = false;  // free parts and walls
   WallLevel wall_level_;
   std::array<Index, 3> cells_;
   CutCells made_;

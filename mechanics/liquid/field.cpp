@@ -23,6 +23,10 @@ Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<
       what_(std::move(what)),
       place_(place),
       is_constant_(tape.is_constant(node)) {
+  if (coordinates_.size() > 1)
+    form_ = std::make_shared<const CoordinateForm>(tape, node, coordinates_.size());
+  for (expression::NodeId k = 0; k <= node && !is_constant_; ++k)
+    may_jump_ = may_jump_ || expression::is_where(tape.operation(k));
   if (is_constant_)
     constant_ = expression::rounded_nodes(tape)[node];
   else

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "mechanics/expression/program.hpp"
 #include "mechanics/expression/rounded.hpp"
+#include "mechanics/liquid/coordinate_form.hpp"
 
 namespace mechanics::liquid {
 
@@ -30,12 +32,18 @@ class Field {
   /// Of a constant one, the value with what rounding may have done to it.
   expression::Rounded constant() const { return constant_; }
 
+  /// It, or another expression of its file, chooses between branches that need not fit together.
+  bool may_jump() const { return may_jump_; }
+  /// Of one that is not constant, in two or three dimensions.
+  const CoordinateForm& form() const { return *form_; }
+
  private:
+  std::shared_ptr<const CoordinateForm> form_;
   expression::Program program_;
   std::vector<std::string> coordinates_;
   std::string what_;
   convex::Place place_;
-  bool is_constant_ = true;
+  bool is_constant_ = true, may_jump_ = false;
   expression::Rounded constant_;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/complementarity_grid/cut_enclosure.hpp"
 #include "mechanics/liquid/grid_scene.hpp"
 
 namespace mechanics::liquid {
@@ -85,10 +86,18 @@ long GridLevels::cells() const {
   return std::max({points[0], points[1], points[2]}) - 1;
 }
 
-std::vector<convex::CutSolution> GridLevels::solve(bool one_sided) const {
+std::vector<const convex::CutGrid*> GridLevels::grids() const {
   std::vector<const convex::CutGrid*> grids;
   for (const auto& level : levels_) grids.push_back(&level->grid);
-  return convex::solve_cut_grids(grids, one_sided);
+  return grids;
+}
+
+std::vector<convex::CutSolution> GridLevels::solve(bool one_sided) const {
+  return convex::solve_cut_grids(grids(), one_sided);
+}
+
+double GridLevels::enclosed_error(const convex::CutSolution& found) const {
+  return convex::enclosed_error(grids(), found);
 }
 
 bool GridLevels::has_pull() const {

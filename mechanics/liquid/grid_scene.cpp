@@ -45,17 +45,26 @@ double difference(const CutCells& fine, const CutSolution& p, const CutCells& co
   return largest;
 }
 
-/// From the differences of three grids: their ratio tells the order, which tells what is left.
-double estimated_error(const GridLevels& levels, const std::vector<CutSolution>& found, double largest) {
-  constexpr double safety = 2, least_order = 0.5, best_order = 2, digits = 1e-9;
+/// From the differences of grids: the ratio of the last two tells the order, which tells what is left. Where
+/// free parts meet walls the error depends on how the junction lies to the grid, so that a difference may be
+/// small by chance: then no more than the first order is believed, and the grids before count as well.
+double estimated_error(const LiquidScene& scene, const GridLevels& levels,
+                       const std::vector<CutSolution>& found, double largest) {
+  constexpr double safety = 2, least_order = 0.5, digits = 1e-9;
+  constexpr std::size_t most_differences = 4;
+  const bool has_junctions = scene.has_free_part() && scene.has_wall();
+  const double best_order = has_junctions ? 1 : 2;
   if (levels.count() < 2) return std::numeric_limits<double>::infinity();
-  const double last = difference(levels.level(0), found[0], levels.level(1), found[1]);
-  double order = 1;
-  if (levels.count() > 2) {
-    const double before = difference(levels.level(1), found[1], levels.level(2), found[2]);
-    if (last > 0) order = std::clamp(std::log2(before / last), least_order, best_order);
-  }
-  return safety * last / (std::exp2(order) - 1) + digits * largest;
+  std::vector<double> differences;
+  for (std::size_t l = 0; l + 1 < levels.count() && l < most_differences; ++l)
+    differences.push_back(difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
+  double order = 1, left = differences[0];
+  if (differences.size() > 1 && left > 0)
+    order = std::clamp(std::log2(differences[1] / left), least_order, best_order);
+  if (has_junctions)
+    for (std::size_t l = 1; l < differences.size(); ++l)
+      left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
+  return safety * left / (std::exp2(order) - 1) + digits * largest;
 }
 
 double content(const LiquidScene& scene, const CutCells& cells) {
@@ -225,8 +234,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
     find_largest(solution, levels.finest(), found.front());
-    solution.error_bound = estimated_error(levels, found, solution.largest);
-    solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure();
+    solution.error_bound = estimated_error(scene, levels, found, solution.largest);
+    solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
     if (is_last || is_close) {
@@ -267,6 +276,9 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
   solution.cells = levels.cells();
   if (found.empty()) return solution;
   const CutCells& cells = levels.finest();
+  if (accuracy.proved)
+    if (const double bound = levels.enclosed_error(found.front()); std::isfinite(bound))
+      solution.grid_bound = bound;
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
   solution.parted_walls = parted_walls(scene, cells, found.front());

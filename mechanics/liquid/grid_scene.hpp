@@ -34,6 +34,8 @@ class GridLevels {
   std::vector<convex::CutSolution> solve(bool one_sided) const;
   /// Without a free part, the sum of the loads on a grid and of their absolute values.
   std::pair<double, double> surplus(std::size_t level) const;
+  /// A proved bound of |p - p_h| on the finest grid, infinite without one.
+  double enclosed_error(const convex::CutSolution&) const;
   bool has_pull() const;
   /// Takes the surplus out of the loads, evenly over the volume.
   void balance();
@@ -43,6 +45,7 @@ class GridLevels {
   long cells() const;
 
  private:
+  std::vector<const convex::CutGrid*> grids() const;
   const LiquidScene& scene_;
   GridNesting nesting_;
   std::vector<std::unique_ptr<CutCells>> levels_;

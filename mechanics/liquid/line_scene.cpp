@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "convex/invalid_input.hpp"
 
@@ -14,62 +13,20 @@ using convex::InvalidInput;
 using convex::LineEnd;
 using convex::LineSolution;
 
-/// Directions, the same in every run.
-class Directions {
- public:
-  explicit Directions(std::size_t dimension) : dimension_(dimension) {}
-  Point next() {
-    std::normal_distribution<double> normal;
-    Point n{};
-    double square = 0;
-    for (std::size_t i = 0; i < dimension_; ++i) {
-      n[i] = normal(random_);
-      square += n[i] * n[i];
-    }
-    for (double& entry : n) entry /= std::sqrt(square);
-    return n;
-  }
-  double part() { return std::uniform_real_distribution<double>(0.02, 1)(random_); }
-
- private:
-  std::size_t dimension_;
-  std::mt19937_64 random_{1966};
-};
-
 Point moved(const Point& from, const Point& n, double by) {
   return {from[0] + by * n[0], from[1] + by * n[1], from[2] + by * n[2]};
 }
 
-/// Whether the values of f(x, n) at points x = centre + r n of one r are the same to rounding.
-template <class Function>
-bool same_in_all_directions(Function f, const LineScene& line, std::size_t dimension, bool at_low,
-                            bool at_high) {
-  constexpr int trials = 24;
-  constexpr double rounding = 1e-11;
-  Directions directions(dimension);
-  double scale = 0, difference = 0;
-  for (int trial = 0; trial < trials; ++trial) {
-    const double low = line.problem.low, high = line.problem.high;
-    const double r = at_low ? low : at_high ? high : low + directions.part() * (high - low);
-    const Point n = directions.next(), m = directions.next();
-    const double a = f(moved(line.centre, n, r), n), b = f(moved(line.centre, m, r), m);
-    scale = std::max({scale, std::abs(a), std::abs(b)});
-    difference = std::max(difference, std::abs(a - b));
-    if (!std::isfinite(a + b)) return false;
-  }
-  return difference <= rounding * scale;
-}
-
-bool is_radial(const Field& field, const LineScene& line, std::size_t dimension) {
-  return field.is_constant() ||
-         same_in_all_directions([&](const Point& x, const Point&) { return field.raw(x); }, line, dimension,
-                                false, false);
+bool is_radial(const Field& field, const LineScene& line) {
+  return field.is_constant() || field.form().is_radial(line.centre);
 }
 
 /// The radii between which the level of an inequality domain is below 0 along an axis, if it is one interval.
 bool find_radii(const Domain& domain, LineScene& line) {
   constexpr int samples = 4000;
-  const double end = 0.5 * domain.longest();
+  double end = 0;
+  for (std::size_t i = 0; i < domain.dimension; ++i)
+    end = std::max({end, domain.high[i] - line.centre[i], line.centre[i] - domain.low[i]});
   const auto level = [&](double r) { return domain.level(line.at(r)); };
   std::vector<double> ends;
   bool inside = level(0) < 0;
@@ -98,14 +55,13 @@ bool find_shell(const LiquidScene& scene, LineScene& line) {
     return true;
   }
   if (domain.shape != Domain::Shape::inequalities) return false;
-  for (std::size_t i = 0; i < scene.dimension(); ++i) {
-    line.centre[i] = 0.5 * (domain.low[i] + domain.high[i]);
-    // The box is found to a part of its size; what is centred nearly at 0 is centred there.
-    if (std::abs(line.centre[i]) < 0.02 * domain.longest()) line.centre[i] = 0;
-  }
-  line.problem.high = 0.5 * domain.longest();
-  for (const Field* field : domain.condition->fields())
-    if (!is_radial(*field, line, scene.dimension())) return false;
+  const std::vector<const Field*> fields = domain.condition->fields();
+  if (fields.empty() || fields.front()->is_constant()) return false;
+  const std::optional<Point> middle = fields.front()->form().middle();
+  if (!middle) return false;
+  line.centre = *middle;
+  for (const Field* field : fields)
+    if (!is_radial(*field, line)) return false;
   return find_radii(domain, line);
 }
 
@@ -116,20 +72,20 @@ LineEnd line_end(const LiquidScene& scene, const BoundaryPart& part, const Point
 
 /// Fills in what holds at a sphere, if it is one thing.
 bool find_sphere(const LiquidScene& scene, LineScene& line, bool is_low) {
-  const std::size_t d = scene.dimension();
   const double r = is_low ? line.problem.low : line.problem.high, side = is_low ? -1 : 1;
   const Point n{1, 0, 0}, x = moved(line.centre, n, r);
   for (const BoundaryPart& part : scene.parts) {
     for (const Field* field : part.where.fields())
-      if (!is_radial(*field, line, d)) return false;
+      if (!is_radial(*field, line)) return false;
     if (part.where.holds(x, scene.domain.reach())) break;
   }
   const BoundaryPart& part = scene.boundary_part(x);
-  const auto value = [&](const Point& y, const Point& m) {
-    const Point outward{side * m[0], side * m[1], side * m[2]};
-    return part.is_free ? part.value.raw(y) : scene.wall_flux(part, y, outward);
-  };
-  if (!same_in_all_directions(value, line, d, is_low, !is_low)) return false;
+  if (!is_radial(part.value, line)) return false;
+  if (!part.is_free) {
+    std::vector<const CoordinateForm*> force;
+    for (const Field& along : scene.force) force.push_back(&along.form());
+    if (!CoordinateForm::is_radial_along(force, line.centre)) return false;
+  }
   (is_low ? line.low : line.high) = &part;
   (is_low ? line.problem.at_low : line.problem.at_high) = line_end(scene, part, x, {side, 0, 0});
   return true;
@@ -138,7 +94,7 @@ bool find_sphere(const LiquidScene& scene, LineScene& line, bool is_low) {
 bool find_radial(const LiquidScene& scene, LineScene& line) {
   line.radial = true;
   line.problem.power = static_cast<int>(scene.dimension()) - 1;
-  if (!find_shell(scene, line) || !is_radial(scene.h, line, scene.dimension())) return false;
+  if (!find_shell(scene, line) || !is_radial(scene.h, line)) return false;
   if (line.problem.low > 0) {
     if (!find_sphere(scene, line, true)) return false;
   } else {

@@ -20,9 +20,8 @@ struct LineScene {
 };
 
 /// None when the scene is neither of one dimension nor radial. It is radial when its domain is a ball or a
-/// shell, and h, the conditions of the parts and what they give are the same in all directions: which the
-/// text's analytic expressions are when they are at random points, to rounding. Said radial and not so:
-/// InvalidInput. The LineScene refers to the scene.
+/// shell, and h, the conditions of the parts and what they give are seen from the text to depend on the
+/// distance alone (CoordinateForm). Said radial and not so: InvalidInput. The LineScene refers to the scene.
 std::optional<LineScene> as_line(const LiquidScene&);
 
 LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&, const LiquidAccuracy&);

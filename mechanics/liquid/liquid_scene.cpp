@@ -97,11 +97,12 @@ LiquidScene read_scene(const LiquidText& text) {
   scene.written_density = language.rounded(text.density, "density");
   if (!(scene.density > 0))
     throw InvalidInput("density: it is not above 0; give a density > 0", text.density.begin);
-  std::vector<std::vector<NodeId>> gradient;  // ∂u_i/∂x_j
-  for (std::size_t i = 0; i < d; ++i)
-    gradient.push_back(text.velocity.empty()
-                           ? std::vector<NodeId>(d, no_node)
-                           : language.gradient(language.node(text.velocity[i], "velocity")));
+  std::vector<std::vector<NodeId>> gradient(d, std::vector<NodeId>(d, no_node));  // ∂u_i/∂x_j
+  for (std::size_t i = 0; i < text.velocity.size(); ++i) {
+    const NodeId velocity = language.node(text.velocity[i], "velocity");
+    scene.velocity.push_back(language.field(velocity, "velocity", text.velocity[i].begin));
+    gradient[i] = language.gradient(velocity);
+  }
   NodeId trace = no_node, divergence = no_node;
   for (std::size_t i = 0; i < d; ++i) {
     for (std::size_t j = 0; j < d; ++j)

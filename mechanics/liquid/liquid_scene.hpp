@@ -27,6 +27,7 @@ struct LiquidScene {
   double density = 1;
   expression::Rounded written_density = 1;
   Field h;                          ///< derived from the text of u and F
+  std::vector<Field> velocity;      ///< u; empty when it is 0
   std::vector<Field> force;         ///< F
   std::vector<Field> stretching;    ///< ∂u_i/∂x_i, whose sum is div u
   std::vector<BoundaryPart> parts;  ///< free parts, then walls, each in the order of the file

@@ -27,16 +27,20 @@ struct LiquidSolution {
   double largest = 0;  ///< p, over the closed domain
   Point largest_at{};
   std::vector<std::string> parted_walls;
-  bool is_proved = false;                 ///< `error_bound` is
-  double error_bound = 0;                 ///< of |p - p*| in the largest norm, the discretisation included
-  std::function<double(const Point&)> p;  ///< in the closed domain
+  bool is_proved = false;  ///< `error_bound` is
+  double error_bound = 0;  ///< of |p - p*| in the largest norm, the discretisation included
+  /// A proved bound of |p - p_h| at all nodes and walls of the grid, p_h the solution of the grid's equations
+  /// as their doubles say: it tells nothing of the discretisation.
+  std::optional<double> grid_bound;
+  std::function<double(const Point&)> p;        ///< in the closed domain
   std::function<bool(const Point&)> in_cavity;  ///< p = 0 and the liquid parts
 };
 
 /// `tolerance`: of max p, 1e-3 by default, and none where the file says how many cells.
 struct LiquidAccuracy {
   std::optional<double> tolerance;
-  /// The bound is to be proved: p between a sub- and a supersolution, for the scene as it is written.
+  /// The bound is to be proved: p between a sub- and a supersolution, for the scene as it is written; on
+  /// grids that of their equations.
   bool proved = false;
   double part() const { return tolerance.value_or(1e-3); }
 };

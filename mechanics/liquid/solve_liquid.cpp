@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "convex/invalid_input.hpp"
+#include "mechanics/liquid/continuity.hpp"
 #include "mechanics/liquid/grid_scene.hpp"
 #include "mechanics/liquid/line_scene.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
@@ -25,6 +26,7 @@ void require_no_divergence(const LiquidScene& scene, const LineScene& line, cons
 }  // namespace
 
 LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
+  require_continuous(scene);
   const std::optional<LineScene> line = as_line(scene);
   if (!line) return solve_grid_scene(scene, accuracy);
   LiquidSolution found = solve_line_scene(scene, *line, accuracy);

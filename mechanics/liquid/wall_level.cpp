@@ -30,6 +30,14 @@ Point onto(const std::function<double(const Point&)>& level, Point x, std::size_
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
+/// Whether a piece of surface is one of a boundary with this normal, and not what closes a cell where its
+/// wall ends.
+bool is_along(const SurfacePiece& piece, const Point& normal) {
+  constexpr double least_cosine = 0.5;
+  return piece.normal[0] * normal[0] + piece.normal[1] * normal[1] + piece.normal[2] * normal[2] >
+         least_cosine;
+}
+
 }  // namespace
 
 WallLevel::WallLevel(const LiquidScene& scene) : scene_(scene) {
@@ -88,6 +96,7 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
       any_free = true;
   }
   if (walls.empty()) return std::nullopt;
+  bool turned = false;
   for (std::size_t code = 0; code < std::size_t{1} << cell.dimension; ++code) {
     Point x = low;
     for (std::size_t i = 0; i < cell.dimension; ++i)
@@ -99,7 +108,10 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
       level = scene_.domain.level(x);
     if (sheets_.size() == 1 && level > 0) {  // one sheet, free and wall: beyond free parts it is open
       const BoundaryPart* part = part_near(x);
-      if (part != nullptr && part->is_free) level = -level;
+      if (part != nullptr && part->is_free) {
+        level = -level;
+        turned = true;
+      }
     }
     cell.at[code] = level == 0 ? -std::numeric_limits<double>::min() : level;
   }
@@ -113,7 +125,9 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
     const Near* nearest = &walls.front();
     for (const Near& wall : walls)
       if (std::abs(wall.sheet->level(piece.at)) < std::abs(nearest->sheet->level(piece.at))) nearest = &wall;
-    const BoundaryPart* here = scene_.part_at(nearest->sheet->nearest(piece.at));
+    const Point foot = nearest->sheet->nearest(piece.at);
+    if (turned && !is_along(piece, scene_.domain.outward(foot))) continue;
+    const BoundaryPart* here = scene_.part_at(foot);
     made.pieces.push_back({piece, here != nullptr && !here->is_free ? here : nearest->wall});
   }
   return made;

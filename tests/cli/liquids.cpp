@@ -162,6 +162,8 @@ TEST_CASE("what is wrong in a liquid is named, with its place") {
        {"not connected"}},
       {tank({{3, "domain = \"polygon(vertices=[[0, 0], [2, 2], [2, 0], [0, 1]])\""}}), "3:11", {"cross"}},
       {tank({{4, "density = 0"}}), "4:11", {"above 0"}},
+      {tank({{6, "force = [\"0\", \"if(y > 0.3, -9, -8)\"]"}}), "1:1", {"force", "jumps at", "y = 0.3"}},
+      {tank({{5, "velocity = [\"step(y - 0.6)\", \"0\"]"}}), "1:1", {"velocity", "jumps at", "y = 0.6"}},
       {tank({{7, "free = { top = { where = \"y\", pressure = \"p0\" } }"}}), "7:27", {"relation"}},
       {tank({{7, "free = { top = { where = \"z >= 1\", pressure = \"p0\" } }"}}), "7:27", {"unknown"}},
       {tank({{9, "cells = 100000"}}), "1:1", {"GB of memory"}},
@@ -206,4 +208,32 @@ TEST_CASE("--certify encloses the pressure of scenes whose symmetry is plain, an
     CHECK(outcome.code == 3);
     CHECK(Json::parse(outcome.out)["certificate"]["level"] == "none");
   }
+}
+
+TEST_CASE("--certify encloses the solution of a grid's equations, and says that it is of them alone") {
+  const Folder folder;
+  const std::string file = folder.write("tank.toml", tank({{9, "cells = 32"}}));
+  const Outcome told = run({"solve", "--certify", file}), json = run({"solve", "--certify", "--json", file});
+  CHECK(told.code == 3);
+  CHECK(told.out.find("Proved of the grid's equations alone") != std::string::npos);
+  const Json certificate = Json::parse(json.out)["certificate"];
+  CHECK(certificate["level"] == "none");
+  CHECK(certificate["grid"]["level"] == "enclosure");
+  CHECK(certificate["grid"]["error_bound"].get<double>() <= 1e-10);
+  CHECK_FALSE(solved_liquid(tank({{9, "cells = 32"}}))["certificate"].contains("grid"));
+}
+
+TEST_CASE("the velocity is drawn as arrows beside the pressure, where there is a plane") {
+  const Folder folder;
+  const std::string turning = tank({{5, "velocity = [\"y\", \"-x\"]"}, {9, "cells = 16"}});
+  const std::string file = folder.write("tank.toml", turning), picture = folder.path("p.svg");
+  REQUIRE(run({"solve", file, "--plot", picture, "--velocity"}).code <= 1);
+  std::stringstream text;
+  text << std::ifstream(picture).rdbuf();
+  CHECK(text.str().find("arrows: the velocity, at most 1.") != std::string::npos);
+  CHECK(run({"solve", file, "--velocity"}).err.find("--plot") != std::string::npos);
+  const Outcome line =
+      run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--velocity", "--plot", picture});
+  CHECK(line.code == 2);
+  CHECK(line.err.find("--velocity") != std::string::npos);
 }

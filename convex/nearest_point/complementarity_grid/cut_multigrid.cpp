@@ -258,6 +258,26 @@ double CutMultigrid::push(const std::vector<double>& q, Index k) const {
   return sum;
 }
 
+void CutMultigrid::relax(std::vector<double>& q, int sweeps) const {
+  const Level& level = levels_.front();
+  const CutGrid& grid = *level.grid;
+  const auto relax_point = [&](Index k) {
+    if (!grid.is_unknown(k) || !(level.diagonal[at(k)] > 0)) return;
+    double sum = load_[at(k)];
+    for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
+      const Index s = grid.stride(axis);
+      const double* link = grid.link[axis].data() + k;
+      sum += link[0] * q[at(k + s)] + link[-s] * q[at(k - s)];
+    }
+    const double free = sum / level.diagonal[at(k)];
+    q[at(k)] = grid.kind[at(k)] == CutPoint::bounded ? std::max(0.0, free) : free;
+  };
+  for (int colour = 0; colour < 2 * sweeps; ++colour)
+    for_rows(grid, [&](Index first, Index j, Index k) {
+      for (Index i = (j + k + colour) % 2; i < grid.points[0]; i += 2) relax_point(first + i);
+    });
+}
+
 Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, double part) {
   Level& level = levels_.front();
   p_.assign(q.size(), 0);

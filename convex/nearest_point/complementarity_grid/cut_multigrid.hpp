@@ -22,6 +22,9 @@ class CutMultigrid {
   double residual(const std::vector<double>& q, std::vector<double>& r) const;
   /// q += the correction for the residual r, to `part` of its energy norm. Steps taken.
   Index correct(std::vector<double>& q, std::vector<double>& r, double part);
+  /// Projected red-black sweeps on the finest grid, with the pendants that are taut: each point in turn to
+  /// its own minimum, not below its bound. A bound is met exactly, by 0.
+  void relax(std::vector<double>& q, int sweeps) const;
   /// Σ links (q_i - q_j) + pull q_i - load_i and what taut pendants add: what pushes a held point.
   double push(const std::vector<double>& q, Index point) const;
   static void interpolate(const CutGrid& coarse, const std::vector<double>& from, const CutGrid& fine,

@@ -6,39 +6,14 @@
 #include <cmath>
 #include <random>
 
+#include "tests/convex/nearest_point/complementarity_grid/random_grid.hpp"
+
 using convex::CutGrid;
 using convex::CutPoint;
 using convex::CutSolution;
 using convex::Index;
 
 namespace {
-
-/// A grid with holes, random links and loads, and pendants; the frame of its points gives values.
-CutGrid random_grid(std::size_t dimension, Index points, std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  std::array<Index, 3> n{1, 1, 1};
-  for (std::size_t i = 0; i < dimension; ++i) n[i] = points;
-  CutGrid grid(dimension, n);
-  for (Index c = 0; c < n[2]; ++c)
-    for (Index b = 0; b < n[1]; ++b)
-      for (Index a = 0; a < n[0]; ++a) {
-        const auto k = static_cast<std::size_t>(grid.at(a, b, c));
-        const double kind = unit(random);
-        grid.kind[k] = kind < 0.05 ? CutPoint::beyond : kind < 0.1 ? CutPoint::free : CutPoint::bounded;
-      }
-  for (Index k = 0; k < grid.size(); ++k) {
-    if (!grid.is_unknown(k)) continue;
-    const auto i = static_cast<std::size_t>(k);
-    for (std::size_t axis = 0; axis < dimension; ++axis)
-      if (grid.is_unknown(k + grid.stride(axis))) grid.link[axis][i] = 0.5 + unit(random);
-    if (unit(random) < 0.05) grid.pull[i] = 1 + unit(random);
-    grid.load[i] = 0.2 * (unit(random) - 0.55);
-    if (unit(random) < 0.05) grid.pendants.push_back({k, 2 * unit(random), 0.1 * (unit(random) - 0.5)});
-  }
-  for (Index k = 0; k < grid.size(); ++k)  // what hangs on nothing is held a little
-    if (grid.is_unknown(k)) grid.pull[static_cast<std::size_t>(k)] += 1e-3;
-  return grid;
-}
 
 /// The gradient of the energy at a point, from its definition.
 double slope(const CutGrid& grid, const std::vector<double>& q, Index k) {
@@ -61,8 +36,8 @@ TEST_CASE(
   for (const auto& [dimension, points] : {std::pair{std::size_t{1}, Index{33}}, {2, 17}, {3, 9}})
     for (int trial = 0; trial < 8; ++trial) {
       CAPTURE(dimension);
-      const CutGrid fine = random_grid(dimension, points, random);
-      const CutGrid coarse = random_grid(dimension, (points + 1) / 2, random);  // it only has to help
+      const CutGrid fine = tests::random_grid(dimension, points, random);
+      const CutGrid coarse = tests::random_grid(dimension, (points + 1) / 2, random);  // it only has to help
       const CutSolution found = convex::solve_cut_grids({&fine, &coarse}).front();
       CHECK(found.ended);
       for (Index k = 0; k < fine.size(); ++k) {
@@ -82,7 +57,7 @@ TEST_CASE(
 
 TEST_CASE("without bounds the equation holds at every unknown") {
   std::mt19937 random(8);
-  CutGrid grid = random_grid(2, 17, random);
+  CutGrid grid = tests::random_grid(2, 17, random);
   grid.pendants.clear();
   const CutSolution found = convex::solve_cut_grids({&grid}, false).front();
   double least = 0;

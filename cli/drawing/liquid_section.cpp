@@ -1,0 +1,122 @@
+#include "cli/drawing/liquid_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace cli {
+
+using mechanics::liquid::BoundaryPart;
+using mechanics::liquid::LiquidScene;
+using mechanics::liquid::LiquidSolution;
+using SectionPoint = mechanics::liquid::Point;
+
+namespace {
+
+constexpr int pixels_of_field = 480, hatches = 40, arrows_along_side = 20;
+
+}  // namespace
+
+LiquidSection::LiquidSection(const LiquidScene& scene, const LiquidSolution& found)
+    : scene_(scene), found_(found) {
+  if (scene.dimension() == 3) height_ = 0.5 * (scene.domain.low[2] + scene.domain.high[2]);
+  step_ = std::max(side(0), side(1)) / pixels_of_field;
+}
+
+double LiquidSection::side(std::size_t i) const { return scene_.domain.high[i] - scene_.domain.low[i]; }
+double LiquidSection::low(std::size_t i) const { return scene_.domain.low[i]; }
+
+bool LiquidSection::is_inside(const SectionPoint& x) const {
+  return scene_.domain.level(x) <= scene_.domain.reach();
+}
+
+int LiquidSection::count(std::size_t i) const {
+  return std::max(1, static_cast<int>(std::lround(side(i) / step_)));
+}
+
+std::string LiquidSection::field() const {
+  std::string text;
+  const int nx = count(0), ny = count(1);
+  for (int j = 0; j <= ny; ++j) {
+    for (int i = 0; i <= nx; ++i) {
+      const SectionPoint x = at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny);
+      if (is_inside(x))
+        fmt::format_to(std::back_inserter(text), "{} {} {}\n", x[0], x[1],
+                       found_.in_cavity(x) ? 0.0 : found_.p(x));
+      else
+        fmt::format_to(std::back_inserter(text), "{} {} NaN\n", x[0], x[1]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string LiquidSection::hatching() const {
+  std::string text;
+  const double apart = (side(0) + side(1)) / hatches;
+  for (double c = low(0) - low(1) - side(1) + apart / 2; c < low(0) - low(1) + side(0); c += apart) {
+    bool drawing = false;
+    double begin = 0;
+    const auto end_at = [&](double x) {
+      if (drawing)
+        fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", begin, begin - c, x - begin, x - begin);
+      drawing = false;
+    };
+    for (double x = low(0); x <= low(0) + side(0) + step_ / 2; x += step_ / 2) {
+      const SectionPoint here = at(x, x - c);
+      const bool hatched = is_inside(here) && found_.in_cavity(here);
+      if (hatched && !drawing) {
+        drawing = true;
+        begin = x;
+      }
+      if (!hatched) end_at(x - step_ / 2);
+    }
+    end_at(low(0) + side(0));
+  }
+  return text;
+}
+
+std::vector<SectionPoint> LiquidSection::parted() const {
+  std::vector<SectionPoint> points;
+  const auto& names = found_.parted_walls;
+  if (names.empty()) return points;
+  const int nx = count(0), ny = count(1);
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) {
+      const SectionPoint x = at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny);
+      if (!is_inside(x)) continue;
+      const SectionPoint foot = scene_.domain.foot(x);
+      if (std::hypot(foot[0] - x[0], foot[1] - x[1], foot[2] - x[2]) > 0.8 * step_) continue;
+      const BoundaryPart* part = scene_.part_at(foot);
+      if (part == nullptr || part->is_free || found_.p(foot) > 1e-3 * found_.largest) continue;
+      if (std::find(names.begin(), names.end(), part->name) == names.end()) continue;
+      points.push_back(foot);
+    }
+  return points;
+}
+
+LiquidSection::Arrows LiquidSection::velocity() const {
+  Arrows arrows;
+  if (scene_.velocity.empty()) return arrows;
+  const double apart = std::max(side(0), side(1)) / arrows_along_side;
+  std::vector<std::array<double, 4>> drawn;
+  for (double y = low(1) + apart / 2; y < low(1) + side(1); y += apart)
+    for (double x = low(0) + apart / 2; x < low(0) + side(0); x += apart) {
+      const SectionPoint here = at(x, y);
+      if (!is_inside(here)) continue;
+      const double u = scene_.velocity[0].raw(here), v = scene_.velocity[1].raw(here);
+      if (!std::isfinite(u) || !std::isfinite(v)) continue;
+      drawn.push_back({x, y, u, v});
+      arrows.fastest = std::max(arrows.fastest, std::hypot(u, v));
+    }
+  for (const auto& [x, y, u, v] : drawn) {
+    if (!(std::hypot(u, v) > 0)) continue;
+    const double dx = apart * (u / arrows.fastest), dy = apart * (v / arrows.fastest);
+    fmt::format_to(std::back_inserter(arrows.vectors), "{} {} {} {}\n", x - dx / 2, y - dy / 2, dx, dy);
+  }
+  return arrows;
+}
+
+}  // namespace cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanics/liquid/liquid_solution.hpp"
+
+namespace cli {
+
+/// What is drawn of a liquid in two or three dimensions: the first two coordinates, the third at the middle
+/// of the domain. As gnuplot's data.
+class LiquidSection {
+ public:
+  LiquidSection(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&);
+
+  double side(std::size_t i) const;
+  double low(std::size_t i) const;
+  double height() const { return height_; }
+
+  /// p by lines of equal y apart by empty lines, NaN outside of the domain.
+  std::string field() const;
+  /// The parts of lines x - y = c that lie in the cavity, as vectors.
+  std::string hatching() const;
+  /// Points of the walls that part, where p = 0.
+  std::vector<mechanics::liquid::Point> parted() const;
+
+  /// u as vectors in their middles, the longest as long as they are apart, and the largest |u| drawn.
+  struct Arrows {
+    std::string vectors;
+    double fastest = 0;
+  };
+  Arrows velocity() const;
+
+ private:
+  mechanics::liquid::Point at(double x, double y) const { return {x, y, height_}; }
+  bool is_inside(const mechanics::liquid::Point&) const;
+  int count(std::size_t i) const;
+  const mechanics::liquid::LiquidScene& scene_;
+  const mechanics::liquid::LiquidSolution& found_;
+  double height_ = 0, step_ = 1;
+};
+
+}  // namespace cli

@@ -1,0 +1,176 @@
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using LiquidJson = nlohmann::json;
+
+namespace {
+
+/// A liquid in the plane of density 1.
+std::string plane(const std::string& domain, const std::string& force_x, const std::string& free,
+                  const std::string& walls, int cells) {
+  return "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"" + domain + "\"\ndensity = 1\nforce = [\"" +
+         force_x + "\", \"0\"]\nfree = { " + free + " }\nwalls = { " + walls +
+         " }\ncells = " + std::to_string(cells) + "\n";
+}
+
+struct Measured {
+  LiquidJson told;
+  double error = 0;  ///< the largest of p at the points of the table
+};
+
+Measured measured(const std::string& text, const std::function<double(double, double)>& exact) {
+  const Folder folder;
+  const std::string table = folder.path("p.csv");
+  const Outcome outcome = run({"solve", "--json", folder.write("liquid.toml", text), "--data", table});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  Measured found{LiquidJson::parse(outcome.out), 0};
+  std::ifstream rows(table);
+  std::string line;
+  std::getline(rows, line);
+  while (std::getline(rows, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream numbers(line);
+    double x = 0, y = 0, p = 0;
+    numbers >> x >> y >> p;
+    found.error = std::max(found.error, std::abs(p - exact(x, y)));
+  }
+  return found;
+}
+
+double bound_of(const Measured& found) { return found.told["certificate"]["error_bound"].get<double>(); }
+
+// p = max(0, g)² with g = x - 0.2 - 0.3 y²: the cavity ends at a parabola. -Δp = h = div of minus this force.
+const std::string g = "(x - 0.2 - 0.3*y^2)", force = "2*x + 0.72*y^2*x - 0.6*x^2 + 0.24*x + 0.36*y^2*x",
+                  squared = "max(0, " + g + ")^2";
+double parabolic(double x, double y) { return std::pow(std::max(0.0, x - 0.2 - 0.3 * y * y), 2); }
+
+/// The acceleration of a wall that the liquid just follows: F·n - ∂p/∂n.
+std::string follows(const std::string& nx, const std::string& ny) {
+  return "(" + force + ")*" + nx + " - 2*max(0, " + g + ")*(" + nx + " - 0.6*y*" + ny + ")";
+}
+
+// r^(2/3) sin(2θ/3) at the re-entrant corner of an L, r^(1/2) sin(θ/2) where a free part meets a wall.
+double at_corner(double x, double y) {
+  const double angle = std::atan2(y, x), turn = angle < -1e-3 ? angle + 2 * std::acos(-1.0) : angle;
+  return 2 + std::cbrt(x * x + y * y) * std::sin(2 * turn / 3);
+}
+double at_junction(double x, double y) {
+  return 2 + std::sqrt(std::hypot(x, y)) * std::sin(std::atan2(y, x) / 2);
+}
+
+Measured corner(int cells) {
+  return measured(
+      plane("polygon(vertices=[[0,0],[1,0],[1,1],[-1,1],[-1,-1],[0,-1]])", "0",
+            "all = { where = \"true\", pressure = \"2 + (x^2+y^2)^(1/3)*sin(2/3*(if(atan2(y,x) < -0.001, "
+            "atan2(y,x) + 2*pi, atan2(y,x))))\" }",
+            "", cells),
+      at_corner);
+}
+
+Measured junction(const std::string& low, int cells) {
+  return measured(
+      plane("box(low=[" + low + ", 0], high=[1, 1])", "0",
+            "all = { where = \"y > 1e-7 or x >= 0\", pressure = \"2 + sqrt(hypot(x, y))*sin(atan2(y, "
+            "x)/2)\" }",
+            "floor = { where = \"true\", acceleration = 0 }", cells),
+      at_junction);
+}
+
+}  // namespace
+
+TEST_CASE("the error bound covers the truth on curved boundaries, free, and free beside walls") {
+  const std::string all = "all = { where = \"true\", pressure = \"" + squared + "\" }";
+  for (const int cells : {24, 48, 100})
+    for (const std::string domain :
+         {"box(low=[-1,-1], high=[1,1])", "disc(center=[0.1, -0.05], radius=0.9)", "{x^2 + 3*y^2 <= 1}",
+          "polygon(vertices=[[-1,-1],[1.2,-0.7],[0.3,1]])", "{x^2 + y^2 <= 1, (x - 0.8)^2 + y^2 <= 1.1}"}) {
+      CAPTURE(domain);
+      CAPTURE(cells);
+      const Measured found = measured(plane(domain, force, all, "", cells), parabolic);
+      CHECK(found.error <= bound_of(found));
+    }
+  const std::string disc_wall = follows("((x - 0.1)/0.9)", "((y + 0.05)/0.9)"),
+                    ellipse_wall = follows("(x/sqrt(x^2 + 9*y^2))", "(3*y/sqrt(x^2 + 9*y^2))");
+  const auto beside = [](const std::string& where) {
+    return "rim = { where = \"" + where + "\", pressure = \"" + squared + "\" }";
+  };
+  const auto rest = [](const std::string& a) {
+    return "rest = { where = \"true\", acceleration = \"" + a + "\" }";
+  };
+  for (const int cells : {32, 64, 100, 128, 256}) {
+    CAPTURE(cells);
+    for (const std::string where : {"y >= 0", "x >= 0.6"}) {
+      CAPTURE(where);
+      const Measured found = measured(
+          plane("disc(center=[0.1, -0.05], radius=0.9)", force, beside(where), rest(disc_wall), cells),
+          parabolic);
+      CHECK(found.error <= bound_of(found));
+    }
+    const Measured found = measured(
+        plane("{x^2 + 3*y^2 <= 1}", force, beside("y >= 0.1"), rest(ellipse_wall), cells), parabolic);
+    CHECK(found.error <= bound_of(found));
+    CHECK(found.error <= 0.4 / cells);
+  }
+}
+
+TEST_CASE(
+    "at a re-entrant corner errors go with the power 2/3 of the step, at a junction with 1/2, and are "
+    "covered") {
+  for (const int cells : {32, 64, 128}) {
+    const Measured coarse = corner(cells), fine = corner(2 * cells);
+    CHECK(coarse.error <= bound_of(coarse));
+    CHECK(std::log2(coarse.error / fine.error) == doctest::Approx(2.0 / 3).epsilon(0.1));
+    const Measured rough = junction("-1", cells), smooth = junction("-1", 2 * cells);
+    CHECK(rough.error <= bound_of(rough));
+    CHECK(std::log2(rough.error / smooth.error) == doctest::Approx(0.5).epsilon(0.1));
+  }
+  // Where the junction lies between nodes the error goes up and down below that power.
+  for (const int cells : {32, 64, 100, 128, 256}) {
+    CAPTURE(cells);
+    const Measured found = junction("-0.9", cells);
+    CHECK(found.error <= bound_of(found));
+    CHECK(found.error <= 0.6 / std::sqrt(cells));
+  }
+}
+
+TEST_CASE("a cavity that reaches a free surface without pressure is measured up to it") {
+  // ∫ over |y| < 1 of 1.2 + 0.3 y², in the square (-1, 1)².
+  const std::string all = "all = { where = \"true\", pressure = \"" + squared + "\" }";
+  for (const int cells : {32, 64}) {
+    const Measured found = measured(plane("box(low=[-1,-1], high=[1,1])", force, all, "", cells), parabolic);
+    CHECK(std::abs(found.told["cavity"]["measure"].get<double>() - 2.6) <= 0.5 / cells);
+  }
+}
+
+TEST_CASE("a scene counts as radial where its text says so, and never where a choice is not") {
+  const auto method = [](const std::string& domain, const std::string& x, const std::string& y) {
+    const Folder folder;
+    const std::string file =
+        folder.write("r.toml", "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"" + domain +
+                                   "\"\ndensity = 1\nforce = [\"" + x + "\", \"" + y +
+                                   "\"]\nfree = { rim = { where = \"true\", pressure = 1 } }\ncells = 32\n");
+    const Outcome outcome = run({"solve", "--json", file});
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 0);
+    return LiquidJson::parse(outcome.out)["method"].get<std::string>();
+  };
+  const std::string disc = "disc(center=[0, 0], radius=1)";
+  CHECK(method(disc, "x*exp(-(x^2 + y^2))", "y*exp(-(x^2 + y^2))") == "radial");
+  CHECK(method(disc, "if(x^2 + y^2 > 0.3, x*sqrt(0.3/(x^2 + y^2)), x)",
+               "if(x^2 + y^2 > 0.3, y*sqrt(0.3/(x^2 + y^2)), y)") == "radial");
+  CHECK(method(disc, "x + 3*y", "y - 3*x + 7") == "radial");  // of the force h alone counts
+  CHECK(method("{(x - 1)^2 + (y + 2)^2 <= 1, (x - 1)^2 + (y + 2)^2 >= 1/9}", "(x - 1)^3 + (x - 1)*(y + 2)^2",
+               "(y + 2)^3 + (y + 2)*(x - 1)^2") == "radial");
+  CHECK(method(disc, "x^3", "y^3") == "radial");  // 3 (x² + y²)
+  CHECK(method(disc, "x^3", "1.0000001*y^3") == "grid");
+  CHECK(method(disc, "2*x + if(x > 0.97, 5*(x - 0.97)^2, 0)", "2*y") == "grid");  // seen in a small part only
+  CHECK(method(disc, "2*x + max(0, x - 0.999)^2", "2*y") == "grid");
+  CHECK(method("disc(center=[0.1, 0], radius=1)", "x^3", "y^3") == "grid");
+}

@@ -1,0 +1,139 @@
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using PageJson = nlohmann::json;
+
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+PageJson liquid_of(const std::string& page) {
+  const std::string begin = "id=\"liquid\">", end = "</script>";
+  const std::size_t from = page.find(begin) + begin.size();
+  return PageJson::parse(page.substr(from, page.find(end, from) - from));
+}
+
+/// Numbers of two bytes, the low one first, from RFC 4648's letters.
+std::vector<int> decoded(const std::string& letters) {
+  const std::string alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<int> bytes, numbers;
+  unsigned word = 0, bits = 0;
+  for (const char c : letters) {
+    if (c == '=') break;
+    word = word << 6U | static_cast<unsigned>(alphabet.find(c));
+    bits += 6;
+    if (bits < 8) continue;
+    bits -= 8;
+    bytes.push_back(static_cast<int>(word >> bits & 255U));
+  }
+  for (std::size_t k = 0; k + 1 < bytes.size(); k += 2) numbers.push_back(bytes[k] + 256 * bytes[k + 1]);
+  return numbers;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a page plays the inception of a tube's cavity: its pressure, its cavity and its onset at each value") {
+  const Folder folder;
+  const std::string page_file = folder.path("tube.html");
+  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--animate", page_file, "--over",
+               "omega=1:0.25:3"})
+              .code == 0);
+  const std::string page = text_of(page_file);
+  CHECK(page.find("http") == std::string::npos);
+  CHECK(page.find("src=") == std::string::npos);
+  const PageJson data = liquid_of(page);
+  REQUIRE(data["frames"].size() == 9);
+  // Cavitation from omega^2 = 2 p0/(rho R^2) on, in |x| < s = R - sqrt(2 p0/rho)/omega; p = omega^2 (|x| -
+  // s)^2 / 2.
+  CHECK(data["onset"]["value"].get<double>() == doctest::Approx(std::sqrt(2)));
+  for (const PageJson& frame : data["frames"]) {
+    const double omega = frame["value"], s = 1 - std::sqrt(2) / omega;
+    CAPTURE(omega);
+    CHECK(frame["fraction"].get<double>() == doctest::Approx(std::max(0.0, s)));
+    const std::vector<int> codes = decoded(frame["p"]);
+    const int most = data["most_code"];
+    REQUIRE(codes.size() == 501);
+    for (std::size_t k = 0; k < codes.size(); ++k) {
+      const double x = std::abs(-1 + 0.004 * static_cast<double>(k));
+      const double p = s > 0 ? omega * omega / 2 * (x - s) * (x - s) : 1 - omega * omega / 2 * (1 - x * x);
+      if (x < s - 0.004)
+        CHECK(codes[k] == data["cavity_code"]);
+      else if (x > s + 0.004)
+        CHECK(std::abs(codes[k] - most * p / data["largest"].get<double>()) <= 1);
+    }
+  }
+}
+
+TEST_CASE(
+    "a page of a plane has the levels of its boundary, the walls that part, and what fails at a value") {
+  const Folder folder;
+  const std::string page_file = folder.path("tank.html");
+  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tank.toml", "--animate", page_file, "--over",
+               "a=4,14"})
+              .code == 0);
+  const PageJson data = liquid_of(text_of(page_file));
+  CHECK(data["frames"][0]["parted_walls"].empty());
+  CHECK(data["frames"][0]["parted"].empty());
+  CHECK(data["frames"][1]["parted_walls"] == PageJson::parse("[\"bed\"]"));
+  REQUIRE(!data["frames"][1]["parted"].empty());
+  for (const PageJson& at : data["frames"][1]["parted"]) CHECK(at[1] == 0);
+  CHECK(data["frames"][1]["level"].is_null());  // the domain is the one before
+  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--animate", page_file, "--over",
+               "p0=-1,1"})
+              .code == 0);
+  CHECK(liquid_of(text_of(page_file))["frames"][0]["failure"].get<std::string>().find("below 0") !=
+        std::string::npos);
+}
+
+TEST_CASE("what is wrong in --animate and --over of a liquid is told") {
+  const Folder folder;
+  const std::string tube = MOREAU_SOURCE "/docs/problems/liquid_tube.toml", page = folder.path("p.html");
+  const auto refused = [&](std::vector<std::string> options, const std::string& word) {
+    options.insert(options.begin(), {"solve", tube});
+    const Outcome outcome = run(options);
+    CAPTURE(outcome.err);
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find(word) != std::string::npos);
+  };
+  refused({"--animate", page}, "--over");
+  refused({"--over", "omega=1:1:3"}, "--animate");
+  refused({"--animate", page, "--over", "w=1:1:3"}, "\"w\"");
+  refused({"--animate", page, "--over", "omega=1:1e-6:3"}, "larger step");
+  refused({"--animate", folder.path("p.svg"), "--over", "omega=1:1:3"}, ".html");
+  const Outcome other =
+      run({"solve", folder.write("p.toml", two_rows()), "--animate", page, "--over", "omega=1:1:3"});
+  CHECK(other.code == 2);
+  CHECK(other.err.find("[liquid]") != std::string::npos);
+}
+
+TEST_SUITE("chromium") {
+  TEST_CASE("a browser plays the page of a liquid") {
+    const Folder folder;
+    const std::string page_file = folder.path("p.html"), dump = folder.path("dump.html");
+    for (const std::string name : {"disc", "tube"}) {
+      REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_" + name + ".toml", "--animate", page_file,
+                   "--over", "omega=1:0.5:4"})
+                  .code == 0);
+      const std::string command =
+          "timeout 60 chromium --headless --no-sandbox --disable-gpu --dump-dom 'file://" + page_file +
+          "#3' > " + dump + " 2> /dev/null";
+      REQUIRE(std::system(command.c_str()) == 0);
+      const std::string dom = text_of(dump);
+      CHECK(dom.find("data-ready=\"yes\"") != std::string::npos);
+      CHECK(dom.find("omega = 3") != std::string::npos);
+      CHECK(dom.find("The cavity fills") != std::string::npos);
+      CHECK(dom.find("id=\"onset\"") != std::string::npos);
+    }
+  }
+}
