@@ -80,6 +80,26 @@ bool falls_without_end(const GraphForm& f, const Vector& x, const Vector& w, con
   return there < 0 && sum_of_terms(f, whole) < falling * farther / far * there;
 }
 
+/// By weak duality the least value over w is at least, for any y in the domains of the conjugates,
+///   constant - ½ w·Qw + Σ y_j·b_j - scale_j f_j*(y_j / scale_j) + rho·w',  rho = Qw + c + Mᵀy,
+/// w' a minimiser: with |rho|·|w| in place of the last product, as if w' were no larger than w, which the
+/// residual of the solver makes rounding. -inf where a y is outside a domain.
+Value value_of_dual(const SaddleProblem& problem, const SaddlePoint& point, double constant) {
+  double sum = constant, size = std::abs(constant);
+  const auto add = [&](double part) {
+    sum += part;
+    size += std::abs(part);
+  };
+  if (problem.Q.size() > 0) add(-0.5 * point.xi.dot(problem.Q * point.xi));
+  for (const SaddleTerm& term : problem.terms) {
+    const Vector y = point.y.segment(term.first, term.rows);
+    add(y.dot(problem.b.segment(term.first, term.rows)));
+    add(-term.scale * term.f->conjugate().node().value(y / term.scale));
+  }
+  constexpr double roundings = 8;
+  return {sum, point.rho.cwiseAbs().dot(point.xi.cwiseAbs()) + roundings * unit_roundoff * size};
+}
+
 }  // namespace
 
 GraphValue evaluate(const GraphForm& f, const Vector& x) {
@@ -103,11 +123,14 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   const double around_w = whole.norm() + size_of_domains(f);
   std::size_t j = 0;
   bool indicator = true;
+  double constant = f.constant;  // of the quadratic part, w = 0
   for (const GraphTerm& term : f.terms) {
     if (const auto form = term.f->quadratic_form(term.M.rows())) {
       indicator = false;
       const Vector at = term.M * whole + term.b, image = form->Q * at;
       add(term.scale * (0.5 * at.dot(image) + form->c.dot(at) + form->constant));
+      const Vector from = term.M.leftCols(f.n) * x + term.b;
+      constant += term.scale * (0.5 * from.dot(form->Q * from) + form->c.dot(from) + form->constant);
       slope += term.scale * (term.M.transpose() * Vector(image + form->c));
       continue;
     }
@@ -143,6 +166,9 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   const double missed = of_misses * point.y.cwiseAbs().dot(point.r.cwiseAbs());
   found.error_bound =
       std::isfinite(error.bound) ? error.of_value + missed + 8 * unit_roundoff * size : infinity;
+  // The estimate is held against the dual at the same point, where its multipliers are in the domains.
+  if (const Value dual = value_of_dual(problem, point, constant); std::isfinite(dual.value))
+    found.error_bound = std::max(found.error_bound, std::abs(found.value - dual.value) - dual.error);
   const double energy = point.u.dot(point.D.cwiseProduct(point.u));
   // What cannot be told from 0 is 0.
   const bool known = std::isfinite(found.error_bound);

@@ -1,5 +1,6 @@
 #include "convex/composite/perspective.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "convex/composite/conjugate_atom.hpp"
@@ -42,7 +43,8 @@ class PerspectiveAtom final : public Atom {
     if (length <= 0) return 0;
     const auto quotient = [&](double part) { return part * length * f_->value(x / (part * length)); };
     const double limit = quotient(fine), before = quotient(coarse);
-    return std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing) ? limit : infinity;
+    const bool settled = std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing);
+    return std::min(settled ? limit : infinity, f_->recession(x));
   }
   Function conjugate() const override {
     return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -1 / side_));

@@ -1,3 +1,9 @@
+#include <cmath>
+
+#include "convex/exact/fraction_arithmetic.hpp"
+#include "convex/exact_program/exact_minimum.hpp"
+#include "convex/exact_program/program_of_call.hpp"
+#include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/sum.hpp"
 
@@ -13,7 +19,8 @@ std::vector<Function> indicators(std::span<const Set> sets) {
 /// The sum of the indicators, under the name of the set.
 class Intersection : public Sum {
  public:
-  explicit Intersection(std::span<const Set> sets) : Sum(indicators(sets)) {
+  explicit Intersection(std::span<const Set> sets) : Intersection(sets, indicators(sets)) {}
+  Intersection(std::span<const Set> sets, std::vector<Function> parts) : Sum(std::move(parts)) {
     call_.name = "intersection";
     for (const Set& set : sets) call_.arguments.push_back(argument(set.call));
   }
@@ -23,6 +30,51 @@ class Intersection : public Sum {
   Call call_;
 };
 
+/// The point where a Euclidean ball touches the intersection of the other sets, polyhedra: what that has
+/// nearest to the centre is, in fractions, as far from it as the radius.
+std::optional<Vector> point_of_contact(std::span<const Set> sets, const std::vector<Function>& all, Index n) {
+  constexpr double doubtful = 1e-6;  // beyond, doubles tell the distance from the radius
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const Call& ball = sets[k].call;
+    if (ball.name != "ball2" || ball.arguments.empty()) continue;
+    const auto* radius = std::get_if<double>(&ball.arguments[0].value);
+    const Vector origin = Vector::Zero(n);
+    const auto* center = ball.arguments.size() > 1 ? std::get_if<Vector>(&ball.arguments[1].value) : &origin;
+    if (!radius || !center || center->size() != n) continue;
+    std::vector<Function> others = all;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
+    const Prox nearest = proper_sum(others).prox(*center, Metric::identity(n));
+    if (nearest.x.size() != n) continue;
+    const double size = *radius + center->norm();
+    if (!(std::abs((nearest.x - *center).norm() - *radius) <= doubtful * size)) continue;
+    const ExactGram plain = identity_gram(static_cast<std::size_t>(n));
+    ExactProgram rest(static_cast<std::size_t>(n), 0);
+    bool is_known = true;
+    for (std::size_t j = 0; j < sets.size() && is_known; ++j) {
+      if (j == k) continue;
+      const auto program = exact_program(sets[j].call, plain);
+      is_known = program.has_value();
+      if (program) rest = add_joint(std::move(rest), *program);
+    }
+    if (!is_known) continue;
+    Fractions c;
+    for (const double part : *center) c.push_back(fraction(part));
+    const ExactMinimum exact = exact_prox(rest, plain, c);
+    if (!exact.at) continue;
+    const Fraction r = fraction(*radius);
+    Fraction beyond = -(r * r);
+    Vector point(n);
+    for (Index i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Fraction off = exact.at->x[at] - c[at];
+      beyond = beyond + off * off;
+      point[i] = nearest_double(exact.at->x[at]);
+    }
+    if (sign(beyond) == 0) return point;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Function intersection(std::span<const Set> sets, Index n) {
@@ -30,7 +82,11 @@ Function intersection(std::span<const Set> sets, Index n) {
   if (sets.size() == 1) return sets[0].indicator;
   const Function made(std::make_shared<Intersection>(sets));
   if (made.dimension() != 0) n = made.dimension();
-  if (n != 0) require_proper(made, n, "intersection");
+  if (n == 0) return made;
+  require_proper(made, n, "intersection");
+  if (made.facts().piecewise_quadratic) return made;
+  if (const auto point = point_of_contact(sets, indicators(sets), n))
+    return Function(std::make_shared<Intersection>(sets, std::vector{indicator_of_point(*point)}));
   return made;
 }
 

@@ -1,5 +1,6 @@
 #include "convex/operations/operation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,7 @@
 #include "convex/operations/open_domain.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -28,7 +30,7 @@ constexpr double accuracy_of_a_program = 64 * unit_roundoff;
 
 /// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
 /// domain.
-constexpr double nearest_point_weight = 1e12;
+constexpr double nearest_point_weight = 1e12, stiffest_weight = 1e30;
 
 [[noreturn]] void refuse(const FunctionNode& f, const char* what) {
   throw InvalidInput(
@@ -90,6 +92,17 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
     if (hidden) best.reset();
   }
   return best;
+}
+
+std::optional<Prox> Operation::other_prox(const Vector& z, const Metric& W) const {
+  if (facts().piecewise_quadratic) return std::nullopt;
+  const std::vector<Function> parts = maximum_of();
+  return parts.empty() ? std::nullopt : prox_of_max(parts, z, W);
+}
+
+Function indicator_of_point(const Vector& p) {
+  const Index n = p.size();
+  return named("affine", {argument("A", Matrix(Matrix::Identity(n, n))), argument("b", p)}, n);
 }
 
 Value Operation::evaluate(const Vector& x) const { return by_program(x).value; }
@@ -188,11 +201,17 @@ Value product(const Vector& a, const Vector& b) {
 Value value_near(const Function& f, const Vector& y, double size) {
   const Value value = f.evaluate(y);
   if (!(value.value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
-  const double weight = f.facts().indicator ? 1 : nearest_point_weight / (size * size);
-  if (!std::isfinite(weight) || !(weight > 0)) return value;
-  const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)));
-  if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) return value;
-  return f.evaluate(nearest.x);
+  // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less.
+  const double near = std::min(size, 1.0);
+  for (const double stiff : {stiffest_weight, nearest_point_weight}) {
+    const double weight = f.facts().indicator ? 1 : stiff / (near * near);
+    if (!std::isfinite(weight) || !(weight > 0)) continue;
+    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)));
+    if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
+    const Value inside = f.evaluate(nearest.x);
+    if (std::isfinite(inside.value)) return inside;
+  }
+  return value;
 }
 
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name) {

@@ -25,7 +25,10 @@ class Operation : public FunctionNode {
   virtual std::optional<Value> conjugate_value(const Vector&) const { return std::nullopt; }
   /// The prox by another way, for where those by formula and program are not accurate, or the values of f do
   /// not bear them out; none when there is none.
-  virtual std::optional<Prox> other_prox(const Vector&, const Metric&) const { return std::nullopt; }
+  virtual std::optional<Prox> other_prox(const Vector&, const Metric&) const;
+  /// The functions of which this is the maximum, where it is one of curved functions: an operation on a
+  /// maximum that keeps the order of functions is the maximum of what it makes of them. Empty elsewhere.
+  virtual std::vector<Function> maximum_of() const { return {}; }
   /// The slope that a covector of this function tells of the functions whose heights are measured.
   virtual double slope_of(const Vector& v) const { return v.norm(); }
   /// The graph form for use where slopes are of the size of `slope` > 0.
@@ -93,6 +96,9 @@ Function proper_inf_convolution(const Function& f, const Function& g);
 /// For a function of one entry, an interval that holds its domain: the closure of it, where its supports are
 /// known.
 std::optional<Interval> domain_of_one(const Function& f);
+
+/// The indicator of the point p.
+Function indicator_of_point(const Vector& p);
 
 /// f when h is `computed_conjugate(f)`.
 std::optional<Function> primal_of(const Function& h);

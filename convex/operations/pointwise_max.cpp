@@ -32,7 +32,6 @@ class PointwiseMax : public Operation {
     piecewise_ = program(parts_, n_ == 0 ? 2 : n_).has_value();
   }
 
-  const std::vector<Function>& parts() const { return parts_; }
   Index dimension() const override { return n_; }
   void require_size(Index n) const override {
     for (const Function& f : parts_) f.node().require_size(n);
@@ -88,10 +87,7 @@ class PointwiseMax : public Operation {
     return convex::pointwise_max(*forms, unit_of_slope(slope));
   }
 
-  std::optional<Prox> other_prox(const Vector& z, const Metric& W) const override {
-    if (piecewise_) return std::nullopt;
-    return prox_of_max(parts_, z, W);
-  }
+  std::vector<Function> maximum_of() const override { return parts_; }
 
  protected:
   /// By epigraphs in units of the slope at the solution, which is known when it has been found: units far
@@ -120,9 +116,9 @@ class PointwiseMax : public Operation {
 }  // namespace
 
 std::vector<Function> parts_of_max(const Function& f) {
-  const auto* most = dynamic_cast<const PointwiseMax*>(&f.node());
-  if (!most || f.facts().piecewise_quadratic) return {};
-  return most->parts();
+  const auto* made = dynamic_cast<const Operation*>(&f.node());
+  if (!made || f.facts().piecewise_quadratic) return {};
+  return made->maximum_of();
 }
 
 Function proper_max(std::vector<Function> parts) {

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/double_double.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/inverse.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
@@ -11,6 +13,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/sum.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -40,10 +43,10 @@ class Precompose : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    return value_near(f_, A_ * x + b_, (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
+    return value_near(f_, image_of(x), (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    const std::optional<Vector> v = f_.subgradient(A_ * x + b_);
+    const std::optional<Vector> v = f_.subgradient(image_of(x));
     if (!v) return std::nullopt;
     return A_.transpose() * *v;
   }
@@ -51,9 +54,19 @@ class Precompose : public Operation {
   double recession(const Vector& d) const override { return f_.node().recession(A_ * d); }
   /// v = Aᵀp is p·(Ax + b) - p·b, with Ax + b in the domain of f.
   double domain_support(const Vector& v) const override {
+    const auto of = [&](const Vector& p) { return f_.node().domain_support(p) - p.dot(b_); };
     const Vector p = linear_algebra::least_squares(A_.transpose(), v);
     const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
-    return in_range ? f_.node().domain_support(p) - p.dot(b_) : std::numeric_limits<double>::infinity();
+    double least = in_range ? of(p) : std::numeric_limits<double>::infinity();
+    // Of one entry, each row alone bounds the domain.
+    for (Index i = 0; A_.cols() == 1 && i < A_.rows(); ++i)
+      if (A_(i, 0) != 0) least = std::min(least, of(v[0] / A_(i, 0) * Vector::Unit(A_.rows(), i)));
+    return least;
+  }
+  std::vector<Function> maximum_of() const override {
+    std::vector<Function> parts = parts_of_max(f_);
+    for (Function& part : parts) part = Function(std::make_shared<Precompose>(part, A_, b_));
+    return parts;
   }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     const auto form = f_.node().linear_quadratic(A_.rows());
@@ -90,6 +103,14 @@ class Precompose : public Operation {
   }
 
  private:
+  /// Ax + b, rounded once: its terms may cancel where f is steep.
+  Vector image_of(const Vector& x) const {
+    DoubleDoubleVector sum(b_);
+    for (Index j = 0; j < x.size(); ++j)
+      add_multiple(A_.rows(), A_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
+    return sum.value();
+  }
+
   Function f_;
   Matrix A_;
   Vector b_;

@@ -6,6 +6,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -50,6 +51,11 @@ class Scale : public Operation {
   }
   /// (alpha f(·/rho))* = alpha f*(· rho/alpha).
   Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
+  std::vector<Function> maximum_of() const override {
+    std::vector<Function> parts = parts_of_max(f_);
+    for (Function& part : parts) part = scale(dilate(part, rho_), alpha_);
+    return parts;
+  }
   double recession(const Vector& d) const override { return alpha_ * f_.node().recession(d / rho_); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(rho_ * v); }
   std::optional<Function> entry(Index i) const override {

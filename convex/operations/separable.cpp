@@ -58,6 +58,19 @@ class Separable : public Operation {
     });
     return all ? std::optional(whole) : std::nullopt;
   }
+  /// A maximum in one block is one of all, the other blocks beside each part.
+  std::vector<Function> maximum_of() const override {
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      std::vector<Function> most = parts_of_max(parts_[k]);
+      for (Function& part : most) {
+        std::vector<Function> blocks = parts_;
+        blocks[k] = part;
+        part = Function(std::make_shared<Separable>(std::move(blocks), sizes_));
+      }
+      if (!most.empty()) return most;
+    }
+    return {};
+  }
   Function conjugate() const override {
     std::vector<Function> conjugates;
     for (const Function& f : parts_) conjugates.push_back(f.conjugate());

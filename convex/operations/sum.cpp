@@ -1,6 +1,7 @@
 #include "convex/operations/sum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <typeinfo>
@@ -14,6 +15,7 @@
 #include "convex/operations/two_function_max.hpp"
 
 namespace convex {
+
 SplitSum split(std::span<const Function> parts, Index n) {
   SplitSum sorted;
   for (const Function& f : parts) {
@@ -126,7 +128,7 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   return reduced(y, z, W, from, [&](const Vector& r) { return V.solve(r); });
 }
 
-std::optional<Prox> Sum::other_prox(const Vector& z, const Metric& W) const {
+std::vector<Function> Sum::maximum_of() const {
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     std::vector<Function> least = parts_of_max(parts_[k]);
     if (least.empty()) continue;
@@ -135,9 +137,9 @@ std::optional<Prox> Sum::other_prox(const Vector& z, const Metric& W) const {
       terms[k] = f;
       f = proper_sum(terms);
     }
-    return prox_of_max(least, z, W);
+    return least;
   }
-  return std::nullopt;
+  return {};
 }
 
 Function Sum::conjugate() const {
@@ -179,7 +181,17 @@ Function sum(std::span<const Function> terms, Index n) {
   if (terms.empty()) throw InvalidInput("sum: no functions; give at least one");
   if (const Index own = common_dimension(terms, "sum"); own != 0) n = own;
   const Function made = proper_sum(terms);
-  if (n != 0 && domains_may_miss(terms)) require_proper(made, n, "sum");
+  if (n != 0 && domains_may_miss(terms)) {
+    require_proper(made, n, "sum");
+    // Domains of one entry that meet in a point alone, which no prox of the parts tells.
+    if (n == 1 && !made.facts().piecewise_quadratic)
+      if (const auto domain = domain_of_one(made); domain && domain->low == domain->high) {
+        const Vector point = Vector::Constant(1, domain->low);
+        const Value value = made.evaluate(point);
+        if (std::isfinite(value.value) && std::isfinite(value.error))
+          return raised(indicator_of_point(point), value.value);
+      }
+  }
   return made;
 }
 

@@ -30,7 +30,7 @@ class Sum : public Operation {
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override;
   std::optional<GraphForm> graph(Index n) const override;
   /// max(f, g) + h is the maximum of f + h and g + h.
-  std::optional<Prox> other_prox(const Vector& z, const Metric& W) const override;
+  std::vector<Function> maximum_of() const override;
 
  protected:
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override;

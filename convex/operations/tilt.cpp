@@ -5,6 +5,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -29,6 +30,11 @@ class Tilt : public Operation {
     return v;
   }
   Function conjugate() const override { return translate(f_.conjugate(), c_); }
+  std::vector<Function> maximum_of() const override {
+    std::vector<Function> parts = parts_of_max(f_);
+    for (Function& part : parts) part = tilt(part, c_);
+    return parts;
+  }
   double recession(const Vector& d) const override { return f_.node().recession(d) + c_.dot(d); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(v); }
   std::optional<Function> entry(Index i) const override {

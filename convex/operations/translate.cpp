@@ -2,6 +2,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex {
 namespace {
@@ -22,6 +23,11 @@ class Translate : public Operation {
   Value evaluate(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
+  std::vector<Function> maximum_of() const override {
+    std::vector<Function> parts = parts_of_max(f_);
+    for (Function& part : parts) part = translate(part, by_);
+    return parts;
+  }
   double recession(const Vector& d) const override { return f_.node().recession(d); }
   double domain_support(const Vector& v) const override { return f_.node().domain_support(v) + v.dot(by_); }
   std::optional<Function> entry(Index i) const override {

@@ -129,3 +129,57 @@ TEST_CASE("a slope of the least double is a slope") {
   CHECK(split.status == Status::solved);
   CHECK((split.x.x - Vector(z - Eigen::Vector2d(5e-324, -1))).norm() <= 1e-15);
 }
+
+TEST_CASE("a ball that touches a polyhedron meets it in the point of contact") {
+  struct Touching {
+    const char* f;
+    std::vector<double> z, x;
+  };
+  for (const Touching& at : {
+           Touching{"indicator(intersection(box(-1,2), ball2(1,[3,-1])))", {-6, 0}, {2, -1}},
+           {"indicator(intersection(orthant(), ball2(1,[2,-1,3])))", {-0.3, -7, -6}, {2, 0, 3}},
+           {"indicator(intersection(simplex(1), ball2(0.5)))", {-3, 2, 2, -3}, {0.25, 0.25, 0.25, 0.25}},
+       }) {
+    CAPTURE(at.f);
+    const auto n = static_cast<Index>(at.z.size());
+    const Vector z = Eigen::Map<const Vector>(at.z.data(), n), x = Eigen::Map<const Vector>(at.x.data(), n);
+    const Decomposition split = convex::decompose(samples::function(at.f, n), z, Metric::identity(n));
+    CHECK(split.status == Status::solved);
+    CHECK(split.x.x == x);
+    CHECK((split.y.x - (z - x)).norm() <= 1e-14 * z.norm());
+  }
+  // A millionth nearer they meet in a lens, a thousandth high.
+  const Vector z{{-6, 0}};
+  const Decomposition lens =
+      convex::decompose(samples::function("indicator(intersection(box(-1,2.0000009), ball2(1,[3,-1])))", 2),
+                        z, Metric::identity(2));
+  if (lens.status == Status::solved) CHECK(lens.x.x[1] > -1 + 1e-4);
+}
+
+TEST_CASE(
+    "f(x) is told of the x that is printed, however steep f is there, and no value stands in for another") {
+  // -Σ log of Ax + b, where terms of 1e8 cancel to one of 1.
+  const Function steep = samples::function("precompose(log_barrier(), [[-1,0,1,2],[-1,0,-1,2]], [-2,-2])", 4);
+  const Vector z{{0, -2e8, 3e8, -3e8}};
+  const Decomposition split = convex::decompose(steep, z, Metric::diagonal(Vector{{2, 0.5, 0.5, 0.03125}}));
+  const Vector& x = split.x.x;
+  const auto by_definition = [&](long double sign) {
+    return -std::log(-static_cast<long double>(x[0]) + sign * x[2] + 2 * static_cast<long double>(x[3]) - 2);
+  };
+  CHECK(split.f_x ==
+        doctest::Approx(static_cast<double>(by_definition(1) + by_definition(-1))).epsilon(1e-12));
+  // x^-1/2 far out: 1e-4 at 1e8.
+  const Function far = samples::function(
+      "inf_convolution(pointwise_max(inverse_power(0.5), max_affine([[-3],[-1],[-2]], [3,-3,1])), "
+      "translate(hinge(), [-3]))",
+      1);
+  const Decomposition open = convex::decompose(far, Vector{{1e8}}, Metric::identity(1));
+  if (open.status == Status::solved) CHECK(open.f_x == doctest::Approx(1e-4).epsilon(1e-6));
+}
+
+TEST_CASE("a value at a point that rounding left outside is that of the edge, not of a better point nearby") {
+  // u log u at u = -7.5e-37, made of terms of 3e8: 0, not the -1/e that lies within a part of 1e-9 of them.
+  const Function f = samples::function("precompose(entropy(), [[2,-2,-2],[0,2,0]], [-2,0])", 3);
+  const Vector x{{145454546.18181819, 3.76158192263132e-37, 145454545.18181819}};
+  CHECK(std::abs(f(x)) <= 1e-20);
+}

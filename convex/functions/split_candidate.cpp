@@ -1,0 +1,192 @@
+#include "convex/functions/split_candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/composite/metric_difference.hpp"
+#include "convex/composite/work_limit.hpp"
+#include "convex/functions/closed_form.hpp"
+#include "convex/other_pairs.hpp"
+
+namespace convex {
+namespace {
+
+/// Values smaller than this count as this where the tolerance is relative to them.
+constexpr double smallest_term = 1e-3;
+
+/// A value whose error is more than this part of what is told is not told.
+constexpr double largest_open_part = 1e-3;
+
+/// What each value may take of the work that a decomposition may.
+constexpr double part_of_a_value = 0.05;
+
+/// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
+double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
+  const Vector x = a.cwiseAbs(), y = b.cwiseAbs();
+  switch (W.kind()) {
+    case MetricKind::dense:
+      return x.dot(W.dense_gram().cwiseAbs() * y);
+    case MetricKind::sparse: {
+      const SparseMatrix magnitude = W.sparse_gram().cwiseAbs();
+      return x.dot(magnitude * y);
+    }
+    default:
+      return x.dot(W.diagonal().cwiseProduct(y));
+  }
+}
+
+Value split_value_of(const Function& f, const Vector& x) {
+  const WorkLimit part(part_of_a_value);
+  return f.evaluate(x);
+}
+
+/// The largest of f(x), g(y) and (x|y).
+double largest_value(const Decomposition& split) {
+  return std::max({std::abs(split.f_x), std::abs(split.g_y), std::abs(split.inner)});
+}
+
+/// What they are to be right relative to.
+double size_of_values(const Decomposition& split) { return std::max(largest_value(split), smallest_term); }
+
+/// a·b in twice the precision.
+double accurate_dot(const Vector& a, const Vector& b) {
+  RunningSum sum;
+  for (Index i = 0; i < a.size(); ++i) sum.add(two_product(a[i], b[i]));
+  return sum.value();
+}
+
+Decomposition split_of(Prox x, Prox y, const Vector& z, const Metric& W) {
+  Decomposition split;
+  split.x = std::move(x);
+  split.y = std::move(y);
+  split.residual = norm_at_any_scale(W, z - split.x.x - split.y.x);
+  return split;
+}
+
+SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y, double size, double residual,
+                        const Metric& W, const Vector& z) {
+  SplitCandidate made;
+  split.f_x = f_x.value;
+  split.g_y = g_y.value;
+  split.fenchel_gap = split.f_x + split.g_y - split.inner;
+  split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
+  made.right = split.fenchel_gap + 0.5 * residual * residual;
+  made.error = f_x.error + g_y.error;
+  const Vector &x = split.x.x, &y = split.y.x;
+  made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
+  made.rounding = roundings_of_a_term * unit_roundoff * (std::abs(split.f_x) + std::abs(split.g_y) + size);
+  // f and g are those at points that the bounds leave open, to first order, where these are rounding.
+  const double X = W.norm(x), Y = W.norm(y), least = accuracy_of_prox * (W.norm(z) + X);
+  made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;
+  made.split = std::move(split);
+  return made;
+}
+
+/// f(x) and f*(v).
+struct ChosenValues {
+  Value f_x, f_v;
+  double of_prox = 0;  ///< the errors of those that came with the prox
+  Value at_x;          ///< f(x) of the point itself
+};
+
+/// The values that the prox came with are of a point and a covector that are feasible as far as their errors
+/// say: at least f(x) and f*(v). Where they, or one of them and the other evaluated, come nearer to x·v than
+/// what is evaluated, they are taken; where f(x) or f*(v) itself is +inf, only when x and v are roundings of
+/// where it is not.
+ChosenValues values_at(const SplitFunctions& of, const Prox& at, double product) {
+  const Value at_x = split_value_of(of.f, at.x);
+  const ChosenValues found{at_x, split_value_of(of.plain, at.v), 0, at_x};
+  const auto outside = [](const Value& value) { return std::isinf(value.value) && value.error == 0; };
+  if (!at.values) return found;
+  if ((outside(found.f_x) || outside(found.f_v)) && !(at.values->miss <= membership_tolerance)) return found;
+  const auto miss = [&](const Value& f_x, const Value& f_v) {
+    const double most = std::abs(f_x.value + f_v.value - product) + f_x.error + f_v.error;
+    return std::isfinite(most) ? most : INFINITY;
+  };
+  ChosenValues best = found;
+  const Value& f_x = at.values->f_x;
+  const Value& f_v = at.values->f_v;
+  for (const ChosenValues& other : {ChosenValues{at_x, f_v, f_v.error, at_x},
+                                    {f_x, found.f_v, f_x.error, at_x},
+                                    {f_x, f_v, f_x.error + f_v.error, at_x}})
+    if (miss(other.f_x, other.f_v) < 0.5 * miss(best.f_x, best.f_v)) best = other;
+  return best;
+}
+
+}  // namespace
+
+double SplitCandidate::excess() const {
+  const double square = split.error_bound * split.error_bound;
+  const double most = std::max(right - square, -right) - error - rounding;
+  return std::isfinite(most) ? most : INFINITY;
+}
+
+double SplitCandidate::proved() const {
+  const double most = 2 * std::abs(right) + error + rounding;
+  return std::isfinite(most) ? std::sqrt(2 * most) : INFINITY;
+}
+
+bool SplitCandidate::known(double tolerance) const {
+  const double size = size_of_values(split);
+  return !open && std::abs(split.fenchel_gap) <= tolerance * size &&
+         error <= tolerance * std::max(size, squares);
+}
+
+SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
+                         const Metric& W) {
+  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  const Vector &x = split.x.x, &y = split.y.x;
+  split.inner = W.inner(x, y);
+  const double size = size_of_inner(W, x, y), residual = split.residual;
+  return finished(std::move(split), split_value_of(of.f, x), split_value_of(of.g, y), size, residual, W, z);
+}
+
+SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
+                           const Metric& W, double tolerance) {
+  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  const Vector &x = split.x.x, &y = split.y.x, &v = split.x.v;
+  split.y.error_bound += W.dual_norm(metric_difference(W, y, Vector::Zero(y.size())) - v);
+  const Vector r = metric_difference(W, x, z) + v;
+  const double size = x.cwiseAbs().dot(v.cwiseAbs()), residual = W.dual_norm(r);
+  const double product = accurate_dot(x, v);
+  const auto [f_x, g_y, of_prox, at_x] = values_at(of, split.x, product);
+  split.inner = product;
+  for (const double moved : {product - accurate_dot(W.solve(r), v), product - accurate_dot(x, r)}) {
+    const double values = f_x.value + g_y.value;
+    if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
+  }
+  SplitCandidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
+  // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
+  const double gap = std::abs(made.split.fenchel_gap);
+  // Programs minimise: their values are no less than f(x) and f*(v), and these no less together than x·v.
+  if (made.split.fenchel_gap >= -made.rounding && std::isfinite(gap))
+    made.error = std::min(made.error, gap + made.rounding + of_prox);
+  if (gap <= roundings_of_a_term * unit_roundoff * size) {
+    made.split.inner = f_x.value + g_y.value;
+    made.split.fenchel_gap = 0;
+  } else if (gap <= made.error && made.error <= largest_open_part * largest_value(made.split)) {
+    // Where a program leaves a value open, by a small part of it, the others say it.
+    if (f_x.error > g_y.error)
+      made.split.f_x = made.split.inner - g_y.value;
+    else
+      made.split.g_y = made.split.inner - f_x.value;
+    made.split.fenchel_gap = 0;
+  }
+  // Where f is steep its value is that of the x told, and (x|y), of larger terms, goes with it.
+  if (std::isfinite(at_x.value) && at_x.error <= tolerance * std::abs(at_x.value)) {
+    made.split.inner += at_x.value - made.split.f_x;
+    made.split.f_x = at_x.value;
+  }
+  made.open = made.error > largest_open_part * size_of_values(made.split);
+  return made;
+}
+
+/// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
+bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W) {
+  const Vector &x = split.x.x, &y = split.y.x;
+  const double size = size_of_values(split);
+  const double rounding = roundings_of_a_term * unit_roundoff * size_of_inner(W, x, y);
+  return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
+}
+
+}  // namespace convex

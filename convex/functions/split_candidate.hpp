@@ -1,0 +1,54 @@
+#pragma once
+
+#include "convex/functions/decomposition.hpp"
+
+/// Pairs of points that may be a split, with the right side of
+///   ½ ||x - x*||² + ½ ||y - y*||² <= f(x) + g(y) - (x|y) + ½ ||z - x - y||²
+/// (docs/theory.md, C.9) and how far it is known.
+namespace convex {
+
+/// The values, products and sums of the right side are each right to so many roundings of their terms.
+inline constexpr double roundings_of_a_term = 16;
+
+/// x and y with what follows from them.
+struct SplitCandidate {
+  Decomposition split;
+  double right = 0;     ///< the right side
+  double error = 0;     ///< of f(x) and g(y)
+  double squares = 0;   ///< ||z||², ||x||², ||y||², the largest
+  double rounding = 0;  ///< of the terms
+  bool open = false;    ///< the values are known together, and not each by itself
+
+  /// By how much the right side leaves what the bound, the values' errors and rounding allow; +inf where a
+  /// value is not finite.
+  double excess() const;
+  /// The bound of ||x - x*|| and ||y - y*|| that the right side is; below 0 it says that a value is too small
+  /// by as much, and may be as large.
+  double proved() const;
+  /// Are f(x) + g(y) and (x|y) one, and known, to the tolerance?
+  bool known(double tolerance) const;
+};
+
+/// f, its conjugate g in the metric's product, and the plain one.
+struct SplitFunctions {
+  const Function &f, g, plain;
+};
+
+/// The right side at x and y themselves.
+SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
+                         const Metric& W);
+
+/// The right side at x and the covector v of its prox. No y of doubles has a g(y) near that of the exact one
+/// where Wy cancels, as where |z| is far above |v|; W⁻¹v, of which y is a rounding, has: g(W⁻¹v) = f*(v). The
+/// right side then proves the pair x and W⁻¹v, and the distance of y from there is added to its bound.
+///
+/// Where the domain of f or f* is thin, as a plane, x or v of doubles is outside it by rounding, and counts
+/// as inside; x·v is then that of a point beside it. (x|y) is taken at x - W⁻¹r or at v - r, r = W(x - z) +
+/// v, which make up z exactly, when this agrees better with the values.
+SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
+                           const Metric& W, double tolerance);
+
+/// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
+bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
+
+}  // namespace convex
