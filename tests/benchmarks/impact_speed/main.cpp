@@ -1,13 +1,13 @@
-// Time for a simulated second of motions with impacts at the error of their impact times: our events, and the
-// event-driven scheme of Siconos (LsodarOSI) on the same scenes written by hand, both without output. Each
-// goes through its tolerances; a row is one of them.
+// Time of the processor for a simulated second of motions with impacts at the error of their impact times:
+// our events, and the event-driven scheme of Siconos (LsodarOSI) on the same scenes written by hand, both
+// without output. Each goes through its tolerances; a row is one of them.
 //   build/tests/benchmarks/impact_speed [REPETITIONS | --smoke]
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <numbers>
 #include <vector>
@@ -19,7 +19,6 @@ namespace {
 
 using convex::Index;
 using convex::Vector;
-using Clock = std::chrono::steady_clock;
 using peers::Times;
 
 // ---- Scenes: a point of mass 1 between walls, x >= low and x <= high, with restitution e
@@ -115,9 +114,9 @@ mechanics::LagrangianText pair() {
 void time(const char* scene, const char* name, double setting, double span, const Times& truth,
           int repetitions, const std::function<Times()>& run) {
   Times found;
-  const auto begin = Clock::now();
+  const std::clock_t begin = std::clock();
   for (int i = 0; i < repetitions; ++i) found = run();
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count() / repetitions;
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC / repetitions;
   fmt::print("{:<14} {:<16} {:>10.0e} {:>14.3e} {:>10.1e} {:>8} of {}\n", scene, name, setting,
              seconds / span, worst(found, truth), found.size(), truth.size());
 }
