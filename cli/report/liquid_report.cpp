@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "cli/drawing/liquid_drawing.hpp"
 #include "cli/report/json_writer.hpp"
@@ -243,6 +244,8 @@ std::string liquid_text(const SolvedLiquid& solved) {
         "Proved of the grid's equations alone: their solution is within {:.1e} of p at all nodes.\n",
         *found.grid_bound);
   if (solved.level == "none") text += "Not proved: the bound below is an estimate.\n";
+  if (std::isinf(found.error_bound))
+    text += "One grid alone tells no error; give a number of cells that can be halved.\n";
   if (found.status == Status::inaccurate) text += "The accuracy asked for was not met.\n";
   return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,
                             found.error_bound);

@@ -96,9 +96,25 @@ class Cutting {
     return static_cast<std::size_t>(&part - scene_.parts.data());
   }
 
+  /// Where a wall ends at a free part p is what the free part gives: p is continuous.
+  const BoundaryPart& part_or_free_beside(const Point& x) const {
+    const BoundaryPart& found = part(x);
+    if (found.is_free || !has_both_) return found;
+    constexpr double beside = 0.01;  // of a step
+    for (std::size_t i = 0; i < d_; ++i)
+      for (const double by : {-beside, beside}) {
+        Point near = x;
+        near[i] += by * made_.step[i];
+        if (std::abs(domain_.level(near)) > domain_.reach()) continue;
+        if (const BoundaryPart* there = scene_.part_at(near); there != nullptr && there->is_free)
+          return *there;
+      }
+    return found;
+  }
+
   void settle_boundary_point(Index k) {
     const Point x = made_.at(k);
-    const BoundaryPart& found = part(x);
+    const BoundaryPart& found = part_or_free_beside(x);
     if (!found.is_free) {
       grid().kind[at(k)] = CutPoint::bounded;
       return;
@@ -213,12 +229,8 @@ class Cutting {
 
   double opening(Index k, std::size_t axis) const {  // of the face towards the next point
     const Index next = k + made_.grid.stride(axis);
-    double part = 1;
-    if (open_[at(k)] >= 0)
-      part = openings_[at(open_[at(k)])].high[axis];
-    else if (open_[at(next)] >= 0)
-      part = openings_[at(open_[at(next)])].low[axis];
-    return part;
+    if (open_[at(k)] >= 0) return openings_[at(open_[at(k)])].high[axis];
+    return open_[at(next)] >= 0 ? openings_[at(open_[at(next)])].low[axis] : 1;
   }
 
   /// The links of an unknown to the next points, and what is given around it.
@@ -227,8 +239,7 @@ class Cutting {
       for (const int by : {-1, 1}) {
         if (!is_on_grid(k, axis, by)) continue;
         const Index other = k + by * grid().stride(axis);
-        const double face = face_area(axis) * opening(by > 0 ? k : other, axis);
-        const double weight = face / made_.step[axis];
+        const double weight = face_area(axis) * opening(by > 0 ? k : other, axis) / made_.step[axis];
         if (!(weight > 0)) continue;
         if (grid().is_unknown(other)) {
           if (is_cut_by_free(k, other)) {

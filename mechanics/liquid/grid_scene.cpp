@@ -45,9 +45,10 @@ double difference(const CutCells& fine, const CutSolution& p, const CutCells& co
   return largest;
 }
 
-/// From the differences of grids: the ratio of the last two tells the order, which tells what is left. Where
-/// free parts meet walls the error depends on how the junction lies to the grid, so that a difference may be
-/// small by chance: then no more than the first order is believed, and the grids before count as well.
+/// From the differences of grids: the ratio of the last two tells the order, which tells what is left. A
+/// difference may be small by chance, so that those before, lowered by that order, count as well; and no more
+/// than the first order is believed where free parts meet walls, since the error there depends on how the
+/// junction lies to the grid.
 double estimated_error(const LiquidScene& scene, const GridLevels& levels,
                        const std::vector<CutSolution>& found, double largest) {
   constexpr double safety = 2, least_order = 0.5, digits = 1e-9;
@@ -61,9 +62,8 @@ double estimated_error(const LiquidScene& scene, const GridLevels& levels,
   double order = 1, left = differences[0];
   if (differences.size() > 1 && left > 0)
     order = std::clamp(std::log2(differences[1] / left), least_order, best_order);
-  if (has_junctions)
-    for (std::size_t l = 1; l < differences.size(); ++l)
-      left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
+  for (std::size_t l = 1; l < differences.size(); ++l)
+    left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
   return safety * left / (std::exp2(order) - 1) + digits * largest;
 }
 
@@ -240,7 +240,7 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
     if (is_last || is_close) {
       const bool is_asked = !scene.cells || accuracy.tolerance;
-      if (!found.front().ended || (!is_close && is_asked))
+      if (!found.front().ended || (!is_close && is_asked) || !std::isfinite(solution.error_bound))
         solution.status = LiquidSolution::Status::inaccurate;
       return found;
     }

@@ -174,3 +174,13 @@ TEST_CASE("a scene counts as radial where its text says so, and never where a ch
   CHECK(method(disc, "2*x + max(0, x - 0.999)^2", "2*y") == "grid");
   CHECK(method("disc(center=[0.1, 0], radius=1)", "x^3", "y^3") == "grid");
 }
+
+TEST_CASE("a grid that has no coarser one is not called solved, since nothing tells its error") {
+  const Folder folder;
+  const std::string file = folder.write("odd.toml", plane("box(low=[0, 0], high=[1, 1])", "x",
+                                                          "all = { where = \"true\", pressure = 1 }", "", 7));
+  const Outcome outcome = run({"solve", "--json", file});
+  CHECK(outcome.code == 3);
+  CHECK(LiquidJson::parse(outcome.out)["certificate"]["error_bound"] == "inf");
+  CHECK(run({"solve", file}).out.find("can be halved") != std::string::npos);
+}
