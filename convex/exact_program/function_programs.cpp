@@ -96,6 +96,17 @@ ExactProgram total_variation(std::size_t n, const Fraction& weight) {
   return precompose(norm1(Fractions(n - 1, weight)), D, Fractions(n - 1), n);
 }
 
+/// Differences of neighbours, down and along, of the matrix stacked by columns.
+ExactProgram total_variation_2d(std::size_t n, std::size_t rows, const Fraction& weight) {
+  std::vector<ExactRow> D;
+  for (std::size_t k = 0; k < n; ++k) {
+    if ((k + 1) % rows != 0 && k + 1 < n) D.push_back({{k, -one}, {k + 1, one}});
+    if (k + rows < n) D.push_back({{k, -one}, {k + rows, one}});
+  }
+  if (D.empty()) return constant(n, zero);
+  return precompose(norm1(Fractions(D.size(), weight)), D, Fractions(D.size()), n);
+}
+
 std::optional<ExactProgram> quadratic(const ExactArguments& a) {
   std::vector<Fractions> rows;
   for (const auto& row : a.matrix("Q")) {
@@ -177,6 +188,14 @@ std::optional<ExactProgram> of_function(const Call& call, std::size_t n) {
     return max_affine(A, a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b")), n);
   }
   if (name == "total_variation") return total_variation(n, a.number("weight"));
+  if (name == "total_variation_2d")
+    return total_variation_2d(n, static_cast<std::size_t>(nearest_double(a.number("rows"))),
+                              a.number("weight"));
+  if (name == "pinball") {
+    const Fraction tau = a.number("tau");
+    return two_pieces(n, zero, piece(zero, tau - one, zero), piece(zero, tau, zero));
+  }
+  if (name == "k_support" && a.number("k") == one) return norm1(Fractions(n, a.number("weight")));
   if (name == "sorted_norm1") return sorted_norm1(a.vector("weights"));
   if (name == "norm2" && sign(a.number("weight")) == 0) return constant(n, zero);
   if (name == "power" && a.number("p") == one) return norm1(Fractions(n, one));

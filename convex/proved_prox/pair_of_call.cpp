@@ -100,10 +100,15 @@ std::optional<Balls> balls_of(const Call& f, std::size_t n) {
     }
     return made;
   }
-  if (name == "nuclear_norm" || name == "spectral_ball") {
-    const bool is_support = name == "nuclear_norm";
+  if ((name == "k_support" || name == "largest_entries_ball") &&
+      !(a.number("k") < Fraction{static_cast<std::int64_t>(n)})) {
+    const bool is_support = name == "k_support";
+    return Balls{is_support, a.number(is_support ? "weight" : "radius"), Fractions(n), {n}};
+  }
+  if (name == "nuclear_norm" || name == "spectral_ball" || name == "schatten" || name == "schatten_ball") {
+    const bool is_support = name == "nuclear_norm" || name == "schatten";
     const auto rows = static_cast<std::size_t>(nearest_double(a.number("rows")));
-    if (rows != 1 && rows != n) return std::nullopt;
+    if (rows != 1 && rows != n && n != 1) return std::nullopt;
     return Balls{is_support, a.number(is_support ? "weight" : "radius"), Fractions(n), {n}};
   }
   return std::nullopt;
@@ -270,6 +275,7 @@ PairSearch pair_of_call(const Call& f, const ExactGram& W, const Fractions& x, c
   if (const auto balls = balls_of(f, x.size())) return pair_of_balls(*balls, f, x, v, Wanted::near);
   if (f.name == "neg_log_det" || find_entry(f.name)->kind == EntryKind::set)
     if (MaybePair found = of_cone(f, x, v)) return {std::move(found), {}};
+  if (f.name == "log_sum_exp") return found_or(pairs::of_log_sum_exp(x, v), f);
   if (f.name == "separable") {
     const std::vector<Block> blocks = blocks_of(f);
     return joined(sizes_of(blocks), [&](std::size_t k, std::size_t first, std::size_t n) {

@@ -17,6 +17,9 @@ MaybePair of_ball(const Fraction& radius, const Fractions& centre, const Fractio
 MaybePair ball_at_point(const Fraction& radius, const Fractions& centre, const Fractions& x);
 MaybePair ball_at_covector(const Fraction& radius, const Fractions& centre, const Fractions& v);
 
+/// log Σ e^x_i and Σ v_i log v_i on the simplex.
+MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v);
+
 /// Of the closed cones K of three and more entries and their polars: f and f* are their indicators.
 MaybePair of_second_order_cone(const Fractions& x, const Fractions& v);
 MaybePair of_rotated_cone(const Fractions& x, const Fractions& v);

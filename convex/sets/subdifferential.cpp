@@ -1,5 +1,6 @@
 #include "convex/sets/subdifferential.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/catalogue/catalogue.hpp"
@@ -21,15 +22,29 @@ ExactVector exact_row(const ExactRow& row, std::size_t n) {
   return exact_vector(entries);
 }
 
+/// Whether the polyhedron may have more vertices than can be written down: those of a product of simplices,
+/// one for each auxiliary variable, of the rows that touch with it. Three entries and fewer always do.
+bool is_too_large(const ExactProgram& f, const std::vector<std::size_t>& touching) {
+  constexpr double most_vertices = 2500;
+  constexpr std::size_t space = 3;
+  std::vector<int> with(f.variables());
+  for (const std::size_t a : touching)
+    for (const auto& [j, value] : f.rows[a].row) ++with[j];
+  double vertices = 1;
+  for (std::size_t j = f.n; j < f.variables(); ++j) vertices *= std::max(1, with[j]);
+  return f.n > space && vertices > most_vertices;
+}
+
 /// All v = s (Hξ + c)_x - (Gᵀlambda)_x with lambda >= 0 on the rows that touch and nothing left in w: a cone
-/// of (v, s), of which s = 1 is meant.
-ExactPolyhedron of_program(const ExactProgram& f, const Fractions& x) {
+/// of (v, s), of which s = 1 is meant. None where it is too large.
+std::optional<ExactPolyhedron> of_program(const ExactProgram& f, const Fractions& x) {
   const auto at = graph_point_at(f, x);
   if (!at) return empty_polyhedron(f.n);
   std::vector<std::size_t> touching;
   for (std::size_t a = 0; a < f.rows.size(); ++a)
     if (dot(f.rows[a].row, at->xi) == f.rows[a].limit) touching.push_back(a);
   const std::size_t m = touching.size(), columns = m + 1;  // lambda, then s
+  if (is_too_large(f, touching)) return std::nullopt;
   std::vector<ExactRow> slope(f.variables());
   for (std::size_t i = 0; i < f.variables(); ++i) add(slope[i], m, f.c[i] + dot(f.H[i], at->xi));
   ExactRows halfspaces, equations, image_rows;
@@ -78,7 +93,14 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
 
 Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractions& x) {
   using namespace subgradients;
-  if (const auto program = exact_program(f, W)) return of_polyhedron(of_program(*program, x), true);
+  if (const auto program = exact_program(f, W)) {
+    if (auto P = of_program(*program, x)) return of_polyhedron(std::move(*P), true);
+    if (auto found = of_smooth_or_homogeneous(f, W, x)) return std::move(*found);
+    throw InvalidInput(
+        f.name +
+        ": so many of its pieces meet at this point that the polyhedron of its subgradients has "
+        "too many vertices; give a point at which fewer meet, or 0");
+  }
   if (auto found = by_calculus(f, W, x)) return std::move(*found);
   if (auto found = of_curved_norm_or_set(f, x)) return std::move(*found);
   if (auto found = of_entries(f, x)) return std::move(*found);

@@ -39,6 +39,13 @@ def norm(x):
     return sqrt(sum(a * a for a in x))
 
 
+def softmax(x):
+    total = sum(exp(a) for a in x)
+    return [exp(a) / total for a in x]
+
+
+show("log_sum_exp()", d, z,
+     list(findroot(lambda *x: [w * (a - t) + s for w, a, t, s in zip(d, x, z, softmax(x))], (1, -0.8, 1))))
 mu = findroot(lambda m: m * norm(along(m)) - 1, 1)  # mu x = x/|x|
 show("norm2()", d, z, along(mu))
 mu = findroot(lambda m: norm(along(m)) - 1, 1)

@@ -344,3 +344,17 @@ TEST_CASE("what the calculus does not cover is refused, and never told as a smal
     CHECK_THROWS_AS(subdifferential(call_of(f), identity_gram(x.size()), point_of(x)), InvalidInput);
   }
 }
+
+TEST_CASE(
+    "a set with more vertices than can be written is held by its support function, or refused, at once") {
+  const Subdifferential cube = subdifferential(call_of("norm1()"), identity_gram(40), Fractions(40));
+  CHECK_FALSE(cube.polyhedron);
+  CHECK(cube.contains(Fractions(40, Fraction{1})));
+  CHECK_FALSE(cube.contains(Fractions(40, Fraction{1001, 1000})));
+  Fractions off(40);
+  off[0] = Fraction{1};
+  CHECK_THROWS_AS(subdifferential(call_of("norm1()"), identity_gram(40), off), InvalidInput);
+  // A corner of a box has forty normals, and no more.
+  CHECK(subdifferential(call_of("box(0, 1)"), identity_gram(40), Fractions(40)).polyhedron->rays.size() ==
+        40);
+}
