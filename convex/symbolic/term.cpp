@@ -102,6 +102,26 @@ Term operator-(const Term& a, const Term& b) { return a + Fraction{-1, 1} * b; }
 
 Term operator*(const Fraction& factor, const Term& b) { return number(factor) * b; }
 
+namespace {
+
+/// u and u^-1 among the factors are 1 together.
+void cancel(std::vector<Term>& factors) {
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i].kind != Kind::power || !(factors[i].parts[1].number == Fraction{-1, 1})) continue;
+    const std::string base = text(factors[i].parts[0]);
+    const auto same =
+        std::find_if(factors.begin(), factors.end(), [&](const Term& other) { return text(other) == base; });
+    if (same == factors.end()) continue;
+    factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(i));
+    factors.erase(
+        std::find_if(factors.begin(), factors.end(), [&](const Term& other) { return text(other) == base; }));
+    cancel(factors);
+    return;
+  }
+}
+
+}  // namespace
+
 Term operator*(const Term& a, const Term& b) {
   Fraction factor{1, 1};
   std::vector<Term> kept;
@@ -112,6 +132,7 @@ Term operator*(const Term& a, const Term& b) {
       else
         kept.push_back(part);
     }
+  cancel(kept);
   if (sign(factor) == 0 || kept.empty()) return number(factor);
   if (kept.size() == 1 && kept.front().kind == Kind::sum && !(factor == Fraction{1, 1})) {
     Term sum = number(0);

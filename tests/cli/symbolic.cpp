@@ -25,6 +25,12 @@ TEST_CASE("the metric's weight enters prox and conjugate as the product has it")
         std::string::npos);
 }
 
+TEST_CASE("of a sum by rules the prox is the root of its equation, without factors that cancel") {
+  CHECK(
+      run({"prox", "sum(exponential(), entropy())", "--symbolic"}).out.find("u + exp(u) + log(u) + 1 = z") !=
+      std::string::npos);
+}
+
 TEST_CASE("in LaTeX cases stand in their environment, with where the function is infinite") {
   const std::string text = run({"conjugate", "logistic()", "--symbolic", "--latex"}).out;
   CHECK(text.find("\\begin{cases}") != std::string::npos);
