@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <optional>
 #include <string>
-
 #include <vector>
 
 #include "convex/invalid_input.hpp"

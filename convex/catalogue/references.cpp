@@ -112,6 +112,9 @@ constexpr Reference works[] = {
      "60, "
      "259-268"},
     {"Wang and Lu 2015", "W. Wang, C. Lu, Projection onto the capped simplex, arXiv:1503.01002"},
+    {"Yu 2013",
+     "Y.-L. Yu, On decomposing the proximal map, Advances in Neural Information Processing Systems 26, "
+     "91-99"},
     {"Yuan and Lin 2006",
      "M. Yuan, Y. Lin, Model selection and estimation in regression with grouped variables, J. R. Stat. Soc. "
      "B 68, "

@@ -120,6 +120,11 @@ ExactCurve interval(std::optional<Fraction> low, std::optional<Fraction> high) {
   return exact_curve({piece(std::move(low), std::move(high), nought, nought, nought)});
 }
 
+ExactCurve pinball(const Fraction& tau) {
+  return exact_curve({piece(std::nullopt, nought, nought, tau - single, nought),
+                      piece(nought, std::nullopt, nought, tau, nought)});
+}
+
 ExactCurve huber(const Fraction& mu) {
   const Fraction shift = -(Fraction{1, 2} * mu);
   return exact_curve({piece(std::nullopt, -mu, nought, -single, shift),
@@ -221,6 +226,12 @@ Function max_affine(const CallReader& in) {
 Function absolute_of(const CallReader& in, std::string_view weight) {
   return absolute(in.number(weight), nought);
 }
+/// Of indicators, that of the intersection.
+Function sum_of_all(const CallReader& in) {
+  Function total = in.function_at(0);
+  for (std::size_t k = 1; k < in.count(); ++k) total = sum(total, in.function_at(k));
+  return total;
+}
 Function itself(const CallReader&) { return quadratic(nought, single, nought); }
 
 using Maker = Function (*)(const CallReader&);
@@ -265,12 +276,7 @@ const std::map<std::string, Maker>& makers() {
        [](const CallReader& in) -> Function {
          return envelope(set_of(in.call("set")), single / in.number("weight"));
        }},
-      {"intersection",
-       [](const CallReader& in) {
-         Function both = in.function_at(0);
-         for (std::size_t k = 1; k < in.count(); ++k) both = sum(both, in.function_at(k));
-         return both;
-       }},
+      {"intersection", sum_of_all},
       {"pointwise_max",
        [](const CallReader& in) {
          Function highest = in.function_at(0);
@@ -286,12 +292,7 @@ const std::map<std::string, Maker>& makers() {
          return exact_curve({piece(std::nullopt, single, nought, -single, single),
                              piece(single, std::nullopt, nought, nought, nought)});
        }},
-      {"pinball",
-       [](const CallReader& in) -> Function {
-         const Fraction tau = in.number("tau");
-         return exact_curve({piece(std::nullopt, nought, nought, tau - single, nought),
-                             piece(nought, std::nullopt, nought, tau, nought)});
-       }},
+      {"pinball", [](const CallReader& in) -> Function { return pinball(in.number("tau")); }},
       {"plq", [](const CallReader& in) -> Function { return plq(in); }},
       {"indicator", [](const CallReader& in) -> Function { return set_of(in.call("set")); }},
       {"support",
@@ -320,12 +321,7 @@ const std::map<std::string, Maker>& makers() {
       {"tilt", [](const CallReader& in) { return tilt(in.function("f"), in.number("c")); }},
       {"scale", [](const CallReader& in) { return scale(in.function("f"), in.number("alpha")); }},
       {"dilate", [](const CallReader& in) { return dilate(in.function("f"), in.number("rho")); }},
-      {"sum",
-       [](const CallReader& in) {
-         Function total = in.function_at(0);
-         for (std::size_t k = 1; k < in.count(); ++k) total = sum(total, in.function_at(k));
-         return total;
-       }},
+      {"sum", sum_of_all},
       {"inf_convolution",
        [](const CallReader& in) { return inf_convolution(in.function("f"), in.function("g")); }},
       {"precompose",

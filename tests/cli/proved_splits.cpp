@@ -128,7 +128,7 @@ TEST_CASE(
       json_of({"subdifferential", "max()", "--at", "[0,0]", "--metric", "diagonal [1,3]", "--json"});
   CHECK(least["least"] == Json::array({0.25, 0.75}));
   CHECK(least["least_norm"].get<double>() == doctest::Approx(0.5).epsilon(1e-15));
-  const Outcome refused = run({"subdifferential", "neg_log_det()", "--at", "[1,0,0,1]"});
+  const Outcome refused = run({"subdifferential", "epigraph(norm2())", "--at", "[1,0,0,1]"});
   CHECK(refused.code == 2);
   CHECK(refused.err.find("no rule") != std::string::npos);
   CHECK(run({"subdifferential", "norm1()", "--at", "[1,2]", "--covector", "[1]"}).code == 2);
