@@ -223,14 +223,15 @@ Function max_affine(const CallReader& in) {
   return *highest;
 }
 
+/// Of all functions of a list, two by two.
+Function folded(const CallReader& in, Function (*join)(const Function&, const Function&)) {
+  Function all = in.function_at(0);
+  for (std::size_t k = 1; k < in.count(); ++k) all = join(all, in.function_at(k));
+  return all;
+}
+
 Function absolute_of(const CallReader& in, std::string_view weight) {
   return absolute(in.number(weight), nought);
-}
-/// Of indicators, that of the intersection.
-Function sum_of_all(const CallReader& in) {
-  Function total = in.function_at(0);
-  for (std::size_t k = 1; k < in.count(); ++k) total = sum(total, in.function_at(k));
-  return total;
 }
 Function itself(const CallReader&) { return quadratic(nought, single, nought); }
 
@@ -276,13 +277,8 @@ const std::map<std::string, Maker>& makers() {
        [](const CallReader& in) -> Function {
          return envelope(set_of(in.call("set")), single / in.number("weight"));
        }},
-      {"intersection", sum_of_all},
-      {"pointwise_max",
-       [](const CallReader& in) {
-         Function highest = in.function_at(0);
-         for (std::size_t k = 1; k < in.count(); ++k) highest = pointwise_max(highest, in.function_at(k));
-         return highest;
-       }},
+      {"intersection", [](const CallReader& in) { return folded(in, sum); }},
+      {"pointwise_max", [](const CallReader& in) { return folded(in, pointwise_max); }},
       {"proximal_average", proximal_average},
       {"elastic_net",
        [](const CallReader& in) -> Function { return absolute(in.number("l1"), in.number("l2")); }},
@@ -321,7 +317,7 @@ const std::map<std::string, Maker>& makers() {
       {"tilt", [](const CallReader& in) { return tilt(in.function("f"), in.number("c")); }},
       {"scale", [](const CallReader& in) { return scale(in.function("f"), in.number("alpha")); }},
       {"dilate", [](const CallReader& in) { return dilate(in.function("f"), in.number("rho")); }},
-      {"sum", sum_of_all},
+      {"sum", [](const CallReader& in) { return folded(in, sum); }},
       {"inf_convolution",
        [](const CallReader& in) { return inf_convolution(in.function("f"), in.function("g")); }},
       {"precompose",
