@@ -108,6 +108,43 @@ struct Best {
   int rank;
 };
 
+/// The walls that push less than they would have to be followed. Each piece is judged by the process that has
+/// the node that it hangs on: all see the pieces in a margin around their own nodes.
+std::vector<std::string> parted_walls_of_all(const LiquidScene& scene, const GridPart& part,
+                                             const Ghosted& q) {
+  const CutCells& cells = part.cells();
+  constexpr double elsewhere = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> p(index_of(cells.grid.size()), elsewhere), push = p;
+  part.for_own([&](Index k, PetscInt there, PetscInt) {
+    if (!cells.grid.is_unknown(k)) return;
+    p[index_of(k)] = q.values()[there];
+    push[index_of(k)] = part.row(k, there, q.values()).residual;
+  });
+  double scale = 0;
+  for (const auto& wall : cells.walls) scale = std::max(scale, std::abs(wall.load));
+  MPI_Allreduce(MPI_IN_PLACE, &scale, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  constexpr double digits = 1e-6;  // as the embedded solver has it
+  std::vector<int> parts(scene.parts.size(), 0);
+  for (const auto& wall : cells.walls) {
+    if (!(wall.load < -digits * scale)) continue;
+    double lacking = elsewhere;
+    if (wall.pendant >= 0) {
+      const convex::Pendant& pendant = cells.grid.pendants[index_of(wall.pendant)];
+      lacking = -(p[index_of(pendant.point)] + pendant.shift) * pendant.conductance;
+    } else if (const std::size_t k = index_of(wall.point);
+               cells.grid.kind[k] == CutPoint::bounded && p[k] <= 0) {
+      lacking = push[k] - std::max(0.0, -cells.h[k] * cells.volume[k]);
+    }
+    if (lacking > digits * scale) parts[wall.part] = 1;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, parts.data(), static_cast<int>(parts.size()), MPI_INT, MPI_MAX,
+                PETSC_COMM_WORLD);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (parts[k] != 0) names.push_back(scene.parts[k].name);
+  return names;
+}
+
 void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, DistributedPressure& made) {
   const Ghosted ghosted(grid, q);
   const CutCells& cells = part.cells();
@@ -149,6 +186,7 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
   made.unknowns = static_cast<Index>(sum_of_all(unknowns));
   made.cavity_measure = sum_of_all(cavity);
   made.volume = sum_of_all(volume);
+  made.parted_walls = parted_walls_of_all(scene, part, ghosted);
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   double most = 1024 * static_cast<double>(used.ru_maxrss);

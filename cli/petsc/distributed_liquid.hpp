@@ -15,8 +15,9 @@ struct DistributedPressure {
   long newton_steps = 0;
   double largest = 0;  ///< p, over nodes and what is given on the boundary
   mechanics::liquid::Point largest_at{};
-  double cavity_measure = 0;  ///< the sum of the cells whose node is held at p = 0 where h < 0
-  double volume = 0;          ///< of the domain, to second order in the step
+  double cavity_measure = 0;              ///< the sum of the cells whose node is held at p = 0 where h < 0
+  std::vector<std::string> parted_walls;  ///< walls of which any piece parts
+  double volume = 0;                      ///< of the domain, to second order in the step
   double bytes_of_a_rank = 0;
 };
 

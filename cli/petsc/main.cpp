@@ -44,6 +44,9 @@ void write_json(const Request& request, const LiquidScene& scene, const Distribu
   for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
     json.key(scene.coordinates[i]).value(found.largest_at[i]);
   json.end_object().end_object();
+  json.key("parted_walls").begin_array();
+  for (const std::string& name : found.parted_walls) json.value(name);
+  json.end_array();
   json.key("petsc").begin_object().key("ranks").value(ranks).key("reason").value(found.reason);
   json.key("newton_steps").value(static_cast<convex::Index>(found.newton_steps));
   json.key("bytes_of_a_rank").value(found.bytes_of_a_rank).end_object();
@@ -61,6 +64,7 @@ void write_text(const Request& request, const DistributedPressure& found, int ra
         100 * found.cavity_measure / found.volume, found.cavity_measure);
   else
     std::printf("No cavity inside.\n");
+  for (const std::string& name : found.parted_walls) std::printf("The liquid parts from %s.\n", name.c_str());
   std::printf("The largest pressure is %.12g.\n", found.largest);
   std::printf(
       "%s after %ld Newton steps on the finest grid, %.3g s, %.3g MB a process. No error bound: `moreau "

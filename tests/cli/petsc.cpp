@@ -78,6 +78,7 @@ TEST_SUITE("petsc") {
       const double largest = ours["pressure"]["max"];
       CHECK(told["pressure"]["max"].get<double>() == doctest::Approx(largest).epsilon(1e-3));
       CHECK(told["cavity"]["fraction"].get<double>() > 0);
+      CHECK(told["parted_walls"] == nlohmann::json(ours["parted_walls"]));
       const PressureTable first = pressures(one, dimension), second = pressures(two, dimension),
                           third = pressures(own, dimension);
       CHECK(first.size() > 1000);
@@ -93,6 +94,28 @@ TEST_SUITE("petsc") {
       }
       CHECK(shared > 50);
     }
+  }
+
+  TEST_CASE("walls that part are named alike on one process, on two, and by the embedded solver") {
+    const Folder folder;
+    for (const std::string bed : {"14", "4"})
+      for (const std::string domain :
+           {"box(low=[0, 0], high=[1, 2])", "polygon(vertices=[[0, 0.1], [1, 0], [1, 2], [0, 2]])"}) {
+        CAPTURE(domain);
+        const std::string file = folder.write(
+            "tank.toml",
+            "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"" + domain +
+                "\"\ndensity = 2\nforce = [\"0\", \"-10\"]\nfree = { top = { where = \"y >= 1.99999\", "
+                "pressure = 1 } }\nwalls = { bed = { where = \"y <= 0.1\", acceleration = " +
+                bed + " }, sides = { where = \"true\", acceleration = 0 } }\ncells = 32\n");
+        const auto embedded = nlohmann::json::parse(run({"solve", "--json", file}).out);
+        CHECK(embedded["parted_walls"].empty() == (bed == "4"));
+        for (const int ranks : {1, 2}) {
+          REQUIRE(run_petsc(ranks, "solve " + file + " --json > " + folder.path("told.json")) == 0);
+          const auto told = nlohmann::json::parse(std::ifstream(folder.path("told.json")));
+          CHECK(told["parted_walls"] == embedded["parted_walls"]);
+        }
+      }
   }
 
   TEST_CASE("a file without a liquid is refused on many processes with the reason") {
