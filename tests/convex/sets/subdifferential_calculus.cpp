@@ -1,0 +1,138 @@
+#include "convex/sets/subdifferential.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "cli/function_language/parse_call.hpp"
+#include "convex/catalogue/catalogue.hpp"
+#include "convex/proved_prox/pair_search.hpp"
+#include "convex/proved_prox/proved_split.hpp"
+
+using namespace convex;
+
+namespace {
+
+Call parsed(const std::string& text) { return cli::parse_call(text, "f"); }
+
+Fractions fractions_of(const std::vector<const char*>& texts) {
+  Fractions x;
+  for (const char* text : texts) x.push_back(read_fraction(text).value());
+  return x;
+}
+
+/// The least of f(u) - f(x) - v·(u - x) found at points about x, along rays and at corners: negative beyond
+/// rounding where v is no subgradient.
+double least_excess(const Function& f, const Vector& x, const Vector& v, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  double least = 0;
+  for (int k = 0; k < 300; ++k) {
+    Vector d = Vector::NullaryExpr(x.size(), [&] { return normal(random); });
+    if (k % 3 == 0)  // matrices stay symmetric
+      if (const auto side = static_cast<Index>(std::sqrt(static_cast<double>(x.size())));
+          side * side == x.size())
+        for (Index i = 0; i < side; ++i)
+          for (Index j = 0; j < i; ++j) d[i + side * j] = d[j + side * i];
+    for (const double length : {1e-3, 0.1, 1.0, 10.0}) {
+      const double value = f(x + length * d) - f(x) - length * v.dot(d);
+      if (std::isfinite(value)) least = std::min(least, value / (1 + length));
+    }
+  }
+  // u = prox_f(x + v) has x + v - u for a subgradient: the excess there is at most -|u - x|².
+  const Vector u = f.prox(x + v, Metric::identity(x.size())).x;
+  const double there = f(u) - f(x) - v.dot(u - x);
+  return std::isfinite(there) ? std::min(least, there) : least;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "elements of a subdifferential by rules satisfy the inequality that defines it, and others break it") {
+  struct Case {
+    const char* f;
+    std::vector<const char*> x;
+    const char* outside;  ///< a covector that is none, by hand
+  };
+  const std::vector<Case> cases = {
+      {"group_norm(2, 2)", {"0", "0", "3", "4"}, "[2,1,1.2,1.6]"},
+      {"group_norm(1, [1,3])", {"0", "0", "0", "0"}, "[0,0.8,0.8,0]"},
+      {"sum(norm2(), norm1(2))", {"0", "0"}, "[2.8,2.8]"},
+      {"sum(norm2(3), max(), exponential())", {"0", "0"}, "[4.5,5]"},
+      {"neg_log_det()", {"2", "1", "1", "2"}, "[-0.66,0.33,0.33,-0.66]"},
+      {"precompose(norm2(), [[1,1],[1,-1],[2,0]], [0,0,0])", {"0", "0"}, "[3,0.1]"},
+      {"nuclear_norm(1, 2)", {"1", "2", "2", "4"}, "[0.2,0.4,0.4,1]"},
+      {"nuclear_norm(1, 2)", {"0", "0", "1", "0", "0", "0"}, "[0,0.8,1,0,0,0.8]"},
+      {"nuclear_norm(2, 2)", {"0", "0", "0", "0"}, "[1,1,1,-1.8]"},
+      {"indicator(psd_cone())", {"1", "0", "0", "0"}, "[0.1,0,0,-1]"},
+      {"indicator(psd_cone())", {"1", "1", "1", "1"}, "[-1,0.8,0.8,-1]"},
+      {"indicator(second_order_cone())", {"0", "0", "0"}, "[1,0,-0.9]"},
+      {"indicator(rotated_second_order_cone())", {"0", "0", "0"}, "[1,-0.5,-0.9]"},
+      {"distance(box(0,1))", {"0", "0"}, "[-0.8,-0.8]"},
+      {"distance(ball2(1), 2)", {"3", "4"}, "[1.2,1.5]"},
+      {"pointwise_max(norm2(), norm1())", {"0", "0"}, "[1.1,0]"},
+      {"separable(norm2(), 2, norm1(), 1)", {"0", "0", "1"}, "[0.8,0.8,1]"},
+      {"scale(norm2(), 3)", {"0", "0"}, "[3,0.5]"},
+      {"translate(norm2(), [1,1])", {"1", "1"}, "[1,0.5]"},
+      {"tilt(norm2(), [1,0])", {"0", "0"}, "[2,0.5]"},
+      {"dilate(norm2(), 1/2)", {"0", "0"}, "[2,0.5]"},
+      {"perspective(log_barrier())", {"3", "2"}, "[-0.6,0.6]"},
+      {"perspective(norm2())", {"0", "0", "2"}, "[0.8,0.8,0]"},
+      {"envelope(norm2(), 2)", {"0.3", "0.4"}, "[0.2,0.2]"},
+      {"conjugate(indicator(ball2(2)))", {"0", "0"}, "[2,0.5]"},
+      {"schatten(3)", {"1", "2", "3", "4"}, "[0.2,0.3,0.5,0.8]"}};
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (const Case& one : cases) {
+    CAPTURE(std::string(one.f));
+    const Fractions x = fractions_of(one.x);
+    const auto n = static_cast<Index>(x.size());
+    const Call call = parsed(one.f);
+    const Subdifferential at = subdifferential(call, identity_gram(x.size()), x);
+    const Function f = make_function(call, {Metric::identity(n)});
+    REQUIRE_FALSE(at.is_empty());
+    for (int k = 0; k < 12; ++k) {
+      const Vector u = 2 * Vector::NullaryExpr(n, [&] { return normal(random); });
+      const Vector v = at.projection(u, Metric::identity(n));
+      CHECK(least_excess(f, nearest(x), v, random) >= -1e-7);
+      // v is nearest to u: (u - v)·w is the largest at v, of all w of the set.
+      const Vector w =
+          at.projection(2 * Vector::NullaryExpr(n, [&] { return normal(random); }), Metric::identity(n));
+      CHECK((u - v).dot(w - v) <= 1e-7 * (1 + u.squaredNorm()));
+    }
+    const Vector out = cli::parse_vector(one.outside, "v");
+    CHECK_FALSE(at.contains(fractions(out)));
+    CHECK(least_excess(f, nearest(x), out, random) < 0);
+  }
+}
+
+TEST_CASE("the gradient of an envelope is right where x and prox x are the same doubles") {
+  const Subdifferential at =
+      subdifferential(parsed("envelope(norm2())"), identity_gram(2), fractions_of({"3e17", "4e17"}));
+  REQUIRE(at.is_single());
+  CHECK(nearest(at.polyhedron->vertices.front()).isApprox(Vector{{0.6, 0.8}}, 1e-15));
+}
+
+TEST_CASE("what the calculus does not cover is refused, and never told as a smaller set") {
+  for (const char* const f : {"sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))",
+                              "precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", "max_eigenvalue()"}) {
+    CAPTURE(f);
+    const std::vector<const char*> x = std::string(f) == "max_eigenvalue()"
+                                           ? std::vector<const char*>{"1", "0", "0", "2"}
+                                       : std::string(f)[0] == 's' ? std::vector<const char*>{"1", "0"}
+                                                                  : std::vector<const char*>{"0", "0"};
+    CHECK_THROWS_AS(subdifferential(parsed(f), identity_gram(x.size()), fractions_of(x)), InvalidInput);
+  }
+}
+
+TEST_CASE(
+    "a set with more vertices than can be written is held by its support function, or refused, at once") {
+  const Subdifferential cube = subdifferential(parsed("norm1()"), identity_gram(40), Fractions(40));
+  CHECK_FALSE(cube.polyhedron);
+  CHECK(cube.contains(Fractions(40, Fraction{1})));
+  CHECK_FALSE(cube.contains(Fractions(40, Fraction{1001, 1000})));
+  Fractions off(40);
+  off[0] = Fraction{1};
+  CHECK_THROWS_AS(subdifferential(parsed("norm1()"), identity_gram(40), off), InvalidInput);
+  // A corner of a box has forty normals, and no more.
+  CHECK(subdifferential(parsed("box(0, 1)"), identity_gram(40), Fractions(40)).polyhedron->rays.size() == 40);
+}
