@@ -120,7 +120,13 @@ double Subdifferential::support(const Fractions& d) const {
     const auto value = support_of(*polyhedron, d);
     return value ? nearest_double(*value) : INFINITY;
   }
-  return make_function(*support_function, {Metric::identity(static_cast<Index>(n))})(nearest(d));
+  const Vector at = nearest(d);
+  const Value found =
+      make_function(*support_function, {Metric::identity(static_cast<Index>(n))}).evaluate(at);
+  if (found.error > membership_tolerance * std::max(at.norm(), std::abs(found.value)))
+    throw InvalidInput("the support function of this subdifferential, " + to_text(*support_function) +
+                       ", is not found to nine digits there; give a point of fewer digits");
+  return found.value;
 }
 
 Vector Subdifferential::projection(const Vector& u, const Metric& V) const {

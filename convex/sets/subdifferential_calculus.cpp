@@ -17,12 +17,35 @@ namespace {
   throw InvalidInput(f.name + ": no rule gives its subdifferential at this point as a set: " + why);
 }
 
+/// f(x), in fractions or between two doubles.
+struct KnownValue {
+  std::optional<Fraction> exact;
+  Interval between;
+};
+
+KnownValue value_of(const Call& f, const ExactGram& W, const Fractions& x) {
+  if (const auto program = exact_program(f, W)) {
+    const ExactValue found = exact_value(*program, x);
+    if (found.end != ProgramEnd::minimum) return {std::nullopt, {INFINITY, INFINITY}};
+    const double rounded = nearest_double(found.value);
+    return {found.value, outwards(rounded, rounded)};
+  }
+  const Vector doubles = nearest(x);
+  const Value found = make_function(f, {rounded(W)}).evaluate(doubles);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!(fraction(doubles[static_cast<Index>(i)]) == x[i])) return {std::nullopt, {-INFINITY, INFINITY}};
+  if (found.error == 0 && std::isfinite(found.value))
+    return {fraction(found.value), interval_at(found.value)};
+  return {std::nullopt, outwards(found.value - found.error, found.value + found.error)};
+}
+
 /// ∂(f + g) = ∂f + ∂g where all but one of them are finite around x (Rockafellar 1970, theorem 23.8). Parts
 /// with programs count as one.
 Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
   std::vector<const Call*> programs;
   std::vector<Subdifferential> parts;
-  for (const Call* part : ExactArguments(f, x.size()).calls()) {
+  const auto calls = ExactArguments(f, x.size()).calls();
+  for (const Call* part : calls) {
     if (exact_program(*part, W))
       programs.push_back(part);
     else
@@ -33,12 +56,17 @@ Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
     for (const Call* part : programs) together.arguments.push_back(argument(*part));
     parts.push_back(subdifferential(together, W, x));
   }
-  if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.is_empty(); }))
-    return none(x.size());
-  if (std::count_if(parts.begin(), parts.end(), [](const auto& part) { return !is_bounded(part); }) > 1)
+  const bool is_outside = std::any_of(calls.begin(), calls.end(), [&](const Call* part) {
+    return value_of(*part, W, x).between.low == INFINITY;
+  });
+  if (is_outside) return none(x.size());
+  const auto is_on_edge = [](const Subdifferential& part) { return part.is_empty() || !is_bounded(part); };
+  if (std::count_if(parts.begin(), parts.end(), is_on_edge) > 1)
     refuse(f,
            "x lies on the edge of two of its domains, and these may meet there alone; make one of them "
            "polyhedral");
+  if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.is_empty(); }))
+    return none(x.size());
   Subdifferential total = parts.front();
   for (std::size_t k = 1; k < parts.size(); ++k) total = sum(total, parts[k]);
   return total;
@@ -51,8 +79,8 @@ Subdifferential of_precompose(const Call& f, const Fractions& x) {
   Fractions at = a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"));
   for (std::size_t i = 0; i < A.size(); ++i) at[i] = at[i] + dot(A[i], x);
   const Subdifferential inner = subdifferential(a.call("f"), identity_gram(A.size()), at);
-  if (inner.is_empty()) return none(x.size());
-  if (!is_bounded(inner)) {
+  if (value_of(a.call("f"), identity_gram(A.size()), at).between.low == INFINITY) return none(x.size());
+  if (inner.is_empty() || !is_bounded(inner)) {
     IntegerRows rows;
     for (const ExactRow& row : A) {
       Fractions entries(x.size());
@@ -62,6 +90,7 @@ Subdifferential of_precompose(const Call& f, const Fractions& x) {
     if (echelon(rows, x.size()).rank() < A.size())
       refuse(f, "Ax + b lies on the edge of the domain, and A is not onto; write the part as a polyhedron");
   }
+  if (inner.is_empty()) return none(x.size());
   return transposed_image(inner, A, x.size());
 }
 
@@ -83,28 +112,6 @@ Subdifferential of_blocks(const Call& f, const ExactGram& W, const Fractions& x)
     first += n;
   }
   return product(parts);
-}
-
-/// f(x), in fractions or between two doubles.
-struct KnownValue {
-  std::optional<Fraction> exact;
-  Interval between;
-};
-
-KnownValue value_of(const Call& f, const ExactGram& W, const Fractions& x) {
-  if (const auto program = exact_program(f, W)) {
-    const ExactValue found = exact_value(*program, x);
-    if (found.end != ProgramEnd::minimum) return {std::nullopt, {INFINITY, INFINITY}};
-    const double rounded = nearest_double(found.value);
-    return {found.value, outwards(rounded, rounded)};
-  }
-  const Vector doubles = nearest(x);
-  const Value found = make_function(f, {rounded(W)}).evaluate(doubles);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!(fraction(doubles[static_cast<Index>(i)]) == x[i])) return {std::nullopt, {-INFINITY, INFINITY}};
-  if (found.error == 0 && std::isfinite(found.value))
-    return {fraction(found.value), interval_at(found.value)};
-  return {std::nullopt, outwards(found.value - found.error, found.value + found.error)};
 }
 
 /// The convex hull of ∂f_i over the largest f_i, where all parts are finite around x (Dubovitskii and

@@ -7,9 +7,6 @@
 namespace mechanics {
 namespace {
 
-/// A coefficient of a switch's argument below this part of the largest is what rounding left of 0.
-constexpr double part_left_by_rounding = 1e-12;
-
 bool is_among(const std::vector<Index>& all, Index a) {
   return std::find(all.begin(), all.end(), a) != all.end();
 }
@@ -45,15 +42,15 @@ std::vector<Index> Motion::EventDriven::find_branches() {
   return at_zero;
 }
 
-/// Whether each argument at 0 goes on with the sign of its branch: by the first derivative that is not 0.
+/// Whether each argument at 0 goes on with the sign of its branch: by the first derivative that is not 0 but
+/// for rounding. Each order has its own scale: derivatives of a fast motion grow with their order.
 bool Motion::EventDriven::is_consistent(const std::vector<Index>& switches) {
   for (const Index which : switches) {
     const auto k = static_cast<std::size_t>(which);
     const std::span<const double> c = expansion_.switch_argument(k);
-    double largest = 0;
-    for (std::size_t j = 1; j < c.size(); ++j) largest = std::max(largest, std::abs(c[j]));
+    const std::vector<double> by_rounding = expansion_.rounding_of_switch(k);
     std::size_t first = 1;
-    while (first < c.size() && !(std::abs(c[first]) > part_left_by_rounding * largest)) ++first;
+    while (first < c.size() && !(std::abs(c[first]) > by_rounding[first])) ++first;
     if (first < c.size() && !(c[first] * expansion_.branch(k) > 0)) return false;
     zeros_of_switch_[k] = static_cast<int>(std::min(first, c.size()));
   }

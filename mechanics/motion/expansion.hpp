@@ -101,6 +101,8 @@ class Expansion {
   std::span<const double> switch_argument(std::size_t k) const {
     return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
   }
+  /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
+  std::vector<double> rounding_of_switch(std::size_t k);
   double& branch(std::size_t k) { return series_.branches()[k]; }
   double branch(std::size_t k) const { return series_.branches()[k]; }
   /// "|x|" as it was written, and where.
@@ -125,6 +127,8 @@ class Expansion {
     double force = 0;  ///< in the norm of A⁻¹
   };
   Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
+  /// What rounding makes of a coefficient of order k, as a part of its magnitude.
+  double rounding(int k) const;
   void give_velocity(int k, const Vector& v);
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
   Vector missing_rate(const std::vector<Index>& constraints) const;

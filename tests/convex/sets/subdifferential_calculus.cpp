@@ -112,6 +112,22 @@ TEST_CASE("the gradient of an envelope is right where x and prox x are the same 
   CHECK(nearest(at.polyhedron->vertices.front()).isApprox(Vector{{0.6, 0.8}}, 1e-15));
 }
 
+TEST_CASE("where two domains have x on their edge, and one slope is vertical, no empty set is told") {
+  // Of the first the derivative at 2 is 1 + log 2; the others are finite at one point alone.
+  for (const auto& [f, x] : {std::pair{"precompose(entropy(), [[1],[0]], [0,0])", "2"},
+                             {"precompose(negative_power(0.5), [[1],[-1]], [0,0])", "0"},
+                             {"sum(entropy(), indicator(point(0)))", "0"},
+                             {"sum(entropy(), dilate(entropy(), -1))", "0"}}) {
+    CAPTURE(f);
+    CHECK_THROWS_AS(subdifferential(parsed(f), identity_gram(1), fractions_of({x})), InvalidInput);
+  }
+  CHECK(subdifferential(parsed("sum(entropy(), norm1())"), identity_gram(1), fractions_of({"0"})).is_empty());
+  CHECK(subdifferential(parsed("sum(entropy(), indicator(box(1,2)))"), identity_gram(1), fractions_of({"0"}))
+            .is_empty());
+  CHECK(subdifferential(parsed("precompose(entropy(), [[1]], [1])"), identity_gram(1), fractions_of({"-1"}))
+            .is_empty());
+}
+
 TEST_CASE("what the calculus does not cover is refused, and never told as a smaller set") {
   for (const char* const f : {"sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))",
                               "precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", "max_eigenvalue()"}) {

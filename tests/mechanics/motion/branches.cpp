@@ -29,6 +29,21 @@ TEST_CASE("a motion goes over the edges of its forces at the instant when it com
   CHECK(std::abs(v) <= 1e-11);
 }
 
+TEST_CASE("a motion finds the edges of its forces however fast it is") {
+  // A spring four times as stiff on one side: half a swing of π/s there, of π/(2s) here.
+  for (const char* s : {"1", "10", "30", "100", "1000", "1e4", "1e6", "1e-3"}) {
+    CAPTURE(s);
+    const double rate = std::stod(s), period = 1.5 * std::numbers::pi / rate;
+    const std::string force = "-" + std::string(s) + "^2*(x + 3*max(x, 0))";
+    const auto [x, v] = moved(force, -1, 0, 3 * period);
+    CHECK(x == doctest::Approx(-1).epsilon(1e-10));
+    CHECK(std::abs(v) <= 1e-6 * rate);
+    const auto [up, speed] = moved(force, -1, 0, period / 2);
+    CHECK(up == doctest::Approx(0.5).epsilon(1e-10));
+    CHECK(std::abs(speed) <= 1e-6 * rate);
+  }
+}
+
 TEST_CASE("a force that is a power of time moves a free body by that power and two more") {
   const double t = 1.25;
   for (const int power : {0, 1, 2, 3, 7, 12, 17})

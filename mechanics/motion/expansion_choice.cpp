@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+
+#include "convex/nearest_point/automatic.hpp"
+#include "mechanics/motion/expansion.hpp"
+
+/// Who persists, and which coefficients are not 0: decided by what rounding can have made of them.
+namespace mechanics {
+
+using expression::Slot;
+
+namespace {
+
+/// A state on the way is off by so many roundings of its numbers.
+constexpr double roundings_of_state = 1 << 10;
+
+/// A slack or a multiplier up to so many times what rounding can make of its terms is said to be in doubt:
+/// the count of roundings is an estimate.
+constexpr double factor_in_doubt = 100;
+
+/// Up to so many coordinates ||e_i||_(A⁻¹) is found by solving with A.
+constexpr Index solved_units = 300;
+
+/// Coefficients are rounded about so many times, where rows that depend on each other are compared.
+constexpr double roundings_of_coefficients = 1 << 10;
+
+}  // namespace
+
+Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraints, int k) {
+  const expression::Program& program = equations_.program;
+  const auto n = program.coordinates();
+  if (k == 0) {
+    magnitude_.begin();
+    unit_norms_.resize(coordinates());
+    for (Index i = 0; i < coordinates(); ++i)
+      unit_norms_[i] = coordinates() <= solved_units ? inertia().dual_norm(Vector::Unit(coordinates(), i))
+                                                     : 1 / std::sqrt(inertia().diagonal()[i]);
+  } else {
+    for (const std::size_t group : {std::size_t{0}, std::size_t{1}}) magnitude_.find(group, k);
+  }
+  Vector S = Vector::Zero(coordinates());
+  for (const auto& [i, slot] : equations_.force) S[i] += magnitude_.at(slot, k);
+  for (const Index a : pushing_)
+    for (const auto& [i, slot] : equations_.row[index(a)])
+      for (int j = 0; j < k; ++j)
+        S[i] += std::abs(multiplier(a)[static_cast<std::size_t>(j)]) * magnitude_.at(slot, k - j);
+  for (std::size_t i = 0; i < n; ++i)
+    magnitude_.at(program.coordinate(i), k + 1) = magnitude_.at(program.velocity(i), k) / (k + 1);
+  magnitude_.at(program.time(), k + 1) = k == 0 ? 1 : 0;
+  magnitude_.find(0, k + 1);
+  Magnitudes of{Vector(static_cast<Index>(constraints.size())), 0};
+  for (Index i = 0; i < coordinates(); ++i)
+    of.force += unit_norms_[i] * (S[i] / (k + 1) + magnitude_.at(equations_.momentum[index(i)], k + 1));
+  for (std::size_t a = 0; a < constraints.size(); ++a)
+    of.rates[static_cast<Index>(a)] = magnitude_.at(equations_.rate[index(constraints[a])], k + 1);
+  for (std::size_t i = 0; i < n; ++i)
+    magnitude_.at(program.velocity(i), k + 1) = of.force * unit_norms_[static_cast<Index>(i)];
+  return of;
+}
+
+double Expansion::rounding(int k) const {
+  return (roundings_of_state + static_cast<double>(series_.operations() * static_cast<std::size_t>(k + 1))) *
+         convex::unit_roundoff;
+}
+
+std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
+  std::vector<double> of_order(static_cast<std::size_t>(order_ - 1));
+  const Slot argument = steps_.switches[k].argument;
+  for (int j = 0; j <= order_ - 2; ++j) {
+    magnitudes({}, j);
+    of_order[static_cast<std::size_t>(j)] = rounding(j) * magnitude_.at(argument, j);
+  }
+  return of_order;
+}
+
+Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer,
+                         int k) {
+  std::vector<Index> rows = persist;
+  rows.insert(rows.end(), open.begin(), open.end());
+  convex::RowMatrix U(static_cast<Index>(rows.size()), coordinates());
+  for (std::size_t a = 0; a < rows.size(); ++a) U.row(static_cast<Index>(a)) = row(rows[a]).transpose();
+  const convex::Metric& A = inertia();
+  convex::NearestPointProblem problem{A, r_, convex::ConstraintRows(U), missing_rate(rows), {}};
+  for (std::size_t a = 0; a < persist.size(); ++a) problem.two_sided.push_back(static_cast<Index>(a));
+  problem.radii = convex::rounding_radii(problem, roundings_of_coefficients);
+  const convex::Solution solution = convex::automatic(problem);
+  if (solution.status == convex::Status::infeasible) {
+    for (std::size_t a = 0; a < rows.size(); ++a)
+      if (solution.farkas[static_cast<Index>(a)] != 0) answer.excluding.push_back(rows[a]);
+    return Vector::Zero(coordinates());
+  }
+  give_multipliers(k, rows, solution.lambda * (k + 1));
+  const Magnitudes of = magnitudes(rows, k);
+  const double scale = std::max({of.force, solution.acceleration_norm, solution.force_norm});
+  const double part = rounding(k);
+  std::vector<Index> undecided;
+  for (std::size_t a = persist.size(); a < rows.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    const double length = A.dual_norm(U.row(at).transpose());
+    // Up to here rounding may have made them.
+    const double of_slack = part * (std::abs(problem.s[at]) + of.rates[at] + length * scale);
+    const double of_push = part * scale, push = solution.lambda[at] * length;
+    const auto is_near = [](double number, double by_rounding) {
+      return number > by_rounding && number < factor_in_doubt * by_rounding;
+    };
+    if (is_near(solution.slack[at], of_slack) || is_near(push, of_push)) in_doubt_.push_back(rows[a]);
+    if (solution.slack[at] > of_slack) {
+      answer.open.push_back({rows[a], k + 2});
+    } else if (push > of_push) {
+      persist.push_back(rows[a]);
+      pushing_.push_back(rows[a]);
+    } else {
+      undecided.push_back(rows[a]);
+      lambda_[index(rows[a] * (order_ - 1) + k)] = 0;
+    }
+  }
+  open = std::move(undecided);
+  return solution.q;
+}
+
+}  // namespace mechanics
