@@ -45,6 +45,22 @@ double difference(const CutCells& fine, const CutSolution& p, const CutCells& co
   return largest;
 }
 
+/// The order π/ω at the widest corner of a polygon, ω > π its inner angle: p has r^(π/ω) there (Grisvard
+/// 1985, section 4.4). 2 where no corner is re-entrant.
+double order_at_corners(const Domain& domain) {
+  double order = 2;
+  if (domain.shape != Domain::Shape::polygon) return order;
+  const std::size_t n = domain.vertices.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto &a = domain.vertices[(k + n - 1) % n], &b = domain.vertices[k],
+               &c = domain.vertices[(k + 1) % n];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+    const double turn = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+    if (turn < 0) order = std::min(order, std::numbers::pi / (std::numbers::pi - turn));
+  }
+  return order;
+}
+
 /// From the differences of grids: the ratio of the last two tells the order, which tells what is left. A
 /// difference may be small by chance, so that those before, lowered by that order, count as well; and no more
 /// than the first order is believed where free parts meet walls, since the error there depends on how the
@@ -54,13 +70,16 @@ double estimated_error(const LiquidScene& scene, const GridLevels& levels,
   constexpr double safety = 2, least_order = 0.5, digits = 1e-9;
   constexpr std::size_t most_differences = 4;
   const bool has_junctions = scene.has_free_part() && scene.has_wall();
-  const double best_order = has_junctions ? 1 : 2;
+  const double best_order = std::min(has_junctions ? 1.0 : 2.0, order_at_corners(scene.domain));
   if (levels.count() < 2) return std::numeric_limits<double>::infinity();
   std::vector<double> differences;
   for (std::size_t l = 0; l + 1 < levels.count() && l < most_differences; ++l)
     differences.push_back(difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
   double order = 1, left = differences[0];
-  if (differences.size() > 1 && left > 0)
+  const bool is_halved_twice = levels.cells() % 4 == 0;  // else the third grid lies otherwise to the boundary
+  if (!is_halved_twice)
+    order = least_order;
+  else if (differences.size() > 1 && left > 0)
     order = std::clamp(std::log2(differences[1] / left), least_order, best_order);
   for (std::size_t l = 1; l < differences.size(); ++l)
     left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));

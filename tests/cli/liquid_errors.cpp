@@ -131,6 +131,13 @@ TEST_CASE(
     CHECK(rough.error <= bound_of(rough));
     CHECK(std::log2(rough.error / smooth.error) == doctest::Approx(0.5).epsilon(0.1));
   }
+  // Grids that cannot be halved twice, and corners on which coarser grids lie otherwise, tell no order.
+  for (const int cells : {50, 60, 100, 120}) {
+    CAPTURE(cells);
+    const Measured found = corner(cells), between = junction("-0.837", cells);
+    CHECK(found.error <= bound_of(found));
+    CHECK(between.error <= bound_of(between));
+  }
   // Where the junction lies between nodes the error goes up and down below that power.
   for (const int cells : {32, 64, 100, 128, 256}) {
     CAPTURE(cells);
