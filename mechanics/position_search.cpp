@@ -101,7 +101,10 @@ TriedPosition PositionSearch::nearest(TriedPosition x) const {
     const bool is_rounding = next.step <= rounding_part && length >= 0.5 * last;
     if (is_rounding && ++stalled > 2) return next;
     last = length;
-    if (next.q == x.q) return x;
+    if (next.q == x.q) {  // the step is below the rounding of q, or brings nothing down
+      x.step = next.step;
+      return x;
+    }
     x = std::move(next);
   }
   return x;

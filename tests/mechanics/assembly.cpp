@@ -1,6 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "mechanics/assembly.hpp"
 #include "tests/mechanics/system_text.hpp"
@@ -43,6 +47,27 @@ TEST_CASE("a state that satisfies everything is left as it is") {
   CHECK(found.moved == 0);
   CHECK(found.state.q == state({3, 4}, {0, 0}).q);
   CHECK((found.state.v - state({0, 0}, {-4, 3}).v).norm() <= 1e-14);
+}
+
+TEST_CASE("a state that no double comes nearer to is an answer") {
+  // Points of circles of many radii, each rounded: what is left is the rounding of x and y.
+  const auto circle = [](double R) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.17g", R);
+    const std::string constraint = "sqrt(x^2 + y^2) = " + std::string(digits.data());
+    return system({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"ring", constraint}}});
+  };
+  std::vector<std::array<double, 3>> points{{56100.00000000001, 10319.400530923114, 55142.723660355994}};
+  for (int k = 1; k <= 60; ++k) {
+    const double R = 97.5 * std::pow(1.17, k), angle = 0.1 * k;
+    points.push_back({R, R * std::cos(angle), R * std::sin(angle)});
+  }
+  for (const auto& [R, x, y] : points) {
+    CAPTURE(R);
+    const Assembly found = mechanics::assemble(*circle(R), state({x, y}, {0, 0}), {});
+    CHECK(found.status == AssemblyStatus::solved);
+    CHECK(found.moved <= 1e-15 * R);
+  }
 }
 
 TEST_CASE("a contact named closes, one that is not named is at most not violated") {
