@@ -94,8 +94,11 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
   for (const Index a : scene.contacts)
     if (named.count(a) == 0) unnamed.push_back(scene.constraints[static_cast<std::size_t>(a)]);
   std::string title = heading_line(scene.title.empty() ? scene.file : scene.title);
-  if (!arrows.empty()) title += "\nforces of contacts, the longest " + number_text(longest);
-  if (!unnamed.empty()) title += "\n" + heading_line("in contact, without an arrow: " + listed(unnamed));
+  // In one line: a third has no room above the frame.
+  std::string below;
+  if (!arrows.empty()) below = "forces of contacts, the longest " + number_text(longest);
+  if (!unnamed.empty()) below += (below.empty() ? "" : "; ") + ("without an arrow: " + listed(unnamed));
+  if (!below.empty()) title += "\n" + heading_line(below);
   return {page.script("", "", title), page_size, area.page_width};
 }
 
