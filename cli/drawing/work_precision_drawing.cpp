@@ -29,8 +29,8 @@ struct PageLayout {
   double width;
   double decade, names_from, x_end;
 
-  explicit PageLayout(std::size_t diagrams)
-      : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, most_columns))),
+  PageLayout(std::size_t diagrams, const DrawnAs& drawn)
+      : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, drawn.two_columns ? 2 : 3))),
         width(columns == 1 ? alone : beside_others),
         decade((width - left - right - names_width - failures_width) / (errors_end - names_end)),
         names_from(names_end - names_width / decade),
@@ -39,7 +39,6 @@ struct PageLayout {
   double page_width() const { return width * columns; }
 
  private:
-  static constexpr std::size_t most_columns = 3;
   static constexpr double alone = 700, beside_others = 490, names_width = 116, failures_width = 148;
 };
 
@@ -263,7 +262,7 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
                [](const Trial& trial) { return trial.verdict() != Verdict::refused; });
   const auto problems = in_order<std::string>(applied, [](const Trial& t) { return t.problem; });
   const MethodStyles styles(applied);
-  const PageLayout layout(problems.size());
+  const PageLayout layout(problems.size(), drawn);
   const auto columns = static_cast<std::size_t>(layout.columns);
   const std::size_t rows = (problems.size() + columns - 1) / columns;
   const double panel = title_height + box_height + foot;
