@@ -64,6 +64,20 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
                                       : heading(problem.title, file) + liquid_text(solved)};
 }
 
+/// What is asked of contacts alone, of a problem that has none.
+void require_no_contact_request(const SolveOptions& options) {
+  const char* option = options.plot          ? "--plot"
+                       : options.sensitivity ? "--sensitivity"
+                       : options.null_space  ? "--null-space"
+                       : options.ranges      ? "--ranges"
+                       : options.full_model  ? "--model full"
+                                             : nullptr;
+  if (option != nullptr)
+    throw convex::InvalidInput(
+        std::string(option) +
+        ": it is made of [system] and [projection], and the file has neither; take it out");
+}
+
 }  // namespace
 
 Answer solve_problem(Problem problem, const std::string& file, const SolveOptions& options) {
@@ -72,8 +86,7 @@ Answer solve_problem(Problem problem, const std::string& file, const SolveOption
   require_no_liquid_request(options.liquid);
   const bool is_scene = std::holds_alternative<SystemProblem>(problem.content) ||
                         std::holds_alternative<ProjectionProblem>(problem.content);
-  if (options.plot && !is_scene)
-    throw convex::InvalidInput("--plot: a picture is drawn of [system] and [projection]; leave --plot out");
+  if (!is_scene) require_no_contact_request(options);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options);
     const SplitPoint split = split_point(*decomposition, problem.solve, options, options.certify);
@@ -131,7 +144,7 @@ void add_solve(CLI::App& program, Work& chosen) {
   command.add_flag("--null-space", options->null_space,
                    "a basis of the changes of multipliers that no motion feels, in --json");
   command.add_flag("--sensitivity", options->sensitivity,
-                   "with --json: derivatives by forces and bounds, and margins of the contacts");
+                   "derivatives by forces and bounds, and margins of the contacts");
   add_proof(command, options->certify);
   command
       .add_option(
