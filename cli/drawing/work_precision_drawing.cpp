@@ -30,7 +30,7 @@ struct PageLayout {
   double decade, names_from, x_end;
 
   PageLayout(std::size_t diagrams, const DrawnAs& drawn)
-      : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, drawn.two_columns ? 2 : 3))),
+      : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, drawn.motions ? 2 : 3))),
         width(columns == 1 ? alone : beside_others),
         decade((width - left - right - names_width - failures_width) / (errors_end - names_end)),
         names_from(names_end - names_width / decade),
@@ -218,8 +218,8 @@ class Panel {
   std::string data_, plots_;
 };
 
-/// What the marks mean, above the diagrams.
-std::string key(double width, double height, const DrawnAs& drawn) {
+/// What the marks that are drawn mean, above the diagrams.
+std::string key(double width, double height, const std::vector<Trial>& trials, const DrawnAs& drawn) {
   const auto y = [&](double pixel) { return 1 - pixel / height; };
   std::string text;
   int number = 10;
@@ -233,12 +233,35 @@ std::string key(double width, double height, const DrawnAs& drawn) {
                   drawn.relative_to.empty() ? "Time" : "Time over that of " + drawn.relative_to,
                   drawn.multipliers ? " of the multipliers" : ""),
       "");
-  add(22, 34, "auto, the default", "point pt 7 ps 1.1 lc rgb \"#d55e00\" offset 0.8,0");
-  add(142, 34, "direct: one mark", "point pt 5 ps 0.75 lc rgb \"#222222\" offset 0.8,0");
-  add(252, 34, "iterative: a mark a setting, 1e-1 to 1e-15",
-      "point pt 9 ps 0.7 lc rgb \"#0072b2\" offset 0.8,0");
-  add(482, 34, "after refinement", "point pt 3 ps 0.7 lw 1.3 lc rgb \"#222222\" offset 0.8,0");
-  add(590, 34, "gave up", "point pt 6 ps 0.8 lw 1.2 lc rgb \"#222222\" offset 0.8,0");
+  struct Sign {
+    const char *words, *point;
+    double width;
+    bool is_drawn;
+  };
+  const auto any = [&](const auto& has) { return std::any_of(trials.begin(), trials.end(), has); };
+  const auto own = [&](convex::MethodKind kind) {
+    return any([&](const Trial& t) { return !drawn.motions && t.kind == kind && t.method != "auto"; });
+  };
+  const Sign signs[] = {
+      {"auto, the default", "pt 7 ps 1.1 lc rgb \"#d55e00\"", 120,
+       any([](const Trial& t) { return t.method == "auto"; })},
+      {"direct: one mark", "pt 5 ps 0.75 lc rgb \"#222222\"", 110, own(convex::MethodKind::direct)},
+      {"iterative: a mark a setting, 1e-1 to 1e-15", "pt 9 ps 0.7 lc rgb \"#0072b2\"", 230,
+       own(convex::MethodKind::iterative)},
+      {"event-driven: a mark a tolerance, 1e-1 to 1e-15", "pt 5 ps 0.75 lc rgb \"#0072b2\"", 262,
+       drawn.motions},
+      {"time-stepping: a mark a step, from 0.1 down", "pt 9 ps 0.7 lc rgb \"#009e73\"", 242, drawn.motions},
+      {"after refinement", "pt 3 ps 0.7 lw 1.3 lc rgb \"#222222\"", 108,
+       any([](const Trial& t) { return t.judgement.polished; })},
+      {"gave up", "pt 6 ps 0.8 lw 1.2 lc rgb \"#222222\"", 70,
+       any([](const Trial& t) { return t.verdict() == Verdict::gave_up; })},
+  };
+  double x = 22;
+  for (const Sign& sign : signs) {
+    if (!sign.is_drawn) continue;
+    add(x, 34, sign.words, fmt::format("point {} offset 0.8,0", sign.point));
+    x += sign.width;
+  }
   return text;
 }
 
@@ -271,7 +294,7 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
   drawing.height = static_cast<int>(heading + panel * static_cast<double>(rows));
   const double height = drawing.height;
   const auto out = std::back_inserter(drawing.script);
-  fmt::format_to(out, "{}set multiplot\n", key(layout.page_width(), height, drawn));
+  fmt::format_to(out, "{}set multiplot\n", key(layout.page_width(), height, applied, drawn));
   fmt::format_to(
       out,
       "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.6 dt 1\nset tics font \",9\" nomirror scale 0.5\n"

@@ -12,7 +12,7 @@ namespace cli {
 struct DrawnAs {
   bool multipliers = false;  ///< error of the multipliers instead of that of the acceleration
   std::string relative_to;   ///< times as multiples of this method's; "" means seconds
-  bool two_columns = false;  ///< of diagrams instead of three, so that letters are larger on a page
+  bool motions = false;      ///< diagrams of integrators, few lines each: two side by side, with larger letters
 };
 
 /// A page of work-precision diagrams, one a problem: time against true error, one line a method; what failed
