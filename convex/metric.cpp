@@ -35,13 +35,16 @@ std::string entry(Index i, Index j) { return "A[" + std::to_string(i) + "][" + s
 }
 
 [[noreturn]] void refuse_indefinite(const Vector& diagonal) {
-  for (Index i = 0; i < diagonal.size(); ++i)
-    if (diagonal[i] > 0 && diagonal[i] < std::numeric_limits<double>::min())
-      throw InvalidInput(
-          "A: " + entry(i, i) +
-          " is below 2.2e-308, where doubles lose their digits; measure masses in smaller units");
+  for (Index i = 0; i < diagonal.size(); ++i) {
+    if (!(diagonal[i] > 0))
+      throw InvalidInput("A: not positive definite: " + entry(i, i) +
+                         " is not positive; give a symmetric positive definite matrix");
+    if (diagonal[i] < std::numeric_limits<double>::min())
+      throw InvalidInput("A: " + entry(i, i) +
+                         " is below 2.2e-308, where doubles lose their digits; measure in other units");
+  }
   throw InvalidInput(
-      "A: not positive definite to working precision; every motion must have a positive kinetic energy");
+      "A: not positive definite to working precision; give a symmetric positive definite matrix");
 }
 
 void require_finite(double value, Index i, Index j) {

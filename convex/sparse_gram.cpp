@@ -12,7 +12,7 @@ namespace {
 
 [[noreturn]] void refuse_indefinite() {
   throw InvalidInput(
-      "A: not positive definite to working precision; every motion must have a positive kinetic energy");
+      "A: not positive definite to working precision; give a symmetric positive definite matrix");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ class QpsReader {
 
   [[noreturn]] void fail(const std::string& what) const {
     throw InvalidInput(
-        "not a QPS file of the kind read here: " + what + "; see docs/problem-files.md for what is",
+        "not a QPS file of the kind read here: " + what + "; see docs/commands.md, convert, for what is",
         convex::Place{std::max(1, line_), 1});
   }
 
@@ -215,6 +215,9 @@ class QpsReader {
 
   TomlValue assembled() {
     const std::size_t n = columns_.size();
+    for (const auto& [name, j] : columns_)
+      if (const auto own = quadratic_.find({j, j}); own == quadratic_.end() || !(number_of(own->second) > 0))
+        fail("not strictly convex: " + shown(name) + " has no positive square in QUADOBJ");
     std::vector<Row> A(n, Row(n, "0"));
     for (const auto& [at, value] : quadratic_) A[at.first][at.second] = value;
     Row z(n, "0");

@@ -76,9 +76,6 @@ std::string metric_message(const std::string& message, const std::string& where)
   std::string text = message.starts_with("A: ") ? where + message.substr(1) : message;
   for (std::size_t at = text.find(" A["); at != std::string::npos; at = text.find(" A[", at + 1))
     text.replace(at + 1, 1, where);
-  const std::string advice = "; every motion must have";
-  if (const std::size_t at = text.find(advice); at != std::string::npos)
-    text = text.substr(0, at) + "; give a symmetric positive definite matrix";
   return text;
 }
 

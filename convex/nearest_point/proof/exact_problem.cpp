@@ -55,8 +55,8 @@ IntegerVector integers(const Numbers& numbers, int exponent) {
 void require_definite(const ExactProblem& problem) {
   if (!is_positive_definite(problem.A))
     throw InvalidInput(
-        "A: not positive definite at its exact value (doubles may be too coarse for it); every motion must "
-        "have a positive kinetic energy: give exact entries, \"1/3\", or a better conditioned A");
+        "A: not positive definite at its exact value (doubles may be too coarse for it); give exact entries, "
+        "\"1/3\", or a better conditioned A");
 }
 
 Integer shifted_one(int exponent) { return Integer::shifted(1, static_cast<unsigned long>(exponent)); }
