@@ -4,20 +4,8 @@
 namespace cli {
 namespace {
 
-constexpr std::string_view page_before_data = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>@TITLE@</title>
-<style>
-  :root { color-scheme: light; }
-  body { font: 14px/1.4 system-ui, sans-serif; margin: 0 auto; max-width: 1000px; padding: 12px; color: #222; background: #fff; }
-  h1 { font-size: 18px; margin: 0 0 8px; }
+constexpr std::string_view motion_page_style = R"html(  body { max-width: 1000px; }
   canvas { width: 100%; height: auto; border: 1px solid #ccc; display: block; background: #fcfcfc; }
-  #bar { display: flex; gap: 10px; align-items: center; margin-top: 8px; }
-  #line { flex: 1; }
-  #scrubber { width: 100%; margin: 0; }
   #marks { position: relative; height: 16px; margin: 2px 8px 0; }
   #marks button { position: absolute; width: 5px; height: 14px; padding: 0; margin-left: -2px; border: 0; cursor: pointer; }
   #time { min-width: 9em; font-variant-numeric: tabular-nums; }
@@ -25,11 +13,9 @@ constexpr std::string_view page_before_data = R"html(<!DOCTYPE html>
   .impact { background: #d55e00; } .contact { background: #e69f00; } .release { background: #009e73; }
   .accumulation { background: #882255; } .branch { background: #888; }
   #legend span { display: inline-block; width: 10px; height: 10px; margin: 0 4px 0 12px; }
-</style>
-</head>
-<body>
-<h1 id="title"></h1>
-<canvas id="scene" width="1000" height="560"></canvas>
+)html";
+
+constexpr std::string_view motion_page_body = R"html(<canvas id="scene" width="1000" height="560"></canvas>
 <div id="bar">
   <button id="play">Play</button>
   <div id="line"><input id="scrubber" type="range" min="0" value="0" step="1" aria-label="time"><div id="marks"></div></div>
@@ -39,12 +25,10 @@ constexpr std::string_view page_before_data = R"html(<!DOCTYPE html>
 </div>
 <div id="event"></div>
 <div id="legend"></div>
-<script type="application/json" id="motion">)html";
+)html";
 
-constexpr std::string_view page_after_data = R"html(</script>
-<script>
-"use strict";
-const motion = JSON.parse(document.getElementById("motion").textContent);
+constexpr std::string_view motion_page_script =
+    R"html(const motion = JSON.parse(document.getElementById("motion").textContent);
 const frames = motion.frames, shapes = motion.shapes;
 const byId = (id) => document.getElementById(id);
 const canvas = byId("scene"), pen = canvas.getContext("2d"), scrubber = byId("scrubber");
@@ -224,40 +208,12 @@ byId("speed").onchange = () => { from = frames[now].t; begun = performance.now()
 scrubber.oninput = () => { stop(); show(Number(scrubber.value)); };
 show(0);
 document.body.dataset.ready = "yes";
-</script>
-</body>
-</html>
 )html";
-
-std::string without_markup(const std::string& text) {
-  std::string clean;
-  for (const char c : text)
-    if (c == '<')
-      clean += "&lt;";
-    else if (c == '&')
-      clean += "&amp;";
-    else
-      clean += c;
-  return clean;
-}
 
 }  // namespace
 
-std::string page_with_data(std::string_view before, const std::string& title, const std::string& data,
-                           std::string_view after) {
-  std::string page(before);
-  constexpr std::string_view mark = "@TITLE@";
-  page.replace(page.find(mark), mark.size(), without_markup(title));
-  for (const char c : data)  // "</script>" in a name would end the data
-    if (c == '<')
-      page += "\\u003c";
-    else
-      page += c;
-  return page + std::string(after);
-}
-
 std::string animation_page(const std::string& title, const std::string& data) {
-  return page_with_data(page_before_data, title, data, page_after_data);
+  return page_with_data({"motion", motion_page_style, motion_page_body, motion_page_script}, title, data);
 }
 
 }  // namespace cli

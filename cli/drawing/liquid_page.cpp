@@ -4,29 +4,15 @@
 namespace cli {
 namespace {
 
-constexpr std::string_view liquid_page_before = R"html(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>@TITLE@</title>
-<style>
-  :root { color-scheme: light; }
-  body { font: 14px/1.4 system-ui, sans-serif; margin: 0 auto; max-width: 900px; padding: 12px; color: #222; background: #fff; }
-  h1 { font-size: 18px; margin: 0 0 8px; }
+constexpr std::string_view liquid_page_style = R"html(  body { max-width: 900px; }
   canvas { width: 100%; height: auto; display: block; }
-  #bar { display: flex; gap: 10px; align-items: center; margin-top: 8px; }
-  #line { flex: 1; }
-  #scrubber { width: 100%; margin: 0; }
   #marks { position: relative; height: 18px; margin: 2px 8px 0; }
   #marks button { position: absolute; width: 5px; height: 14px; padding: 0; margin-left: -2px; border: 0; background: #d55e00; cursor: pointer; }
   #value { min-width: 10em; font-variant-numeric: tabular-nums; }
   #state { min-height: 1.4em; }
-</style>
-</head>
-<body>
-<h1 id="title"></h1>
-<canvas id="scene" width="900" height="620"></canvas>
+)html";
+
+constexpr std::string_view liquid_page_body = R"html(<canvas id="scene" width="900" height="620"></canvas>
 <div id="bar">
   <button id="play">Play</button>
   <div id="line"><input id="scrubber" type="range" min="0" value="0" step="1" aria-label="parameter"><div id="marks"></div></div>
@@ -36,12 +22,10 @@ constexpr std::string_view liquid_page_before = R"html(<!DOCTYPE html>
   <label><input id="own" type="checkbox"> own scale</label>
 </div>
 <div id="state"></div>
-<script type="application/json" id="liquid">)html";
+)html";
 
-constexpr std::string_view liquid_page_after = R"html(</script>
-<script>
-"use strict";
-const liquid = JSON.parse(document.getElementById("liquid").textContent);
+constexpr std::string_view liquid_page_script =
+    R"html(const liquid = JSON.parse(document.getElementById("liquid").textContent);
 const frames = liquid.frames, byId = (id) => document.getElementById(id);
 const canvas = byId("scene"), pen = canvas.getContext("2d"), scrubber = byId("scrubber");
 byId("title").textContent = liquid.title;
@@ -256,15 +240,12 @@ if (location.hash.length > 1 && !Number.isNaN(asked))
   frames.forEach((frame, k) => { if (Math.abs(frame.value - asked) < Math.abs(frames[begin].value - asked)) begin = k; });
 show(begin);
 document.body.dataset.ready = "yes";
-</script>
-</body>
-</html>
 )html";
 
 }  // namespace
 
 std::string liquid_page(const std::string& title, const std::string& data) {
-  return page_with_data(liquid_page_before, title, data, liquid_page_after);
+  return page_with_data({"liquid", liquid_page_style, liquid_page_body, liquid_page_script}, title, data);
 }
 
 }  // namespace cli
