@@ -60,6 +60,8 @@ const span = Math.max(box[2] - box[0], box[3] - box[1], 1e-12);
 const low = motion.coordinates.map((_, i) => Math.min(...frames.map((f) => f.values[i])));
 const high = motion.coordinates.map((_, i) => Math.max(...frames.map((f) => f.values[i])));
 const mostSliders = 24;
+// Few sliders need no large canvas.
+if (!isScene) canvas.height = Math.min(560, 150 + 60 * motion.coordinates.length);
 
 function drawScene(frame) {
   const w = canvas.width, h = canvas.height, margin = 60;
@@ -93,8 +95,10 @@ function drawScene(frame) {
   if (shapes.length <= 40) for (const shape of shapes) {
     const n = shape.numbers, isSegment = shape.kind === "segment";
     const x = isSegment ? (v[n[0]] + v[n[2]]) / 2 : v[n[0]], y = isSegment ? (v[n[1]] + v[n[3]]) / 2 : v[n[1]];
-    pen.fillText(shape.name, X(x) + 8, Y(y) - 6);
+    pen.textAlign = shape.kind === "circle" ? "center" : "left";
+    pen.fillText(shape.name, shape.kind === "circle" ? X(x) : X(x) + 8, Y(y) - 6);
   }
+  pen.textAlign = "left";
   for (const [a, x, y, fx, fy] of frame.arrows) {
     const size = Math.hypot(fx, fy), length = 90 * Math.min(1.3, size / strongest);
     arrow(X(x), Y(y), fx / size * length, -fy / size * length, motion.constraints[a]);

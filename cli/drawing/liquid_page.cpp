@@ -58,6 +58,15 @@ const scaleTop = (frame) => byId("own").checked ? frame.largest : liquid.largest
 const contours = 12, margin = {left: 70, right: 110, top: 14, bottom: 46};
 const shown = (x) => Number(x.toPrecision(5)).toString();
 
+// Multiples of 1, 2 or 5 times a power of ten, four to eight of them.
+function ticks(low, high) {
+  const rough = (high - low) / 6, decade = 10 ** Math.floor(Math.log10(rough));
+  const step = decade * [1, 2, 5, 10].find((k) => k * decade >= rough);
+  const all = [];
+  for (let k = Math.ceil(low / step - 1e-9); k <= high / step + 1e-9; ++k) all.push(k * step);
+  return all;
+}
+
 function axes(x0, y0, w, h, box, names) {
   pen.strokeStyle = "#444";
   pen.lineWidth = 1;
@@ -65,16 +74,10 @@ function axes(x0, y0, w, h, box, names) {
   pen.fillStyle = "#222";
   pen.font = "13px system-ui, sans-serif";
   pen.textAlign = "center";
-  const tick = (low, high, k) => {
-    const x = low + (high - low) * k / 4;
-    return shown(Math.abs(x) < 1e-9 * (high - low) ? 0 : x);
-  };
-  for (let k = 0; k <= 4; ++k) {
-    pen.fillText(tick(box[0], box[1], k), x0 + w * k / 4, y0 + h + 18);
-    pen.textAlign = "right";
-    pen.fillText(tick(box[2], box[3], k), x0 - 6, y0 + h - h * k / 4 + 4);
-    pen.textAlign = "center";
-  }
+  for (const x of ticks(box[0], box[1])) pen.fillText(shown(x), x0 + w * (x - box[0]) / (box[1] - box[0]), y0 + h + 18);
+  pen.textAlign = "right";
+  for (const y of ticks(box[2], box[3])) pen.fillText(shown(y), x0 - 6, y0 + h - h * (y - box[2]) / (box[3] - box[2]) + 4);
+  pen.textAlign = "center";
   pen.fillText(names[0], x0 + w / 2, y0 + h + 38);
   pen.textAlign = "left";
   pen.fillText(names[1], Math.max(4, x0 - 62), y0 + h / 2);
