@@ -75,7 +75,7 @@ double matrix_norm(const Vector& row_sums, const Vector& column_sums) {
 /// VᵀV; the half that is computed stands for the other.
 Matrix gram(const Matrix& V) {
   Matrix G = Matrix::Zero(V.cols(), V.cols());
-  G.selfadjointView<Eigen::Lower>().rankUpdate(V.transpose());
+  if (V.cols() > 0) G.selfadjointView<Eigen::Lower>().rankUpdate(V.transpose());
   G.triangularView<Eigen::StrictlyUpper>() = G.transpose();
   return G;
 }

@@ -57,7 +57,7 @@ bool RegularisedKkt::factor(const std::vector<Index>& rows, const Vector& theta)
       gram.selfadjointView<Eigen::Lower>().rankUpdate(scaled);
     } else {
       gram = Matrix(theta.asDiagonal());
-      gram.selfadjointView<Eigen::Lower>().rankUpdate(dense_->V.transpose());
+      if (k > 0) gram.selfadjointView<Eigen::Lower>().rankUpdate(dense_->V.transpose());
     }
     dense_->factor = linear_algebra::Cholesky(gram);
     return dense_->factor.is_definite();
