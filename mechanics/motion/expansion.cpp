@@ -13,6 +13,7 @@ namespace {
 
 TaylorRows::Asked asked_of(const LagrangeEquations& equations) {
   TaylorRows::Asked asked{equations.rate, {}, equations.momentum};
+  asked.at_rest.insert(asked.at_rest.end(), equations.rate.begin(), equations.rate.end());
   for (std::size_t i = 0; i < equations.program.coordinates(); ++i)
     asked.series.push_back(equations.program.coordinate(i));
   for (const auto& row : equations.row)
@@ -28,7 +29,7 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       equations_(system.equations_of_motion().equations),
       steps_(system.equations_of_motion().steps),
       order_(order),
-      series_(steps_, asked_of(equations_), order),
+      series_(steps_, asked_of(equations_), order, {equations_.momentum, equations_.force, {}}),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))),
       magnitude_(series_) {
@@ -126,12 +127,7 @@ HeldRows Expansion::held_rows(const std::vector<Index>& constraints) const {
 void Expansion::begin_order(int k) {
   const expression::Program& program = equations_.program;
   const auto order = static_cast<std::size_t>(k);
-  if (k == 0) {
-    series_.restart();
-  } else {
-    series_.find(1, k);
-    series_.finish(2, k);
-  }
+  if (k == 0) series_.restart();
   r_.setZero(coordinates());
   for (const auto& [i, slot] : equations_.force) r_[i] = k == 0 ? series_[slot][0] : series_.at_order(slot);
   for (const Index a : pushing_) {
@@ -150,7 +146,7 @@ void Expansion::begin_order(int k) {
     series_.at_order(v) = 0;
   }
   series_.at_order(program.time()) = k == 0 ? 1 : 0;
-  series_.find(0, k + 1);
+  series_.find_at_rest(k + 1);
   double spoiled = 0;  // 0 times a number, unless it is not finite
   for (Index i = 0; i < r_.size(); ++i) {
     r_[i] = r_[i] / next - series_.at_order(equations_.momentum[index(i)]);
@@ -171,7 +167,7 @@ void Expansion::give_velocity(int k, const Vector& v) {
   const expression::Program& program = equations_.program;
   for (std::size_t i = 0; i < program.coordinates(); ++i)
     series_.at_order(program.velocity(i)) = v[static_cast<Index>(i)];
-  series_.find_by_velocity(k);
+  series_.find(k);
 }
 
 void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda) {
@@ -215,6 +211,7 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   std::vector<Index> persist = contacts.held, open = contacts.open;
   pushing_ = persist;
+  if (persist.empty() && open.empty() && factor_.is_made() && expand_free()) return answer;
   std::optional<HeldRows> rows;
   for (int k = 0; k <= order_ - 2; ++k) {
     begin_order(k);
@@ -234,18 +231,34 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
     }
     if (ends_by(k)) break;
   }
-  series_.finish(1, order_ - 1);
   for (std::size_t i = 0; i < equations_.program.coordinates(); ++i)
     series_.end(equations_.program.coordinate(i), series_.at_order(equations_.program.velocity(i)) / order_);
   answer.persist = std::move(persist);
   answer.persist.insert(answer.persist.end(), open.begin(), open.end());
+  find_constraints();
+  return answer;
+}
+
+/// Without contacts in question.
+bool Expansion::expand_free() {
+  force_.setZero(coordinates());
+  for (const auto& [i, slot] : equations_.force) force_[i] = series_[slot][0];
+  if (!series_.find_free(factor_, {force_.data(), index(coordinates())})) return false;
+  r_.resize(coordinates());
+  for (Index i = 0; i < coordinates(); ++i) r_[i] = series_.at_order(equations_.program.velocity(index(i)));
+  force_ = small_ * r_;
+  find_constraints();
+  return true;
+}
+
+/// The series of f from those of df/dt.
+void Expansion::find_constraints() {
   for (Index a = 0; a < constraints(); ++a) {
     const std::span<const double> rate_of = series_[equations_.rate[index(a)]];
     double* f_a = f_.data() + a * (order_ + 1);
     f_a[0] = f(a);
     for (int k = 1; k <= order_; ++k) f_a[k] = rate_of[static_cast<std::size_t>(k - 1)] / k;
   }
-  return answer;
 }
 
 }  // namespace mechanics

@@ -59,7 +59,7 @@ class Expansion {
   bool uses_time() const { return steps_.uses_time; }
   /// ||x||_A.
   double norm(const Vector& x) const;
-  /// ||q_k||_A by order, in the memory given.
+  /// ||q_k||_A by order, of the first orders and of the last ones that are not 0; else 0.
   void sizes(std::vector<double>& of_order) const;
   double f(Index a) const { return series_[equations_.constraint[index(a)]][0]; }
   double rate(Index a) const { return series_[equations_.rate[index(a)]][0]; }
@@ -133,6 +133,8 @@ class Expansion {
   void give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda);
   Vector missing_rate(const std::vector<Index>& constraints) const;
   bool ends_by(int k) const;
+  bool expand_free();
+  void find_constraints();
 
   const LagrangianSystem& system_;
   const LagrangeEquations& equations_;

@@ -72,18 +72,28 @@ double Expansion::norm(const Vector& x) const {
 
 void Expansion::sizes(std::vector<double>& of_order) const {
   const auto count = static_cast<std::size_t>(order_) + 1;
-  of_order.assign(count, 0.0);
+  of_order.assign(blocks_of(count) * Eight::count, 0.0);
   if (!factor_.is_made()) {
     Vector q(coordinates());
     for (std::size_t k = 0; k < count; ++k) {
       for (Index i = 0; i < q.size(); ++i) q[i] = position(i)[k];
       of_order[k] = inertia().norm(q);
     }
+    of_order.resize(count);
     return;
   }
   std::array<const double*, small_system> q;
-  for (Index i = 0; i < coordinates(); ++i) q[index(i)] = position(i).data();
-  factor_.norms(q.data(), of_order.data(), count);
+  const auto find_eight = [&](std::size_t first) {
+    for (Index i = 0; i < coordinates(); ++i) q[index(i)] = position(i).data() + first;
+    factor_.norms(q.data(), of_order.data() + first, Eight::count);
+    return std::any_of(of_order.data() + first, of_order.data() + first + Eight::count,
+                       [](double size) { return size != 0; });
+  };
+  std::size_t first = of_order.size() - Eight::count;
+  while (!find_eight(first) && first > 0) first -= Eight::count;
+  if (first > 0) find_eight(first - Eight::count);  // the last two orders may lie on both sides
+  find_eight(0);
+  of_order.resize(count);
 }
 
 }  // namespace mechanics

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "convex/processor.hpp"
+#include "mechanics/motion/eight.hpp"
 
 namespace mechanics {
 namespace {
@@ -26,13 +27,12 @@ void solve_factored(Count count, const double* M, const double* inverse, double*
 template <std::size_t n>
 using Fixed = std::integral_constant<std::size_t, n>;
 
-/// Squares may be too large for doubles, so that the largest entry is divided by first.
+/// Squares may be too large for doubles, so that the largest entry is divided by first. Eight at a time.
 MOREAU_CLONES void norms_by(const double* M, const double* root, std::size_t n, const double* const* x,
                             double* of, std::size_t count) {
-  constexpr std::size_t at_once = 8;
-  for (std::size_t first = 0; first < count; first += at_once) {
-    const std::size_t width = std::min(at_once, count - first);
-    double most[at_once] = {}, scale[at_once], squares[at_once] = {}, entry[at_once];
+  constexpr std::size_t width = Eight::count;
+  for (std::size_t first = 0; first < count; first += width) {
+    double most[width] = {}, scale[width], squares[width] = {}, entry[width];
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < width; ++k) most[k] = std::max(most[k], std::abs(x[i][first + k]));
     for (std::size_t k = 0; k < width; ++k)

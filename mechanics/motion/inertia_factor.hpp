@@ -19,7 +19,8 @@ class InertiaFactor {
   void solve(Vector& x) const;
   /// ||x||_A = |sqrt(D) Mᵀx|.
   double norm(std::span<const double> x) const;
-  /// ||x_k||_A for vectors x_k, k < count. x: n rows of so many numbers.
+  /// ||x_k||_A for vectors x_k, k < count, with zeros up to a multiple of eight. x: n rows of so many
+  /// numbers.
   void norms(const double* const* x, double* of, std::size_t count) const;
 
  private:

@@ -101,12 +101,15 @@ void TaylorMagnitude::amplify(const TaylorStep& step, std::uint32_t row) {
   }
 }
 
-/// Σ |x_j| |y_(k-j)| over the products of a rest.
-double TaylorMagnitude::rest(std::uint32_t number, int k) {
+/// Σ |s| |R_k| over the products of a row.
+double TaylorMagnitude::rest(const TaylorRows::Row& row, int k) {
   double sum = 0;
-  for (const TaylorRows::Product& product : of_.rows_.products) {
-    if (product.rest != number) continue;
-    for (int j = 1; j < k; ++j) sum += std::abs(product.scale) * at(product.x, j) * at(product.y, k - j);
+  for (std::uint32_t p = row.first_product; p < row.end_product; ++p) {
+    const TaylorRows::Product& product = of_.rows_.products[p];
+    double of_product = 0;
+    for (int j = 1; j < k; ++j)
+      of_product += (product.is_weighted ? j : 1) * at(product.x, j) * at(product.y, k - j);
+    sum += std::abs(product.scale) * of_product / (product.is_weighted ? k : 1);
   }
   return sum;
 }
@@ -115,12 +118,10 @@ void TaylorMagnitude::find(std::size_t group, int k) {
   const TaylorRows& rows = of_.rows_;
   for (std::size_t r = group == 0 ? 0 : rows.ends[group - 1].rows; r < rows.ends[group].rows; ++r) {
     const TaylorRows::Row& row = rows.rows[r];
-    double sum = row.rest == 0 ? 0 : std::abs(of_.factor_[r]) * rest(row.rest, k);
-    if (row.over_order) sum /= k;
+    double sum = std::abs(of_.factor_[r]) * rest(row, k);
     for (std::uint32_t t = row.first; t < row.end; ++t) sum += slopes_[t] * at(rows.terms[t].series, k);
     at(row.out, k) = sum;
   }
-  for (const TaylorRows::Weighted& one : rows.weighted) at(one.out, k) = k * at(one.of, k);
 }
 
 }  // namespace mechanics

@@ -1,7 +1,5 @@
 #include "mechanics/motion/taylor_rows.hpp"
 
-#include <map>
-
 namespace mechanics {
 namespace {
 
@@ -54,14 +52,13 @@ class Rows {
         form_(from.series),
         depends_(from.series) {
     for (const auto& [slot, value] : from.constants) is_constant_[slot] = true;
-    for (const auto* all : {&asked.series, &asked.of_order, &asked.for_velocity})
+    for (const auto* all : {&asked.series, &asked.of_order, &asked.at_rest})
       for (const Slot slot : *all) is_kept_[slot] = true;
     for (const Switch& one : from.switches) is_kept_[one.argument] = true;
     for (const std::size_t s : from.by_velocity) depends_[from.steps[s].out] = true;
     for (const TaylorStep& step : from.steps) count_uses(step);
     to_.series = from.series;
     to_.zero = static_cast<Slot>(to_.series++);
-    to_.rests = 1;  // the first one stays 0
   }
 
   void write() {
@@ -71,7 +68,7 @@ class Rows {
         to_.row_of_step.push_back(TaylorRows::none);
         write(steps_.steps[s]);
       }
-      to_.ends.push_back({to_.rows.size(), to_.products.size(), to_.weighted.size()});
+      to_.ends.push_back({to_.rows.size(), to_.products.size()});
     }
   }
 
@@ -115,9 +112,10 @@ class Rows {
     end_row();
   }
 
-  void begin_row(Slot out, std::uint32_t rest = 0, bool over_order = false) {
+  void begin_row(Slot out) {
     const auto first = static_cast<std::uint32_t>(to_.terms.size());
-    to_.rows.push_back({out, first, first, rest, over_order});
+    const auto product = static_cast<std::uint32_t>(to_.products.size());
+    to_.rows.push_back({out, first, first, product, product});
   }
   void end_row() {
     TaylorRows::Row& row = to_.rows.back();
@@ -125,23 +123,13 @@ class Rows {
     if (depends_[row.out] && to_.ends.empty())
       to_.by_velocity.push_back(static_cast<std::uint32_t>(to_.rows.size() - 1));
   }
-  void row(Slot out, std::initializer_list<Slot> terms) {
+  void row(Slot out, std::initializer_list<Slot> terms,
+           std::initializer_list<TaylorRows::Product> products = {}) {
     begin_row(out);
     for (const Slot slot : terms) to_.terms.push_back({slot, 0});
     end_row();
-  }
-  void row(Slot out, std::initializer_list<Slot> terms, bool over_order,
-           std::initializer_list<TaylorRows::Product> products) {
-    const auto rest = static_cast<std::uint32_t>(to_.rests++);
-    begin_row(out, rest, over_order);
-    for (const Slot slot : terms) to_.terms.push_back({slot, 0});
-    end_row();
-    for (const auto& product : products) to_.products.push_back({product.x, product.y, rest, product.scale});
-  }
-  Slot weighted(Slot of) {
-    const auto [at, is_new] = weighted_.try_emplace(of, static_cast<Slot>(to_.series));
-    if (is_new) to_.weighted.push_back({static_cast<Slot>(to_.series++), of});
-    return at->second;
+    to_.products.insert(to_.products.end(), products);
+    to_.rows.back().end_product = static_cast<std::uint32_t>(to_.products.size());
   }
 
   void write(const TaylorStep& step) {
@@ -150,32 +138,31 @@ class Rows {
     const Slot f = step.out, p = step.partner, a = step.a, b = step.b;
     switch (step.kind) {
       case Kind::product:
-        return row(f, {a, b}, false, {{a, b, 0, 1}});
+        return row(f, {a, b}, {{a, b, 1, false}});
       case Kind::square:
-        return row(f, {a}, false, {{a, a, 0, 1}});
+        return row(f, {a}, {{a, a, 1, false}});
       case Kind::quotient:
-        return row(f, {a, b}, false, {{b, f, 0, 1}});
+        return row(f, {a, b}, {{b, f, 1, false}});
       case Kind::root:
-        return row(f, {a}, false, {{f, f, 0, 1}});
+        return row(f, {a}, {{f, f, 1, false}});
       case Kind::exponential:
-        return row(f, {a}, true, {{weighted(a), f, 0, 1}});
+        return row(f, {a}, {{a, f, 1, true}});
       case Kind::logarithm:
-        return row(f, {a}, true, {{weighted(f), a, 0, 1}});
+        return row(f, {a}, {{f, a, 1, true}});
       case Kind::sine:
       case Kind::sinh:
-        row(f, {a}, true, {{weighted(a), p, 0, 1}});
-        return row(p, {a}, true, {{weighted(a), f, 0, 1}});
+        row(f, {a}, {{a, p, 1, true}});
+        return row(p, {a}, {{a, f, 1, true}});
       case Kind::tangent:
       case Kind::tanh:
-        row(f, {a}, true, {{weighted(a), p, 0, 1}});
-        return row(p, {f}, false, {{f, f, 0, 1}});
+        row(f, {a}, {{a, p, 1, true}});
+        return row(p, {f}, {{f, f, 1, false}});
       case Kind::arc:
-        return row(f, {a}, true, {{weighted(f), p, 0, 1}});
+        return row(f, {a}, {{f, p, 1, true}});
       case Kind::angle:
-        return row(f, {a, b}, true,
-                   {{weighted(a), b, 0, 1}, {weighted(b), a, 0, -1}, {weighted(f), p, 0, -1}});
+        return row(f, {a, b}, {{a, b, 1, true}, {b, a, -1, true}, {f, p, -1, true}});
       case Kind::power:
-        return row(f, {a}, true, {{weighted(a), f, 0, step.number}, {weighted(f), a, 0, -1}});
+        return row(f, {a}, {{a, f, step.number, true}, {f, a, -1, true}});
       case Kind::sign:
         return row(f, {});
       case Kind::absolute:
@@ -191,35 +178,22 @@ class Rows {
   std::vector<int> uses_;   // by linear steps
   std::vector<Form> form_;  // of linear series without a row
   std::vector<bool> depends_;
-  std::map<Slot, Slot> weighted_;
 };
 
 }  // namespace
 
 TaylorRows::TaylorRows(const TaylorSteps& steps, const Asked& asked) {
   Rows(steps, asked, *this).write();
-  std::vector<bool> is_joined(series), is_read(series);
-  for (const Product& product : products) is_joined[product.x] = is_joined[product.y] = true;
-  for (const Slot slot : asked.series) is_joined[slot] = true;
-  for (const Switch& one : steps.switches) is_joined[one.argument] = true;
-  std::size_t row = 0, of_weighted = 0;
-  const auto join = [&](Slot slot) {
-    if (is_joined[slot]) joined.push_back(slot);
-  };
-  for (std::size_t variable = 0; variable < steps.variables; ++variable) join(static_cast<Slot>(variable));
-  for (Ends& end : ends) {
-    for (; of_weighted < end.weighted; ++of_weighted) join(weighted[of_weighted].out);
-    for (; row < end.rows; ++row) join(rows[row].out);
-    end.joined = joined.size();
-  }
-  is_read = is_joined;
-  for (const Slot slot : asked.of_order) is_read[slot] = true;
-  for (const Weighted& one : weighted) is_read[one.of] = true;
+  std::vector<bool> is_read(series);
+  for (const Product& product : products) is_read[product.x] = is_read[product.y] = true;
+  for (const auto* all : {&asked.series, &asked.of_order})
+    for (const Slot slot : *all) is_read[slot] = true;
+  for (const Switch& one : steps.switches) is_read[one.argument] = true;
   for (const TaylorStep& step : steps.steps)  // branches, which may come to be read
     if (step.kind == Kind::either || step.kind == Kind::where_not_negative ||
         step.kind == Kind::where_negative)
       is_read[step.a] = is_read[step.b] = true;
-  for (row = rows.size(); row-- > 0;)
+  for (std::size_t row = rows.size(); row-- > 0;)
     for (std::uint32_t t = rows[row].first; is_read[rows[row].out] && t < rows[row].end; ++t)
       is_read[terms[t].series] = true;
   for (const std::uint32_t r : by_velocity)

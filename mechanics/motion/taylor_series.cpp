@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "convex/processor.hpp"
 #include "mechanics/expression/operation.hpp"
 
 namespace mechanics {
@@ -14,51 +12,39 @@ using expression::Operation;
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
-/// Four coefficients at a time.
-using Four [[gnu::vector_size(4 * sizeof(double))]] = double;
-constexpr std::size_t lanes = 4;
+/// Momenta and rates; forces and rows. Of constraints themselves only the values are looked for.
+constexpr std::size_t most_groups = 2;
 
-/// What order k of the factors adds to the orders above: R_(k+i) += x_k y_i + y_k x_i for 0 < i < k, and
-/// R_2k += x_k y_k. Factors hold zeros from order k on, which the last four reach.
-MOREAU_CLONES void add_products(const TaylorRows::Product* first, const TaylorRows::Product* last,
-                                const double* c, const double* now, double* rest, std::size_t width,
-                                std::size_t k, std::size_t order) {
-  const std::size_t count = k < 2 || k >= order ? 0 : std::min(k - 1, order - k);
-  for (; first != last; ++first) {
-    const double xk = first->scale * now[first->x], yk = first->scale * now[first->y];
-    double* R = rest + first->rest * width + k + 1;
-    const double *x = c + first->x * width + 1, *y = c + first->y * width + 1;
-    if (first->x == first->y) {
-      for (std::size_t i = 0; i < count; i += lanes) {
-        Four to, from;
-        std::memcpy(&to, R + i, sizeof to);
-        std::memcpy(&from, x + i, sizeof from);
-        to += (2 * xk) * from;
-        std::memcpy(R + i, &to, sizeof to);
-      }
-    } else {
-      for (std::size_t i = 0; i < count; i += lanes) {
-        Four to, from, with;
-        std::memcpy(&to, R + i, sizeof to);
-        std::memcpy(&from, y + i, sizeof from);
-        std::memcpy(&with, x + i, sizeof with);
-        to += xk * from + yk * with;
-        std::memcpy(R + i, &to, sizeof to);
-      }
-    }
-    if (2 * k <= order) R[k - 1] += xk * now[first->y];
-  }
+std::span<const TaylorRows::Product> first_products(const TaylorRows& rows, std::size_t groups) {
+  return {rows.products.data(), rows.ends[groups - 1].products};
+}
+
+std::vector<Slot> kept_series(const TaylorSteps& steps, const TaylorRows::Asked& asked) {
+  std::vector<Slot> kept = asked.series;
+  for (const Switch& one : steps.switches) kept.push_back(one.argument);
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
+
+TaylorRecurrence::Equations with_kept(TaylorRecurrence::Equations equations, const std::vector<Slot>& kept) {
+  equations.kept = kept;
+  return equations;
 }
 
 }  // namespace
 
-TaylorSeries::TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order)
+TaylorSeries::TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order,
+                           TaylorRecurrence::Equations equations)
     : steps_(&steps),
       rows_(steps, asked),
       order_(order),
-      width_((static_cast<std::size_t>(order) + 1 + 2 * lanes) / lanes * lanes),
+      groups_(std::min(most_groups, steps.ends.size())),
+      products_(first_products(rows_, groups_), order),
+      kept_(kept_series(steps, asked)),
+      free_(steps, rows_, groups_, with_kept(std::move(equations), kept_), order),
+      width_(blocks_of(static_cast<std::size_t>(order) + 1) * Eight::count),
       c_(rows_.series * width_),
-      rest_(rows_.rests * width_),
       factor_(rows_.rows.size(), 1.0),
       now_(rows_.series),
       branches_(steps.switches.size(), 1.0) {
@@ -222,60 +208,60 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
 }
 
 void TaylorSeries::restart() {
-  std::fill(rest_.begin(), rest_.end(), 0.0);
-  for (const Slot series : rows_.joined) std::fill_n(at(series) + 1, width_ - 1, 0.0);
+  for (const Slot series : kept_) std::fill_n(at(series) + 1, width_ - 1, 0.0);
   degree_ = 0;
 }
 
-namespace {
-
-/// Rows one after the other, each of which may read those before it.
-struct RowOrder {
-  const TaylorRows::Row* rows;
-  const TaylorRows::Term* terms;
-  const double *rest, *factor;  // R_k by rest, ρ by row
-  std::size_t width;
-  double order;
-  double* now;
-
-  void find(std::size_t number) const {
-    const TaylorRows::Row row = rows[number];
-    double sum = factor[number] * rest[row.rest * width];
-    if (row.over_order) sum /= order;
-    for (const TaylorRows::Term *term = terms + row.first, *end = terms + row.end; term != end; ++term)
-      sum += term->c * now[term->series];
-    now[row.out] = sum;
-  }
-};
-
-}  // namespace
-
-void TaylorSeries::find(std::size_t group, int k) {
-  const RowOrder all{rows_.rows.data(),      rows_.terms.data(), rest_.data() + k, factor_.data(), width_,
-                     static_cast<double>(k), now_.data()};
-  const std::size_t end = rows_.ends[group].rows;
-  for (std::size_t r = group == 0 ? 0 : rows_.ends[group - 1].rows; r < end; ++r) all.find(r);
+/// Rows are found one after the other: each may read those before it.
+double TaylorSeries::of_row(std::size_t number) const {
+  const TaylorRows::Row& row = rows_.rows[number];
+  double sum = 0;
+  for (std::uint32_t p = row.first_product; p < row.end_product; ++p)
+    sum += rows_.products[p].scale * products_.rest()[p];
+  sum *= factor_[number];
+  for (std::uint32_t t = row.first; t < row.end; ++t) sum += rows_.terms[t].c * now_[rows_.terms[t].series];
+  return sum;
 }
 
-void TaylorSeries::find_by_velocity(int k) {
-  const RowOrder all{rows_.rows.data(),      rows_.terms.data(), rest_.data() + k, factor_.data(), width_,
-                     static_cast<double>(k), now_.data()};
-  for (const std::uint32_t r : rows_.after_velocity) all.find(r);
+void TaylorSeries::find_at_rest(int k) {
+  products_.find(k);
+  for (std::size_t r = 0; r < rows_.ends[0].rows; ++r) now_[rows_.rows[r].out] = of_row(r);
 }
 
-void TaylorSeries::finish(std::size_t groups, int k) {
-  const TaylorRows::Ends& end = rows_.ends[groups - 1];
-  for (std::size_t w = 0; w < end.weighted; ++w) now_[rows_.weighted[w].out] = k * now_[rows_.weighted[w].of];
-  if (k < order_)
-    add_products(rows_.products.data(), rows_.products.data() + end.products, c_.data(), now_.data(),
-                 rest_.data(), width_, static_cast<std::size_t>(k), static_cast<std::size_t>(order_));
-  bool is_zero = true;
-  for (std::size_t j = 0; j < end.joined; ++j) {
-    const Slot series = rows_.joined[j];
-    at(series)[k] = now_[series];
-    is_zero = is_zero && now_[series] == 0;
+void TaylorSeries::find(int k) {
+  for (const std::uint32_t r : rows_.after_velocity) now_[rows_.rows[r].out] = of_row(r);
+  for (std::size_t r = rows_.ends[0].rows; r < rows_.ends[groups_ - 1].rows; ++r)
+    now_[rows_.rows[r].out] = of_row(r);
+  products_.take(now_.data(), k);
+  for (const Slot series : kept_) at(series)[k] = now_[series];
+  if (!order_is_zero(k)) degree_ = k;
+}
+
+/// All series of an order are linear in the variables and the rests.
+bool TaylorSeries::order_is_zero(int k) const {
+  const std::size_t moving = steps_->variables - 1;  // time itself has no coefficient above 1
+  return k > 1 &&
+         std::all_of(now_.begin(), now_.begin() + static_cast<std::ptrdiff_t>(moving),
+                     [](double x) { return x == 0; }) &&
+         products_.are_zero();
+}
+
+bool TaylorSeries::find_free(const InertiaFactor& A, std::span<const double> force) {
+  if (!free_.pays()) return false;
+  const std::size_t n = force.size();
+  velocity_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) velocity_[i] = at(static_cast<Slot>(n + i))[0];
+  if (!free_.find(rows_, factor_, A, velocity_.data(), force.data())) return false;
+  for (std::size_t which = 0; which < kept_.size(); ++which) {
+    double* c = at(kept_[which]);
+    for (int k = 1; k < order_; ++k) c[k] = free_.kept(which, k);
   }
-  if (!is_zero) degree_ = k;
+  for (std::size_t i = 0; i < n; ++i) {
+    double* q = at(static_cast<Slot>(i));
+    for (int k = 0; k < order_; ++k) q[k + 1] = free_.velocity(static_cast<Index>(i), k) / (k + 1);
+    now_[n + i] = free_.velocity(static_cast<Index>(i), 1);
+  }
+  return true;
 }
 
 void TaylorSeries::carry(std::vector<double>& change, std::size_t count) const {

@@ -3,22 +3,23 @@
 #include <span>
 #include <vector>
 
-#include "mechanics/motion/taylor_rows.hpp"
+#include "mechanics/motion/taylor_recurrence.hpp"
 
 namespace mechanics {
 
 /// The Taylor coefficients of the slots of a program along a motion, found order by order (Jorba and Zou
 /// 2005): f(t + τ) = Σ c_k τ^k.
 ///
-/// The coefficients of one order lie together while that order is looked for (`at_order`); once all are
-/// known, what they add to higher orders of products is added at once, and they join their series. A product
-/// then costs one pass over contiguous numbers an order, which no later number waits for.
+/// An order has two stages: what the lower orders and the coordinates make of it, and what velocities add.
+/// The factors of products are kept by product (`TaylorProducts`). The rows of an order are gone through one
+/// after the other, or, where there are few series, are one matrix (`TaylorMatrix`).
 class TaylorSeries {
  public:
   using Slot = expression::Slot;
 
   /// Coefficients 0 to `order` of what is asked for among the slots that `steps` computes.
-  TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order);
+  TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order,
+               TaylorRecurrence::Equations equations = {});
 
   int order() const { return order_; }
   std::span<const double> operator[](Slot series) const {
@@ -37,12 +38,15 @@ class TaylorSeries {
   void begin(std::size_t group);
   /// Forgets the orders above 0.
   void restart();
-  /// Coefficient k >= 1 of all series of a group, from those of the variables.
-  void find(std::size_t group, int k);
-  /// The same for the series of group 0 that depend on velocities, as far as they are read from now on.
-  void find_by_velocity(int k);
-  /// Order k of the first groups is complete.
-  void finish(std::size_t groups, int k);
+  /// Of order k >= 1, from the coefficients of the coordinates and of time: what was asked for as if those of
+  /// the velocities, which are set to 0, were 0.
+  void find_at_rest(int k);
+  /// All of order k, from those of the velocities too.
+  void find(int k);
+  /// All orders of a motion without contacts, from those of order 0, A and the force on each coordinate: of
+  /// the coordinates, and of what is asked for with all coefficients. False, and nothing is known, where that
+  /// does not pay or a number is not finite.
+  bool find_free(const InertiaFactor& A, std::span<const double> force);
   /// The highest order at which a series that products or askers read has had a coefficient that is not 0.
   int degree() const { return degree_; }
   /// The last coefficient of a variable, which nothing depends on any more.
@@ -63,16 +67,22 @@ class TaylorSeries {
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
   void differentiate(const TaylorStep& step, std::uint32_t row);
+  double of_row(std::size_t row) const;
+  bool order_is_zero(int k) const;
 
   const TaylorSteps* steps_;
   TaylorRows rows_;
   int order_;
+  std::size_t groups_;  // with orders above 0
+  TaylorProducts products_;
+  std::vector<Slot> kept_;  // with all coefficients, but for variables
+  TaylorRecurrence free_;
   std::size_t width_;
   std::vector<double> c_;       // by series
-  std::vector<double> rest_;    // R, by rest
   std::vector<double> factor_;  // ρ, by row
   std::vector<double> now_;     // of the order looked for, by series
   std::vector<double> branches_;
+  std::vector<double> velocity_;
   int degree_ = 0;
 };
 

@@ -33,8 +33,8 @@ std::vector<double> series_of(const LagrangianSystem& system, int order) {
   for (int k = 1; k <= order; ++k) {
     series.at_order(position) = k < 4 ? x[k] : 0;
     series.at_order(program.time()) = k == 1 ? 1 : 0;
-    series.find(0, k);
-    series.finish(1, k);
+    series.find_at_rest(k);
+    series.find(k);
   }
   const auto found = series[f];
   return {found.begin(), found.end()};
