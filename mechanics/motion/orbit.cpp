@@ -5,7 +5,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
-#include "mechanics/motion/tangent_chart.hpp"
+#include "mechanics/motion/period_map.hpp"
 
 namespace mechanics {
 namespace {
@@ -17,8 +17,9 @@ constexpr int most_iterations = 60;
 /// The start is met when it is missed by less than this part of how far the motion goes.
 constexpr double met = 1e-10;
 
-/// Steps of differences, relative to how far the motion goes: of the second order for Newton's method, of the
-/// eighth for the multipliers; shorter ones where the events on the way change.
+/// Steps of differences, relative to how far the motion goes, where the derivative is not known otherwise: of
+/// the second order for Newton's method, of the eighth for the multipliers; shorter ones where the events on
+/// the way change.
 constexpr double newton_step = 1e-6, multiplier_step = 1e-3, shortest_step = 1e-7;
 constexpr int multiplier_levels = 4;
 
@@ -28,122 +29,11 @@ constexpr int looks_per_arc = 16;
 /// A free period is searched for within so many steps.
 constexpr long most_steps_to_return = 20'000;
 
-struct Flight {
-  bool arrives = false;
-  std::string why;
-  Vector end;   // q and v: 2n
-  Vector rate;  // v and q''
-  std::vector<MotionEvent> events;
-  Vector largest;  // how far each of q and v goes on the way
-};
-
-Vector joined(const Vector& q, const Vector& v) {
-  Vector x(q.size() + v.size());
-  x << q, v;
-  return x;
-}
-
-/// The map over a period.
-class PeriodMap {
- public:
-  PeriodMap(const LagrangianSystem& system, double t, const OrbitQuestion& question)
-      : system_(system), t_(t), question_(question) {}
-
-  Flight fly(const Vector& x, double period) const {
-    Flight flight;
-    const Index n = x.size() / 2;
-    flight.largest = x.cwiseAbs();
-    try {
-      Motion motion(system_, {t_, x.head(n), x.tail(n)}, question_.motion);
-      flight.events = motion.events();
-      while (motion.advance(t_ + period)) {
-        flight.events.insert(flight.events.end(), motion.events().begin(), motion.events().end());
-        flight.largest = flight.largest.cwiseMax(joined(motion.state().q, motion.state().v).cwiseAbs());
-      }
-      flight.arrives = motion.status() == MotionStatus::done && motion.state().t >= t_ + period;
-      flight.why = motion.why();
-      flight.end = joined(motion.state().q, motion.state().v);
-      if (flight.arrives) flight.rate = joined(motion.state().v, motion.acceleration());
-    } catch (const convex::InvalidInput& error) {
-      flight.why = error.what();
-    }
-    return flight;
-  }
-
-  /// By how much the end misses the start.
-  Vector miss(const Flight& flight, const Vector& x) const {
-    Vector difference = flight.end - x;
-    for (Index i = 0; i < question_.modulo.size(); ++i)
-      if (question_.modulo[i] > 0)
-        difference[i] -= question_.modulo[i] * std::round(difference[i] / question_.modulo[i]);
-    return difference;
-  }
-
-  /// ∂end/∂y in the coordinates of a chart by central differences of order 2 times `levels`, extrapolated
-  /// (Richardson); none if a motion on the way has other events, unless `at_any_rate`.
-  std::optional<Matrix> derivative(const TangentChart& chart, double period, const Flight& flight,
-                                   double step, int levels, bool at_any_rate) const {
-    const Index size = chart.dimension();
-    Matrix D(size, size);
-    for (Index k = 0; k < size; ++k) {
-      double part = 0;  // of what the motion goes, by a unit of this coordinate
-      const Vector direction = chart.direction(k);
-      for (Index i = 0; i < direction.size(); ++i)
-        part = std::max(part, std::abs(direction[i]) / std::max(flight.largest[i], least_scale(flight)));
-      const auto beside = [&](double by) -> std::optional<Vector> {
-        const Flight other = fly(chart.state_of(by * Vector::Unit(size, k)), period);
-        if (!other.arrives || (!at_any_rate && !alike(other.events, flight.events))) return std::nullopt;
-        return other.end;
-      };
-      std::vector<Vector> slopes;  // with h, 2h, 4h, …
-      double h = step / part;
-      for (int level = 0; level < levels; ++level, h *= 2) {
-        const auto right = beside(h), left = beside(-h);
-        if (!right || !left) return std::nullopt;
-        slopes.push_back((*right - *left) / (2 * h));
-      }
-      double factor = 4;
-      for (std::size_t left = slopes.size(); left > 1; --left, factor *= 4)
-        for (std::size_t j = 0; j + 1 < left; ++j) slopes[j] += (slopes[j] - slopes[j + 1]) / (factor - 1);
-      D.col(k) = chart.along(slopes[0]);
-    }
-    return D;
-  }
-
-  static double least_scale(const Flight& flight) { return 1e-3 * flight.largest.maxCoeff(); }
-
- private:
-  /// The same events in the same order; repetitions, of which an accumulation has more or fewer, count once.
-  static bool alike(const std::vector<MotionEvent>& a, const std::vector<MotionEvent>& b) {
-    const auto same = [](const MotionEvent& x, const MotionEvent& y) {
-      return x.kind == y.kind && x.constraints == y.constraints;
-    };
-    const auto without_repetitions = [&](std::vector<MotionEvent> events) {
-      events.erase(std::unique(events.begin(), events.end(), same), events.end());
-      return events;
-    };
-    const auto x = without_repetitions(a), y = without_repetitions(b);
-    return std::equal(x.begin(), x.end(), y.begin(), y.end(), same);
-  }
-
-  const LagrangianSystem& system_;
-  double t_;
-  const OrbitQuestion& question_;
-};
-
-/// The largest of |miss| over how far the motion goes.
-double relative(const Vector& miss, const Flight& flight) {
-  double worst = 0;
-  for (Index i = 0; i < miss.size(); ++i)
-    worst = std::max(worst, std::abs(miss[i]) / std::max(flight.largest[i], PeriodMap::least_scale(flight)));
-  return worst;
-}
-
 /// The time after which the motion comes back to the plane through x across its direction, in that direction,
 /// nearer to x than half of how far it was away; 0 if it does not.
 double return_time(const LagrangianSystem& system, const State& guess, const MotionOptions& options) {
   Motion motion(system, guess, options);
-  const Vector x = joined(guess.q, guess.v), direction = joined(guess.v, motion.acceleration());
+  const Vector x = as_one(guess), direction = as_one({guess.t, guess.v, motion.acceleration()});
   double farthest = 0, last = 0;
   bool was_behind = false;
   for (long step = 0; step < most_steps_to_return; ++step) {
@@ -153,7 +43,7 @@ double return_time(const LagrangianSystem& system, const State& guess, const Mot
     const Arc& arc = motion.arc();
     for (int k = 1; k <= looks_per_arc; ++k) {
       const double tau = arc.length * k / looks_per_arc;
-      const Vector away = joined(arc.position(tau), arc.velocity(tau)) - x;
+      const Vector away = as_one(arc.state(tau)) - x;
       const double along = away.dot(direction);
       farthest = std::max(farthest, away.norm());
       const double time = arc.t - guess.t + tau;
@@ -163,6 +53,26 @@ double return_time(const LagrangianSystem& system, const State& guess, const Mot
     }
   }
   return 0;
+}
+
+/// The derivative of the map, or what leads on where it has none.
+std::optional<Matrix> for_newton(const PeriodMap& map, const TangentChart& chart, double period,
+                                 const Flight& flight) {
+  if (const FlowDerivative D = map.derivative(chart, flight); D.kind == FlowDerivative::Kind::known)
+    return D.value;
+  if (const auto D = map.differences(chart, period, flight, newton_step, 1, false)) return D;
+  return map.differences(chart, period, flight, newton_step, 1, true);
+}
+
+std::optional<Matrix> for_multipliers(const PeriodMap& map, const TangentChart& chart, double period,
+                                      const Flight& flight) {
+  const FlowDerivative D = map.derivative(chart, flight);
+  if (D.kind == FlowDerivative::Kind::known) return D.value;
+  if (D.kind == FlowDerivative::Kind::none) return std::nullopt;
+  for (double step = multiplier_step; step > shortest_step; step *= 0.25)
+    if (auto by_differences = map.differences(chart, period, flight, step, multiplier_levels, false))
+      return by_differences;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -180,20 +90,19 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   }
   const PeriodMap map(system, guess.t, question);
   const Index n = guess.q.size(), size = chart->dimension(), unknowns = size + (question.is_free ? 1 : 0);
-  Vector x = joined(orbit.start.q, orbit.start.v);
+  Vector x = as_one(orbit.start);
   Flight flight = map.fly(x, orbit.period);
   if (!flight.arrives) {
     orbit.why = flight.why;
     return orbit;
   }
   Vector miss = map.miss(flight, x);
-  orbit.residual = relative(miss, flight);
+  orbit.residual = map.relative(miss, flight);
   const Vector first = x;
   Vector across = Vector::Zero(2 * n);
   for (int i = 0; i < most_iterations && orbit.residual > 0; ++i) {
     if (i > 0) chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
-    auto D = map.derivative(*chart, orbit.period, flight, newton_step, 1, false);
-    if (!D) D = map.derivative(*chart, orbit.period, flight, newton_step, 1, true);
+    const auto D = for_newton(map, *chart, orbit.period, flight);
     if (!D) break;
     Matrix J = Matrix::Zero(unknowns, unknowns);
     Vector right = Vector::Zero(unknowns);
@@ -214,7 +123,7 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
       Flight tried = map.fly(next, period);
       if (!tried.arrives) continue;
       const Vector missed = map.miss(tried, next);
-      const double residual = relative(missed, tried);
+      const double residual = map.relative(missed, tried);
       if (!(residual < (1 - 0.1 * part) * orbit.residual)) continue;
       is_better = true;
       x = next;
@@ -233,12 +142,11 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
     return orbit;
   }
   orbit.is_found = true;
-  for (const MotionEvent& event : flight.events)
+  for (const MotionEvent& event : flight.events())
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
   chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
-  for (double step = multiplier_step; step > shortest_step && !orbit.multipliers; step *= 0.25)
-    if (const auto D = map.derivative(*chart, orbit.period, flight, step, multiplier_levels, false))
-      orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
+  if (const auto D = for_multipliers(map, *chart, orbit.period, flight))
+    orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
   if (!orbit.multipliers) return orbit;
   std::vector<std::complex<double>> others = *orbit.multipliers;
   if (question.is_free)

@@ -34,10 +34,10 @@ struct Orbit {
 };
 
 /// Newton's method on the map over one period, from a guess (shooting), on the states that satisfy the
-/// two-sided constraints in f and df/dt; the guess is brought to them. The derivative of the map is taken by
-/// central differences of motions that are known to rounding, extrapolated to the eighth order for the
-/// multipliers: impacts and releases on the way are in it as they are. Throws InvalidInput where the guess
-/// cannot begin a motion.
+/// two-sided constraints in f and df/dt; the guess is brought to them. The derivative of the map, of which
+/// the multipliers are the eigenvalues too, is that of the variational equations with saltation matrices
+/// (`flow_derivative`). Laws of impact that have none here are differentiated by differences, of the eighth
+/// order for the multipliers. Throws InvalidInput where the guess cannot begin a motion.
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question);
 
 }  // namespace mechanics
