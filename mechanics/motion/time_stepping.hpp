@@ -34,6 +34,8 @@ class Motion::TimeStepping final : public Motion::Course {
   /// One problem of a kind after another: the rows that pushed last are the first guess.
   struct Repeated {
     std::vector<Index> pushing;  ///< constraints
+    Vector lambda;               ///< by constraint
+    int pause = 0, waited = 0;   ///< problems between tries of the active set, where very many rows change
     std::optional<convex::NearestPointProblem> problem;
     convex::Solution solution;
   };
@@ -47,9 +49,14 @@ class Motion::TimeStepping final : public Motion::Course {
     convex::ConstraintRows U;
     Vector s;
   };
+  /// How well a problem is solved where very many rows change in every step: exactly; by gradients to what
+  /// the scheme makes of it, from multipliers that are nearly right; or as far as a few steps of them lead.
+  enum class Effort { exact, warm, rough };
   const convex::Solution& solve(Repeated&, const std::vector<Index>& constraints,
                                 const std::vector<Index>& two_sided, const convex::ConstraintRows& U,
-                                const Vector& z, const Vector& s);
+                                const Vector& z, const Vector& s, Effort effort);
+  convex::Solution solution_of(Repeated&, const convex::NearestPointProblem&,
+                               const std::vector<Index>& constraints, Effort effort);
   /// Whether a contact stays, and pushed in the last step.
   bool pushes(Index a) const {
     const auto i = static_cast<std::size_t>(a);
@@ -62,6 +69,7 @@ class Motion::TimeStepping final : public Motion::Course {
   bool find_velocity(double h, double end);
   void tell_error(double error, double size);
   void tell_events(double h, const Vector& velocity_before);
+  void take_near(const ConstraintRates& rates, std::vector<bool>& counts) const;
   void correct_position();
 
   double origin_;  // steps are counted from here
@@ -74,6 +82,7 @@ class Motion::TimeStepping final : public Motion::Course {
   Vector velocity_, impulse_;  // v+, and P of `now_`
   std::vector<bool> rests_;    // by constraint: touched with f' = 0 at the end of the last step
   std::vector<bool> pushes_;   // by constraint, in the last step
+  bool is_crowded_;            // very many coordinates and one-sided constraints
   Repeated velocities_, positions_, tangents_;
 };
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::string_view method_name = "sparse-interior-point";
 
-/// Means of multiplier times slack, scaled, one after the other as long as they are reached.
+/// Means of multiplier times slack, scaled, one after the other as long as they are reached. Where little is
+/// asked for they begin with the square of that.
 constexpr double first_mean = 1e-8, last_mean = 1e-18, ever_smaller = 1e-2;
 
 }  // namespace
@@ -23,7 +24,8 @@ Solution sparse_interior_point(const NearestPointProblem& problem, const Accurac
   Solution best;
   best.method = method_name;
   best.farkas = Vector::Zero(problem.rows());
-  for (double mean = first_mean; mean >= last_mean; mean *= ever_smaller) {
+  for (double mean = std::max(first_mean, accuracy.tolerance * accuracy.tolerance); mean >= last_mean;
+       mean *= ever_smaller) {
     const InteriorPointStart::End end = start.approach(mean);
     if (end == InteriorPointStart::End::unbounded || start.q().size() != problem.dimension()) break;
     if (!start.q().allFinite() || !start.lambda().allFinite()) break;

@@ -151,3 +151,46 @@ TEST_CASE("a contact that comes up while nothing pulls is met in steps too") {
   CHECK(found.end().v[0] == doctest::Approx(-1.5).epsilon(1e-14));
   CHECK(found.end().v[1] == doctest::Approx(-0.5).epsilon(1e-14));
 }
+
+TEST_CASE("a pile of very many discs overlaps nowhere, and gains no energy") {
+  // More than 300 coordinates and contacts: positions are corrected to a few digits a step.
+  constexpr int side = 14;
+  SystemText text;
+  const auto name = [](const char* axis, int i) { return axis + std::to_string(i); };
+  Vector q(2 * side * side), v(2 * side * side);
+  for (int i = 0; i < side * side; ++i) {
+    const int row = i / side, column = i % side;
+    const std::string x = name("x", i), y = name("y", i);
+    text.coordinates.insert(text.coordinates.end(), {x, y});
+    text.kinetic += (i > 0 ? " + " : "") + ("(" + x + "'^2 + " + y + "'^2)/2");
+    text.potential += (i > 0 ? " + " : "") + ("9.81*" + y);
+    q[2 * i] = column + 0.5 * (row % 2);
+    q[2 * i + 1] = std::sqrt(0.75) * row;
+    v[2 * i] = 0.1 * std::sin(7.0 * i);
+    v[2 * i + 1] = 0.1 * std::cos(5.0 * i);
+    const auto apart = [&](int j) {
+      const std::string dx = name("x", j) + " - " + x, dy = name("y", j) + " - " + y;
+      text.constraints.push_back({"c" + std::to_string(i) + "_" + std::to_string(j),
+                                  "((" + dx + ")^2 + (" + dy + ")^2 - 1)/2 >= 0"});
+    };
+    if (row == 0) text.constraints.push_back({name("floor", i), y + " >= 0"});
+    if (column == 0) text.constraints.push_back({name("left", i), x + " >= 0"});
+    if (column + 1 == side) text.constraints.push_back({name("right", i), x + " <= 13.5"});
+    if (column + 1 < side) apart(i + 1);
+    if (row + 1 == side) continue;
+    const int up = i + side + (row % 2 == 1 ? 0 : -1);
+    if (row % 2 == 1 || column > 0) apart(up);
+    if (row % 2 == 0 || column + 1 < side) apart(up + 1);
+  }
+  const auto made = system(text);
+  Motion motion(*made, {0, q, v}, stepping(text, 1e-3));
+  const double start = motion.energy();
+  double last = start;
+  while (motion.advance(0.03)) {
+    CHECK(motion.energy() <= last + 1e-9 * start);  // e = 0, and nothing moves but the discs
+    last = motion.energy();
+  }
+  CHECK(motion.status() == MotionStatus::done);
+  CHECK(motion.record().steps == 30);
+  CHECK(motion.record().largest_penetration <= 1e-7);
+}
