@@ -246,7 +246,12 @@ std::string liquid_text(const SolvedLiquid& solved) {
   if (solved.level == "none") text += "Not proved: the bound below is an estimate.\n";
   if (std::isinf(found.error_bound))
     text += "One grid alone tells no error; give a number of cells that can be halved.\n";
-  if (found.status == Status::inaccurate) text += "The accuracy asked for was not met.\n";
+  if (found.status == Status::inaccurate) {
+    text += "The accuracy asked for was not met";
+    if (solved.scene.cells && std::isfinite(found.error_bound))
+      text += "; give more cells, a larger --tolerance (of the largest p), or leave cells out";
+    text += ".\n";
+  }
   return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,
                             found.error_bound);
 }

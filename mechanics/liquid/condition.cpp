@@ -155,6 +155,17 @@ double Condition::level(const Point& x) const {
   return level;
 }
 
+expression::Range Condition::range(const Ray& from, expression::Range r) const {
+  using expression::Operation, expression::Range;
+  if (kind_ == Kind::always) return {-1, -1};
+  if (kind_ == Kind::relation) return excess_.range(from, r);
+  Range level = parts_.front().range(from, r);
+  for (std::size_t k = 1; k < parts_.size(); ++k)
+    level = expression::value(kind_ == Kind::all ? Operation::max : Operation::min, level,
+                              parts_[k].range(from, r));
+  return level;
+}
+
 std::vector<const Field*> Condition::fields() const {
   if (kind_ == Kind::relation) return {&excess_};
   std::vector<const Field*> found;

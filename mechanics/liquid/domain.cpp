@@ -39,6 +39,7 @@ class ShapeReading {
       made.radius = number("radius");
       if (!(made.radius > 0)) fail("it is empty, the radius is not above 0; give a radius > 0");
       made.written.fill(rounded("radius"));
+      made.written_centre = rounded_point("center");
       for (std::size_t i = 0; i < d; ++i) {
         made.low[i] = made.centre[i] - made.radius;
         made.high[i] = made.centre[i] + made.radius;
@@ -93,6 +94,15 @@ class ShapeReading {
     return made;
   }
   Point point(const std::string& key) { return point(value(key), key); }
+  /// The same as written.
+  Ray rounded_point(const std::string& key) {
+    const ShapeText::Value& given = value(key);
+    Ray made{};
+    if (!given.is_list) made[0] = rounded(key);
+    for (std::size_t i = 0; i < given.entries.size(); ++i)
+      made[i] = language_.rounded(given.entries[i].text, "domain." + key);
+    return made;
+  }
 
   void read_vertices(Domain& made) {
     const ShapeText::Value& list = value("vertices");

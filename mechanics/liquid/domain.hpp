@@ -22,6 +22,7 @@ struct Domain {
   double radius = 0;  ///< of a ball
   /// Of an interval its ends, of a ball its radius twice: as written, with what rounding may have done.
   std::array<expression::Rounded, 2> written{};
+  Ray written_centre{};                         ///< of a ball
   std::vector<std::array<double, 2>> vertices;  ///< of a polygon, counterclockwise
   std::optional<Condition> condition;           ///< of inequalities
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "convex/interval_arithmetic.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
 
 namespace mechanics::liquid {
@@ -27,10 +28,52 @@ Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<
     form_ = std::make_shared<const CoordinateForm>(tape, node, coordinates_.size());
   for (expression::NodeId k = 0; k <= node && !is_constant_; ++k)
     may_jump_ = may_jump_ || expression::is_where(tape.operation(k));
-  if (is_constant_)
-    constant_ = expression::rounded_nodes(tape)[node];
-  else
-    program_ = expression::Program(tape, coordinates_.size(), {{node}});
+  const std::vector<expression::Rounded> numbers = expression::rounded_nodes(tape);
+  if (is_constant_) {
+    constant_ = numbers[node];
+    return;
+  }
+  program_ = expression::Program(tape, coordinates_.size(), {{node}});
+  for (expression::Slot slot = program_.time() + 1; slot < program_.begin(); ++slot)
+    constants_.push_back(numbers[program_.node(slot)]);
+}
+
+expression::TimeSeries Field::along(const Ray& from, expression::Rounded r, int order) const {
+  using expression::Operation, expression::Slot, expression::TimeSeries;
+  if (is_constant_) return TimeSeries(constant_);
+  std::vector<TimeSeries> x(program_.size());
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) x[i] = TimeSeries(i == 0 ? from[0] + r : from[i]);
+  x[0].c[1] = 1;
+  const Slot first = program_.time() + 1;
+  for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = TimeSeries(constants_[slot - first]);
+  for (Slot slot = program_.begin(); slot < program_.end(0); ++slot) {
+    const expression::Program::Instruction& i = program_[slot];
+    const bool is_kink =
+        (i.operation == Operation::abs || i.operation == Operation::sign) && x[i.a].c[0].is_undecided();
+    if (is_kink)
+      x[slot].c.fill(std::numeric_limits<double>::quiet_NaN());
+    else
+      x[slot] = expression::applied(i.operation, x[i.a], x[i.b], !i.active.b, order);
+  }
+  return x[program_.roots(0).front()];
+}
+
+expression::Range Field::range(const Ray& from, expression::Range r) const {
+  using expression::Range, expression::Slot;
+  const auto around = [](expression::Rounded number) {
+    if (number.is_exact()) return Range{number.value, number.value};
+    return Range{convex::moved_down(number.value - number.radius),
+                 convex::moved_up(number.value + number.radius)};
+  };
+  if (is_constant_) return around(constant_);
+  std::vector<Range> x(program_.size());
+  for (std::size_t i = 0; i < coordinates_.size(); ++i) x[i] = around(from[i]);
+  x[0] = expression::value(expression::Operation::add, x[0], r);
+  const Slot first = program_.time() + 1;
+  for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = around(constants_[slot - first]);
+  for (Slot slot = program_.begin(); slot < program_.end(0); ++slot)
+    x[slot] = expression::value(program_[slot].operation, x[program_[slot].a], x[program_[slot].b]);
+  return x[program_.roots(0).front()];
 }
 
 double Field::raw(const Point& x) const {

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "mechanics/expression/program.hpp"
+#include "mechanics/expression/range.hpp"
 #include "mechanics/expression/rounded.hpp"
+#include "mechanics/expression/time_series.hpp"
 #include "mechanics/liquid/coordinate_form.hpp"
 
 namespace mechanics::liquid {
@@ -16,6 +18,9 @@ using Point = std::array<double, 3>;
 
 /// "(x = 0.5, y = 0)" of the first coordinates, for a message.
 std::string point_text(const std::vector<std::string>& names, const Point&);
+
+/// A ray: from a point, known to its rounding, in the direction of the first coordinate.
+using Ray = std::array<expression::Rounded, 3>;
 
 /// An expression in the coordinates, ready to be evaluated.
 class Field {
@@ -32,6 +37,12 @@ class Field {
   /// Of a constant one, the value with what rounding may have done to it.
   expression::Rounded constant() const { return constant_; }
 
+  /// Taylor coefficients in t at the distance r + t on a ray; of a ball of distances, such as hold at each.
+  /// Not finite where they are not known.
+  expression::TimeSeries along(const Ray&, expression::Rounded r, int order) const;
+  /// All values at these distances on a ray.
+  expression::Range range(const Ray&, expression::Range r) const;
+
   /// It, or another expression of its file, chooses between branches that need not fit together.
   bool may_jump() const { return may_jump_; }
   /// Of one that is not constant, in two or three dimensions.
@@ -45,6 +56,7 @@ class Field {
   convex::Place place_;
   bool is_constant_ = true, may_jump_ = false;
   expression::Rounded constant_;
+  std::vector<expression::Rounded> constants_;  // of the program, as they are written
 };
 
 }  // namespace mechanics::liquid

@@ -258,9 +258,7 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
     if (is_last || is_close) {
-      const bool is_asked = !scene.cells || accuracy.tolerance;
-      if (!found.front().ended || (!is_close && is_asked) || !std::isfinite(solution.error_bound))
-        solution.status = LiquidSolution::Status::inaccurate;
+      if (!found.front().ended || !is_close) solution.status = LiquidSolution::Status::inaccurate;
       return found;
     }
   }

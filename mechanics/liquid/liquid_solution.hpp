@@ -36,7 +36,8 @@ struct LiquidSolution {
   std::function<bool(const Point&)> in_cavity;  ///< p = 0 and the liquid parts
 };
 
-/// `tolerance`: of max p, 1e-3 by default, and none where the file says how many cells.
+/// `tolerance`: of max p, 1e-3 by default; beyond it the status is `inaccurate`, also where the file says how
+/// many cells.
 struct LiquidAccuracy {
   std::optional<double> tolerance;
   /// The bound is to be proved: p between a sub- and a supersolution, for the scene as it is written; on

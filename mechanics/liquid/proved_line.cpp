@@ -3,177 +3,188 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
+#include "convex/interval_arithmetic.hpp"
+#include "convex/nearest_point/obstacle/line_enclosure.hpp"
+
 namespace mechanics::liquid {
 namespace {
 
+using convex::Interval;
+using convex::LineEnd;
+using convex::LineSeries;
+using expression::Range;
 using expression::Rounded;
 
-/// A closed form of p as doubles, evaluated with some forty roundings of what it is the sum of.
-constexpr double roundings_of_form = 40;
-
-/// How much wider a bracket of the edge becomes at each try, and the widest tried, both relative.
-constexpr double first_width = 1e-15, widest = 1e-6, widening = 4;
-
-bool is_above(Rounded a) { return a.value > 0 && a.value > a.radius; }
-bool is_below(Rounded a) { return is_above(-a); }
-double size(Rounded a) { return expression::widened(std::abs(a.value) + a.radius); }
-
-/// What holds at the points of one end for certain: the first part tried claims all of the boundary, or the
-/// point lies clearly inside or outside of each part tried.
-bool is_certain(const LiquidScene& scene, const BoundaryPart& part, const Point& x, bool whole) {
-  for (const BoundaryPart& tried : scene.parts) {
-    if (tried.where.is_always()) return &tried == &part;
-    if (whole || std::abs(tried.where.level(x)) <= scene.domain.reach()) {
-      // An end that is written as the bound of a condition, x <= 0 at low = 0, is meant to be in it.
-      if (whole || tried.where.level(x) != 0) return false;
-    }
-    if (&tried == &part) return true;
-  }
-  return false;
+Interval interval(Rounded a) {
+  return {convex::moved_down(a.value - a.radius), convex::moved_up(a.value + a.radius)};
 }
 
-struct ClosedForm {
-  double bound = 0, largest = 0, largest_at = 0;
-  std::function<double(double)> p;
+/// The numbers from a.low to a.high; one number where it is exact.
+Rounded ball(const Interval& a) {
+  if (a.low == a.high) return a.low;
+  const double centre = convex::middle(a);
+  return {centre, convex::moved_up(std::max(a.high - centre, centre - a.low))};
+}
+
+Range range(const Interval& a) { return {a.low, a.high}; }
+
+/// The ray on which the variable is the distance; in one dimension the line itself.
+Ray ray(const LiquidScene& scene, const LineScene& line) {
+  Ray from{};
+  if (!line.radial) return from;
+  if (scene.domain.shape == Domain::Shape::ball) return scene.domain.written_centre;
+  // The middle of a polynomial, from a quotient of sums.
+  for (std::size_t i = 0; i < scene.dimension(); ++i)
+    from[i] = {line.centre[i], 32 * convex::unit_roundoff * std::abs(line.centre[i])};
+  return from;
+}
+
+/// The scene with numbers that are proved.
+class ProvedLine {
+ public:
+  ProvedLine(const LiquidScene& scene, const LineScene& line)
+      : scene_(scene), line_(line), from_(ray(scene, line)) {}
+
+  std::optional<convex::EnclosedLineObstacle> problem() const {
+    convex::EnclosedLineObstacle made;
+    made.power = line_.problem.power;
+    made.low_kind = line_.problem.at_low.kind;
+    made.high_kind = line_.problem.at_high.kind;
+    if (!find_ends(made)) return std::nullopt;
+    if (line_.low != nullptr &&
+        !(is_certain(*line_.low, made.low) && give(*line_.low, made.low, -1, made.at_low)))
+      return std::nullopt;
+    if (!is_certain(*line_.high, made.high) || !give(*line_.high, made.high, 1, made.at_high))
+      return std::nullopt;
+    made.h = [this](const Interval& a, double width) { return source(a, width); };
+    return made;
+  }
+
+ private:
+  bool find_ends(convex::EnclosedLineObstacle& made) const {
+    const Domain& domain = scene_.domain;
+    switch (domain.shape) {
+      case Domain::Shape::box:
+        made.low = interval_as_written(domain.written[0]);
+        made.high = interval_as_written(domain.written[1]);
+        return true;
+      case Domain::Shape::ball:
+        made.high = interval_as_written(domain.written[0]);
+        if (line_.radial) return true;
+        made.low = interval(domain.written_centre[0] - domain.written[0]);
+        made.high = interval(domain.written_centre[0] + domain.written[0]);
+        return true;
+      case Domain::Shape::inequalities: {
+        const bool has_centre = line_.problem.at_low.kind == LineEnd::Kind::centre;
+        if (!has_centre && !find_root(line_.problem.low, 1, made.low)) return false;
+        if (!find_root(line_.problem.high, -1, made.high)) return false;
+        return is_inside({has_centre ? 0 : made.low.high, made.high.low}, 0);
+      }
+      case Domain::Shape::polygon:
+        break;
+    }
+    return false;
+  }
+
+  static Interval interval_as_written(Rounded a) {
+    return a.is_exact() ? Interval{a.value, a.value} : interval(a);
+  }
+
+  /// The least interval tried around a root of the level that has it inside on one side and outside on the
+  /// other; `inwards`: the side of the liquid.
+  bool find_root(double at, double inwards, Interval& root) const {
+    constexpr double widening = 4, widest = 0x1p-30;
+    const double size = std::max(std::abs(at), scene_.domain.longest());
+    for (double width = 4 * convex::unit_roundoff; width <= widest; width *= widening) {
+      const double in = at + inwards * width * size, out = at - inwards * width * size;
+      if (!(scene_.domain.condition->range(from_, {in, in}).high < 0) ||
+          !(scene_.domain.condition->range(from_, {out, out}).low > 0))
+        continue;
+      root = {std::min(in, out), std::max(in, out)};
+      return true;
+    }
+    return false;
+  }
+
+  bool is_inside(const Interval& r, int halvings) const {
+    constexpr int most_halvings = 60;
+    if (scene_.domain.condition->range(from_, range(r)).high < 0) return true;
+    const double half = convex::middle(r);
+    if (halvings == most_halvings || !(r.low < half && half < r.high)) return false;
+    return is_inside({r.low, half}, halvings + 1) && is_inside({half, r.high}, halvings + 1);
+  }
+
+  /// What holds at an end for certain: each part tried holds clearly there, or clearly not. An end that is
+  /// written as the bound of a condition, x <= 0 at low = 0, is meant to be in it.
+  bool is_certain(const BoundaryPart& part, const Interval& end) const {
+    const double reach = scene_.domain.reach();
+    const Range around{end.low - reach, end.high + reach};
+    for (const BoundaryPart& tried : scene_.parts) {
+      const Range level = tried.where.range(from_, around);
+      if (level.high < 0) return &tried == &part;
+      if (!(level.low > 0) && tried.where.level(line_.at(convex::middle(end))) != 0) return false;
+      if (&tried == &part) return true;
+    }
+    return false;
+  }
+
+  /// The pressure there, or ρ (F·n - a).
+  bool give(const BoundaryPart& part, const Interval& end, double side, Interval& given) const {
+    const auto value = [&](const Field& field) { return field.along(from_, ball(end), 0).c[0]; };
+    Rounded found = value(part.value);
+    if (!part.is_free) {
+      const Rounded along = scene_.force.empty() ? Rounded(0) : Rounded(side) * value(scene_.force.front());
+      found = scene_.written_density * (along - found);
+    }
+    given = interval_as_written(found);
+    return std::isfinite(given.low) && std::isfinite(given.high);
+  }
+
+  LineSeries source(const Interval& a, double width) const {
+    constexpr int order = static_cast<int>(LineSeries::most);
+    const Interval whole{a.low, convex::moved_up(a.high + width)};
+    const expression::TimeSeries here = scene_.h.along(from_, ball(a), order),
+                                 there = scene_.h.along(from_, ball(whole), order);
+    LineSeries made;
+    made.degree = LineSeries::most;
+    bool is_smooth = true;
+    for (std::size_t j = 0; j <= made.degree; ++j) {
+      const Rounded c = j < made.degree ? here.c[j] : there.c[j];
+      made.c[j] = interval_as_written(c);
+      // A choice that is made here but not all over the piece has no coefficients there.
+      for (const Rounded& one : {c, there.c[j]})
+        is_smooth = is_smooth && std::isfinite(one.value) && std::isfinite(one.radius);
+    }
+    if (is_smooth) return made;
+    const Range values = scene_.h.range(from_, range(whole));
+    made.degree = 0;
+    made.c.fill({});
+    made.c[0] =
+        values.is_empty() ? Interval{-convex::infinity, convex::infinity} : Interval{values.low, values.high};
+    return made;
+  }
+
+  const LiquidScene& scene_;
+  const LineScene& line_;
+  Ray from_;
 };
-
-/// P(r; s) in two or three dimensions: P = P' = 0 at s, -ΔP = h beyond.
-template <class Real>
-Real beyond_edge(std::size_t d, Real h, Real r, Real s) {
-  using std::log;
-  if (d == 2) return -h * ((r * r - s * s) / Real(4) - s * s / Real(2) * log(r / s));
-  return -h * ((r * r - s * s) / Real(6) - s * s / Real(3) + s * s * s / (Real(3) * r));
-}
-
-/// A disc or ball of radius R with p0 all around.
-std::optional<ClosedForm> ball_form(std::size_t d, Rounded h, Rounded p0, Rounded R, const Point& centre) {
-  const double twice = 2 * static_cast<double>(d);
-  ClosedForm form;
-  const Rounded at_centre = p0 + h * (R * R) / Rounded(twice);
-  // P depends on R, h and p0 with these slopes at most; the variable r is known to some roundings of R.
-  const double span = size(R), rounding = roundings_of_form * convex::unit_roundoff;
-  const double data =
-      p0.radius + size(h) * span * R.radius + span * span * h.radius +
-      rounding * (size(p0) + size(h) * span * (span + std::hypot(centre[0], centre[1], centre[2])));
-  const bool never_cavitates = is_above(h) || (h.value == 0 && h.radius == 0);
-  if (!is_below(h) || !is_below(at_centre)) {
-    if (!never_cavitates && !is_above(at_centre)) return std::nullopt;
-    form.bound = expression::widened(data);
-    form.largest = std::max(p0.value, at_centre.value);
-    form.largest_at = at_centre.value > p0.value ? 0 : R.value;
-    form.p = [twice, h = h.value, p0 = p0.value, R = R.value](double r) {
-      return p0 + h * ((R - r) * (R + r)) / twice;
-    };
-    return form;
-  }
-  if (!is_above(p0)) return std::nullopt;
-  double low = 0, high = R.value;  // of the edge: P(R; s) falls with s
-  for (int halving = 0; halving < 200; ++halving) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (beyond_edge(d, h.value, R.value, middle) > p0.value ? low : high) = middle;
-  }
-  const double s = low;
-  const auto over = [&](double edge) { return beyond_edge(d, h, R, Rounded(edge)) - p0; };
-  for (double width = first_width; width <= widest; width *= widening) {
-    const double above = s - width * R.value, below = std::min(s + width * R.value, R.value - R.radius);
-    if (!(above > 0) || !is_above(over(above)) || !is_below(over(below))) continue;
-    // |∂P/∂s| = |h| s^(d-1) (φ(R) - φ(s)) <= |h| R / 2.
-    form.bound = expression::widened((below - above) * size(h) * span + data);
-    form.largest = p0.value;
-    form.largest_at = R.value;
-    form.p = [d, h = h.value, s](double r) { return r <= s ? 0 : std::max(0.0, beyond_edge(d, h, r, s)); };
-    return form;
-  }
-  return std::nullopt;
-}
-
-/// An interval with the pressures at its ends.
-std::optional<ClosedForm> interval_form(Rounded h, Rounded at_low, Rounded at_high, Rounded low,
-                                        Rounded high) {
-  ClosedForm form;
-  const Rounded length = high - low;
-  const double span = size(length), rounding = roundings_of_form * convex::unit_roundoff;
-  const double load = size(h) * span * span, most = std::max(size(at_low), size(at_high));
-  // Slopes of p by the ends' places and values, h, and by the variable.
-  const double slope = load / span + (is_above(length) ? 2 * most / (length.value - length.radius) : 0);
-  const double data = at_low.radius + at_high.radius + span * span * h.radius +
-                      slope * (low.radius + high.radius) +
-                      rounding * (most + load + slope * (std::abs(low.value) + std::abs(high.value)));
-  if (!is_above(length) || at_low.value < 0 || at_high.value < 0) return std::nullopt;
-  form.bound = expression::widened(data);
-  form.largest = std::max(at_low.value, at_high.value);
-  form.largest_at = at_low.value >= at_high.value ? low.value : high.value;
-  const double a = low.value, b = high.value;
-  const bool pulls = is_below(h);
-  if (!pulls && !(h.value == 0 && h.radius == 0)) return std::nullopt;  // the largest is inside
-  if (pulls) {
-    const Rounded left = sqrt(Rounded(2) * at_low / -h), right = sqrt(Rounded(2) * at_high / -h);
-    const Rounded cavity = length - left - right;
-    if (!is_above(cavity) && !is_below(cavity)) return std::nullopt;
-    if (is_above(cavity)) {
-      const double l = a + left.value, r = b - right.value;
-      form.bound = expression::widened(data + size(h) * span * (left.radius + right.radius));
-      form.p = [h = h.value, l, r](double x) {
-        const double away = x < l ? l - x : x > r ? x - r : 0;
-        return -0.5 * h * away * away;
-      };
-      return form;
-    }
-  }
-  form.p = [h = h.value, a, b, p = at_low.value, q = at_high.value](double x) {
-    return p + (q - p) * ((x - a) / (b - a)) + 0.5 * h * ((x - a) * (b - x));
-  };
-  return form;
-}
-
-std::optional<ClosedForm> closed_form(const LiquidScene& scene, const LineScene& line) {
-  const Domain& domain = scene.domain;
-  if (!scene.h.is_constant()) return std::nullopt;
-  const Rounded h = scene.h.constant();
-  const Point low = line.at(line.problem.low), high = line.at(line.problem.high);
-  const auto is_given = [&](const BoundaryPart* part) { return part->is_free && part->value.is_constant(); };
-  if (line.radial) {
-    const bool plain = domain.shape == Domain::Shape::ball && is_given(line.high) &&
-                       is_certain(scene, *line.high, high, true);
-    if (!plain) return std::nullopt;
-    return ball_form(scene.dimension(), h, line.high->value.constant(), domain.written[0], line.centre);
-  }
-  if (domain.shape != Domain::Shape::box || !is_certain(scene, *line.low, low, false) ||
-      !is_certain(scene, *line.high, high, false))
-    return std::nullopt;
-  const auto [a, b] = domain.written;
-  if (is_given(line.low) && is_given(line.high))
-    return interval_form(h, line.low->value.constant(), line.high->value.constant(), a, b);
-  // A wall at one end, and h = 0: p falls in a line to what the wall leaves, or to 0.
-  if (h.value != 0 || h.radius != 0 || is_given(line.low) == is_given(line.high)) return std::nullopt;
-  const bool wall_is_low = is_given(line.high);
-  const BoundaryPart &wall = wall_is_low ? *line.low : *line.high,
-                     &free = wall_is_low ? *line.high : *line.low;
-  if (wall.is_free || !wall.value.is_constant() ||
-      std::any_of(scene.force.begin(), scene.force.end(), [](const Field& f) { return !f.is_constant(); }))
-    return std::nullopt;
-  Rounded along = -wall.value.constant();
-  for (const Field& force : scene.force) along += wall_is_low ? -force.constant() : force.constant();
-  const Rounded p0 = free.value.constant(), left = p0 + scene.written_density * along * (b - a);
-  if (!is_above(left) && !is_below(left)) return std::nullopt;
-  const Rounded at_wall = is_above(left) ? left : Rounded(0);
-  return interval_form(h, wall_is_low ? at_wall : p0, wall_is_low ? p0 : at_wall, a, b);
-}
 
 }  // namespace
 
 void prove_line(const LiquidScene& scene, const LineScene& line, const LiquidAccuracy& accuracy,
                 LiquidSolution& found) {
-  const std::optional<ClosedForm> form = closed_form(scene, line);
-  if (!form) return;
+  const ProvedLine proved(scene, line);
+  const std::optional<convex::EnclosedLineObstacle> problem = proved.problem();
+  if (!problem) return;
+  const std::optional<convex::LineEnclosure> enclosure =
+      convex::enclose_line(*problem, convex::solve_line(line.problem));
+  if (!enclosure) return;
   found.is_proved = true;
-  found.error_bound = form->bound;
-  found.largest = form->largest;
-  found.largest_at = line.at(form->largest_at);
-  found.status = form->bound <= accuracy.part() * found.largest ? LiquidSolution::Status::solved
-                                                                : LiquidSolution::Status::inaccurate;
-  found.p = [line, p = form->p](const Point& x) { return p(line.variable(x)); };
+  found.error_bound = enclosure->error_bound;
+  found.status = found.error_bound <= accuracy.part() * found.largest ? LiquidSolution::Status::solved
+                                                                      : LiquidSolution::Status::inaccurate;
+  found.p = [line, p = enclosure->p](const Point& x) { return p(line.variable(x)); };
 }
 
 }  // namespace mechanics::liquid

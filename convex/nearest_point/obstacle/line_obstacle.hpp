@@ -44,6 +44,9 @@ class LineSolution {
   Index nodes = 0;
 
   double p(double r) const;
+  /// The nodes, and where p = 0 is held by the obstacle or given.
+  const std::vector<double>& places() const { return r_; }
+  bool is_held(std::size_t node) const { return held_[node]; }
   std::vector<LinePiece> pieces() const;
   struct Extreme {
     double value, at;
