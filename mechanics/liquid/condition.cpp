@@ -155,14 +155,14 @@ double Condition::level(const Point& x) const {
   return level;
 }
 
-expression::Range Condition::range(const Ray& from, expression::Range r) const {
+expression::Range Condition::range(const Region& at) const {
   using expression::Operation, expression::Range;
   if (kind_ == Kind::always) return {-1, -1};
-  if (kind_ == Kind::relation) return excess_.range(from, r);
-  Range level = parts_.front().range(from, r);
+  if (kind_ == Kind::relation) return excess_.range(at);
+  Range level = parts_.front().range(at);
   for (std::size_t k = 1; k < parts_.size(); ++k)
-    level = expression::value(kind_ == Kind::all ? Operation::max : Operation::min, level,
-                              parts_[k].range(from, r));
+    level =
+        expression::value(kind_ == Kind::all ? Operation::max : Operation::min, level, parts_[k].range(at));
   return level;
 }
 

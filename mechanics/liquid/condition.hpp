@@ -20,8 +20,8 @@ class Condition {
   /// Below 0 where every relation of the condition holds with room, above 0 where it does not hold: the
   /// largest (`and`) and least (`or`) of the differences of the sides. -1 for "true".
   double level(const Point&) const;
-  /// All values of the level at these distances on a ray.
-  expression::Range range(const Ray&, expression::Range r) const;
+  /// All values of the level in a region.
+  expression::Range range(const Region&) const;
   /// The differences of the sides of all relations.
   std::vector<const Field*> fields() const;
   /// Of relations that all must hold: the level of each; of others the level of the whole.

@@ -1,5 +1,6 @@
 #include "mechanics/liquid/field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -7,6 +8,20 @@
 #include "mechanics/expression/rounded_nodes.hpp"
 
 namespace mechanics::liquid {
+
+namespace {
+
+expression::Range around(expression::Rounded number) {
+  if (number.is_exact()) return {number.value, number.value};
+  return {convex::moved_down(number.value - number.radius), convex::moved_up(number.value + number.radius)};
+}
+
+}  // namespace
+
+Region region(const Ray& from, expression::Range r) {
+  return {expression::value(expression::Operation::add, around(from[0]), r), around(from[1]),
+          around(from[2])};
+}
 
 std::string point_text(const std::vector<std::string>& names, const Point& x) {
   std::string text;
@@ -58,17 +73,11 @@ expression::TimeSeries Field::along(const Ray& from, expression::Rounded r, int 
   return x[program_.roots(0).front()];
 }
 
-expression::Range Field::range(const Ray& from, expression::Range r) const {
+expression::Range Field::range(const Region& at) const {
   using expression::Range, expression::Slot;
-  const auto around = [](expression::Rounded number) {
-    if (number.is_exact()) return Range{number.value, number.value};
-    return Range{convex::moved_down(number.value - number.radius),
-                 convex::moved_up(number.value + number.radius)};
-  };
   if (is_constant_) return around(constant_);
   std::vector<Range> x(program_.size());
-  for (std::size_t i = 0; i < coordinates_.size(); ++i) x[i] = around(from[i]);
-  x[0] = expression::value(expression::Operation::add, x[0], r);
+  std::copy_n(at.begin(), coordinates_.size(), x.begin());
   const Slot first = program_.time() + 1;
   for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = around(constants_[slot - first]);
   for (Slot slot = program_.begin(); slot < program_.end(0); ++slot)

@@ -22,6 +22,12 @@ std::string point_text(const std::vector<std::string>& names, const Point&);
 /// A ray: from a point, known to its rounding, in the direction of the first coordinate.
 using Ray = std::array<expression::Rounded, 3>;
 
+/// A box of points.
+using Region = std::array<expression::Range, 3>;
+
+/// What of a ray lies at these distances.
+Region region(const Ray&, expression::Range r);
+
 /// An expression in the coordinates, ready to be evaluated.
 class Field {
  public:
@@ -40,8 +46,8 @@ class Field {
   /// Taylor coefficients in t at the distance r + t on a ray; of a ball of distances, such as hold at each.
   /// Not finite where they are not known.
   expression::TimeSeries along(const Ray&, expression::Rounded r, int order) const;
-  /// All values at these distances on a ray.
-  expression::Range range(const Ray&, expression::Range r) const;
+  /// All values in a region.
+  expression::Range range(const Region&) const;
 
   /// It, or another expression of its file, chooses between branches that need not fit together.
   bool may_jump() const { return may_jump_; }

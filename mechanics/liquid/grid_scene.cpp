@@ -7,6 +7,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "mechanics/liquid/cavity_edge.hpp"
+#include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/grid_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
@@ -30,60 +31,6 @@ void for_nodes(const CutCells& cells, Work work) {
   for (Index c = 0; c < n[2]; ++c)
     for (Index b = 0; b < n[1]; ++b)
       for (Index a = 0; a < n[0]; ++a) work(cells.grid.at(a, b, c), std::array<Index, 3>{a, b, c});
-}
-
-/// The largest difference of two solutions at the nodes of the coarser grid.
-double difference(const CutCells& fine, const CutSolution& p, const CutCells& coarse, const CutSolution& q) {
-  double largest = 0;
-  for_nodes(coarse, [&](Index k, const std::array<Index, 3>& at) {
-    const Index there = fine.grid.at(2 * at[0], 2 * at[1], 2 * at[2]);
-    if (coarse.grid.kind[index_of(k)] != CutPoint::bounded ||
-        fine.grid.kind[index_of(there)] != CutPoint::bounded)
-      return;
-    largest = std::max(largest, std::abs(p.q[index_of(there)] - q.q[index_of(k)]));
-  });
-  return largest;
-}
-
-/// The order π/ω at the widest corner of a polygon, ω > π its inner angle: p has r^(π/ω) there (Grisvard
-/// 1985, section 4.4). 2 where no corner is re-entrant.
-double order_at_corners(const Domain& domain) {
-  double order = 2;
-  if (domain.shape != Domain::Shape::polygon) return order;
-  const std::size_t n = domain.vertices.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto &a = domain.vertices[(k + n - 1) % n], &b = domain.vertices[k],
-               &c = domain.vertices[(k + 1) % n];
-    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
-    const double turn = std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
-    if (turn < 0) order = std::min(order, std::numbers::pi / (std::numbers::pi - turn));
-  }
-  return order;
-}
-
-/// From the differences of grids: the ratio of the last two tells the order, which tells what is left. A
-/// difference may be small by chance, so that those before, lowered by that order, count as well; and no more
-/// than the first order is believed where free parts meet walls, since the error there depends on how the
-/// junction lies to the grid.
-double estimated_error(const LiquidScene& scene, const GridLevels& levels,
-                       const std::vector<CutSolution>& found, double largest) {
-  constexpr double safety = 2, least_order = 0.5, digits = 1e-9;
-  constexpr std::size_t most_differences = 4;
-  const bool has_junctions = scene.has_free_part() && scene.has_wall();
-  const double best_order = std::min(has_junctions ? 1.0 : 2.0, order_at_corners(scene.domain));
-  if (levels.count() < 2) return std::numeric_limits<double>::infinity();
-  std::vector<double> differences;
-  for (std::size_t l = 0; l + 1 < levels.count() && l < most_differences; ++l)
-    differences.push_back(difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
-  double order = 1, left = differences[0];
-  const bool is_halved_twice = levels.cells() % 4 == 0;  // else the third grid lies otherwise to the boundary
-  if (!is_halved_twice)
-    order = least_order;
-  else if (differences.size() > 1 && left > 0)
-    order = std::clamp(std::log2(differences[1] / left), least_order, best_order);
-  for (std::size_t l = 1; l < differences.size(); ++l)
-    left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
-  return safety * left / (std::exp2(order) - 1) + digits * largest;
 }
 
 double content(const LiquidScene& scene, const CutCells& cells) {
@@ -253,7 +200,7 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
     find_largest(solution, levels.finest(), found.front());
-    solution.error_bound = estimated_error(scene, levels, found, solution.largest);
+    solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];

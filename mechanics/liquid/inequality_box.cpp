@@ -54,6 +54,50 @@ void for_grid(const Domain& domain, const Point& low, const Point& high, int n, 
       }
 }
 
+/// Samples miss a thin wedge. Regions beside the box are halved until the level is proved to be above 0 in
+/// them; the box grows to hold those that remain when they are small.
+void take_in_what_is_beyond(Domain& domain) {
+  constexpr std::size_t most_regions = 100000;
+  constexpr double small = 1e-3;
+  const std::size_t d = domain.dimension;
+  const double width = small * domain.longest();
+  std::vector<Region> open;
+  for (std::size_t i = 0; i < d; ++i)
+    for (const bool is_high : {false, true}) {
+      Region beside{};
+      for (std::size_t j = 0; j < d; ++j)
+        beside[j] = j < i ? expression::Range{domain.low[j], domain.high[j]} : expression::Range{-far, far};
+      beside[i] = is_high ? expression::Range{domain.high[i], far} : expression::Range{-far, domain.low[i]};
+      open.push_back(beside);
+    }
+  std::vector<Region> remaining;
+  for (std::size_t tried = 0; !open.empty(); ++tried) {
+    if (tried == most_regions) return;  // intervals do not tell
+    Region here = open.back();
+    open.pop_back();
+    const expression::Range level = domain.condition->range(here);
+    if (level.low > 0 || level.is_empty()) continue;
+    std::size_t widest = 0;
+    for (std::size_t i = 1; i < d; ++i)
+      if (here[i].high - here[i].low > here[widest].high - here[widest].low) widest = i;
+    if (here[widest].high - here[widest].low <= width) {
+      remaining.push_back(here);
+      continue;
+    }
+    const double middle = 0.5 * (here[widest].low + here[widest].high);
+    Region other = here;
+    here[widest].high = middle;
+    other[widest].low = middle;
+    open.push_back(here);
+    open.push_back(other);
+  }
+  for (const Region& one : remaining)
+    for (std::size_t i = 0; i < d; ++i) {
+      domain.low[i] = std::min(domain.low[i], one[i].low);
+      domain.high[i] = std::max(domain.high[i], one[i].high);
+    }
+}
+
 }  // namespace
 
 void find_box(Domain& domain, convex::Place place) {
@@ -91,10 +135,11 @@ void find_box(Domain& domain, convex::Place place) {
     });
     if (!beyond) break;
   }
+  // What lies between the size and the next points of that grid is in it as well.
   Point low{}, high{};
   for (std::size_t i = 0; i < d; ++i) {
-    low[i] = inside[i] - size;
-    high[i] = inside[i] + size;
+    low[i] = inside[i] - size * (1 + 8.0 / n);
+    high[i] = inside[i] + size * (1 + 8.0 / n);
   }
   for (int round = 0; round < 8; ++round) {
     Point least = inside, largest = inside, cell{};
@@ -112,6 +157,7 @@ void find_box(Domain& domain, convex::Place place) {
   }
   domain.low = low;
   domain.high = high;
+  take_in_what_is_beyond(domain);
 }
 
 }  // namespace mechanics::liquid

@@ -98,8 +98,8 @@ class ProvedLine {
     const double size = std::max(std::abs(at), scene_.domain.longest());
     for (double width = 4 * convex::unit_roundoff; width <= widest; width *= widening) {
       const double in = at + inwards * width * size, out = at - inwards * width * size;
-      if (!(scene_.domain.condition->range(from_, {in, in}).high < 0) ||
-          !(scene_.domain.condition->range(from_, {out, out}).low > 0))
+      if (!(scene_.domain.condition->range(region(from_, {in, in})).high < 0) ||
+          !(scene_.domain.condition->range(region(from_, {out, out})).low > 0))
         continue;
       root = {std::min(in, out), std::max(in, out)};
       return true;
@@ -109,7 +109,7 @@ class ProvedLine {
 
   bool is_inside(const Interval& r, int halvings) const {
     constexpr int most_halvings = 60;
-    if (scene_.domain.condition->range(from_, range(r)).high < 0) return true;
+    if (scene_.domain.condition->range(region(from_, range(r))).high < 0) return true;
     const double half = convex::middle(r);
     if (halvings == most_halvings || !(r.low < half && half < r.high)) return false;
     return is_inside({r.low, half}, halvings + 1) && is_inside({half, r.high}, halvings + 1);
@@ -121,7 +121,7 @@ class ProvedLine {
     const double reach = scene_.domain.reach();
     const Range around{end.low - reach, end.high + reach};
     for (const BoundaryPart& tried : scene_.parts) {
-      const Range level = tried.where.range(from_, around);
+      const Range level = tried.where.range(region(from_, around));
       if (level.high < 0) return &tried == &part;
       if (!(level.low > 0) && tried.where.level(line_.at(convex::middle(end))) != 0) return false;
       if (&tried == &part) return true;
@@ -157,7 +157,7 @@ class ProvedLine {
         is_smooth = is_smooth && std::isfinite(one.value) && std::isfinite(one.radius);
     }
     if (is_smooth) return made;
-    const Range values = scene_.h.range(from_, range(whole));
+    const Range values = scene_.h.range(region(from_, range(whole)));
     made.degree = 0;
     made.c.fill({});
     made.c[0] =

@@ -277,6 +277,28 @@ TEST_CASE("--certify encloses lines, balls and shells whose h varies, with free 
                  static_cast<double>(cases.back().p)) <= 1e-12);
 }
 
+TEST_CASE("the box that is found around inequalities holds all of the domain, whatever its size") {
+  // p = 1 + (1 - x² - y²/b²) on the ellipse: h = 2 + 2/b².
+  for (const double b : {0.9, 1.03, 1.05, 1.1, 1.5, 2.05, 2.2}) {
+    CAPTURE(b);
+    const std::string q = std::to_string(1 / (b * b));
+    const Json found =
+        solved_liquid("[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"{x^2 + " + q +
+                          "*y^2 <= 1}\"\ndensity = 1\nforce = [\"-(2 + 2*" + q +
+                          ")*x\", \"0\"]\nfree = { rim = { where = \"true\", pressure = 1 } }\ncells = "
+                          "64\n",
+                      {"--tolerance", "1e-2"});
+    CHECK(std::abs(found["pressure"]["max"].get<double>() - 2) <= 1e-3);
+  }
+  // A wedge that no sample meets near its tip.
+  const Json wedge = solved_liquid(
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"{y >= 0, y <= 0.02*x, x <= 1}\"\ndensity = 1\nfree "
+      "= { "
+      "rim = { where = \"true\", pressure = 1 } }\ncells = 256\n",
+      {"--probe", "x=0.02, y=0.0001"});
+  CHECK(wedge["probes"][0]["p"].get<double>() == doctest::Approx(1));
+}
+
 TEST_CASE("--certify encloses the solution of a grid's equations, and says that it is of them alone") {
   const Folder folder;
   const std::string file = folder.write("tank.toml", tank({{9, "cells = 32"}}));

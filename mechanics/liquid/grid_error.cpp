@@ -1,0 +1,174 @@
+#include "mechanics/liquid/grid_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace mechanics::liquid {
+namespace {
+
+using convex::CutPoint;
+using convex::CutSolution;
+using convex::Index;
+
+std::size_t entry_of(Index k) { return static_cast<std::size_t>(k); }
+
+/// How many steps from a junction or corner second differences count.
+constexpr Index steps_around = 3;
+
+/// The largest difference of two solutions at the nodes of the coarser grid.
+double largest_difference(const CutCells& fine, const CutSolution& p, const CutCells& coarse,
+                          const CutSolution& q) {
+  double largest = 0;
+  const auto& n = coarse.grid.points;
+  for (Index c = 0; c < n[2]; ++c)
+    for (Index b = 0; b < n[1]; ++b)
+      for (Index a = 0; a < n[0]; ++a) {
+        const std::size_t here = entry_of(coarse.grid.at(a, b, c)),
+                          there = entry_of(fine.grid.at(2 * a, 2 * b, 2 * c));
+        if (coarse.grid.kind[here] == CutPoint::bounded && fine.grid.kind[there] == CutPoint::bounded)
+          largest = std::max(largest, std::abs(p.q[there] - q.q[here]));
+      }
+  return largest;
+}
+
+/// The orders that theory allows.
+struct Orders {
+  double least = 0.5, most = 2;
+};
+
+/// At a corner of a polygon with the inner angle ω, p has r^(π/ω), or r^(π/2ω) where it is free on one side
+/// and held on the other.
+Orders possible_orders(const LiquidScene& scene) {
+  Orders orders;
+  if (scene.has_free_part() && scene.has_wall()) orders.most = 1;
+  const Domain& domain = scene.domain;
+  if (domain.shape != Domain::Shape::polygon) return orders;
+  const std::size_t n = domain.vertices.size();
+  const auto is_free_near = [&](const std::array<double, 2>& from, const std::array<double, 2>& to) {
+    constexpr double part = 1e-3;
+    const BoundaryPart* there =
+        scene.part_at({from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1]), 0});
+    return there == nullptr || there->is_free;
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto &a = domain.vertices[(k + n - 1) % n], &b = domain.vertices[k],
+               &c = domain.vertices[(k + 1) % n];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+    const double angle = std::numbers::pi - std::atan2(ux * vy - uy * vx, ux * vx + uy * vy);
+    const bool is_mixed = is_free_near(b, a) != is_free_near(b, c);
+    const double order = std::numbers::pi / angle / (is_mixed ? 2 : 1);
+    orders.most = std::min(orders.most, order);
+    orders.least = std::min(orders.least, order);
+  }
+  return orders;
+}
+
+/// Nodes of the boundary, and which of them lie at junctions or corners.
+class SingularNodes {
+ public:
+  SingularNodes(const LiquidScene& scene, const CutCells& cells) : cells_(cells) {
+    const std::size_t n = entry_of(cells.grid.size());
+    std::vector<bool> near_wall(n);
+    for (const WallPiece& wall : cells.walls)
+      for_around(wall.point, [&](Index k) { near_wall[entry_of(k)] = true; });
+    for (const GivenPressure& given : cells.pressures)
+      if (near_wall[entry_of(given.from)]) found_.push_back(given.from);
+    for (const auto& vertex : scene.domain.vertices) found_.push_back(nearest({vertex[0], vertex[1], 0}));
+    add_edges(scene.domain);
+    std::sort(found_.begin(), found_.end());
+    found_.erase(std::unique(found_.begin(), found_.end()), found_.end());
+  }
+
+  /// The largest second difference around them.
+  double largest_bend(const CutSolution& found) const {
+    const convex::CutGrid& grid = cells_.grid;
+    const auto value = [&](Index k) {
+      return grid.is_unknown(k) ? found.q[entry_of(k)] : cells_.given[entry_of(k)];
+    };
+    double largest = 0;
+    for (const Index centre : found_)
+      for_around(centre, [&](Index k) {
+        for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
+          const Index s = grid.stride(axis);
+          if (k - s < 0 || k + s >= grid.size()) continue;
+          const double bend = std::abs(value(k - s) - 2 * value(k) + value(k + s));
+          if (bend > largest) largest = bend;  // not where a value is none
+        }
+      });
+    return largest;
+  }
+
+ private:
+  template <class Work>
+  void for_around(Index centre, Work work) const {
+    const convex::CutGrid& grid = cells_.grid;
+    const std::array<Index, 3> middle = cells_.place(centre);
+    std::array<Index, 3> low{}, high{};
+    for (std::size_t i = 0; i < grid.dimension; ++i) {
+      low[i] = std::max<Index>(0, middle[i] - steps_around);
+      high[i] = std::min<Index>(grid.points[i] - 1, middle[i] + steps_around);
+    }
+    for (Index c = low[2]; c <= high[2]; ++c)
+      for (Index b = low[1]; b <= high[1]; ++b)
+        for (Index a = low[0]; a <= high[0]; ++a) work(grid.at(a, b, c));
+  }
+
+  Index nearest(const Point& x) const {
+    std::array<Index, 3> at{};
+    for (std::size_t i = 0; i < cells_.grid.dimension; ++i)
+      at[i] = std::clamp<Index>(std::lround((x[i] - cells_.low[i]) / cells_.step[i]), 0,
+                                cells_.grid.points[i] - 1);
+    return cells_.grid.at(at[0], at[1], at[2]);
+  }
+
+  /// Boundary nodes near which two inequalities are equalities.
+  void add_edges(const Domain& domain) {
+    if (domain.sheets.size() < 2) return;
+    const auto offer = [&](Index k) {
+      int passed = 0;
+      for (const auto& level : domain.sheets) {
+        bool below = false, above = false;
+        for (unsigned code = 0; code < 1U << cells_.grid.dimension; ++code) {
+          Point corner = cells_.at(k);
+          for (std::size_t i = 0; i < cells_.grid.dimension; ++i)
+            corner[i] += ((code >> i & 1U) != 0 ? 2 : -2) * cells_.step[i];
+          (level(corner) < 0 ? below : above) = true;
+        }
+        passed += below && above ? 1 : 0;
+      }
+      if (passed >= 2) found_.push_back(k);
+    };
+    for (const GivenPressure& given : cells_.pressures) offer(given.from);
+    for (const WallPiece& wall : cells_.walls) offer(wall.point);
+  }
+
+  const CutCells& cells_;
+  std::vector<Index> found_;
+};
+
+}  // namespace
+
+double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
+                            const std::vector<CutSolution>& found, double largest) {
+  constexpr double safety = 2, digits = 1e-9;
+  constexpr std::size_t most_differences = 4;
+  if (levels.count() < 2) return std::numeric_limits<double>::infinity();
+  const Orders possible = possible_orders(scene);
+  std::vector<double> differences;
+  for (std::size_t l = 0; l + 1 < levels.count() && l < most_differences; ++l)
+    differences.push_back(largest_difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
+  double order = std::min(1.0, possible.most), left = differences[0];
+  const bool is_halved_twice = levels.cells() % 4 == 0;  // else the third grid lies otherwise to the boundary
+  if (!is_halved_twice)
+    order = possible.least;
+  else if (differences.size() > 1 && left > 0)
+    order = std::clamp(std::log2(differences[1] / left), possible.least, possible.most);
+  for (std::size_t l = 1; l < differences.size(); ++l)
+    left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
+  return safety * left / (std::exp2(order) - 1) +
+         SingularNodes(scene, levels.finest()).largest_bend(found[0]) + digits * largest;
+}
+
+}  // namespace mechanics::liquid
