@@ -8,7 +8,7 @@
 namespace convex {
 namespace {
 
-constexpr Index first_cells = 128;
+constexpr Index first_cells = 64;
 /// Cells are halved down to this part of the line; edges of p > 0 are known as well.
 constexpr double shortest_part = 0x1p-44;
 /// What a sum of terms of this absolute size may be off.
@@ -27,16 +27,16 @@ class LineCells {
     shortest_ = (problem.high - problem.low) * shortest_part;
     r.push_back(problem.low);
     double absolute = 0;
+    std::vector<CellLoad> coarse;
+    const auto end = [&](Index k) {
+      return problem.low + (problem.high - problem.low) * static_cast<double>(k) / first_cells;
+    };
     for (Index k = 0; k < first_cells; ++k) {
-      const double b = problem.low + (problem.high - problem.low) * static_cast<double>(k + 1) / first_cells;
-      absolute += cell_load(problem.h, w_, r.back(), b).absolute_moment;
-      r.push_back(b);
+      coarse.push_back(cell_load(problem.h, w_, end(k), end(k + 1)));
+      absolute += coarse.back().absolute_moment;
     }
     resolved_ = 0x1p-50 * absolute / first_cells;
-    std::vector<double> coarse;
-    coarse.swap(r);
-    r.push_back(coarse.front());
-    for (std::size_t k = 0; k + 1 < coarse.size(); ++k) add(coarse[k], coarse[k + 1]);
+    for (Index k = 0; k < first_cells; ++k) add(end(k), end(k + 1), coarse[static_cast<std::size_t>(k)]);
     zero.assign(r.size(), false);
     flux.assign(r.size(), 0);
     p.assign(r.size(), 0);
@@ -49,7 +49,7 @@ class LineCells {
   std::size_t first() const { return problem_.at_low.kind == Kind::centre ? 1 : 0; }
   std::size_t last() const { return r.size() - 1; }
   double w(std::size_t node) const { return w_(r[node]); }
-  double resistance(std::size_t cell) const { return w_.resistance(r[cell], r[cell + 1]); }
+  double resistance(std::size_t cell) const { return cells[cell].resistance; }
   double end_flux(const LineEnd& end, std::size_t node) const { return end.value * w(node); }
 
   /// The sum of the loads, for lines without a given value, and its rounding.
@@ -156,13 +156,11 @@ class LineCells {
         const std::size_t node = low ? k : k + 1;
         if (low && node > 0) mark(node - 1);
         if (high && node < cells.size()) mark(node);
-      } else {
-        const GaussLegendre& rule = gauss_legendre();
-        for (double x : rule.point) {
+      } else if (low ? cells[k].load < -rounding * cells[k].absolute
+                     : std::min(p[k], p[k + 1]) < largest_dip(k)) {
+        for (double x : gauss_legendre().point) {
           const double at = r[k] + (r[k + 1] - r[k]) * (0.5 + 0.5 * x);
-          if (low ? problem_.h(at) > 0 && cells[k].load < -rounding * cells[k].absolute
-                  : value(k, at) < -rounding_)
-            mark(k);
+          if (low ? problem_.h(at) > 0 : value(k, at) < -rounding_) mark(k);
         }
       }
     }
@@ -208,6 +206,9 @@ class LineCells {
     if (zero[k] && !is_value_end(k)) return 0;
     return k == 0 ? problem_.at_low.value : problem_.at_high.value;
   }
+  /// p in a cell falls below the lesser of its ends by at most ∫ G |h| w, Green's function G being at most a
+  /// quarter of the cell's resistance; twice that, for the rounding.
+  double largest_dip(std::size_t cell) const { return 0.5 * cells[cell].resistance * cells[cell].absolute; }
   double known_error() const { return rounding_ + unresolved_; }
 
  private:
@@ -225,11 +226,10 @@ class LineCells {
     r.push_back(b);
   }
   /// [a, b], in parts on which the rule is exact to rounding.
-  void add(double a, double b) {
-    const CellLoad whole = cell_load(problem_.h, w_, a, b);
+  void add(double a, double b, const CellLoad& whole) {
     const double middle = 0.5 * (a + b);
     const CellLoad low = cell_load(problem_.h, w_, a, middle), high = cell_load(problem_.h, w_, middle, b);
-    const double R = w_.resistance(middle, b);
+    const double R = high.resistance;
     const double load = low.load + high.load, moment = low.load * R + low.moment + high.moment;
     const bool is_exact =
         std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment &&
@@ -240,8 +240,8 @@ class LineCells {
       unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);
       return;
     }
-    add(a, middle);
-    add(middle, b);
+    add(a, middle, low);
+    add(middle, b, high);
   }
 
   const LineObstacle& problem_;

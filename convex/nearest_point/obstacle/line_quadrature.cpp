@@ -39,6 +39,7 @@ double LineWeight::resistance(double a, double b) const {
 
 CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double a, double b) {
   CellLoad sum;
+  sum.resistance = w.resistance(a, b);
   const GaussLegendre& rule = gauss_legendre();
   for (std::size_t k = 0; k < rule.point.size(); ++k) {
     const double r = a + (b - a) * (0.5 + 0.5 * rule.point[k]);

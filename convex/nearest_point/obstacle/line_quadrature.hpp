@@ -19,9 +19,10 @@ struct LineWeight {
   double resistance(double a, double b) const;
 };
 
-/// Over a cell [a, b]: the load ∫ w h and its moment ∫ w h R(τ, b), R the resistance; of absolute values too.
+/// Over a cell [a, b]: the load ∫ w h and its moment ∫ w h R(τ, b), R the resistance; of absolute values too;
+/// and R(a, b).
 struct CellLoad {
-  double load = 0, moment = 0, absolute = 0, absolute_moment = 0;
+  double load = 0, moment = 0, absolute = 0, absolute_moment = 0, resistance = 0;
 };
 CellLoad cell_load(const std::function<double(double)>& h, LineWeight, double a, double b);
 
