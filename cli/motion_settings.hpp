@@ -6,9 +6,15 @@
 
 namespace cli {
 
-/// The way that the file or the command line asks for; event-driven unless told. Throws InvalidInput for
-/// another name.
-mechanics::MotionMethod motion_method(const SimulateSettings&, const MotionChoice&);
+/// A way to follow a motion; why, where it was left open.
+struct MotionWay {
+  mechanics::MotionMethod method = mechanics::MotionMethod::event_driven;
+  std::string why;
+};
+
+/// The way that the file or the command line asks for; event-driven unless told. "auto": time-stepping from
+/// some hundred one-sided constraints on, with the reason. Throws InvalidInput for another name.
+MotionWay motion_way(const SimulateSettings&, const mechanics::System&, const MotionChoice&);
 
 /// How to follow the motion of a [system]: [simulate], [solve] contact_tolerance, what looseness has of its
 /// own; options of the command line win.

@@ -95,7 +95,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau orbit` takes a file with [system]");
-  if (motion_method(problem.simulate, options) != mechanics::MotionMethod::event_driven)
+  if (options.method.value_or(problem.simulate.method.value_or("")) == "time-stepping")
     throw InvalidInput("simulate.method: an orbit is followed from event to event; take \"event-driven\"",
                        options.method ? std::nullopt : std::optional(problem.simulate.method_place));
   if (!options.period)
@@ -104,6 +104,7 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
   const auto system = mechanics::lagrangian_system(text->system);
   mechanics::OrbitQuestion question;
   question.motion = motion_options(problem, *system, options);
+  question.motion.method = mechanics::MotionMethod::event_driven;
   question.modulo = multiples_of_turns(problem, *system, options.modulo);
   question.is_free = *options.period == "free";
   if (!question.is_free) {

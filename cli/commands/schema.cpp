@@ -130,7 +130,7 @@ constexpr const char* schema_of_problem_files = R"({
       "type": "object",
       "properties": {
         "until": {"$ref": "#/$defs/number"},
-        "method": {"enum": ["event-driven", "time-stepping"]},
+        "method": {"enum": ["event-driven", "time-stepping", "auto"]},
         "tolerance": {"$ref": "#/$defs/number"},
         "step": {"$ref": "#/$defs/number"},
         "restitution": {"$ref": "#/$defs/by_constraint"},

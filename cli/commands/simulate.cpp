@@ -186,7 +186,10 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   followed.interrupted = interrupted != 0 && motion.state().t < until;
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
+  Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
+  if (const std::string why = motion_way(settings, *system, options).why; !why.empty())
+    answer.warnings.push_back(why);
+  return answer;
 }
 
 Exit simulate_files(const SimulateOptions& options) {
@@ -210,7 +213,9 @@ void add_simulate(CLI::App& program, Work& chosen) {
   add_files(command, *options);
   command.add_option("--until", options->until, "the time at which the motion ends")->type_name("T");
   add_step_tolerance(command, *options);
-  command.add_option("--method", options->method, "event-driven, the default, or time-stepping")
+  command
+      .add_option("--method", options->method,
+                  "event-driven, the default, time-stepping, or auto: by the number of contacts")
       ->type_name("NAME");
   command.add_option("--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy")
       ->type_name("F.csv");
