@@ -90,7 +90,7 @@ std::vector<SectionPoint> LiquidSection::parted() const {
       const SectionPoint foot = scene_.domain.foot(x);
       if (std::hypot(foot[0] - x[0], foot[1] - x[1], foot[2] - x[2]) > 0.8 * step_) continue;
       const BoundaryPart* part = scene_.part_at(foot);
-      if (part == nullptr || part->is_free || found_.p(foot) > 1e-3 * found_.largest) continue;
+      if (part == nullptr || part->is_free || !(found_.p(foot) <= 1e-3 * found_.largest)) continue;
       if (std::find(names.begin(), names.end(), part->name) == names.end()) continue;
       points.push_back(foot);
     }

@@ -17,6 +17,10 @@ std::size_t entry_of(Index k) { return static_cast<std::size_t>(k); }
 /// How many steps from a junction or corner second differences count.
 constexpr Index steps_around = 3;
 
+/// With fewer cells no order is believed, and what bends beside a given pressure counts as a whole, else as
+/// an eighth: what a line between two nodes misses.
+constexpr long few_cells = 32;
+
 /// The largest difference of two solutions at the nodes of the coarser grid.
 double largest_difference(const CutCells& fine, const CutSolution& p, const CutCells& coarse,
                           const CutSolution& q) {
@@ -63,6 +67,28 @@ Orders possible_orders(const LiquidScene& scene) {
     orders.least = std::min(orders.least, order);
   }
   return orders;
+}
+
+/// Of p beside a given pressure: the largest difference of the steps to it and to the node on the other side.
+double largest_bend_at_pressures(const CutCells& cells, const CutSolution& found) {
+  constexpr double least_part = 0.1;  // of a step: closer, the difference is rounding
+  const convex::CutGrid& grid = cells.grid;
+  double largest = 0;
+  for (const GivenPressure& given : cells.pressures) {
+    const Point node = cells.at(given.from);
+    if (grid.kind[entry_of(given.from)] != CutPoint::bounded) continue;
+    for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
+      const double part = (given.at[axis] - node[axis]) / cells.step[axis];
+      if (std::abs(part) < least_part) continue;
+      const Index other = given.from + (part > 0 ? -1 : 1) * grid.stride(axis);
+      if (!grid.is_unknown(other)) continue;
+      const double here = found.q[entry_of(given.from)],
+                   bend =
+                       std::abs((given.pressure - here) / std::abs(part) - (here - found.q[entry_of(other)]));
+      largest = std::max(largest, bend);
+    }
+  }
+  return largest;
 }
 
 /// Nodes of the boundary, and which of them lie at junctions or corners.
@@ -161,14 +187,17 @@ double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
     differences.push_back(largest_difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
   double order = std::min(1.0, possible.most), left = differences[0];
   const bool is_halved_twice = levels.cells() % 4 == 0;  // else the third grid lies otherwise to the boundary
-  if (!is_halved_twice)
+  const bool is_coarse = levels.cells() < few_cells;
+  if (!is_halved_twice || is_coarse)
     order = possible.least;
   else if (differences.size() > 1 && left > 0)
     order = std::clamp(std::log2(differences[1] / left), possible.least, possible.most);
   for (std::size_t l = 1; l < differences.size(); ++l)
     left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
+  const CutCells& finest = levels.finest();
+  const double bend = largest_bend_at_pressures(finest, found[0]) / (is_coarse ? 1 : 8);
   return safety * left / (std::exp2(order) - 1) +
-         SingularNodes(scene, levels.finest()).largest_bend(found[0]) + digits * largest;
+         std::max(bend, SingularNodes(scene, finest).largest_bend(found[0])) + digits * largest;
 }
 
 }  // namespace mechanics::liquid

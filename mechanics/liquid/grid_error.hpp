@@ -12,7 +12,8 @@ namespace mechanics::liquid {
 /// by that order, count too. At junctions of free parts and walls, and at corners, p has a term K r^α
 /// (Grisvard 1985, section 4.4: α = π/ω, and π/(2ω) where a wall meets a free part), of which a grid misses a
 /// part of K h^α whatever others say: there the largest second difference of nodes next to each other, which
-/// is O(h²) where p is smooth and of the size of K h^α where it is not, is added.
+/// is O(h²) where p is smooth and of the size of K h^α where it is not, is added. So is, or counts if it is larger, what
+/// p bends beside given pressures, which nodes in a cavity alone do not see.
 double estimated_grid_error(const LiquidScene&, const GridLevels&, const std::vector<convex::CutSolution>&,
                             double largest);
 

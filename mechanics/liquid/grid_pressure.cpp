@@ -128,7 +128,7 @@ double GridPressure::operator()(const Point& x) const {
       if (eliminate(M, b, terms)) return std::max(0.0, b[0]);
       if (degree == 0) break;
     }
-  return 0;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace mechanics::liquid

@@ -12,7 +12,7 @@ class GridPressure {
   GridPressure(CutCells cells, std::vector<double> q);
 
   /// By a polynomial of degree 2 fitted to what is known within some two steps, weights falling off from the
-  /// point; on a node, what is known there.
+  /// point; on a node, what is known there. NaN where the domain is so thin that nothing is known near.
   double operator()(const Point&) const;
   /// At a node of the grid inside or on the boundary; NaN elsewhere.
   double at_node(convex::Index k) const;

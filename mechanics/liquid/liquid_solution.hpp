@@ -32,7 +32,8 @@ struct LiquidSolution {
   /// A proved bound of |p - p_h| at all nodes and walls of the grid, p_h the solution of the grid's equations
   /// as their doubles say: it tells nothing of the discretisation.
   std::optional<double> grid_bound;
-  std::function<double(const Point&)> p;        ///< in the closed domain
+  /// In the closed domain; NaN where it is so thin that no node of the grid is near.
+  std::function<double(const Point&)> p;
   std::function<bool(const Point&)> in_cavity;  ///< p = 0 and the liquid parts
 };
 

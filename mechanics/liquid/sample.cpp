@@ -43,9 +43,11 @@ LiquidSample sample(const LiquidScene& scene, const LiquidSolution& found, long 
     if (found.in_cavity(x)) {
       made.cavity[k] = true;
       made.growth[k] = scene.growth(x);
-    } else {
-      made.p[k] = std::max(0.0, found.p(x));
+      continue;
     }
+    const double p = found.p(x);
+    made.inside[k] = !std::isnan(p);
+    if (made.inside[k]) made.p[k] = std::max(0.0, p);
   }
   return made;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "convex/invalid_input.hpp"
 #include "mechanics/liquid/continuity.hpp"
@@ -41,7 +42,11 @@ LiquidProbe probe(const LiquidScene& scene, const LiquidSolution& found, const P
     throw convex::InvalidInput("--probe: " + point_text(scene.coordinates, x) +
                                " lies outside of the domain; give a point inside or on its boundary");
   const bool in_cavity = found.in_cavity(x);
-  return {x, in_cavity ? 0 : found.p(x), in_cavity ? scene.growth(x) : 0};
+  const double p = in_cavity ? 0 : found.p(x);
+  if (std::isnan(p))
+    throw convex::InvalidInput("--probe: at " + point_text(scene.coordinates, x) +
+                               " the domain is thinner than the cells of the grid; give more cells");
+  return {x, p, in_cavity ? scene.growth(x) : 0};
 }
 
 }  // namespace mechanics::liquid

@@ -290,13 +290,16 @@ TEST_CASE("the box that is found around inequalities holds all of the domain, wh
                       {"--tolerance", "1e-2"});
     CHECK(std::abs(found["pressure"]["max"].get<double>() - 2) <= 1e-3);
   }
-  // A wedge that no sample meets near its tip.
-  const Json wedge = solved_liquid(
-      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"{y >= 0, y <= 0.02*x, x <= 1}\"\ndensity = 1\nfree "
-      "= { "
-      "rim = { where = \"true\", pressure = 1 } }\ncells = 256\n",
-      {"--probe", "x=0.02, y=0.0001"});
-  CHECK(wedge["probes"][0]["p"].get<double>() == doctest::Approx(1));
+  // A wedge that no sample meets near its tip, where the grid has no node either.
+  const Folder folder;
+  const std::string wedge = folder.write("wedge.toml",
+                                         "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"{y >= 0, y <= "
+                                         "0.02*x, x <= 1}\"\ndensity = 1\nfree = "
+                                         "{ rim = { where = \"true\", pressure = 1 } }\ncells = 256\n");
+  const Outcome tip = run({"solve", wedge, "--probe", "x=0.02, y=0.0001"});
+  CHECK(tip.code == 2);
+  CHECK(tip.err.find("thinner than the cells") != std::string::npos);
+  CHECK(run({"solve", wedge, "--probe", "x=0.9, y=0.01"}).code == 0);
 }
 
 TEST_CASE("--certify encloses the solution of a grid's equations, and says that it is of them alone") {
