@@ -1,7 +1,10 @@
 #include "convex/nearest_point/complementarity_grid/cut_multigrid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "convex/nearest_point/complementarity_grid/cut_rows.hpp"
 
 namespace convex {
 namespace {
@@ -10,11 +13,14 @@ constexpr Index most_steps = 200;
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-/// Calls row(first, j, k) for every row along the first axis, `first` its point 0.
-template <class Row>
-void for_rows(const CutGrid& grid, Row row) {
-  for (Index k = 0; k < grid.points[2]; ++k)
-    for (Index j = 0; j < grid.points[1]; ++j) row(grid.at(0, j, k), j, k);
+/// Σ a_i b_i in eight sums, which need not wait for each other.
+double dot(const double* a, const double* b, Index n) {
+  std::array<double, 8> sum{};
+  Index i = 0;
+  for (; i + 8 <= n; i += 8)
+    for (Index j = 0; j < 8; ++j) sum[at(j)] += a[i + j] * b[i + j];
+  for (; i < n; ++i) sum[0] += a[i] * b[i];
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
 }
 
 /// Calls with every coarse row that lies beside or on a fine row.
@@ -57,7 +63,7 @@ CutMultigrid::CutMultigrid(std::vector<const CutGrid*> grids) {
   for (const CutGrid* grid : grids) {
     Level level;
     level.grid = grid;
-    for (std::vector<double>* field : {&level.diagonal, &level.inverse, &level.u, &level.r})
+    for (std::vector<double>* field : {&level.diagonal, &level.inverse, &level.u, &level.r, &level.rest})
       field->assign(at(grid->size()), 0);
     level.free.assign(at(grid->size()), 0);
     if (!levels_.empty()) levels_.back().scale = interpolation_scale(*levels_.back().grid, *grid);
@@ -76,96 +82,29 @@ void CutMultigrid::interpolate(const CutGrid& coarse, const std::vector<double>&
   });
 }
 
-void CutMultigrid::set_free(const std::vector<std::uint8_t>& held, const std::vector<std::uint8_t>& taut) {
-  std::vector<std::uint8_t> taut_here = taut;
-  for (std::size_t l = 0; l < levels_.size(); ++l) {
-    Level& level = levels_[l];
-    const CutGrid& grid = *level.grid;
-    for (Index k = 0; k < grid.size(); ++k) {
-      double sum = grid.pull[at(k)];
-      if (grid.is_unknown(k))
-        for (std::size_t axis = 0; axis < grid.dimension; ++axis)
-          sum += grid.link[axis][at(k)] + grid.link[axis][at(k - grid.stride(axis))];
-      level.diagonal[at(k)] = sum;
-    }
-    if (l > 0) {  // neighbours of the fine pendants that are taut
-      const CutGrid& fine = *levels_[l - 1].grid;
-      std::vector<std::uint8_t> near(at(fine.size()), 0);
-      for (std::size_t a = 0; a < fine.pendants.size(); ++a) {
-        if (!taut_here[a]) continue;
-        for (Index code = 0; code < 27; ++code) {
-          Index k = fine.pendants[a].point, rest = code;
-          for (std::size_t axis = 0; axis < fine.dimension; ++axis, rest /= 3)
-            k += (rest % 3 - 1) * fine.stride(axis);
-          near[at(k)] = 1;
-        }
-      }
-      std::vector<std::uint8_t> taut_coarse(grid.pendants.size(), 0);
-      const auto place = [&](Index coarse_point) {
-        Index k = coarse_point, fine_point = 0;
-        for (std::size_t axis = grid.dimension; axis-- > 0;) {
-          const Index i = k / grid.stride(axis) - grid.frame(axis);
-          k %= grid.stride(axis);
-          fine_point += (2 * i + fine.frame(axis)) * fine.stride(axis);
-        }
-        return fine_point;
-      };
-      for (std::size_t a = 0; a < grid.pendants.size(); ++a)
-        taut_coarse[a] = near[at(place(grid.pendants[a].point))];
-      taut_here.swap(taut_coarse);
-      const std::vector<std::uint8_t>& fine_free = levels_[l - 1].free;
-      for_rows(grid, [&](Index first, Index j, Index k) {
-        for (Index i = 0; i < grid.points[0]; ++i) {
-          const Index there = fine.at(2 * i, 2 * j, 2 * k);
-          level.free[at(first + i)] =
-              grid.is_unknown(first + i) && (fine_free[at(there)] != 0 || !fine.is_unknown(there));
-        }
-      });
-    } else {
-      for (Index k = 0; k < grid.size(); ++k) level.free[at(k)] = grid.is_unknown(k) && held[at(k)] == 0;
-      load_ = grid.load;
-      pull_ = grid.pull;
-    }
-    for (std::size_t a = 0; a < grid.pendants.size(); ++a) {
-      if (!taut_here[a]) continue;
-      const Pendant& pendant = grid.pendants[a];
-      level.diagonal[at(pendant.point)] += pendant.conductance;
-      if (l > 0) continue;
-      pull_[at(pendant.point)] += pendant.conductance;
-      load_[at(pendant.point)] -= pendant.conductance * pendant.shift;
-    }
-    for (Index k = 0; k < grid.size(); ++k)
-      level.inverse[at(k)] =
-          level.free[at(k)] != 0 && level.diagonal[at(k)] > 0 ? 1 / level.diagonal[at(k)] : 0;
+/// out = A u on the free points of a row, 0 elsewhere.
+void CutMultigrid::apply_row(const Level& level, const double* u, Index first, double* out) {
+  const CutGrid& grid = *level.grid;
+  const Index a = grid.stride(0), b = grid.stride(1), c = grid.stride(2), n = grid.points[0];
+  const double *v = u + first, *d = level.diagonal.data() + first, *x = grid.link[0].data() + first;
+  const std::uint8_t* free = level.free.data() + first;
+  for (Index i = 0; i < n; ++i) out[i] = d[i] * v[i] - x[i] * v[i + a] - x[i - a] * v[i - a];
+  if (grid.dimension > 1) {
+    const double* y = grid.link[1].data() + first;
+    for (Index i = 0; i < n; ++i) out[i] -= y[i] * v[i + b] + y[i - b] * v[i - b];
   }
+  if (grid.dimension > 2) {
+    const double* z = grid.link[2].data() + first;
+    for (Index i = 0; i < n; ++i) out[i] -= z[i] * v[i + c] + z[i - c] * v[i - c];
+  }
+  for (Index i = 0; i < n; ++i) out[i] = free[i] != 0 ? out[i] : 0;
 }
 
-/// out = A u on the free points, 0 elsewhere.
-void CutMultigrid::apply(const Level& level, const std::vector<double>& u, std::vector<double>& out) {
+/// One colour of a slab relaxed: points of a colour are not neighbours.
+void CutMultigrid::sweep(Level& level, Index slab, bool red) {
   const CutGrid& grid = *level.grid;
   const Index a = grid.stride(0), b = grid.stride(1), c = grid.stride(2), n = grid.points[0];
-  for_rows(grid, [&](Index first, Index, Index) {
-    const double *v = u.data() + first, *d = level.diagonal.data() + first, *x = grid.link[0].data() + first;
-    const std::uint8_t* free = level.free.data() + first;
-    double* to = out.data() + first;
-    for (Index i = 0; i < n; ++i) to[i] = d[i] * v[i] - x[i] * v[i + a] - x[i - a] * v[i - a];
-    if (grid.dimension > 1) {
-      const double* y = grid.link[1].data() + first;
-      for (Index i = 0; i < n; ++i) to[i] -= y[i] * v[i + b] + y[i - b] * v[i - b];
-    }
-    if (grid.dimension > 2) {
-      const double* z = grid.link[2].data() + first;
-      for (Index i = 0; i < n; ++i) to[i] -= z[i] * v[i + c] + z[i - c] * v[i - c];
-    }
-    for (Index i = 0; i < n; ++i) to[i] = free[i] != 0 ? to[i] : 0;
-  });
-}
-
-/// One colour relaxed: points of a colour are not neighbours.
-void CutMultigrid::sweep(Level& level, bool red) {
-  const CutGrid& grid = *level.grid;
-  const Index a = grid.stride(0), b = grid.stride(1), c = grid.stride(2), n = grid.points[0];
-  for_rows(grid, [&](Index first, Index j, Index k) {
+  for_slab(grid, slab, [&](Index first, Index j, Index k) {
     double* v = level.u.data() + first;
     const double *r = level.r.data() + first, *inverse = level.inverse.data() + first;
     const double *x = grid.link[0].data() + first,
@@ -186,59 +125,96 @@ void CutMultigrid::sweep(Level& level, bool red) {
   });
 }
 
-/// The coarse residual: the transpose of the interpolation.
-void CutMultigrid::restrict_residual(Level& fine, Level& coarse) {
+/// The red sweep over a slab from u = 0.
+void CutMultigrid::first_sweep(Level& level, Index slab) {
+  for_slab(*level.grid, slab, [&](Index first, Index j, Index k) {
+    double* v = level.u.data() + first;
+    const double *r = level.r.data() + first, *inverse = level.inverse.data() + first;
+    const Index n = level.grid->points[0], red = (j + k) % 2;
+    for (Index i = 0; i < n; ++i) v[i] = inverse[i] * r[i];
+    for (Index i = 1 - red; i < n; i += 2) v[i] = 0;
+  });
+}
+
+/// What is left of the equations on a slab, weighted for the interpolation's transpose.
+void CutMultigrid::rest(Level& level, Index slab) {
+  for_slab(*level.grid, slab, [&](Index first, Index, Index) {
+    double* to = level.rest.data() + first;
+    const double *r = level.r.data() + first, *scale = level.scale.data() + first;
+    const std::uint8_t* free = level.free.data() + first;
+    apply_row(level, level.u.data(), first, to);
+    for (Index i = 0; i < level.grid->points[0]; ++i) to[i] = free[i] != 0 ? scale[i] * (r[i] - to[i]) : 0;
+  });
+}
+
+/// The coarse residual on a slab: the transpose of the interpolation.
+void CutMultigrid::restrict_rest(const Level& fine, Level& coarse, Index slab) {
   const CutGrid &from = *fine.grid, &to = *coarse.grid;
-  apply(fine, fine.u, z_);
-  std::vector<double>& rest = z_;
-  for (std::size_t k = 0; k < fine.r.size(); ++k)
-    rest[k] = fine.free[k] != 0 ? fine.scale[k] * (fine.r[k] - rest[k]) : 0;
   const Index n = to.points[0];
-  std::vector<double> sum(at(from.points[0]) + 2);
-  for_rows(to, [&](Index first, Index j, Index k) {
-    std::fill(sum.begin(), sum.end(), 0.0);
+  sum_.resize(at(from.points[0]) + 2);
+  for_slab(to, slab, [&](Index first, Index j, Index k) {
+    std::fill(sum_.begin(), sum_.end(), 0.0);
     for (Index c = -to.frame(2); c <= to.frame(2); ++c)
       for (Index b = -to.frame(1); b <= to.frame(1); ++b) {
         const double weight = (b == 0 ? 1 : 0.5) * (c == 0 ? 1 : 0.5);
-        const double* row = rest.data() + from.at(0, 2 * j + b, 2 * k + c);
-        for (Index i = 0; i < from.points[0]; ++i) sum[at(i + 1)] += weight * row[i];
+        const double* row = fine.rest.data() + from.at(0, 2 * j + b, 2 * k + c);
+        for (Index i = 0; i < from.points[0]; ++i) sum_[at(i + 1)] += weight * row[i];
       }
     for (Index i = 0; i < n; ++i)
       coarse.r[at(first + i)] = coarse.free[at(first + i)] != 0
-                                    ? sum[at(2 * i + 1)] + 0.5 * (sum[at(2 * i)] + sum[at(2 * i + 2)])
+                                    ? sum_[at(2 * i + 1)] + 0.5 * (sum_[at(2 * i)] + sum_[at(2 * i + 2)])
                                     : 0;
   });
 }
 
+/// u += the interpolated correction, on a slab.
+void CutMultigrid::add_coarse(Level& level, const Level& from, Index slab) {
+  const CutGrid& fine = *level.grid;
+  row_.resize(at(fine.points[0]));
+  for_slab(fine, slab, [&](Index first, Index j, Index k) {
+    spread_row(*from.grid, from.u.data(), fine, j, k, sum_, row_.data());
+    double* u = level.u.data() + first;
+    const double* scale = level.scale.data() + first;
+    const std::uint8_t* free = level.free.data() + first;
+    for (Index i = 0; i < fine.points[0]; ++i) u[i] = free[i] != 0 ? u[i] + scale[i] * row_[at(i)] : u[i];
+  });
+}
+
+// A sweep over a grid that does not fit into the caches costs what it moves. So the passes of a cycle run
+// together, each a slab (a row of a plane grid, a plane of one in space) behind the one that it needs: the
+// memory is gone through once on the way down and once on the way up.
 void CutMultigrid::cycle(std::size_t l) {
   Level& level = levels_[l];
-  std::fill(level.u.begin(), level.u.end(), 0.0);
+  const Index n = slabs(*level.grid);
   if (l + 1 == levels_.size()) {
+    std::fill(level.u.begin(), level.u.end(), 0.0);
     const auto& points = level.grid->points;
     const Index sweeps = 4 * std::max({points[0], points[1], points[2]});
     for (Index k = 0; k < 2 * sweeps; ++k)
-      for (const bool red : {k < sweeps, k >= sweeps}) sweep(level, red);
+      for (const bool red : {k < sweeps, k >= sweeps})
+        for (Index s = 0; s < n; ++s) sweep(level, s, red);
     return;
   }
-  sweep(level, true);
-  sweep(level, false);
-  restrict_residual(level, levels_[l + 1]);
+  Level& coarse = levels_[l + 1];
+  for (Index s = 0; s < n + 4; ++s) {
+    first_sweep(level, s);
+    sweep(level, s - 1, false);
+    rest(level, s - 2);
+    if (s % 2 == 1) restrict_rest(level, coarse, s / 2 - 1);
+  }
   cycle(l + 1);
-  const CutGrid &fine = *level.grid, &coarse = *levels_[l + 1].grid;
-  std::vector<double> mean, row(at(fine.points[0]));
-  for_rows(fine, [&](Index first, Index j, Index k) {
-    spread_row(coarse, levels_[l + 1].u.data(), fine, j, k, mean, row.data());
-    for (Index i = 0; i < fine.points[0]; ++i)
-      if (level.free[at(first + i)] != 0) level.u[at(first + i)] += level.scale[at(first + i)] * row[at(i)];
-  });
-  sweep(level, false);
-  sweep(level, true);
+  for (Index s = 0; s < n + 2; ++s) {
+    add_coarse(level, coarse, s);
+    sweep(level, s - 1, false);
+    sweep(level, s - 2, true);
+  }
 }
 
 double CutMultigrid::residual(const std::vector<double>& q, std::vector<double>& r) const {
   const Level& level = levels_.front();
   r.assign(q.size(), 0);
-  apply(level, q, r);
+  for_rows(*level.grid,
+           [&](Index first, Index, Index) { apply_row(level, q.data(), first, r.data() + first); });
   double largest = 0;
   for (std::size_t k = 0; k < q.size(); ++k) {
     r[k] = level.free[k] != 0 ? load_[k] - r[k] : 0;
@@ -280,37 +256,48 @@ void CutMultigrid::relax(std::vector<double>& q, int sweeps) const {
 
 Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, double part) {
   Level& level = levels_.front();
+  const CutGrid& grid = *level.grid;
+  const Index n = slabs(grid), row = grid.points[0];
   p_.assign(q.size(), 0);
   Ap_.assign(q.size(), 0);
-  z_.assign(q.size(), 0);
+  level.r.swap(r);  // the residual stays where the cycle reads it
   double first = 0, before = 0;
-  for (Index step = 0; step < most_steps; ++step) {
-    level.r = r;
+  Index step = 0;
+  for (; step < most_steps; ++step) {
     cycle(0);
     double of_r = 0, of_Ap = 0;
-    for (std::size_t k = 0; k < q.size(); ++k) {
-      of_r += r[k] * level.u[k];
-      of_Ap += Ap_[k] * level.u[k];
-    }
-    if (!(of_r > 0)) return step;
+    for_rows(grid, [&](Index k, Index, Index) {
+      of_r += dot(level.r.data() + k, level.u.data() + k, row);
+      of_Ap += dot(Ap_.data() + k, level.u.data() + k, row);
+    });
+    if (!(of_r > 0)) break;
     if (step == 0) first = of_r;
-    if (step > 0 && of_r <= part * part * first) return step;
+    if (step > 0 && of_r <= part * part * first) break;
     // Polak and Ribière's direction; Ap holds the last one times its step.
     const double beta = step == 0 ? 0 : -of_Ap / before;
-    for (std::size_t k = 0; k < q.size(); ++k) p_[k] = level.u[k] + beta * p_[k];
-    apply(level, p_, Ap_);
     double curvature = 0;
-    for (std::size_t k = 0; k < q.size(); ++k) curvature += p_[k] * Ap_[k];
-    if (!(curvature > 0)) return step;
-    const double length = of_r / curvature;
-    for (std::size_t k = 0; k < q.size(); ++k) {
-      q[k] += length * p_[k];
-      Ap_[k] *= length;
-      r[k] -= Ap_[k];
+    for (Index s = 0; s < n + 1; ++s) {
+      for_slab(grid, s, [&](Index k, Index, Index) {
+        for (Index i = k; i < k + row; ++i) p_[at(i)] = level.u[at(i)] + beta * p_[at(i)];
+      });
+      for_slab(grid, s - 1, [&](Index k, Index, Index) {
+        apply_row(level, p_.data(), k, Ap_.data() + k);
+        curvature += dot(p_.data() + k, Ap_.data() + k, row);
+      });
     }
+    if (!(curvature > 0)) break;
+    const double length = of_r / curvature;
+    for_rows(grid, [&](Index k, Index, Index) {
+      for (Index i = k; i < k + row; ++i) {
+        q[at(i)] += length * p_[at(i)];
+        Ap_[at(i)] *= length;
+        level.r[at(i)] -= Ap_[at(i)];
+      }
+    });
     before = of_r;
   }
-  return most_steps;
+  level.r.swap(r);
+  return step;
 }
 
 }  // namespace convex

@@ -33,16 +33,19 @@ class CutMultigrid {
  private:
   struct Level {
     const CutGrid* grid;
-    std::vector<double> diagonal, inverse, u, r, scale;
+    std::vector<double> diagonal, inverse, u, r, rest, scale;
     std::vector<std::uint8_t> free;
   };
-  static void sweep(Level&, bool red);
-  static void apply(const Level&, const std::vector<double>& u, std::vector<double>& out);
+  static void sweep(Level&, Index slab, bool red);
+  static void first_sweep(Level&, Index slab);
+  static void apply_row(const Level&, const double* u, Index first, double* out);
   static std::vector<double> interpolation_scale(const CutGrid& fine, const CutGrid& coarse);
-  void restrict_residual(Level& fine, Level& coarse);
+  static void rest(Level&, Index slab);
+  void restrict_rest(const Level& fine, Level& coarse, Index slab);
+  void add_coarse(Level& fine, const Level& coarse, Index slab);
   void cycle(std::size_t level);
   std::vector<Level> levels_;
-  std::vector<double> load_, pull_, p_, Ap_, z_;
+  std::vector<double> load_, pull_, p_, Ap_, sum_, row_;
 };
 
 }  // namespace convex
