@@ -92,24 +92,6 @@ SparseMatrix mean_with_transpose(const SparseMatrix& W) {
   return 0.5 * (W + transposed);
 }
 
-/// Whether W is its own transpose to the last bit, as matrices given usually are, and finite. By tiles, for
-/// the rows of a large matrix are far apart in memory.
-bool is_exactly_symmetric(const Matrix& W) {
-  constexpr Index tile = 8;
-  const Index n = W.rows();
-  for (Index first = 0; first < n; first += tile)
-    for (Index above = 0; above <= first; above += tile) {
-      Index wrong = 0;
-      for (Index j = first; j < std::min(n, first + tile); ++j) {
-        const double *const column = W.data() + j * n, *const row = W.data() + j;
-        const Index end = std::min(j, above + tile);
-        for (Index i = above; i < end; ++i) wrong += column[i] != row[i * n];
-      }
-      if (wrong > 0) return false;
-    }
-  return (0 * Eigen::Map<const Vector>(W.data(), n * n)).sum() == 0;
-}
-
 /// Sets pairs of entries of W that should be equal to their mean. False when some differ by more than
 /// rounding or are not finite. By tiles, for the rows of a large matrix are far apart in memory.
 bool make_symmetric(Matrix& W) {
@@ -181,9 +163,13 @@ Metric Metric::dense(const Matrix& W) {
   const Index n = W.rows();
   data->kind = MetricKind::dense;
   data->W = W;
-  if (!is_exactly_symmetric(W) && !make_symmetric(data->W)) refuse_unequal(W);
+  data->triangle.emplace(W);
+  if (!data->triangle->is_exactly_symmetric()) {
+    if (!make_symmetric(data->W)) refuse_unequal(W);
+    data->triangle.emplace(data->W);
+  }
   data->diagonal = data->W.diagonal();
-  data->triangle.emplace(data->W);
+  data->triangle->factor();
   const auto L = data->triangle->view();
   double smallest = 1;  // of L_ii² / w_ii
   for (Index i = 0; i < n; ++i) {

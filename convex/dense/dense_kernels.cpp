@@ -97,11 +97,12 @@ namespace {
       return K::is_on_grid(n, x, shift);                                                                    \
     }                                                                                                       \
     target static bool is_finite(Index n, const double* x) { return K::is_finite(n, x); }                   \
+    target static bool is_symmetric(Index ld, const double* T) { return K::is_symmetric(ld, T); }           \
     static constexpr DenseKernels table{                                                                    \
         factor,  invert_blocks, forward,    backward,       forward_pack, backward_pack,                    \
         gram,    dots,          combine,    add_multiple,   dot,          slacks,                           \
         squares, stationarity,  residual,   precise_slacks, add_columns,  combine_runs,                     \
-        cancels, largest_size,  is_on_grid, is_finite};                                                     \
+        cancels, largest_size,  is_on_grid, is_finite,      is_symmetric};                                  \
   };
 
 MOREAU_TABLE(Portable, , 2, false)

@@ -237,22 +237,24 @@ struct Kernels : TriangleKernels<W, Fused> {
 
   MOREAU_INLINE bool cancels(Index n, const double* U, Index p, double whole, Index count, const Index* row,
                              const double* c) {
-    const auto rest = [&](Index i) {
-      double sum = -whole * U[p * n + i];
-      for (Index k = 0; k < count; ++k) sum += c[k] * U[row[k] * n + i];
-      return sum;
-    };
-    if (n > 0 && rest(0) != 0) return false;  // most that are no sums show it here
+    if (n == 0) return true;
+    double first = -whole * U[p * n];
+    for (Index k = 0; k < count; ++k) first += c[k] * U[row[k] * n];
+    if (first != 0) return false;  // most that are no sums show it here
+    // Packs reach into the row before, where the last would reach beyond its own.
     Pack most{};
-    Index i = 0;
-    for (; i + 8 <= n; i += 8) {
-      Pack sum = P::times(P::load(U + p * n + i), -whole);
-      for (Index k = 0; k < count; ++k) P::add_product(sum, P::load(U + row[k] * n + i), c[k]);
+    for (Index end = n < 8 ? n : 8; end <= n; end = end == n ? n + 1 : end + 8 < n ? end + 8 : n) {
+      const Index i = end - 8;
+      Pack sum{};
+      const auto take = [&](Index a, double factor) __attribute__((always_inline)) {
+        P::add_product(sum, n < 8 ? P::load_before(U + a * n, U + a * n + n) : P::load(U + a * n + i),
+                       factor);
+      };
+      take(p, -whole);
+      for (Index k = 0; k < count; ++k) take(row[k], c[k]);
       most = P::larger(most, size(sum));
     }
-    bool all = largest(most) == 0;
-    for (; i < n && all; ++i) all = rest(i) == 0;
-    return all;
+    return largest(most) == 0;
   }
 
   MOREAU_INLINE double largest_size(Index n, const double* x) {
@@ -287,6 +289,23 @@ struct Kernels : TriangleKernels<W, Fused> {
     double rest = 0;
     for (; i < n; ++i) rest += 0 * x[i];
     return P::total(P::plus(even, odd)) + rest == 0;
+  }
+
+  /// By tiles, for the rows of a large matrix are far apart in memory. The difference of numbers that are not
+  /// finite is none.
+  MOREAU_INLINE bool is_symmetric(Index ld, const double* T) {
+    Pack wrong{};
+    for (Index j = 0; j < ld; j += 8)
+      for (Index i = 0; i <= j; i += 8) {
+        Pack across[8];
+#pragma GCC unroll 8
+        for (int c = 0; c < 8; ++c) across[c] = P::load(T + (i + c) * ld + j);
+        P::transpose(across);
+#pragma GCC unroll 8
+        for (int c = 0; c < 8; ++c)
+          wrong = P::plus(wrong, size(P::minus(P::load(T + (j + c) * ld + i), across[c])));
+      }
+    return P::total(wrong) == 0;
   }
 };
 

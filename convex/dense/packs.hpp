@@ -134,6 +134,38 @@ struct Packs {
       return load(sum);
     }
   }
+  /// Rows become columns.
+  MOREAU_INLINE void transpose(Pack (&x)[8]) {
+    if constexpr (W == 8) {
+      using Places [[gnu::vector_size(64)]] = long long;
+      constexpr Places even{0, 8, 2, 10, 4, 12, 6, 14}, odd{1, 9, 3, 11, 5, 13, 7, 15};
+      constexpr Places low_pairs{0, 1, 8, 9, 4, 5, 12, 13}, high_pairs{2, 3, 10, 11, 6, 7, 14, 15};
+      constexpr Places low{0, 1, 2, 3, 8, 9, 10, 11}, high{4, 5, 6, 7, 12, 13, 14, 15};
+      Part a[8], b[8];
+#pragma GCC unroll 4
+      for (int k = 0; k < 8; k += 2) {
+        a[k] = __builtin_shuffle(x[k].part[0], x[k + 1].part[0], even);
+        a[k + 1] = __builtin_shuffle(x[k].part[0], x[k + 1].part[0], odd);
+      }
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) {
+        const int p = k / 2 * 4 + k % 2;
+        b[p] = __builtin_shuffle(a[p], a[p + 2], low_pairs);
+        b[p + 2] = __builtin_shuffle(a[p], a[p + 2], high_pairs);
+      }
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) {
+        x[k].part[0] = __builtin_shuffle(b[k], b[k + 4], low);
+        x[k + 4].part[0] = __builtin_shuffle(b[k], b[k + 4], high);
+      }
+    } else {
+      double from[64], into[64];
+      for (int k = 0; k < 8; ++k) store(from + 8 * k, x[k]);
+      for (int k = 0; k < 8; ++k)
+        for (int l = 0; l < 8; ++l) into[8 * k + l] = from[8 * l + k];
+      for (int k = 0; k < 8; ++k) x[k] = load(into + 8 * k);
+    }
+  }
   /// Σ_c columns[8c…] y_c, eight columns.
   MOREAU_INLINE Pack block_times(const double* columns, const double* y) {
     Pack a = times(load(columns), y[0]), b = times(load(columns + 8), y[1]);

@@ -51,6 +51,11 @@ PaddedTriangle::PaddedTriangle(const Matrix& W)
     fill_packs(ld_, 0, T_ + j * ld_);
     T_[j * (ld_ + 1)] = 1;
   }
+}
+
+bool PaddedTriangle::is_exactly_symmetric() const { return dense_kernels().is_symmetric(ld_, T_); }
+
+void PaddedTriangle::factor() {
   if (n_ < large) {
     dense_kernels().factor(n_, ld_, T_, T_ + ld_ * ld_);
     return;

@@ -11,7 +11,10 @@ namespace convex {
 /// numbers on the diagonal that are not positive or not finite.
 class PaddedTriangle {
  public:
+  /// W itself, to be factored.
   explicit PaddedTriangle(const Matrix& W);
+  bool is_exactly_symmetric() const;
+  void factor();
   ~PaddedTriangle();
   PaddedTriangle(const PaddedTriangle&) = delete;
   PaddedTriangle& operator=(const PaddedTriangle&) = delete;

@@ -184,6 +184,26 @@ TEST_CASE("what the kernels say of sums, grids and finite numbers holds to the l
     }
 }
 
+TEST_CASE("a matrix is its own transpose when no entry is one bit off and all are finite") {
+  for (const DenseKernels* kernels : convex::all_dense_kernels())
+    for (Index n : {3, 8, 19}) {
+      Matrix T = padded_matrix(draw(n, 3).A);
+      const auto is_symmetric = [&] { return kernels->is_symmetric(padded(n), T.data()); };
+      CHECK(is_symmetric());
+      for (Index i = 0; i < n * n; ++i) {
+        double& entry = T(i % n, i / n);
+        const double before = entry;
+        entry = std::nextafter(before, HUGE_VAL);
+        CHECK(is_symmetric() == (i % n == i / n));
+        for (const double wrong : {std::nan(""), -HUGE_VAL}) {
+          entry = T(i / n, i % n) = wrong;
+          CHECK_FALSE(is_symmetric());
+        }
+        entry = T(i / n, i % n) = before;
+      }
+    }
+}
+
 TEST_CASE("columns added at once are the columns added one after the other, to the last bit") {
   for (const DenseKernels* kernels : convex::all_dense_kernels())
     for (Index n : {8, 24, 64, 136}) {

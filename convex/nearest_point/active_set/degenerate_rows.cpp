@@ -17,6 +17,7 @@ std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVecto
   const std::optional<Vector> exact = slacks_if_kept(problem, q.hi, set.rows(), touched);
   WorkingSet::Split split;
   SlackOnEdge edge(problem, row_scale.data());
+  edge.begin();
   std::vector<double> own;
   for (Index a : touched) {
     if (exact) break;

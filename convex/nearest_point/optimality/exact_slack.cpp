@@ -40,6 +40,16 @@ double denominator(double x) {
   return k;
 }
 
+/// Whether n numbers lie on one grid that is no finer than their largest over `most_steps`.
+bool is_on_some_grid(Index n, const double* x) {
+  const DenseKernels& kernels = dense_kernels();
+  const double largest = kernels.largest_size(n, x);
+  if (!std::isnormal(largest)) return largest == 0;
+  const double grid = std::ldexp(1, std::ilogb(largest) + 1) / most_steps;
+  // x + shift rounds x to the grid.
+  return std::isnormal(grid) && kernels.is_on_grid(n, x, 1.5 * grid / unit_roundoff * 0.5);
+}
+
 bool is_two_sided(const NearestPointProblem& problem, Index a) {
   return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
 }
@@ -62,32 +72,26 @@ ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Vector& 
 
 }  // namespace
 
-/// Looks for a grid that all numbers of U lie on.
-void SlackOnEdge::find_grid() {
-  grid_ = 0;
-  if (problem_.U.is_sparse() || problem_.rows() == 0) return;
-  const RowMatrix& U = problem_.U.dense();
-  const DenseKernels& kernels = dense_kernels();
-  const double largest = kernels.largest_size(U.size(), U.data());
-  if (!std::isnormal(largest)) return;
-  const double grid = std::ldexp(1, std::ilogb(largest) + 1) / most_steps;
-  if (!std::isnormal(grid)) return;
-  // x + shift rounds x to the grid.
-  if (kernels.is_on_grid(U.size(), U.data(), 1.5 * grid / unit_roundoff * 0.5)) grid_ = grid;
+SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
+    : problem_(problem), row_scale_(row_scale) {
+  const Index room = std::min(problem.dimension(), problem.rows());
+  rows_.resize(static_cast<std::size_t>(room));
+  coefficients_.resize(static_cast<std::size_t>(room));
+  if (problem.U.is_sparse() || problem.rows() == 0) return;
+  rows_on_grid_ = is_on_some_grid(problem.U.dense().size(), problem.U.dense().data());
 }
 
+void SlackOnEdge::begin() { loads_on_grid_ = is_on_some_grid(problem_.s.size(), problem_.s.data()); }
+
 /// Whether Σ c_k u_k = whole u_p for the terms, not one bit off.
-bool SlackOnEdge::cancels(Index p, double whole) {
-  const Index count = static_cast<Index>(rows_.size());
-  double sum = whole;
-  for (const double c : coefficients_) sum += std::abs(c);
-  if (grid_ > 0 && sum <= most_terms)
-    return dense_kernels().cancels(problem_.dimension(), problem_.U.dense().data(), p, whole, count,
-                                   rows_.data(), coefficients_.data());
+bool SlackOnEdge::cancels(Index p, double whole) const {
+  if (rows_on_grid_ && sum_ <= most_terms)
+    return dense_kernels().cancels(problem_.dimension(), problem_.U.dense().data(), p, whole,
+                                   static_cast<Index>(count_), rows_.data(), coefficients_.data());
   for (Index i = 0; i < problem_.dimension(); ++i) {
     ExactSum rest;
     rest.add_product(-whole, entry(problem_.U, p, i));
-    for (std::size_t k = 0; k < rows_.size(); ++k)
+    for (std::size_t k = 0; k < count_; ++k)
       rest.add_product(coefficients_[k], entry(problem_.U, rows_[k], i));
     if (rest.sign() != 0) return false;
   }
@@ -96,9 +100,14 @@ bool SlackOnEdge::cancels(Index p, double whole) {
 
 /// (Σ c_k s_k - whole s_p) / whole over the terms.
 double SlackOnEdge::slack_of_loads(Index p, double whole) const {
+  if (loads_on_grid_ && sum_ <= most_terms) {
+    double sum = 0 - whole * problem_.s[p];
+    for (std::size_t k = 0; k < count_; ++k) sum += coefficients_[k] * problem_.s[rows_[k]];
+    return sum / whole;
+  }
   DoubleDouble sum = two_product(-whole, problem_.s[p]);
   bool is_exact = sum.lo == 0;
-  for (std::size_t k = 0; k < rows_.size(); ++k) {
+  for (std::size_t k = 0; k < count_; ++k) {
     const DoubleDouble term = two_product(coefficients_[k], problem_.s[rows_[k]]),
                        next = two_sum(sum.hi, term.hi);
     is_exact = is_exact && term.lo == 0 && next.lo == 0;
@@ -107,24 +116,29 @@ double SlackOnEdge::slack_of_loads(Index p, double whole) const {
   if (is_exact) return sum.hi / whole;
   ExactSum slack;
   slack.add_product(-whole, problem_.s[p]);
-  for (std::size_t k = 0; k < rows_.size(); ++k) slack.add_product(coefficients_[k], problem_.s[rows_[k]]);
+  for (std::size_t k = 0; k < count_; ++k) slack.add_product(coefficients_[k], problem_.s[rows_[k]]);
   return quotient_with_sign(slack, whole);
 }
 
 std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count,
                                          const double* coefficients) {
-  if (grid_ < 0) find_grid();
+  const double least = zero_coefficient * row_scale_[p];
   double whole = 1;
-  rows_.clear();
-  coefficients_.clear();
-  for (Index k = 0; k < count; ++k) {
-    if (!(std::abs(coefficients[k]) * row_scale_[held[k]] > zero_coefficient * row_scale_[p])) continue;
-    whole *= denominator(coefficients[k] * whole);
-    if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
-    rows_.push_back(held[k]);
-    coefficients_.push_back(coefficients[k]);
+  count_ = 0;
+  for (Index k = 0; k < count; ++k) {  // without a branch, for which terms there are cannot be foreseen
+    rows_[count_] = held[k];
+    coefficients_[count_] = coefficients[k];
+    count_ += std::abs(coefficients[k]) * row_scale_[held[k]] > least;
   }
-  for (double& c : coefficients_) c = nearest_whole(c * whole);
+  for (std::size_t k = 0; k < count_; ++k) {
+    whole *= denominator(coefficients_[k] * whole);
+    if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
+  }
+  sum_ = whole;
+  for (std::size_t k = 0; k < count_; ++k) {
+    coefficients_[k] = nearest_whole(coefficients_[k] * whole);
+    sum_ += std::abs(coefficients_[k]);
+  }
   if (!cancels(p, whole)) return std::nullopt;
   return slack_of_loads(p, whole);
 }

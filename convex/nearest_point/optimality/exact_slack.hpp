@@ -13,8 +13,9 @@ namespace convex {
 class SlackOnEdge {
  public:
   /// row_scale: ||u_a||_(D⁻¹), D the diagonal of A: m. Both are referred to.
-  SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
-      : problem_(problem), row_scale_(row_scale) {}
+  SlackOnEdge(const NearestPointProblem& problem, const double* row_scale);
+  /// Looks at s, which may have changed, so that sums of it are quick.
+  void begin();
 
   /// The double nearest to u_p·q - s_p, with its sign, at every q where the `count` rows `held` hold with
   /// equality. None unless u_p is the sum of c_k / c_0 u_k over them with whole numbers c up to
@@ -22,16 +23,16 @@ class SlackOnEdge {
   std::optional<double> slack(Index p, const Index* held, Index count, const double* coefficients);
 
  private:
-  void find_grid();
-  bool cancels(Index p, double whole);
+  bool cancels(Index p, double whole) const;
   double slack_of_loads(Index p, double whole) const;
 
   const NearestPointProblem& problem_;
   const double* row_scale_;
-  std::vector<Index> rows_;  // of a sum, with their coefficients
+  std::vector<Index> rows_;  // the first count_: of a sum, with their coefficients; all with sum_ added up
   std::vector<double> coefficients_;
-  double grid_ =
-      -1;  ///< U is made of multiples of this; 0 when there is no such number that helps; -1: not known
+  std::size_t count_ = 0;
+  double sum_ = 0;                                     ///< of the sizes of all factors
+  bool rows_on_grid_ = false, loads_on_grid_ = false;  ///< sums of few U or s are exact in doubles
 };
 
 /// The slacks of the rows `touched` at the doubles q, each the double nearest to its own, if q is the point

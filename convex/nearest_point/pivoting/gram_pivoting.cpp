@@ -245,7 +245,7 @@ bool GramPivoting::take_in(Index count) {
     state_[list_[k]] = held;
     if (rows_.place(list_[k]) < 0) list_[fresh++] = list_[k];
   }
-  const bool room = fresh == 0 || rows_.add(list_, fresh);
+  const bool room = fresh == 0 || rows_.add(list_, fill_block(fresh));
   for (Index k = 0; k < fresh; ++k)
     if (rows_.place(list_[k]) < 0) state_[list_[k]] = outside;
   Index leaving = 0;
@@ -255,6 +255,22 @@ bool GramPivoting::take_in(Index count) {
   else
     change(count);
   return room;
+}
+
+/// Fills the last block of the first `fresh` rows of the list with those that are likely to come in next: not
+/// looked at, and closest to their edge or farthest below. Its new length.
+Index GramPivoting::fill_block(Index fresh) {
+  const Index end = padded(fresh);
+  Index length = fresh;
+  for (Index a = 0; a < m_ && end > fresh; ++a) {
+    if (rows_.place(a) >= 0 || state_[a] != outside) continue;
+    const auto deeper = [&](Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
+    if (length == end && !deeper(list_[end - 1])) continue;
+    Index at = length < end ? length++ : end - 1;
+    for (; at > fresh && deeper(list_[at - 1]); --at) list_[at] = list_[at - 1];
+    list_[at] = a;
+  }
+  return length;
 }
 
 /// Brings the factor up to date, row by row, the first `count` of entering_ being new.

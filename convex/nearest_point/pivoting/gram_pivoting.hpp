@@ -95,6 +95,7 @@ class GramPivoting {
   Index choose_deepest(Index count, Index room);
   Index skip_parallel_rows(Index count);
   bool take_in(Index count);
+  Index fill_block(Index fresh);
   void change(Index count);
   bool pivot_by_parts();
   Index fill_up(Index count);

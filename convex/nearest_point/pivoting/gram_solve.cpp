@@ -10,8 +10,6 @@
 #include "convex/zero_tolerances.hpp"
 
 namespace convex {
-namespace {}  // namespace
-
 GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
     : problem_(problem),
       kernels_(dense_kernels()),
@@ -58,7 +56,6 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
   }
   kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
   for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
-  edge_.emplace(problem, row_scale_);
   set_.emplace(problem, arena, w_free_, row_scale_);
 }
 

@@ -33,7 +33,8 @@ bool GramSolve::correct(bool is_first, double small) {
   kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
   kernels_.add_multiple(ld_, 1, dw_, w_);
   kernels_.add_multiple(before, 1, y_, total_);
-  list_rows_held();
+  if (has_changed) list_rows_held();
+  for (Index j = 0; j < set_->size(); ++j) lambda_[j] = total_[set_->place(j)];
   for (Index j = 0; j < set_->size(); ++j) change_[j] = y_[set_->place(j)];
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed,

@@ -199,6 +199,8 @@ Index GramSolve::leave_sums_of_rows_held(Index count) {
   const Index k = set_->size();
   if (count == 0 || k == 0) return count;
   find_dual_rows();
+  if (!edge_) edge_.emplace(problem_, row_scale_);
+  edge_->begin();
   Index left = 0;
   for (Index first = 0; first < count; first += 8) {
     const Index rows = std::min<Index>(8, count - first);

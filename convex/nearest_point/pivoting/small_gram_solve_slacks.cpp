@@ -148,6 +148,7 @@ bool SmallGramSolve::leave_sums_of_rows_held() {
   double coefficients[SmallTableau::most];
   bool has_dual = false, asks_more = false;
   if (!edge_) edge_.emplace(problem_, row_scale_);
+  edge_->begin();
   std::erase_if(touched_, [&](Index a) {
     if (const Index p = place(a); p >= 0) {  // swept, its column has its coefficients
       if (t.swept[p * (t.stride + 1)] > zero_coefficient * t.square[p]) return false;
