@@ -12,6 +12,7 @@
 #include "cli/drawing/branch_drawing.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/json_writer.hpp"
+#include "mechanics/motion/turning_point.hpp"
 
 namespace cli {
 namespace {
@@ -43,6 +44,12 @@ mechanics::State in_proportion(const Station& a, const Station& b, double value)
   return state;
 }
 
+/// A fold is that of the last orbits if it is no further from them than this part of a step.
+constexpr double near_fold = 1e-2;
+
+/// The first orbit is a fold itself if that is no further from it than this part of a step.
+constexpr double at_fold = 1e-8;
+
 /// Follows a branch of orbits over a parameter, with the values at which something happens on it.
 class Branch {
  public:
@@ -61,14 +68,16 @@ class Branch {
       const double value = range_.value(k);
       const std::optional<Station> next =
           stations_.empty() ? attempt(value, guess, 0) : attempt_from_last(value);
-      if (next && stations_.empty()) trail_ = {*next};
-      if (next) {
+      if (next && stations_.empty()) {
+        trail_ = {*next};
+        begin(*next);
+      } else if (next) {
         arrive(*next);
       } else if (++turns <= most_turns && trail_.size() > 1 && turn(value)) {
         forward_ = -forward_;
         if (!begin_behind_fold(range_.value(k + forward_)))
           return fmt::format("the branch turns at {} = {}; its other side is not found", range_.parameter,
-                             fold_);
+                             fold_->value);
       } else {
         return fmt::format("the branch ends before {} = {}: {}", range_.parameter, value, why_);
       }
@@ -95,6 +104,20 @@ class Branch {
       why_ = error.what();
     }
     return std::nullopt;
+  }
+
+  mechanics::OrbitFamily family() const {
+    const auto at = [this](double value) { return with_parameter(problem_, range_.parameter, value); };
+    return {[at](double value) {
+              return mechanics::lagrangian_system(std::get<SystemProblem>(at(value).content).system);
+            },
+            [at, this](const mechanics::LagrangianSystem& system, double value) {
+              mechanics::OrbitQuestion question = asked_;
+              if (!question.is_free)
+                question.period = value_of(at(value), system, *options_.period, "--period") *
+                                  static_cast<double>(options_.periods);
+              return question;
+            }};
   }
 
   /// Whether an orbit is where the last two lead; if not, Newton's method went to another branch.
@@ -156,6 +179,16 @@ class Branch {
     points_.push_back({at.value, orbit, event});
   }
 
+  /// The first orbit, which may be a fold itself.
+  void begin(const Station& first) {
+    std::string event;
+    if (!asked_.is_free)
+      if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
+        if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = "fold";
+    row(first, event);
+    stations_.push_back(first);
+  }
+
   /// The next orbit, and before it those at which something happens on the way, each in a row of its own.
   void arrive(const Station& next) {
     constexpr int most_events_in_step = 4;
@@ -201,75 +234,53 @@ class Branch {
     return b;
   }
 
-  static double distance_of_multiplier_from_1(const mechanics::Orbit& orbit) {
-    double nearest = std::numeric_limits<double>::infinity();
-    if (orbit.multipliers)
-      for (const auto& m : *orbit.multipliers) nearest = std::min(nearest, std::abs(m - 1.0));
-    return nearest;
-  }
-
-  /// Whether the branch turns around before a value at which it has no orbit: near a fold, states and the
-  /// distance of a multiplier from 1 go with the root of the distance from its value. If so, the fold is
-  /// told, and `other_` is what finds orbits behind it.
+  /// Whether the branch turns around before a value at which it has no orbit. If so, the fold is told, and
+  /// `fold_` is what finds orbits behind it.
   bool turn(double beyond) {
     if (asked_.is_free) return false;  // one multiplier is 1 anyhow
     Station near = trail_.back();
     double none = beyond;
-    for (int i = 0; i < 24; ++i) {
+    constexpr int halvings = 10;
+    for (int i = 0; i < halvings; ++i) {
       const double middle = 0.5 * (near.value + none);
       if (auto found = attempt_from_last(middle))
         near = std::move(*found);
       else
         none = middle;
     }
-    // Not too near: there a multiplier is 1 by rounding.
-    const double sign = way();
-    const double reach = 1e-3 * std::abs(range_.step);
-    const auto one = attempt(near.value - sign * reach, near.orbit.start, near.orbit.period);
-    if (!one) return false;
-    const auto four = attempt(near.value - sign * 4 * reach, one->orbit.start, one->orbit.period);
-    if (!four) return false;
-    const double s1 = std::pow(distance_of_multiplier_from_1(one->orbit), 2),
-                 s4 = std::pow(distance_of_multiplier_from_1(four->orbit), 2);
-    constexpr double least = 2, largest = 6;  // 4 at a fold
-    if (!(s4 > least * s1 && s4 < largest * s1)) return false;
-    const double fold = one->value + (one->value - four->value) * s1 / (s4 - s1);
-    Station at = near;
-    at.value = fold;
-    row(at, "fold");
-    const double d1 = std::sqrt(std::abs(fold - one->value)), d4 = std::sqrt(std::abs(fold - four->value));
-    fold_ = fold;
-    side_ = one->orbit.start;
-    side_.q = (four->orbit.start.q - one->orbit.start.q) / (d4 - d1);
-    side_.v = (four->orbit.start.v - one->orbit.start.v) / (d4 - d1);
-    top_ = one->orbit.start;
-    top_.q -= d1 * side_.q;
-    top_.v -= d1 * side_.v;
+    fold_ = mechanics::find_turning_point(family(), near.value, near.orbit);
+    const double apart = fold_ ? std::abs(fold_->value - none) : 0;
+    if (!fold_ || apart > std::abs(none - near.value) + near_fold * std::abs(range_.step)) return false;
+    const Station& last = trail_.front();
+    if (along(last.orbit.start, fold_->orbit.start) < 0) fold_->along = -fold_->along;
+    row({fold_->value, fold_->orbit}, "fold");
     return true;
   }
 
-  /// An orbit on the other side of the fold.
-  std::optional<Station> behind_fold(double value) {
-    mechanics::State guess = top_;
-    const double away = std::sqrt(std::abs(fold_ - value));
-    guess.q -= away * side_.q;
-    guess.v -= away * side_.v;
-    auto found = attempt(value, guess, 0);
-    const auto along = [&](const mechanics::State& state) {
-      return (state.q - top_.q).dot(side_.q) + (state.v - top_.v).dot(side_.v);
-    };
-    if (found && along(found->orbit.start) > 0) found.reset();  // the side that we came from
-    return found;
+  /// How far `to` is from `from` in the direction of the branch at the fold.
+  double along(const mechanics::State& from, const mechanics::State& to) const {
+    const convex::Index n = from.q.size();
+    return fold_->along.head(n).dot(to.q - from.q) + fold_->along.tail(n).dot(to.v - from.v);
   }
 
-  /// Two orbits on the other side, so near the fold that the root leads to them, and no further than `value`.
+  /// Two orbits on the other side of the fold, so near it that the branch is nearly a parabola, and no
+  /// further than `value`.
   bool begin_behind_fold(double value) {
-    const double reach = std::min(std::abs(fold_ - value), 0.05 * std::abs(range_.step));
-    const auto one = behind_fold(fold_ + way() * 0.25 * reach), four = behind_fold(fold_ + way() * reach);
+    const double reach = std::min(std::abs(fold_->value - value), 0.05 * std::abs(range_.step));
+    // The parabola from the side that we came from.
+    Station from = trail_.back();
+    if (std::abs(fold_->value - from.value) < 1e-6 * reach) from = trail_.front();
+    const double before = along(from.orbit.start, fold_->orbit.start);
+    const double curvature = std::abs(fold_->value - from.value) / (before * before);
+    const double distance = std::sqrt(reach / curvature);
+    if (!(distance > 0) || !std::isfinite(distance)) return false;
+    const auto one = orbit_beside(family(), *fold_, 0.5 * distance),
+               four = orbit_beside(family(), *fold_, distance);
     if (!one || !four) return false;
-    trail_ = {*one, *four};
-    stations_.push_back(*four);
-    return true;
+    trail_ = {{one->value, one->orbit}, {four->value, four->orbit}};
+    stations_.push_back(trail_.back());
+    row(trail_.back(), "");
+    return (four->value - one->value) * way() > 0;
   }
 
   /// In which direction the parameter goes.
@@ -283,9 +294,8 @@ class Branch {
   std::vector<Station> trail_;     // the last two, those between values of the range too
   std::string table_, why_;
   std::vector<BranchPoint> points_;
-  int forward_ = 1;  // -1 behind a fold
-  double fold_ = 0;
-  mechanics::State top_, side_;  // near the fold states are top_ + side_ root(distance)
+  int forward_ = 1;                              // -1 behind a fold
+  std::optional<mechanics::TurningPoint> fold_;  // the last one
 };
 
 }  // namespace

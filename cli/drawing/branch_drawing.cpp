@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 namespace cli {
@@ -19,19 +18,24 @@ std::string largest_multiplier(const mechanics::Orbit& orbit) {
   return fmt::format("{}", std::abs(orbit.multipliers->front()));
 }
 
-/// Columns: value, q, v, largest multiplier. Pieces of one stability, each with the first point of the next.
+/// Columns: value, q, v, largest multiplier.
+std::string columns(const BranchPoint& point) {
+  std::string text = fmt::format("{}", point.value);
+  for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
+  for (const double v : point.orbit.start.v) text += fmt::format(" {}", v);
+  return text + " " + largest_multiplier(point.orbit) + "\n";
+}
+
+/// The pieces of one stability. At an event a multiplier is on the unit circle but for rounding: between two
+/// orbits the one without an event tells.
 std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
   std::string text;
   bool is_inside = false;
-  for (const BranchPoint& point : points) {
-    const bool belongs = point.orbit.is_stable == stable;
-    if (belongs || is_inside) {
-      text += fmt::format("{}", point.value);
-      for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
-      for (const double v : point.orbit.start.v) text += fmt::format(" {}", v);
-      text += " " + largest_multiplier(point.orbit) + "\n";
-    }
-    if (is_inside && !belongs) text += "\n";
+  for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+    const BranchPoint& tells = points[k + 1].event.empty() ? points[k + 1] : points[k];
+    const bool belongs = tells.orbit.is_stable == stable;
+    if (belongs && !is_inside) text += (text.empty() ? "" : "\n") + columns(points[k]);
+    if (belongs) text += columns(points[k + 1]);
     is_inside = belongs;
   }
   return text;
@@ -76,10 +80,10 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
   const std::string stable = pieces(points, true), unstable = pieces(points, false);
   made.script = "$stable << EOD\n" + stable + "EOD\n$unstable << EOD\n" + unstable + "EOD\n";
   for (const auto& [event, marker] : events) {
-    std::vector<BranchPoint> here;
-    std::copy_if(points.begin(), points.end(), std::back_inserter(here),
-                 [&](const BranchPoint& point) { return point.event == event; });
-    made.script += "$" + event + " << EOD\n" + pieces(here, true) + pieces(here, false) + "EOD\n";
+    made.script += "$" + event + " << EOD\n";
+    for (const BranchPoint& point : points)
+      if (point.event == event) made.script += columns(point);
+    made.script += "EOD\n";
   }
   const std::size_t n = coordinates.size(), drawn = std::min(n, curve_colours.size());
   BranchPanel q{"q", {}, 2}, v{"q'", {}, 2 + n}, multiplier{"|multiplier|", {"largest"}, 2 + 2 * n};

@@ -1,0 +1,209 @@
+#include "mechanics/motion/turning_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "convex/linear_algebra/complete_orthogonal.hpp"
+#include "mechanics/motion/period_map.hpp"
+
+namespace mechanics {
+namespace {
+
+using convex::Matrix;
+
+constexpr int most_turning_steps = 20;
+
+/// Steps of differences, as parts of how far things go.
+constexpr double difference_part = 1e-5;
+
+/// Newton's method has arrived when the parameter moves by less than this part of its size, and an orbit is
+/// one when it misses its start by less than the other.
+constexpr double settled_value = 1e-12, met_part = 1e-10;
+
+/// What a value and a state of the family tell.
+struct Look {
+  std::unique_ptr<const LagrangianSystem> system;
+  OrbitQuestion question;
+  std::optional<TangentChart> chart;
+  std::optional<PeriodMap> map;
+  Flight flight;
+  Vector x, miss;  // miss: in the chart
+  double residual = 0;
+};
+
+/// In place: a map refers to its question.
+bool look(const OrbitFamily& family, double value, double t, const Vector& x, Look& at) {
+  const Index n = x.size() / 2;
+  try {
+    at.map.reset();
+    at.chart.reset();
+    at.system = family.system(value);
+    at.question = family.question(*at.system, value);
+    at.chart.emplace(*at.system, State{t, x.head(n), x.tail(n)});
+    at.map.emplace(*at.system, t, at.question);
+  } catch (const convex::InvalidInput&) {
+    return false;
+  }
+  at.x = as_one(at.chart->origin());
+  at.flight = at.map->fly(at.x, at.question.period);
+  if (!at.flight.arrives) return false;
+  const Vector missed = at.map->miss(at.flight, at.x);
+  at.miss = at.chart->along(missed);
+  at.residual = at.map->relative(missed, at.flight);
+  return true;
+}
+
+std::optional<Matrix> jacobian(const Look& at) {
+  const FlowDerivative D = at.map->derivative(*at.chart, at.flight);
+  if (D.kind != FlowDerivative::Kind::known) return std::nullopt;
+  return Matrix(D.value - Matrix::Identity(D.value.rows(), D.value.cols()));
+}
+
+Matrix bordered(const Matrix& J, const Vector& b, const Vector& c) {
+  const Index size = J.rows();
+  Matrix all = Matrix::Zero(size + 1, size + 1);
+  all.topLeftCorner(size, size) = J;
+  all.col(size).head(size) = b;
+  all.row(size).head(size) = c.transpose();
+  return all;
+}
+
+/// g, and v, which becomes the direction of the branch.
+Vector null_vector(const Matrix& J, const Vector& b, const Vector& c) {
+  return convex::linear_algebra::CompleteOrthogonal(bordered(J, b, c))
+      .solve(Vector::Unit(J.rows() + 1, J.rows()));
+}
+
+double step_of_value(double value) { return difference_part * std::max(std::abs(value), 1e-3); }
+
+/// ∂map/∂p by central differences.
+std::optional<Vector> by_parameter(const OrbitFamily& family, double value, const Look& at) {
+  const double h = step_of_value(value), t = at.chart->origin().t;
+  Look right, left;
+  if (!look(family, value + h, t, at.x, right) || !look(family, value - h, t, at.x, left))
+    return std::nullopt;
+  const Vector moved = at.map->miss(right.flight, right.x) - at.map->miss(left.flight, left.x);
+  return Vector(at.chart->along(moved) / (2 * h));
+}
+
+/// Where g = 0 is looked for from: the singular vectors of J for its least singular value.
+struct Borders {
+  Vector b, c;
+};
+
+Borders borders(const Matrix& J) {
+  // Powers of (J Jᵀ)⁻¹ and (JᵀJ)⁻¹.
+  const Index size = J.rows();
+  const convex::linear_algebra::CompleteOrthogonal solve(J, 0), transposed(J.transpose(), 0);
+  Borders found{Vector::Ones(size).normalized(), Vector::Ones(size).normalized()};
+  constexpr int enough_powers = 20;
+  for (int k = 0; k < enough_powers; ++k) {
+    const Vector c = solve.solve(found.b);
+    if (c.norm() > 0) found.c = c.normalized();
+    const Vector b = transposed.solve(found.c);
+    if (b.norm() > 0) found.b = b.normalized();
+  }
+  return found;
+}
+
+}  // namespace
+
+std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near) {
+  const double t = near.start.t;
+  Look at;
+  if (!look(family, value, t, as_one(near.start), at)) return std::nullopt;
+  auto J = jacobian(at);
+  if (!J) return std::nullopt;
+  const Index size = J->rows();
+  const auto [b, c] = borders(*J);
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < most_turning_steps; ++k) {
+    const Vector v = null_vector(*J, b, c);
+    const auto F_p = by_parameter(family, value, at);
+    if (!F_p) return std::nullopt;
+    // The extended system's derivative: g by differences.
+    Matrix all = bordered(*J, *F_p, Vector::Zero(size));
+    const auto g_at = [&](double p, const Vector& x) -> std::optional<double> {
+      Look there;
+      if (!look(family, p, t, x, there)) return std::nullopt;
+      const auto of = jacobian(there);
+      if (!of || of->rows() != size) return std::nullopt;
+      return null_vector(*of, b, c)[size];
+    };
+    const double scale = 1e-3 * at.flight.largest.maxCoeff();
+    for (Index i = 0; i <= size; ++i) {
+      double h = step_of_value(value);
+      std::optional<double> right, left;
+      if (i == size) {
+        right = g_at(value + h, at.x);
+        left = g_at(value - h, at.x);
+      } else {
+        const Vector direction = at.chart->direction(i);
+        double part = 0;
+        for (Index j = 0; j < direction.size(); ++j)
+          part = std::max(part, std::abs(direction[j]) / std::max(at.flight.largest[j], scale));
+        h = difference_part / part;
+        right = g_at(value, at.chart->state_of(h * Vector::Unit(size, i)));
+        left = g_at(value, at.chart->state_of(-h * Vector::Unit(size, i)));
+      }
+      if (!right || !left) return std::nullopt;
+      all(size, i) = (*right - *left) / (2 * h);
+    }
+    Vector rest(size + 1);
+    rest << -at.miss, -v[size];
+    const Vector step = convex::linear_algebra::CompleteOrthogonal(all).solve(rest);
+    const Vector x = at.chart->state_of(step.head(size));
+    const double moved = std::abs(step[size]);
+    value += step[size];
+    if (!std::isfinite(value) || !look(family, value, t, x, at)) return std::nullopt;
+    J = jacobian(at);
+    if (!J || J->rows() != size) return std::nullopt;
+    const bool is_settled = moved <= settled_value * std::max(std::abs(value), 1e-3);
+    if (k > 0 && at.residual <= met_part &&
+        (is_settled || (moved >= last && moved <= 1e-10 * std::abs(value)))) {
+      TurningPoint found;
+      found.value = value;
+      const Index n = at.x.size() / 2;
+      found.orbit = find_orbit(*at.system, {t, at.x.head(n), at.x.tail(n)}, at.question);
+      if (!found.orbit.is_found) return std::nullopt;
+      found.along = Vector::Zero(2 * n);
+      for (Index i = 0; i < size; ++i) found.along += v[i] * at.chart->direction(i);
+      found.along.normalize();
+      return found;
+    }
+    last = moved;
+  }
+  return std::nullopt;
+}
+
+std::optional<OrbitBeside> orbit_beside(const OrbitFamily& family, const TurningPoint& fold,
+                                        double distance) {
+  const Vector origin = as_one(fold.orbit.start);
+  const double t = fold.orbit.start.t;
+  double value = fold.value;
+  Look at;
+  if (!look(family, value, t, origin + distance * fold.along, at)) return std::nullopt;
+  for (int k = 0; k < most_turning_steps; ++k) {
+    const auto J = jacobian(at);
+    const auto F_p = by_parameter(family, value, at);
+    if (!J || !F_p) return std::nullopt;
+    const Index size = J->rows();
+    Vector onward(size), rest(size + 1);
+    for (Index i = 0; i < size; ++i) onward[i] = fold.along.dot(at.chart->direction(i));
+    rest << -at.miss, distance - fold.along.dot(at.x - origin);
+    const Vector step = convex::linear_algebra::CompleteOrthogonal(bordered(*J, *F_p, onward)).solve(rest);
+    value += step[size];
+    if (!std::isfinite(value) || !look(family, value, t, at.chart->state_of(step.head(size)), at))
+      return std::nullopt;
+    const double away = std::abs(fold.along.dot(at.x - origin) - distance);
+    if (at.residual <= met_part && away <= 1e-6 * std::abs(distance)) {
+      const Index n = at.x.size() / 2;
+      OrbitBeside found{value, find_orbit(*at.system, {t, at.x.head(n), at.x.tail(n)}, at.question)};
+      if (!found.orbit.is_found) return std::nullopt;
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace mechanics
