@@ -46,13 +46,16 @@ std::string FollowedBranch::follow() {
   for (long k = 0; k >= 0 && k < range_.count(); k += forward_) {
     const double value = range_.value(k);
     std::optional<Station> next = stations_.empty() ? attempt(value, guess, 0) : attempt_from_last(value);
-    if (!next && trail_.size() > 1) next = across_start(value);
+    if (!next && trail_.size() > 1 && ++turns <= most_turns && across_start(value)) {
+      k -= forward_;  // the same value again
+      continue;
+    }
     if (next && stations_.empty()) {
       trail_ = {*next};
       begin(*next);
     } else if (next) {
       arrive(*next);
-    } else if (++turns <= most_turns && trail_.size() > 1 && turn(value)) {
+    } else if (turns <= most_turns && trail_.size() > 1 && turn(value)) {
       forward_ = -forward_;
       if (!begin_behind_fold(range_.value(k + forward_)))
         return fmt::format("the branch turns at {} = {}; its other side is not found", range_.parameter,

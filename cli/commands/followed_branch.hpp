@@ -56,9 +56,9 @@ class FollowedBranch {
   /// The last orbit that is found before a value, and the next value at which none is.
   std::pair<Station, double> approach(double beyond);
 
-  /// The orbit at a value before which an impact passes the time of the start: the state there is then that
-  /// on the other side of the impact.
-  std::optional<Station> across_start(double beyond);
+  /// Whether an impact passes the time of the start before a value. If so, the branch goes on from the orbit
+  /// just behind that, whose start is on the other side of the impact.
+  bool across_start(double beyond);
 
   /// Whether the branch turns around before a value at which it has no orbit. If so, the fold is told, and
   /// `fold_` is what finds orbits behind it.

@@ -28,7 +28,7 @@ std::pair<FollowedBranch::Station, double> FollowedBranch::approach(double beyon
   return {near, none};
 }
 
-std::optional<FollowedBranch::Station> FollowedBranch::across_start(double beyond) {
+bool FollowedBranch::across_start(double beyond) {
   const auto [near, none] = approach(beyond);
   const mechanics::Orbit& orbit = near.orbit;
   double nearest = near_start * orbit.period;
@@ -40,17 +40,15 @@ std::optional<FollowedBranch::Station> FollowedBranch::across_start(double beyon
     const convex::Vector jump = impact.velocity_after - impact.velocity_before;
     guess.v = orbit.start.v + (since < left ? 1 : -1) * jump;
   }
-  if (nearest >= near_start * orbit.period) return std::nullopt;
-  const std::vector<Station> kept = trail_;
-  if (auto one = attempt(none, guess, orbit.period)) {
-    constexpr double short_step = 0.01;
-    trail_ = {*one};
-    if (auto two = attempt(none + short_step * way() * std::abs(range_.step), one->orbit.start, orbit.period))
-      trail_.push_back(*two);
-    if (auto found = attempt_from_last(beyond)) return found;
-  }
-  trail_ = kept;
-  return std::nullopt;
+  if (nearest >= near_start * orbit.period) return false;
+  constexpr double short_step = 0.01;
+  const auto one = attempt(none, guess, orbit.period);
+  if (!one) return false;
+  const auto two = attempt(none + short_step * way() * std::abs(range_.step), one->orbit.start, orbit.period);
+  if (!two) return false;
+  trail_ = {*one, *two};
+  stations_.push_back(*two);
+  return true;
 }
 
 bool FollowedBranch::turn(double beyond) {
