@@ -7,6 +7,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/proved_prox/doubles/proof_in_doubles.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 
 namespace convex {
@@ -79,7 +80,9 @@ double proved_radius(const ProvedMetric& W, const Fractions& z, const ProofPair&
   return above(std::hypot(miss, gap));
 }
 
-ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
+namespace {
+
+ProvedSplit prove_in_fractions(const SplitQuestion& question, const Decomposition& split) {
   ProvedSplit made;
   const Vector &x = split.x.x, &y = split.y.x;
   if (x.size() != static_cast<Index>(question.z.size()) || !x.allFinite() || !usable(y, x)) {
@@ -142,6 +145,43 @@ ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
   const bool is_rational = W.is_exact() && first.pair->is_rational && second.pair->is_rational;
   made.level = is_rational ? ProofLevel::exact : ProofLevel::enclosure;
   return made;
+}
+
+/// Functions whose programs have larger parts, coupled by W, are proved in doubles first: fractions would
+/// take longer than the program takes to start.
+constexpr std::size_t most_at_once = 20;
+
+bool is_quick_in_fractions(const SplitQuestion& question) {
+  const auto program = exact_program(question.f, question.W);
+  return program && largest_part(*program, &question.W) <= most_at_once;
+}
+
+/// Relative error of the doubles nearest to entries of W: 0 where they are the entries.
+double rounding_of(const ExactGram& W) {
+  for (const ExactRow& row : W.rows)
+    for (const auto& [j, entry] : row)
+      if (!(fraction(nearest_double(entry)) == entry)) return unit_roundoff;
+  return 0;
+}
+
+}  // namespace
+
+ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
+  if (is_quick_in_fractions(question)) return prove_in_fractions(question, split);
+  const Metric W = rounded(question.W);
+  const Vector z = nearest(question.z);
+  Vector z_radius = Vector::Zero(z.size());
+  for (Index i = 0; i < z.size(); ++i)
+    if (!(fraction(z[i]) == question.z[static_cast<std::size_t>(i)]))
+      z_radius[i] = std::nextafter(std::abs(z[i]), INFINITY) - std::abs(z[i]);
+  if (const auto proof = proof_in_doubles({question.f, z, z_radius, W, rounding_of(question.W)}, split))
+    return *proof;
+  return prove_in_fractions(question, split);
+}
+
+ProvedSplit prove(const Call& f, const Vector& z, const Metric& W, const Decomposition& split) {
+  if (const auto proof = proof_in_doubles({f, z, Vector::Zero(z.size()), W, 0}, split)) return *proof;
+  return prove_in_fractions({f, fractions(z), exact_gram(W)}, split);
 }
 
 ExactSplit exact_split(const SplitQuestion& question) {

@@ -45,8 +45,13 @@ struct ProvedSplit {
 };
 
 /// Proves what it can of a decomposition in doubles. `split.x.v` and `split.y.v` are used where they are
-/// there, else W(z - x) and W(z - y).
+/// there, else W(z - x) and W(z - y). In fractions, and level `exact`, where f is piecewise linear-quadratic
+/// and the work is small beside reading the question; else in doubles where these prove ten digits, else in
+/// fractions and balls.
 ProvedSplit prove(const SplitQuestion&, const Decomposition& split);
+/// The same for z and W as they stand, doubles first whatever f is: some times the price of the
+/// decomposition.
+ProvedSplit prove(const Call& f, const Vector& z, const Metric& W, const Decomposition& split);
 
 /// The decomposition in fractions, of a piecewise linear-quadratic f: x* from the program of f and y* from
 /// that of its conjugate, each by itself; that they add up to z is looked at.

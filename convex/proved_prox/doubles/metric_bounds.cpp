@@ -1,0 +1,82 @@
+#include "convex/proved_prox/doubles/metric_bounds.hpp"
+
+#include <cmath>
+
+#include "convex/interval_arithmetic.hpp"
+#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
+
+namespace convex {
+namespace {
+
+/// The largest sum of sizes in a row is at least the largest eigenvalue.
+double largest_row(const Matrix& sizes) { return above(sizes.rowwise().sum().maxCoeff()); }
+
+}  // namespace
+
+bool MetricBounds::is_diagonal() const {
+  return W_.kind() == MetricKind::identity || W_.kind() == MetricKind::diagonal;
+}
+
+MetricBounds::MetricBounds(const Metric& W, double relative_error) : W_(W), error_(relative_error) {
+  if (W.kind() == MetricKind::identity) {
+    least_ = most_ = 1;
+  } else if (W.kind() == MetricKind::diagonal) {
+    least_ = moved_down(W.diagonal().minCoeff());
+    most_ = moved_up(W.diagonal().maxCoeff());
+  } else {
+    gram_ = W.kind() == MetricKind::sparse ? Matrix(W.sparse_gram()) : W.dense_gram();
+    sizes_ = gram_.cwiseAbs();
+    least_ = least_eigenvalue_below(gram_);
+    most_ = above(largest_row(sizes_));
+  }
+}
+
+double MetricBounds::norm_above(const Vector& size) const {
+  if (W_.kind() == MetricKind::identity) return convex::norm_above(size);
+  if (is_diagonal()) return convex::norm_above(Vector(size.cwiseProduct(W_.diagonal().cwiseSqrt())));
+  return above(std::sqrt(above(size.dot(sizes_ * size)))) * (1 + error_);
+}
+
+double MetricBounds::norm_above(const Vector& d, const Vector& radius) const {
+  if (is_diagonal()) return norm_above(Vector(d.cwiseAbs() + radius));
+  const Vector size = d.cwiseAbs();
+  const double square = d.dot(gram_ * d) + (2 * gamma(d.size()) + error_) * size.dot(sizes_ * size);
+  return above(std::sqrt(above(std::max(square, 0.0))) + norm_above(radius));
+}
+
+double MetricBounds::norm_above(double ball) const { return ball > 0 ? above(ball * std::sqrt(most_)) : 0; }
+
+double MetricBounds::dual_norm_above(double ball) const {
+  return ball > 0 ? above(ball / std::sqrt(least_)) : 0;
+}
+
+double MetricBounds::dual_norm_above(const Vector& c, const Vector& radius) const {
+  if (!is_proved_definite()) return INFINITY;
+  if (W_.kind() == MetricKind::identity) return convex::norm_above(Vector(c.cwiseAbs() + radius));
+  if (is_diagonal())
+    return convex::norm_above(Vector((c.cwiseAbs() + radius).cwiseQuotient(W_.diagonal().cwiseSqrt())));
+  // ||c'|| <= ||e||_W + |c' - We|₂ / sqrt(least), e near W⁻¹c.
+  const Vector e = W_.solve(c);
+  Vector product = e, left = Vector::Zero(e.size());
+  multiply(product, left);
+  left += radius;
+  const Vector miss = (c - product).cwiseAbs() * (1 + 4 * unit_roundoff) + left;
+  return above(norm_above(e, Vector::Zero(e.size())) + dual_norm_above(convex::norm_above(miss)));
+}
+
+void MetricBounds::multiply(Vector& x, Vector& radius) const {
+  if (W_.kind() == MetricKind::identity) return;
+  if (is_diagonal()) {
+    const Vector& d = W_.diagonal();
+    radius = (d.cwiseProduct(radius) + (error_ + unit_roundoff) * d.cwiseProduct(x.cwiseAbs())) *
+             (1 + 8 * unit_roundoff);
+    radius.array() += 1e-320;
+    x = x.cwiseProduct(d);
+    return;
+  }
+  radius = (sizes_ * (radius + (gamma(x.size()) + error_) * x.cwiseAbs())) * (1 + 0x1p-30);
+  x = gram_ * x;
+}
+
+}  // namespace convex
