@@ -82,9 +82,20 @@ std::string directions_text(const char* what, const IntegerRows& rows) {
 }
 
 std::string halfspaces_text(const char* what, const std::vector<ExactHalfspace>& rows, const char* relation) {
+  // Long integers are those of rounded numbers: they are told with a largest entry of 1.
+  const convex::Fraction most_plain{10000000000};
   return lines_of(what, rows, [&](const ExactHalfspace& row) {
-    return row_text(as_fractions(row.normal)) + ".v " + relation + " " +
-           number_text(nearest_double(Fraction{row.limit}));
+    convex::Fractions normal = as_fractions(row.normal);
+    convex::Fraction limit{row.limit}, largest;
+    for (const convex::Fraction& entry : normal) {
+      const convex::Fraction size = sign(entry) < 0 ? -entry : entry;
+      if (largest < size) largest = size;
+    }
+    if (most_plain < largest) {
+      for (convex::Fraction& entry : normal) entry = entry / largest;
+      limit = limit / largest;
+    }
+    return row_text(normal) + ".v " + relation + " " + number_text(nearest_double(limit));
   });
 }
 

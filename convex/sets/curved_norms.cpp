@@ -1,10 +1,9 @@
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/exact/elimination.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
-#include "convex/linear_algebra/singular_values.hpp"
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
@@ -98,155 +97,48 @@ Subdifferential of_rotated_cone(const Fractions& x) {
   return ray(normal, true);
 }
 
-std::size_t side_of(std::size_t entries) {
-  return static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(entries))));
-}
-
-bool is_symmetric(const Fractions& x, std::size_t k) {
-  for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (!(x[i + k * j] == x[j + k * i])) return false;
-  return true;
-}
-
-/// Rows of the matrix stacked by columns, over one denominator.
-IntegerRows integer_matrix(const Fractions& x, std::size_t rows, std::size_t columns, Integer& denominator) {
-  const ExactVector stacked = exact_vector(x);
-  denominator = stacked.denominator;
-  IntegerRows M(rows, IntegerVector(columns));
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < columns; ++j) M[i][j] = stacked.numerators[i + rows * j];
-  return M;
-}
-
-/// -log det at X: -X⁻¹ among the symmetric matrices, and all skew ones, to which it is blind.
-Subdifferential of_neg_log_det(const Fractions& x) {
-  const std::size_t k = side_of(x.size());
-  Integer denominator;
-  const IntegerRows X = integer_matrix(x, k, k, denominator);
-  const auto inverse = is_symmetric(x, k) ? positive_definite_inverse(X) : std::nullopt;
-  if (!inverse) return none(x.size());
-  ExactPolyhedron P = empty_polyhedron(x.size());
-  P.vertices.emplace_back(x.size());
-  for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      const Fraction entry = lowest_terms({-(inverse->adjugate[i][j] * denominator), inverse->determinant});
-      P.vertices.front()[i + k * j] = P.vertices.front()[j + k * i] = entry;
-      IntegerVector same(x.size()), opposite(x.size());
-      same[i + k * j] = entry.denominator;
-      same[j + k * i] += i == j ? Integer{0} : entry.denominator;
-      P.equations.push_back({same, (i == j ? Integer{1} : Integer{2}) * entry.numerator});
-      if (i == j) continue;
-      opposite[i + k * j] = 1;
-      opposite[j + k * i] = -1;
-      P.lines.push_back(std::move(opposite));
-    }
-  return of_polyhedron(std::move(P), true);
-}
-
-/// A basis of the annihilator of the rows, orthonormal in doubles: columns.
-Matrix orthonormal_complement(const IntegerRows& rows, std::size_t columns) {
-  const Echelon space = annihilator(echelon(rows, columns));
-  Matrix Q(static_cast<Index>(columns), static_cast<Index>(space.rank()));
-  for (std::size_t k = 0; k < space.rank(); ++k) {
-    const auto column = static_cast<Index>(k);
-    Q.col(column) = nearest(ExactVector{space.rows[k], 1});
-    Q.col(column) /= Q.col(column).stableNorm();
-    for (int again = 0; again < 2; ++again) {
-      for (Index j = 0; j < column; ++j) Q.col(column) -= Q.col(j).dot(Q.col(column)) * Q.col(j);
-      Q.col(column) /= Q.col(column).norm();
-    }
+/// weight times the gauge of unit vectors with k entries: v = x/ρ on the largest entries, of one size A/ρ
+/// with the sign of x on the others that are not 0, and in [-A, A]/ρ where x is, A = Σ of the others / (r +
+/// 1), ρ² = Σ of the largest squares + (r + 1) A² (Argyriou, Foygel and Srebro 2012). Which are the largest
+/// is decided in fractions.
+std::optional<Subdifferential> of_k_support(const ExactArguments& a, const Fractions& x) {
+  const std::size_t n = x.size();
+  const auto k = static_cast<std::size_t>(nearest_double(a.number("k")));
+  const Fraction weight = a.number("weight");
+  if (sign(pairs::square_of(x)) == 0) return std::nullopt;
+  if (sign(weight) == 0) return single(Fractions(n), true);
+  const auto size = [&](std::size_t i) { return sign(x[i]) < 0 ? -x[i] : x[i]; };
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return size(j) < size(i); });
+  // x_(k-r-1) > A >= x_(k-r), counted from 1, x_(0) infinite.
+  Fraction rest, level;
+  for (std::size_t i = k - 1; i < n; ++i) rest = rest + size(order[i]);
+  std::size_t many = k - 1;  // entries above the level
+  for (std::size_t r = 0;; ++r, --many) {
+    level = rest / Fraction{static_cast<std::int64_t>(r + 1)};
+    const bool above_next = !(level < size(order[many]));
+    if (above_next && (many == 0 || level < size(order[many - 1]))) break;
+    if (many == 0) return std::nullopt;
+    rest = rest + size(order[many - 1]);
   }
-  return Q;
-}
-
-/// The map D -> PᵀDQ of matrices stacked by columns.
-Matrix two_sided_product(const Matrix& P, const Matrix& Q) {
-  Matrix made(P.cols() * Q.cols(), P.rows() * Q.rows());
-  for (Index j = 0; j < Q.cols(); ++j)
-    for (Index i = 0; i < P.cols(); ++i)
-      for (Index b = 0; b < Q.rows(); ++b)
-        for (Index a = 0; a < P.rows(); ++a) made(i + P.cols() * j, a + P.rows() * b) = P(a, i) * Q(b, j);
-  return made;
-}
-
-Vector stacked(const Matrix& M) { return Eigen::Map<const Vector>(M.data(), M.size()); }
-
-/// weight {UVᵀ + S : UᵀS = 0, SV = 0, ||S|| <= 1}, X = U Σ Vᵀ of its rank, which fractions decide (Watson
-/// 1992).
-Subdifferential of_nuclear_norm(const ExactArguments& a, const Fractions& x) {
-  const auto rows = static_cast<std::size_t>(nearest_double(a.number("rows"))), columns = x.size() / rows;
-  const double weight = nearest_double(a.number("weight"));
-  Integer denominator;
-  const IntegerRows X = integer_matrix(x, rows, columns, denominator);
-  IntegerRows transposed(columns, IntegerVector(rows));
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < columns; ++j) transposed[j][i] = X[i][j];
-  const Matrix left = orthonormal_complement(transposed, rows), right = orthonormal_complement(X, columns);
-  const auto rank = static_cast<Index>(rows) - left.cols();
-  const Vector doubles = nearest(x);
-  const Matrix in_doubles =
-      Eigen::Map<const Matrix>(doubles.data(), static_cast<Index>(rows), static_cast<Index>(columns));
-  const linear_algebra::SingularValues parts(in_doubles);
-  const Matrix polar = weight * parts.U.leftCols(rank) * parts.V.leftCols(rank).transpose();
-  if (left.cols() == 0 || right.cols() == 0 || weight == 0) return single(fractions(stacked(polar)), false);
-  Call rest{"nuclear_norm", {argument("weight", weight), argument("rows", static_cast<double>(left.cols()))}};
-  rest = {"precompose", {argument(std::move(rest)), argument("A", two_sided_product(left, right))}};
-  if (rank == 0)
-    return of_support(
-        {"nuclear_norm", {argument("weight", weight), argument("rows", static_cast<double>(rows))}}, x.size(),
-        true);
-  return of_support({"tilt", {argument(std::move(rest)), argument("c", stacked(polar))}}, x.size(), true);
-}
-
-/// The cone of positive semidefinite matrices: normals -VSVᵀ, S semidefinite, V a basis of the kernel of X,
-/// and all skew matrices.
-Subdifferential of_psd_cone(const Fractions& x) {
-  const std::size_t k = side_of(x.size());
-  if (!is_symmetric(x, k)) return none(x.size());
-  Integer denominator;
-  const IntegerRows X = integer_matrix(x, k, k, denominator);
-  const Echelon kernel = annihilator(echelon(X, k));
-  // Semidefinite exactly when definite across the kernel: X + Σ v vᵀ over a basis of it is definite.
-  IntegerRows across = X;
-  for (const IntegerVector& v : kernel.rows)
-    for (std::size_t i = 0; i < k; ++i)
-      for (std::size_t j = 0; j < k; ++j) across[i][j] += v[i] * v[j] * denominator;
-  if (!positive_definite_inverse(across)) return none(x.size());
-  ExactPolyhedron skew = empty_polyhedron(x.size());
-  skew.vertices.emplace_back(x.size());
-  for (std::size_t i = 0; i < k; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      IntegerVector same(x.size()), opposite(x.size());
-      same[i + k * j] = same[j + k * i] = 1;
-      skew.equations.push_back({same, 0});
-      if (i == j) continue;
-      opposite[i + k * j] = 1;
-      opposite[j + k * i] = -1;
-      skew.lines.push_back(std::move(opposite));
-    }
-  if (kernel.rank() == 0) return of_polyhedron(std::move(skew), true);
-  // Directions D with VᵀDV semidefinite, D symmetric: its support function is their indicator.
-  const Matrix V = orthonormal_complement(X, k);
-  Call inside = indicator_call({"psd_cone"});
-  if (kernel.rank() < k) {
-    Matrix rows(static_cast<Index>(skew.lines.size()), static_cast<Index>(x.size()));
-    for (std::size_t l = 0; l < skew.lines.size(); ++l)
-      rows.row(static_cast<Index>(l)) = nearest(ExactVector{skew.lines[l], 1});
-    // VᵀDV of what rounding leaves of symmetry is made symmetric.
-    Matrix across_V = two_sided_product(V, V);
-    const Index m = V.cols();
-    for (Index i = 0; i < m; ++i)
-      for (Index j = 0; j < i; ++j) {
-        const Vector mean = 0.5 * (across_V.row(i + m * j) + across_V.row(j + m * i));
-        across_V.row(i + m * j) = mean;
-        across_V.row(j + m * i) = mean;
-      }
-    inside = {"sum",
-              {argument(Call{"precompose", {argument(std::move(inside)), argument("A", across_V)}}),
-               argument(indicator_call({"affine", {argument("A", rows)}}))}};
+  Fraction square = level * level * Fraction{static_cast<std::int64_t>(k - many)};
+  for (std::size_t i = 0; i < many; ++i) square = square + x[order[i]] * x[order[i]];
+  const Fraction factor = weight / norm_rounded(square);
+  std::vector<Subdifferential> entries(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = order[i];
+    if (i < many)
+      entries[at] = single({factor * x[at]}, false);
+    else if (sign(x[at]) != 0)
+      entries[at] = single({sign(x[at]) < 0 ? -(factor * level) : factor * level}, false);
+    else if (sign(level) == 0)
+      entries[at] = single({Fraction{}}, false);
+    else
+      entries[at] = hull({single({factor * level}, false), single({-(factor * level)}, false)});
   }
-  return of_support(std::move(inside), x.size(), false);
+  return product(entries);
 }
 
 }  // namespace
@@ -261,9 +153,7 @@ std::optional<Subdifferential> of_curved_norm_or_set(const Call& f, const Fracti
     return of_groups(a, x, [&](const Fractions& group) { return of_ball2(a.number("radius"), group); });
   if (f.name == "second_order_cone") return of_second_order_cone(x);
   if (f.name == "rotated_second_order_cone") return of_rotated_cone(x);
-  if (f.name == "psd_cone") return of_psd_cone(x);
-  if (f.name == "neg_log_det") return of_neg_log_det(x);
-  if (f.name == "nuclear_norm") return of_nuclear_norm(a, x);
+  if (f.name == "k_support") return of_k_support(a, x);
   return std::nullopt;
 }
 

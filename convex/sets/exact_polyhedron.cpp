@@ -24,18 +24,28 @@ Fraction value_at(const IntegerVector& normal, const Fractions& v) {
   return sum;
 }
 
+/// The power of two that brings the largest entry of a row near 1 where its integers are those of rounded
+/// numbers, of more than ten digits; else 1.
+double scale_of(const IntegerVector& normal) {
+  constexpr double most_plain = 1e10;
+  double largest = 0;
+  for (const Integer& entry : normal) largest = std::max(largest, std::abs(nearest_double(Fraction{entry})));
+  return largest > most_plain && std::isfinite(largest) ? std::exp2(-std::floor(std::log2(largest))) : 1;
+}
+
 Matrix rows_in_doubles(const std::vector<ExactHalfspace>& rows, std::size_t n) {
   Matrix A(static_cast<Index>(rows.size()), static_cast<Index>(n));
   for (std::size_t a = 0; a < rows.size(); ++a)
     for (std::size_t i = 0; i < n; ++i)
-      A(static_cast<Index>(a), static_cast<Index>(i)) = nearest_double(Fraction{rows[a].normal[i]});
+      A(static_cast<Index>(a), static_cast<Index>(i)) =
+          scale_of(rows[a].normal) * nearest_double(Fraction{rows[a].normal[i]});
   return A;
 }
 
 Vector limits_in_doubles(const std::vector<ExactHalfspace>& rows) {
   Vector b(static_cast<Index>(rows.size()));
   for (std::size_t a = 0; a < rows.size(); ++a)
-    b[static_cast<Index>(a)] = nearest_double(Fraction{rows[a].limit});
+    b[static_cast<Index>(a)] = scale_of(rows[a].normal) * nearest_double(Fraction{rows[a].limit});
   return b;
 }
 
@@ -207,6 +217,25 @@ ExactPolyhedron product(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
 ExactPolyhedron hull(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
   return generated(both(P.vertices, Q.vertices), as_fractions(both(P.rays, Q.rays)),
                    as_fractions(both(P.lines, Q.lines)), P.n);
+}
+
+ExactPolyhedron intersection(const ExactPolyhedron& P, const ExactPolyhedron& Q) {
+  ExactRows halfspaces, equations;
+  const auto take = [&](const std::vector<ExactHalfspace>& rows, ExactRows& into) {
+    for (const ExactHalfspace& row : rows) {
+      IntegerVector entries = row.normal;
+      entries.push_back(-row.limit);
+      into.push_back({std::move(entries), 1});
+    }
+  };
+  for (const ExactPolyhedron* one : {&P, &Q}) {
+    take(one->halfspaces, halfspaces);
+    take(one->equations, equations);
+  }
+  IntegerVector above(P.n + 1);
+  above.back() = -1;
+  halfspaces.push_back({std::move(above), 1});
+  return section_at_one(halfspace_cone(halfspaces, equations, static_cast<Index>(P.n + 1)));
 }
 
 ExactProgram program_of(const ExactPolyhedron& P) {

@@ -47,6 +47,7 @@ ExactPolyhedron sum(const ExactPolyhedron& P, const ExactPolyhedron& Q);
 ExactPolyhedron product(const ExactPolyhedron& P, const ExactPolyhedron& Q);
 /// The convex hull of P and Q, which are not empty, closed.
 ExactPolyhedron hull(const ExactPolyhedron& P, const ExactPolyhedron& Q);
+ExactPolyhedron intersection(const ExactPolyhedron& P, const ExactPolyhedron& Q);
 
 /// The indicator of P as a program in fractions.
 ExactProgram program_of(const ExactPolyhedron& P);

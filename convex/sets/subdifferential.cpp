@@ -103,6 +103,8 @@ Subdifferential subdifferential(const Call& f, const ExactGram& W, const Fractio
   }
   if (auto found = by_calculus(f, W, x)) return std::move(*found);
   if (auto found = of_curved_norm_or_set(f, x)) return std::move(*found);
+  if (auto found = of_matrix_function(f, x)) return std::move(*found);
+  if (auto found = of_three_entry_cone(f, x)) return std::move(*found);
   if (auto found = of_entries(f, x)) return std::move(*found);
   if (auto found = of_smooth_or_homogeneous(f, W, x)) return std::move(*found);
   throw InvalidInput(f.name +

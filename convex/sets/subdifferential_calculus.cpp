@@ -227,6 +227,47 @@ std::optional<Subdifferential> of_renamed(const Call& f, const ExactGram& W, con
   return transposed_image(subdifferential(renamed, plain, multiply(W, x)), W.rows, x.size());
 }
 
+/// ∂(f □ g)(x) = ∂f(u) ∩ ∂g(x - u) for any u that attains the minimum of f(u) + g(x - u), which is one where
+/// the two meet (Rockafellar 1970, theorem 23.8 for the conjugates). Tried are u = 0, u = x, and the u of
+/// doubles where one of the parts has a single subgradient.
+Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Fractions& x) {
+  const auto calls = ExactArguments(f, x.size()).calls();
+  const Vector at = nearest(x);
+  const Function made = make_function(f, {rounded(W)});
+  const auto v = made.subgradient(at);
+  if (!v || !v->allFinite()) refuse(f, "doubles find no subgradient there");
+  const Fractions covector = fractions(*v);
+  for (const Fractions& u : {Fractions(x.size()), x}) {
+    const Subdifferential first = subdifferential(*calls[0], W, u),
+                          second = subdifferential(*calls[1], W, difference(x, u));
+    if (first.is_empty() || second.is_empty()) continue;
+    const auto nearly_in = [&](const Subdifferential& set) {
+      const Vector nearest_in = set.is_single() ? nearest(set.polyhedron->vertices.front())
+                                                : set.projection(*v, Metric::identity(v->size()));
+      return (nearest_in - *v).norm() <= membership_tolerance * std::max(1.0, v->norm());
+    };
+    if (!nearly_in(first) || !nearly_in(second)) continue;
+    if (first.is_single()) return first;
+    if (second.is_single()) return second;
+    return intersection(first, second);
+  }
+  // The point of the first part that has the covector v: the prox of its conjugate's partner.
+  const Function part = make_function(*calls[0], {rounded(W)});
+  const auto u = part.conjugate().subgradient(*v);
+  if (u && u->allFinite()) {
+    const Fractions point = fractions(*u);
+    for (const auto& [call, where] :
+         {std::pair{calls[0], point}, std::pair{calls[1], difference(x, point)}}) {
+      const Subdifferential one = subdifferential(*call, W, where);
+      if (!one.is_single()) continue;
+      const Vector slope = nearest(one.polyhedron->vertices.front());
+      if ((slope - *v).norm() <= membership_tolerance * std::max(1.0, v->norm()))
+        return single(covector, false);
+    }
+  }
+  refuse(f, "both parts have a corner at the point where they share x");
+}
+
 }  // namespace
 
 std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, const Fractions& x) {
@@ -238,6 +279,7 @@ std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, co
   if (name == "sum" || name == "intersection") return of_sum(f, W, x);
   if (name == "precompose") return of_precompose(f, x);
   if (name == "pointwise_max") return of_maximum(f, W, x);
+  if (name == "inf_convolution") return of_inf_convolution(f, W, x);
   if (name == "translate") return subdifferential(a.call("f"), W, difference(x, a.vector("by")));
   if (name == "tilt") return sum(subdifferential(a.call("f"), W, x), single(a.vector("c"), true));
   if (name == "scale")

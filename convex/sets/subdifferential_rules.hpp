@@ -9,10 +9,13 @@ namespace convex::subgradients {
 /// part has no rule.
 std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, const Fractions& x);
 
-/// Norms, balls and cones that are round: norm2, group_norm, nuclear_norm, ball2, group_ball, the
-/// second-order cones, psd_cone; and neg_log_det. What decides between a corner, an edge and a smooth point
-/// is decided in fractions.
+/// Norms, balls and cones that are round: norm2, group_norm, k_support, ball2, group_ball, the second-order
+/// cones. What decides between a corner, an edge and a smooth point is decided in fractions.
 std::optional<Subdifferential> of_curved_norm_or_set(const Call& f, const Fractions& x);
+/// Functions and sets of matrices: nuclear_norm, max_eigenvalue, neg_log_det, psd_cone, spectraplex.
+std::optional<Subdifferential> of_matrix_function(const Call& f, const Fractions& x);
+/// The exponential and the power cone and their duals.
+std::optional<Subdifferential> of_three_entry_cone(const Call& f, const Fractions& x);
 
 /// A gradient in doubles, of a function that is finite and differentiable everywhere; at 0, of a positively
 /// homogeneous function with f(0) = 0, the set whose support function it is.

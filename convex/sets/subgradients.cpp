@@ -147,4 +147,13 @@ Subdifferential hull(const std::vector<Subdifferential>& parts) {
       std::all_of(some.begin(), some.end(), [](const auto* part) { return is_bounded(*part); }));
 }
 
+Subdifferential intersection(const Subdifferential& a, const Subdifferential& b) {
+  if (a.is_empty() || b.is_empty()) return none(a.n);
+  if (is_polyhedral(a) && is_polyhedral(b))
+    return of_polyhedron(intersection(*a.polyhedron, *b.polyhedron), a.is_exact && b.is_exact);
+  return of_support(
+      {"inf_convolution", {convex::argument(support_expression(a)), convex::argument(support_expression(b))}},
+      a.n, is_bounded(a) || is_bounded(b));
+}
+
 }  // namespace convex::subgradients

@@ -18,11 +18,12 @@ Subdifferential of_support(Call support, std::size_t n, bool is_bounded);
 /// Is the set, which is not empty, bounded? Then f is finite around x (Rockafellar 1970, theorem 23.4).
 bool is_bounded(const Subdifferential&);
 
-/// The sets {Aᵀv}, {v + w}, {(v, w)}, and the closed convex hull of the union. A: by rows of its nonzero
-/// entries, one an entry of v. What is empty stays so; the hull leaves it out.
+/// The sets {Aᵀv}, {v + w}, {(v, w)}, the closed convex hull of the union, and the intersection. A: by rows
+/// of its nonzero entries, one an entry of v. What is empty stays so; the hull leaves it out.
 Subdifferential transposed_image(const Subdifferential&, const std::vector<ExactRow>& A, std::size_t columns);
 Subdifferential sum(const Subdifferential&, const Subdifferential&);
 Subdifferential product(const std::vector<Subdifferential>&);
 Subdifferential hull(const std::vector<Subdifferential>&);
+Subdifferential intersection(const Subdifferential&, const Subdifferential&);
 
 }  // namespace convex::subgradients

@@ -79,7 +79,26 @@ TEST_CASE(
       {"perspective(norm2())", {"0", "0", "2"}, "[0.8,0.8,0]"},
       {"envelope(norm2(), 2)", {"0.3", "0.4"}, "[0.2,0.2]"},
       {"conjugate(indicator(ball2(2)))", {"0", "0"}, "[2,0.5]"},
-      {"schatten(3)", {"1", "2", "3", "4"}, "[0.2,0.3,0.5,0.8]"}};
+      {"schatten(3)", {"1", "2", "3", "4"}, "[0.2,0.3,0.5,0.8]"},
+      {"max_eigenvalue(2)", {"1", "0", "0", "2"}, "[0.1,0,0,1.9]"},
+      {"max_eigenvalue()", {"1", "0", "0", "1"}, "[0.5,0.6,0.6,0.5]"},
+      {"max_eigenvalue()", {"1", "0", "0", "0", "2", "0", "0", "0", "2"}, "[0,0,0,0,1.2,0,0,0,-0.2]"},
+      {"max_eigenvalue(3)", {"2", "-1", "-1", "-1", "2", "-1", "-1", "-1", "2"}, "[3,0,0,0,0,0,0,0,0]"},
+      {"indicator(spectraplex(2))", {"2", "0", "0", "0"}, "[0,0,0,1]"},
+      {"indicator(spectraplex(2))", {"1", "0.5", "-0.5", "1"}, "[1,0,0,0.5]"},
+      {"indicator(exponential_cone())", {"0", "1", "1"}, "[1,1,-0.9]"},
+      {"indicator(exponential_cone())", {"0", "0", "2"}, "[0,-1,-0.1]"},
+      {"indicator(exponential_cone())", {"-1", "0", "0"}, "[0.1,0,-1]"},
+      {"indicator(exponential_cone())", {"-1", "0", "1"}, "[0,-1,-0.1]"},
+      {"indicator(dual_exponential_cone())", {"-1", "-1", "1"}, "[0.1,-1,-1]"},
+      {"indicator(dual_exponential_cone())", {"0", "1", "0"}, "[1,-0.1,0]"},
+      {"indicator(dual_exponential_cone())", {"0", "0", "1"}, "[1,-0.1,0]"},
+      {"indicator(power_cone(0.5))", {"4", "1", "2"}, "[-0.25,-1,1.1]"},
+      {"indicator(power_cone(1/3))", {"0", "1", "0"}, "[-1,-0.1,0]"},
+      {"indicator(dual_power_cone(1/3))", {"8/3", "2/3", "-2"}, "[0,-1,-1]"},
+      {"k_support(2)", {"3", "1", "0", "0"}, "[1,0,0.8,0]"},
+      {"k_support(2, 0.5)", {"1", "-1", "1"}, "[0.4,-0.3,0.3]"},
+      {"k_support(3)", {"0", "2", "0", "0"}, "[0.1,1,0,0]"}};
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (const Case& one : cases) {
@@ -129,15 +148,61 @@ TEST_CASE("where two domains have x on their edge, and one slope is vertical, no
 }
 
 TEST_CASE("what the calculus does not cover is refused, and never told as a smaller set") {
-  for (const char* const f : {"sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))",
-                              "precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", "max_eigenvalue()"}) {
+  for (const auto& [f, x] : {std::pair<const char*, std::vector<const char*>>{
+                                 "sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))", {"1", "0"}},
+                             {"precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", {"0", "0"}},
+                             {"epigraph(norm2())", {"3", "4", "5"}}}) {
     CAPTURE(f);
-    const std::vector<const char*> x = std::string(f) == "max_eigenvalue()"
-                                           ? std::vector<const char*>{"1", "0", "0", "2"}
-                                       : std::string(f)[0] == 's' ? std::vector<const char*>{"1", "0"}
-                                                                  : std::vector<const char*>{"0", "0"};
     CHECK_THROWS_AS(subdifferential(parsed(f), identity_gram(x.size()), fractions_of(x)), InvalidInput);
   }
+}
+
+TEST_CASE(
+    "where parts of an inf-convolution share a point, their subgradients meet in what is known by hand") {
+  const Call call = parsed("inf_convolution(norm2(), norm1(0.75))");
+  const auto read = [](const char* v) { return fractions(cli::parse_vector(v, "v")); };
+  // At (2, 0) norm1 moves along its first axis: {0.75} x [-r, r] with 0.75² + r² = 1.
+  const Subdifferential edge = subdifferential(call, identity_gram(2), fractions_of({"2", "0"}));
+  const double r = std::sqrt(1 - 0.75 * 0.75);
+  CHECK(edge.contains(read("[0.75,0.66]")));
+  CHECK_FALSE(edge.contains(read("[0.75,0.67]")));
+  CHECK_FALSE(edge.contains(read("[0.74,0]")));
+  CHECK(edge.support(read("[1,1]")) == doctest::Approx(0.75 + r).epsilon(1e-9));
+  // At 0 the ball cut by the box.
+  const Subdifferential cut = subdifferential(call, identity_gram(2), fractions_of({"0", "0"}));
+  CHECK(cut.contains(read("[0.7,0.7]")));
+  CHECK_FALSE(cut.contains(read("[0.72,0.72]")));
+  CHECK_FALSE(cut.contains(read("[0.76,0]")));
+  // A part with a gradient leaves one covector, that of the prox.
+  const Call smooth = parsed("inf_convolution(norm2(2), logistic())");
+  const Subdifferential one = subdifferential(smooth, identity_gram(2), fractions_of({"2", "1"}));
+  REQUIRE(one.is_single());
+  const Vector x{{2, 1}}, v = nearest(one.polyhedron->vertices.front());
+  const Prox back = make_function(smooth, {Metric::identity(2)}).prox(x + v, Metric::identity(2));
+  CHECK((back.x - x).norm() <= 1e-8);
+  // The nuclear norm is above the largest entry: of their maximum at 0 it is the spectral ball.
+  const Subdifferential ball = subdifferential(parsed("pointwise_max(nuclear_norm(1, 2), norm_inf())"),
+                                               identity_gram(4), Fractions(4));
+  CHECK(ball.contains(read("[0.9,0,0,0.9]")));
+  CHECK_FALSE(ball.contains(read("[1.1,0,0,1]")));
+  CHECK(ball.projection(Vector::Zero(4), Metric::identity(4)).norm() <= 1e-9);
+}
+
+TEST_CASE("which face of a curved cone a point is on is decided in fractions") {
+  const auto normals = [](const char* f, const std::vector<const char*>& x) {
+    return subdifferential(parsed(f), identity_gram(3), fractions_of(x));
+  };
+  // One part in 10^30 inside, on, and outside of the boundary.
+  CHECK(normals("exponential_cone()", {"0", "1", "1000000000000000000000000000001e-30"}).is_single());
+  CHECK(normals("exponential_cone()", {"0", "1", "1"}).polyhedron->rays.size() == 1);
+  CHECK(normals("exponential_cone()", {"0", "1", "999999999999999999999999999999e-30"}).is_empty());
+  CHECK(normals("power_cone(1/3)", {"8", "1", "2"}).polyhedron->rays.size() == 1);
+  CHECK(normals("power_cone(1/3)", {"8", "1", "2000000000000000000000000000001e-30"}).is_empty());
+  CHECK(normals("power_cone(1/3)", {"8", "1", "1999999999999999999999999999999e-30"}).is_single());
+  CHECK(normals("power_cone(0.3)", {"1", "-1", "0"}).is_empty());
+  // e^(1/2) is no fraction: a point of fractions is inside or outside.
+  CHECK(normals("exponential_cone()", {"1", "2", "3.2974425414002562936973015756283"}).is_empty());
+  CHECK(normals("exponential_cone()", {"1", "2", "3.2974425414002562936973015756284"}).is_single());
 }
 
 TEST_CASE(
