@@ -24,8 +24,8 @@ struct NamedCases {
   bool is_finite_everywhere = false;  ///< a prox
 };
 
-std::string shown(const Fraction& value, bool latex) {
-  return latex ? symbolic::latex(symbolic::number(value)) : convex::text(value);
+std::string shown(const symbolic::Surd& value, bool latex) {
+  return latex ? symbolic::latex(value) : symbolic::text(value);
 }
 
 /// "x <= 1", "0 < x < 1", "x = 3", "for all x".
@@ -124,15 +124,20 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
 }  // namespace
 
 std::string cases_text(const std::string& left, const std::string& variable, const symbolic::Cases& cases) {
-  return as_text({left, variable, cases, false});
+  return as_text({left, variable, cases, left == "prox_f(z)"});
+}
+
+std::string cases_latex(const std::string& left, const std::string& variable, const symbolic::Cases& cases) {
+  const bool is_prox = left == "prox_f(z)";
+  return as_latex({is_prox ? "\\operatorname{prox}_f(z)" : left, variable, cases, is_prox});
 }
 
 void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
   json.begin_array();
-  const auto bound = [&](const char* key, const std::optional<Fraction>& value) {
+  const auto bound = [&](const char* key, const std::optional<symbolic::Surd>& value) {
     json.key(key);
     if (value)
-      json.value(convex::text(*value));
+      json.value(symbolic::text(*value));
     else
       json.null();
   };

@@ -12,6 +12,8 @@ class JsonWriter;
 
 /// "f(x) = …" by cases, a line each, +inf elsewhere.
 std::string cases_text(const std::string& left, const std::string& variable, const convex::symbolic::Cases&);
+/// The same as a formula of amsmath.
+std::string cases_latex(const std::string& left, const std::string& variable, const convex::symbolic::Cases&);
 /// An array of them.
 void write_cases(JsonWriter&, const convex::symbolic::Cases&);
 

@@ -65,7 +65,7 @@ std::optional<std::vector<AffinePiece>> seen_pieces(const Map& T, double low, do
   for (std::size_t k = 1; k < pieces.size(); ++k) {
     AffinePiece &before = pieces[k - 1], &after = pieces[k];
     if (before.slope == after.slope) return std::nullopt;  // a jump
-    const Fraction meet = (after.offset - before.offset) / (before.slope - after.slope);
+    const symbolic::Surd meet = (after.offset - before.offset) / (before.slope - after.slope);
     if (meet < *before.high || *after.low < meet) return std::nullopt;
     before.high = after.low = meet;
   }

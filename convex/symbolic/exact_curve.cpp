@@ -9,28 +9,26 @@
 namespace convex::symbolic {
 namespace {
 
-const Fraction exact_zero{0, 1}, exact_one{1, 1}, exact_half{1, 2};
+const Surd exact_zero{Fraction{0, 1}}, exact_one{Fraction{1, 1}}, exact_half{Fraction{1, 2}};
 
-bool is_zero(const Fraction& a) { return sign(a) == 0; }
+bool is_zero(const Surd& a) { return sign(a) == 0; }
 
 /// Whether (a, b) and (c, d) have one direction, both >= 0.
-bool same_direction(const Fraction& a, const Fraction& b, const Fraction& c, const Fraction& d) {
-  return a * d == b * c;
-}
+bool same_direction(const Surd& a, const Surd& b, const Surd& c, const Surd& d) { return a * d == b * c; }
 
 /// The directions of what leads to corner k and away from it.
-std::pair<Fraction, Fraction> before(const ExactCurve& f, std::size_t k) {
+std::pair<Surd, Surd> before(const ExactCurve& f, std::size_t k) {
   if (k == 0) return {f.left_run, f.left_rise};
   return {f.x[k] - f.x[k - 1], f.y[k] - f.y[k - 1]};
 }
-std::pair<Fraction, Fraction> after(const ExactCurve& f, std::size_t k) {
+std::pair<Surd, Surd> after(const ExactCurve& f, std::size_t k) {
   if (k + 1 == f.corners()) return {f.right_run, f.right_rise};
   return {f.x[k + 1] - f.x[k], f.y[k + 1] - f.y[k]};
 }
 
 /// f at corner k: trapezoids under the curve.
-Fraction value_at_corner(const ExactCurve& f, std::size_t k) {
-  Fraction value = f.value;
+Surd value_at_corner(const ExactCurve& f, std::size_t k) {
+  Surd value = f.value;
   for (std::size_t j = 0; j < k; ++j)
     value = value + exact_half * (f.y[j] + f.y[j + 1]) * (f.x[j + 1] - f.x[j]);
   return value;
@@ -54,18 +52,18 @@ ExactCurve simplified(ExactCurve f) {
   return f;
 }
 
-std::optional<Fraction> domain_low(const ExactCurve& f) {
+std::optional<Surd> domain_low(const ExactCurve& f) {
   return is_zero(f.left_run) ? std::optional(f.x.front()) : std::nullopt;
 }
-std::optional<Fraction> domain_high(const ExactCurve& f) {
+std::optional<Surd> domain_high(const ExactCurve& f) {
   return is_zero(f.right_run) ? std::optional(f.x.back()) : std::nullopt;
 }
 
 /// The subdifferential at a point of the domain: none for an end at infinity.
 struct Slopes {
-  std::optional<Fraction> low, high;
+  std::optional<Surd> low, high;
 };
-Slopes slopes_at(const ExactCurve& f, const Fraction& x) {
+Slopes slopes_at(const ExactCurve& f, const Surd& x) {
   std::optional<std::size_t> first, last;
   for (std::size_t k = 0; k < f.corners(); ++k)
     if (f.x[k] == x) {
@@ -78,7 +76,7 @@ Slopes slopes_at(const ExactCurve& f, const Fraction& x) {
     if (*last + 1 == f.corners() && is_zero(f.right_run)) found.high.reset();
     return found;
   }
-  Fraction y;
+  Surd y;
   if (x < f.x.front())
     y = f.y.front() - f.left_rise / f.left_run * (f.x.front() - x);
   else if (f.x.back() < x)
@@ -93,7 +91,7 @@ Slopes slopes_at(const ExactCurve& f, const Fraction& x) {
 
 }  // namespace
 
-std::optional<Fraction> value(const ExactCurve& f, const Fraction& x) {
+std::optional<Surd> value(const ExactCurve& f, const Surd& x) {
   const auto low = domain_low(f), high = domain_high(f);
   if ((low && x < *low) || (high && *high < x)) return std::nullopt;
   for (const ExactPiece& piece : pieces(f))
@@ -104,9 +102,9 @@ std::optional<Fraction> value(const ExactCurve& f, const Fraction& x) {
 
 std::vector<ExactPiece> pieces(const ExactCurve& f) {
   std::vector<ExactPiece> found;
-  const auto add = [&](std::optional<Fraction> low, std::optional<Fraction> high, const Fraction& slope,
-                       const Fraction& x, const Fraction& y, const Fraction& at_x) {
-    const Fraction c1 = y - slope * x;
+  const auto add = [&](std::optional<Surd> low, std::optional<Surd> high, const Surd& slope, const Surd& x,
+                       const Surd& y, const Surd& at_x) {
+    const Surd c1 = y - slope * x;
     found.push_back({std::move(low), std::move(high), slope, c1, at_x - exact_half * slope * x * x - c1 * x});
   };
   if (!is_zero(f.left_run))
@@ -134,7 +132,7 @@ std::vector<ExactPiece> pieces(const ExactCurve& f) {
 ExactCurve exact_curve(const std::vector<ExactPiece>& given) {
   if (given.empty()) throw InvalidInput("a function without a piece is +inf everywhere");
   const auto refuse = [](const char* what) { throw InvalidInput(std::string("pieces: ") + what); };
-  const auto at = [](const ExactPiece& p, const Fraction& x) {
+  const auto at = [](const ExactPiece& p, const Surd& x) {
     return exact_half * p.c2 * x * x + p.c1 * x + p.c0;
   };
   ExactCurve f{{}, {}, exact_zero, exact_one, exact_zero, exact_one, exact_zero};
@@ -149,7 +147,7 @@ ExactCurve exact_curve(const std::vector<ExactPiece>& given) {
       if (piece.c2 * *piece.low + piece.c1 < f.y.back()) refuse("the slope falls between two");
     }
     const bool is_point = piece.low && piece.high && *piece.low == *piece.high;
-    const auto corner = [&](const Fraction& x) {
+    const auto corner = [&](const Surd& x) {
       f.x.push_back(x);
       f.y.push_back(piece.c2 * x + piece.c1);
     };
@@ -178,7 +176,7 @@ ExactCurve envelope(const ExactCurve& f, const Fraction& gamma) {
 
 ExactCurve scale(const ExactCurve& f, const Fraction& alpha) {
   ExactCurve g = f;
-  for (Fraction& y : g.y) y = alpha * y;
+  for (Surd& y : g.y) y = alpha * y;
   g.left_rise = alpha * f.left_rise;
   g.right_rise = alpha * f.right_rise;
   g.value = alpha * f.value;
@@ -191,7 +189,7 @@ ExactCurve dilate(const ExactCurve& f, const Fraction& rho) {
     g.x[k] = rho * f.x[k];
     g.y[k] = f.y[k] / rho;
   }
-  const Fraction size = sign(rho) < 0 ? -rho : rho;
+  const Surd size = sign(rho) < 0 ? -rho : rho;
   g.left_run = size * f.left_run;
   g.right_run = size * f.right_run;
   g.left_rise = f.left_rise / size;
@@ -207,13 +205,13 @@ ExactCurve dilate(const ExactCurve& f, const Fraction& rho) {
 
 ExactCurve translate(const ExactCurve& f, const Fraction& by) {
   ExactCurve g = f;
-  for (Fraction& x : g.x) x = x + by;
+  for (Surd& x : g.x) x = x + by;
   return g;
 }
 
 ExactCurve tilt(const ExactCurve& f, const Fraction& c) {
   ExactCurve g = f;
-  for (Fraction& y : g.y) y = y + c;
+  for (Surd& y : g.y) y = y + c;
   g.value = f.value + c * f.x.front();
   return g;
 }
@@ -225,13 +223,13 @@ ExactCurve add_constant(const ExactCurve& f, const Fraction& c) {
 }
 
 ExactCurve sum(const ExactCurve& f, const ExactCurve& g) {
-  std::optional<Fraction> low = domain_low(f), high = domain_high(f);
+  std::optional<Surd> low = domain_low(f), high = domain_high(f);
   if (const auto other = domain_low(g); other && (!low || *low < *other)) low = other;
   if (const auto other = domain_high(g); other && (!high || *other < *high)) high = other;
   if (low && high && *high < *low) throw InvalidInput("sum: the domains do not meet; it is +inf everywhere");
-  std::vector<Fraction> at;
+  std::vector<Surd> at;
   for (const ExactCurve* curve : {&f, &g})
-    for (const Fraction& x : curve->x)
+    for (const Surd& x : curve->x)
       if ((!low || !(x < *low)) && (!high || !(*high < x))) at.push_back(x);
   if (low) at.push_back(*low);
   if (high) at.push_back(*high);
@@ -240,7 +238,7 @@ ExactCurve sum(const ExactCurve& f, const ExactCurve& g) {
   at.erase(std::unique(at.begin(), at.end()), at.end());
   ExactCurve s{
       {}, {}, exact_zero, exact_one, exact_zero, exact_one, *value(f, at.front()) + *value(g, at.front())};
-  for (const Fraction& x : at) {
+  for (const Surd& x : at) {
     const Slopes p = slopes_at(f, x), q = slopes_at(g, x);
     const bool has_low = p.low && q.low, has_high = p.high && q.high;
     if (has_low) s.x.push_back(x), s.y.push_back(*p.low + *q.low);

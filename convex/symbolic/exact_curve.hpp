@@ -3,24 +3,27 @@
 #include <optional>
 #include <vector>
 
-#include "convex/exact/fraction_arithmetic.hpp"
-#include "convex/exact_program/program_of_call.hpp"
+#include "convex/symbolic/surd.hpp"
 
 namespace convex::symbolic {
 
-/// A convex, closed, proper, piecewise linear-quadratic function of one variable in fractions, kept as the
-/// graph of its subdifferential: a monotone line through corners, from a ray to a ray, as
+/// A convex, closed, proper, piecewise linear-quadratic function of one variable in exact numbers, kept as
+/// the graph of its subdifferential: a monotone line through corners, from a ray to a ray, as
 /// `convex::PiecewiseQuadratic` keeps it in doubles. There is at least one corner; corners increase, x and y
 /// both, and are never equal. Rays have directions (run, rise), both >= 0, not both 0.
 struct ExactCurve {
-  std::vector<Fraction> x, y;
-  Fraction left_run, left_rise, right_run, right_rise;
-  Fraction value;  ///< f at x.front()
+  std::vector<Surd> x, y;
+  Surd left_run, left_rise, right_run, right_rise;
+  Surd value;  ///< f at x.front()
 
   std::size_t corners() const { return x.size(); }
 };
 
-using exact_programs::ExactPiece;
+/// One piece c2/2 x² + c1 x + c0; an end that is not there is infinite.
+struct ExactPiece {
+  std::optional<Surd> low, high;
+  Surd c2, c1, c0;
+};
 
 /// Increasing and adjoining; +inf outside of them.
 std::vector<ExactPiece> pieces(const ExactCurve&);
@@ -28,7 +31,7 @@ std::vector<ExactPiece> pieces(const ExactCurve&);
 ExactCurve exact_curve(const std::vector<ExactPiece>&);
 
 /// f(x); none where it is +inf.
-std::optional<Fraction> value(const ExactCurve&, const Fraction& x);
+std::optional<Surd> value(const ExactCurve&, const Surd& x);
 
 /// f*(y) = sup xy - f(x): x and y exchanged.
 ExactCurve conjugate(const ExactCurve&);
@@ -45,14 +48,14 @@ ExactCurve sum(const ExactCurve&, const ExactCurve&);
 /// inf_u f(u) + g(x - u) = (f* + g*)*. Throws InvalidInput when it is identically -inf.
 ExactCurve inf_convolution(const ExactCurve&, const ExactCurve&);
 
-/// max(f(x), g(x)). Throws InvalidInput when the domains do not meet, or pieces cross at a number that is no
-/// fraction.
+/// max(f(x), g(x)). Pieces cross at fractions or at a + b sqrt(c). Throws InvalidInput when the domains do
+/// not meet, or a root would stand under another one.
 ExactCurve pointwise_max(const ExactCurve&, const ExactCurve&);
 
 /// A piece slope z + offset for low <= z <= high.
 struct AffinePiece {
-  std::optional<Fraction> low, high;
-  Fraction slope, offset;
+  std::optional<Surd> low, high;
+  Surd slope, offset;
 };
 /// prox of gamma f, gamma > 0: z = x + gamma y goes to x.
 std::vector<AffinePiece> prox_pieces(const ExactCurve&, const Fraction& gamma);

@@ -19,7 +19,7 @@ Cases changed(Cases cases, const std::function<Term(const Term&)>& change) {
 /// The cases at slope v + offset for the variable v, slope not 0.
 Cases moved(Cases cases, const std::string& name, const Fraction& slope, const Fraction& offset) {
   const Term by = slope * variable(name) + number(offset);
-  const auto back = [&](std::optional<Fraction>& bound) {
+  const auto back = [&](std::optional<Surd>& bound) {
     if (bound) bound = (*bound - offset) / slope;
   };
   for (Case& each : cases) {
@@ -43,7 +43,7 @@ Cases curve_formula(const ExactCurve& curve, const std::string& name) {
   Cases cases;
   for (const ExactPiece& piece : pieces(curve))
     cases.push_back({piece.low, piece.high, true, true,
-                     part_half * piece.c2 * power(v, {2, 1}) + piece.c1 * v + number(piece.c0)});
+                     Surd{part_half} * piece.c2 * power(v, {2, 1}) + piece.c1 * v + number(piece.c0)});
   return cases;
 }
 
@@ -179,11 +179,12 @@ Function sum(const Function& f, const Function& g) {
         "rules, "
         "and to no pieces in symbols");
   const ExactPiece& q = quadratic.front();
-  const Function tilted = add_constant(tilt(f, q.c1), q.c0);
-  if (sign(q.c2) == 0) return tilted;
+  const Fraction c2 = rational(q.c2);
+  const Function tilted = add_constant(tilt(f, rational(q.c1)), rational(q.c0));
+  if (sign(c2) == 0) return tilted;
   // (f + c/2 x²)* is the envelope of f* with gamma = c.
-  RuleFunction made = with_square(std::get<RuleFunction>(tilted), q.c2);
-  const Function dual = envelope(conjugate(tilted), q.c2);
+  RuleFunction made = with_square(std::get<RuleFunction>(tilted), c2);
+  const Function dual = envelope(conjugate(tilted), c2);
   made.conjugate = renamed(std::get<RuleFunction>(dual).f, "x", "y");
   return made;
 }

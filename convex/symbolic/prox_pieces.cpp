@@ -4,11 +4,11 @@ namespace convex::symbolic {
 
 std::vector<AffinePiece> prox_pieces(const ExactCurve& f, const Fraction& gamma) {
   // The graph of T: corners (x + gamma y, x), which the curve passes in order; z increases strictly.
-  std::vector<Fraction> z;
+  std::vector<Surd> z;
   for (std::size_t k = 0; k < f.corners(); ++k) z.push_back(f.x[k] + gamma * f.y[k]);
-  const auto piece = [&](std::optional<Fraction> low, std::optional<Fraction> high, const Fraction& run,
-                         const Fraction& rise, std::size_t k) {
-    const Fraction slope = run / (run + gamma * rise);
+  const auto piece = [&](std::optional<Surd> low, std::optional<Surd> high, const Surd& run, const Surd& rise,
+                         std::size_t k) {
+    const Surd slope = run / (run + gamma * rise);
     return AffinePiece{std::move(low), std::move(high), slope, f.x[k] - slope * z[k]};
   };
   std::vector<AffinePiece> found{piece(std::nullopt, z.front(), f.left_run, f.left_rise, 0)};
@@ -26,13 +26,13 @@ std::vector<AffinePiece> prox_pieces(const ExactCurve& f, const Fraction& gamma)
 }
 
 std::optional<ExactCurve> function_of_prox(const std::vector<AffinePiece>& map) {
-  const Fraction zero{0, 1}, one{1, 1};
+  const Surd zero, one{Fraction{1, 1}};
   for (const AffinePiece& piece : map)
     if (sign(piece.slope) < 0 || one < piece.slope) return std::nullopt;
   // z splits into x = T z and the slope y = z - T z of f at x.
   ExactCurve f{{},  {}, map.front().slope, one - map.front().slope, map.back().slope, one - map.back().slope,
                zero};
-  const auto corner = [&](const AffinePiece& piece, const Fraction& z) {
+  const auto corner = [&](const AffinePiece& piece, const Surd& z) {
     f.x.push_back(piece.slope * z + piece.offset);
     f.y.push_back(z - f.x.back());
   };

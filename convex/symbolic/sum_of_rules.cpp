@@ -75,12 +75,12 @@ RuleFunction sum_of_rules(const RuleFunction& f, const RuleFunction& g) {
         "sum: the domain is bounded above, and roots are told from below alone; dilate it by -1, or leave "
         "--symbolic out");
   const Term rising = substituted(*slope, "x", summed_u);
-  made.prox = [rising, low = one->low](const Fraction& gamma) {
+  made.prox = [rising, low = rational(one->low)](const Fraction& gamma) {
     return Cases{
         {std::nullopt, std::nullopt, true, true, root(summed_u + gamma * rising, variable("z"), low)}};
   };
   if (is_everywhere(f.conjugate) || is_everywhere(g.conjugate)) {
-    const Term y = variable("y"), at = root(rising, y, one->low);
+    const Term y = variable("y"), at = root(rising, y, rational(one->low));
     made.conjugate = {{std::nullopt, std::nullopt, true, true, y * at - substituted(one->term, "x", at)}};
   }
   return made;

@@ -68,6 +68,17 @@ double root_value(const Term& term, double target) {
 
 Term number(const Fraction& value) { return {Kind::number, lowest_terms(value), {}, {}, {}}; }
 Term number(int value) { return number(Fraction{value, 1}); }
+Term number(const Surd& value) {
+  if (value.is_rational()) return number(value.rational_part());
+  // (p + r sqrt(c))/d.
+  const Fraction a = lowest_terms(value.rational_part()), b = lowest_terms(value.root_part());
+  const Integer d = a.denominator * lowest_terms(Fraction{a.denominator, b.denominator}).denominator;
+  const Term root = function("sqrt", number(Fraction{value.radicand()}));
+  if (sign(a) == 0) return number(b) * root;
+  Term top = made(Kind::sum, {number(a * Fraction{d}), number(b * Fraction{d}) * root});
+  if (d == 1) return top;
+  return made(Kind::product, {number(Fraction{1, d}), std::move(top)});
+}
 Term variable(const std::string& name) { return {Kind::variable, {0, 1}, name, {}, {}}; }
 bool is_number(const Term& term, const Fraction& value) {
   return term.kind == Kind::number && term.number == value;
@@ -101,6 +112,7 @@ Term operator+(const Term& a, const Term& b) {
 Term operator-(const Term& a, const Term& b) { return a + Fraction{-1, 1} * b; }
 
 Term operator*(const Fraction& factor, const Term& b) { return number(factor) * b; }
+Term operator*(const Surd& factor, const Term& b) { return number(factor) * b; }
 
 namespace {
 

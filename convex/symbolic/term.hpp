@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "convex/exact/fraction_arithmetic.hpp"
+#include "convex/symbolic/surd.hpp"
 
 namespace convex::symbolic {
 
@@ -22,11 +22,14 @@ struct Term {
 
 Term number(const Fraction&);
 Term number(int);
+/// a + b sqrt(c).
+Term number(const Surd&);
 Term variable(const std::string& name);
 Term operator+(const Term&, const Term&);
 Term operator-(const Term&, const Term&);
 Term operator*(const Term&, const Term&);
 Term operator*(const Fraction&, const Term&);
+Term operator*(const Surd&, const Term&);
 Term power(const Term&, const Fraction& exponent);
 Term function(const std::string& name, const Term& argument);
 Term root(const Term& increasing, const Term& target, std::optional<Fraction> lowest);
@@ -48,7 +51,7 @@ std::string latex(const Term&);
 
 /// A formula on an interval; no bound: infinite. Where an end is left out another case tells.
 struct Case {
-  std::optional<Fraction> low, high;
+  std::optional<Surd> low, high;
   bool has_low = true, has_high = true;
   Term term;
 };

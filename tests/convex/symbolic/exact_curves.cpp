@@ -8,6 +8,7 @@
 #include "convex/piecewise/pieces.hpp"
 #include "convex/piecewise/scalar_prox.hpp"
 #include "convex/symbolic/exact_curve.hpp"
+#include "convex/symbolic/term.hpp"
 
 using namespace convex;
 using namespace convex::symbolic;
@@ -181,4 +182,58 @@ TEST_CASE("a double counts as the fraction of least denominator that rounds to i
   CHECK(text(simplest_fraction(12345.678)) == "6172839/500");
   for (const double x : {std::sqrt(2.0), 1e-300, 3e17, -0.30000000000000004})
     CHECK(nearest_double(simplest_fraction(x)) == x);
+}
+
+TEST_CASE("a number of the field of a root is ordered and written as its digits are") {
+  const Surd golden = (Surd{q(1)} + Surd::root_of(q(5))) / Surd{q(2)};
+  CHECK(golden * golden == golden + Surd{q(1)});
+  CHECK(text(golden) == "(1 + sqrt(5))/2");
+  CHECK(text(number(golden)) == "(1 + sqrt(5))/2");
+  CHECK(latex(golden) == "\\frac{1 + \\sqrt{5}}{2}");
+  CHECK(text(Surd::root_of(q(8, 9))) == "2*sqrt(2)/3");
+  CHECK(Surd::root_of(q(49, 4)).is_rational());
+  CHECK(Surd::root_of(q(2)) * Surd::root_of(q(8)) == Surd{q(4)});
+  CHECK_THROWS_AS(Surd::root_of(q(2)) + Surd::root_of(q(3)), InvalidInput);
+  // Neighbours of sqrt(2) among the fractions p/q, p² - 2 q² = ±1.
+  std::int64_t p = 1, d = 1;
+  for (int k = 0; k < 40; ++k) {
+    CHECK((q(p, d) < Surd::root_of(q(2))) == (k % 2 == 0));
+    const std::int64_t next = p + 2 * d;
+    d = p + d;
+    p = next;
+  }
+  CHECK(nearest_double(Surd::root_of(q(2))) == std::sqrt(2.0));
+}
+
+TEST_CASE("pieces that cross at a root are exact there: the maximum, its conjugate and its prox") {
+  // x² above 2 beyond ±sqrt(2); x²/2 above 1 + x beyond 1 ± sqrt(3); x² and 1 + x cross at the golden ratio.
+  const ExactCurve square = exact_curve({{std::nullopt, std::nullopt, q(2), q(0), q(0)}});
+  const ExactCurve two = exact_curve({{std::nullopt, std::nullopt, q(0), q(0), q(2)}});
+  const ExactCurve line = exact_curve({{std::nullopt, std::nullopt, q(0), q(1), q(1)}});
+  const auto at_two = pieces(pointwise_max(square, two));
+  REQUIRE(at_two.size() == 3);
+  CHECK(*at_two[0].high == -Surd::root_of(q(2)));
+  CHECK(*at_two[2].low == Surd::root_of(q(2)));
+  for (const auto& [f, g] : {std::pair{square, two}, std::pair{square, line}}) {
+    const ExactCurve highest = pointwise_max(f, g), back = conjugate(conjugate(highest));
+    const auto once = pieces(highest), twice = pieces(back);
+    REQUIRE(once.size() == twice.size());
+    for (std::size_t k = 0; k < once.size(); ++k) {
+      CHECK(once[k].c2 == twice[k].c2);
+      CHECK(once[k].c1 == twice[k].c1);
+      CHECK(once[k].c0 == twice[k].c0);
+    }
+    check_equal(conjugate(highest), conjugate(rounded(highest)));
+    check_equal(highest, rounded(highest));
+    // The prox by its definition: u + gamma s = z for a slope s of f at u, tried through the envelope.
+    for (const AffinePiece& piece : prox_pieces(highest, q(1, 3))) {
+      const Surd z = piece.low ? *piece.low : piece.high ? *piece.high : Surd{q(0)};
+      const Surd u = piece.slope * z + piece.offset;
+      const double at = nearest_double(u), target = nearest_double(z);
+      const auto cost = [&](double x) {
+        return nearest_double(*value(highest, Surd{fraction(x)})) + 1.5 * (x - target) * (x - target);
+      };
+      for (const double step : {-1e-3, 1e-3}) CHECK(cost(at) <= cost(at + step));
+    }
+  }
 }
