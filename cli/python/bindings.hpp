@@ -16,6 +16,7 @@ void add_proxes(pybind11::module_&);
 void add_laws(pybind11::module_&);
 void add_maps(pybind11::module_&);
 void add_subdifferentials(pybind11::module_&);
+void add_symbols(pybind11::module_&);
 void add_atlas(pybind11::module_&);
 void add_documents(pybind11::module_&);
 void add_motion(pybind11::module_&);

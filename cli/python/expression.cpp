@@ -32,4 +32,12 @@ convex::Function Expression::in(const convex::Metric& W) const {
   return made;
 }
 
+bool has_user_function(const convex::Call& call) {
+  if (call.made) return true;
+  for (const convex::NamedArgument& argument : call.arguments)
+    if (const auto* nested = std::get_if<std::shared_ptr<const convex::Call>>(&argument.value))
+      if (has_user_function(**nested)) return true;
+  return false;
+}
+
 }  // namespace python

@@ -24,6 +24,9 @@ class Expression {
   mutable convex::Index last_entries_ = -1;
 };
 
+/// Is a function of a user among those that the call is made of?
+bool has_user_function(const convex::Call& call);
+
 /// The indicator of a set.
 class SetExpression : public Expression {
   using Expression::Expression;

@@ -35,7 +35,9 @@ convex::Argument argument_value(const py::handle& given, const std::string& name
   const py::array_t<double> numbers = py::array_t<double>::ensure(given);
   if (!numbers) {
     PyErr_Clear();
-    throw InvalidInput(name + ": an argument is neither a number, a vector, a matrix, a set nor a function; see its docstring");
+    throw InvalidInput(
+        name +
+        ": an argument is neither a number, a vector, a matrix, a set nor a function; see its docstring");
   }
   if (numbers.ndim() == 0) return *numbers.data();
   if (numbers.ndim() == 1) return vector_of(given, name.c_str());

@@ -6,10 +6,13 @@
 #include "cli/python/batch.hpp"
 #include "cli/python/bindings.hpp"
 #include "cli/python/expression.hpp"
+#include "cli/python/fractions.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/decomposition_report.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/proved_prox/proved_split.hpp"
+#include "convex/sets/subdifferential.hpp"
 
 namespace py = pybind11;
 
@@ -75,11 +78,12 @@ py::tuple prox_batch(const Expression& f, const py::object& z, const py::object&
   return py::make_tuple(x, status, bound);
 }
 
-/// A point split in two, and what it was made of.
+/// A point split in two, what it was made of, and what is proved of it.
 struct Split {
   std::string f;
   Vector z;
   convex::Decomposition parts;
+  std::optional<convex::ProvedSplit> proof = {};
 };
 
 std::shared_ptr<Split> decompose(const Expression& f, const py::object& z, const py::object& W,
@@ -91,6 +95,97 @@ std::shared_ptr<Split> decompose(const Expression& f, const py::object& z, const
   const py::gil_scoped_release released;
   convex::Decomposition parts = convex::decompose(made, point, metric, tolerance);
   return std::make_shared<Split>(Split{text, std::move(point), std::move(parts)});
+}
+
+/// What fractions are taken of: z and W as they are written, f of the language.
+struct ExactQuestion {
+  convex::SplitQuestion question;
+  convex::Metric W;
+};
+
+ExactQuestion exact_question(const Expression& f, const py::object& z, const py::object& W,
+                             const char* what) {
+  if (has_user_function(f.call()))
+    throw InvalidInput(std::string(what) +
+                       ": the function is one of your own; give one of the language, docs/functions.md");
+  convex::Fractions point = fractions_of(z, "z");
+  const auto n = static_cast<Index>(point.size());
+  convex::ExactGram gram = gram_of(W, n);
+  if (gram.dimension() != point.size())
+    throw InvalidInput("W: " + std::to_string(gram.dimension()) + " rows; give " + std::to_string(n) +
+                       ", one per entry of z");
+  convex::Metric metric = rounded(gram);
+  return {{f.call(), std::move(point), std::move(gram)}, std::move(metric)};
+}
+
+std::shared_ptr<Split> proved_decomposition(const Expression& f, const py::object& z, const py::object& W,
+                                            double tolerance) {
+  const ExactQuestion exact = exact_question(f, z, W, "certify");
+  const convex::Function made = f.in(exact.W);
+  Vector point = nearest(exact.question.z);
+  const py::gil_scoped_release released;
+  convex::Decomposition parts = convex::decompose(made, point, exact.W, tolerance);
+  convex::ProvedSplit proof = convex::prove(exact.question, parts);
+  return std::make_shared<Split>(
+      Split{to_text(f.call()), std::move(point), std::move(parts), std::move(proof)});
+}
+
+py::dict proof_of(const convex::ProvedSplit& proof) {
+  const auto ends = [](const convex::ProvedInterval& interval) {
+    return py::make_tuple(interval.low, interval.high);
+  };
+  py::dict made;
+  made["level"] = cli::name(proof.level);
+  if (proof.level == convex::ProofLevel::none) {
+    made["why"] = proof.why_none;
+    return made;
+  }
+  made["error_bound"] = proof.error_bound();
+  made["x"] = proof.x_bound;
+  made["y"] = proof.y_bound;
+  made["f_x"] = ends(proof.f_x);
+  made["g_y"] = ends(proof.g_y);
+  made["inner"] = ends(proof.inner);
+  made["sum"] = proof.sum_miss;
+  return made;
+}
+
+/// x and y in fractions, f(x), g(y), (x|y).
+py::tuple exact_decomposition(const Expression& f, const py::object& z, const py::object& W) {
+  const ExactQuestion exact = exact_question(f, z, W, "exact");
+  (void)f.in(exact.W)(nearest(exact.question.z));  // checks the number of entries
+  convex::ExactSplit split;
+  {
+    const py::gil_scoped_release released;
+    split = convex::exact_split(exact.question);
+  }
+  return py::make_tuple(fraction_list(split.x), fraction_list(split.y),
+                        fraction_list({split.f_x, split.g_y, split.inner}));
+}
+
+/// (prox_f(z + t d) - prox_f z)/t for t -> 0, t > 0.
+py::object derivative(const Expression& f, const py::object& z, const py::object& d, const py::object& W) {
+  const ExactQuestion exact = exact_question(f, z, W, "prox_derivative");
+  const convex::Fractions direction = fractions_of(d, "d");
+  if (direction.size() != exact.question.z.size())
+    throw InvalidInput("d: " + std::to_string(direction.size()) + " entries; give " +
+                       std::to_string(exact.question.z.size()) + ", as z has");
+  (void)f.in(exact.W)(nearest(exact.question.z));
+  convex::Fractions moved;
+  {
+    const py::gil_scoped_release released;
+    moved = convex::prox_derivative(exact.question.f, exact.question.W, exact.question.z, direction);
+  }
+  return fraction_list(moved);
+}
+
+py::object jacobian(const Expression& f, const py::object& z, const py::object& W) {
+  const Vector point = vector_of(z, "z");
+  const convex::Metric metric = metric_of(W, point.size(), "W");
+  const RowMatrix made = convex::prox_jacobian(f.in(metric), point, metric);
+  py::array_t<double> into({made.rows(), made.cols()});
+  std::copy(made.data(), made.data() + made.size(), into.mutable_data());
+  return into;
 }
 
 const Split& split_of(const py::object& self) { return py::cast<const Split&>(self); }
@@ -125,6 +220,14 @@ g(y) = sup over x of (x|y) - f(x) is the conjugate in the metric; y is computed 
           "of ||x - x*|| and ||y - y*||, in the metric")
       .def_property_readonly("status", [](const Split& split) { return cli::name(split.parts.status); })
       .def_property_readonly(
+          "proof",
+          [](const Split& split) -> py::object {
+            if (!split.proof) return py::none();
+            return proof_of(*split.proof);
+          },
+          "where certify=True: level, error_bound, bounds of x and y, enclosures of f_x, g_y, inner; None "
+          "else")
+      .def_property_readonly(
           "route",
           [](const Split& split) {
             py::dict made;
@@ -133,6 +236,10 @@ g(y) = sup over x of (x|y) - f(x) is the conjugate in the metric; y is computed 
             return made;
           },
           "how x and y were found");
+  module.def("proved_decomposition", proved_decomposition);
+  module.def("exact_decomposition", exact_decomposition);
+  module.def("prox_derivative", derivative);
+  module.def("prox_jacobian", jacobian);
   module.def("prox", prox);
   module.def("prox_batch", prox_batch);
   module.def(

@@ -1,7 +1,7 @@
 import os
 from collections.abc import Callable, Sequence
 from fractions import Fraction
-from typing import Any, Literal, overload
+from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -96,6 +96,25 @@ class Decomposition:
     error_bound: float
     status: Status
     route: dict[str, str]
+    proof: dict[str, Any] | None
+
+class ExactDecomposition(NamedTuple):
+    x: list[Fraction]
+    y: list[Fraction]
+    f_x: Fraction
+    g_y: Fraction
+    inner: Fraction
+
+class Formula:
+    text: str
+    latex: str
+    cases: list[dict[str, Any]]
+    def __call__(self, at: float) -> float: ...
+
+class Symbols:
+    f: Formula
+    prox: Formula
+    conjugate: Formula
 
 class Check:
     name: str
@@ -118,7 +137,13 @@ def solve(*, A: Any = None, z: ArrayLike, U: Any = None, s: ArrayLike | None = N
           two_sided: Sequence[int] | None = None, method: str | None = None,
           tolerance: float | None = None) -> Solution | Solutions: ...
 def prox(f: Function, z: ArrayLike, W: Any = None) -> Vector: ...
-def decompose(f: Function, z: ArrayLike, W: Any = None, tolerance: float = 1e-9) -> Decomposition: ...
+def decompose(f: Function, z: Sequence[Any] | ArrayLike, W: Any = None, tolerance: float = 1e-9,
+              certify: bool = False) -> Decomposition: ...
+def exact_decomposition(f: Function, z: Sequence[Any] | ArrayLike, W: Any = None) -> ExactDecomposition: ...
+def prox_derivative(f: Function, z: Sequence[Any] | ArrayLike, d: Sequence[Any] | ArrayLike,
+                    W: Any = None) -> list[Fraction]: ...
+def prox_jacobian(f: Function, z: ArrayLike, W: Any = None) -> Vector: ...
+def symbolic(f: Function, W: Any = None) -> Symbols: ...
 def conjugate(f: Function, W: Any = None) -> Function: ...
 def function(text: str) -> Function: ...
 def user_function(value: Callable[[Vector], float], prox: Callable[[Vector, Metric], ArrayLike], n: int = 0,

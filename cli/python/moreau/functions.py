@@ -1,5 +1,8 @@
 """The proximal map, conjugates, and functions of the user's own."""
 
+from fractions import Fraction
+from typing import NamedTuple
+
 import numpy as np
 
 from . import _moreau
@@ -57,14 +60,107 @@ def conjugate(f, W=None):
     return f.conjugate(W)
 
 
-def decompose(f, z, W=None, tolerance=1e-9):
+def decompose(f, z, W=None, tolerance=1e-9, certify=False):
     """The decomposition of z (Moreau 1965): x = prox_f z, y = prox_g z, g the conjugate in the metric W.
 
     f: a Function; z: n numbers; W: a Metric, a symmetric positive definite matrix, its diagonal, or None (identity).
-    Raises InvalidInput when sizes do not fit, or f is not convex, closed and proper.
+    certify: also prove it (docs/proof.md, 10): `proof` is a dict with level 'exact', 'enclosure' or 'none', bounds x
+    and y on ||x - x*||_W and ||y - y*||_W, and intervals that hold f(x*), g(y*) and (x*|y*). z may then hold
+    fractions.Fraction and texts such as "1/3".
+    Raises InvalidInput when sizes do not fit, or f is not convex, closed and proper; with certify, when f is made of a
+    function of your own.
     """
     _require_function(f)
-    return _moreau.decompose(f, z, W, _number(tolerance, "tolerance"))
+    split = _moreau.proved_decomposition if certify else _moreau.decompose
+    return split(f, z, W, _number(tolerance, "tolerance"))
+
+
+class ExactDecomposition(NamedTuple):
+    """z = x + y in fractions: lists x and y, and f_x = f(x), g_y = g(y), inner = (x|y) = f_x + g_y."""
+
+    x: list[Fraction]
+    y: list[Fraction]
+    f_x: Fraction
+    g_y: Fraction
+    inner: Fraction
+
+    def __repr__(self):
+        x, y = (", ".join(map(str, part)) for part in (self.x, self.y))
+        return f"ExactDecomposition(x=({x}), y=({y}))"
+
+
+def exact_decomposition(f, z, W=None):
+    """The decomposition in fractions, of a piecewise linear-quadratic f: x* from f and y* from its conjugate, each by
+    itself; that they add up to z is looked at.
+
+    z: floats at their exact value, integers, fractions.Fraction, or texts such as "1/3".
+    Raises InvalidInput where f is not piecewise linear-quadratic.
+    """
+    _require_function(f)
+    x, y, values = _moreau.exact_decomposition(f, z, W)
+    return ExactDecomposition(x, y, *values)
+
+
+def prox_derivative(f, z, d, W=None):
+    """The one-sided derivative of z -> prox_f z in the direction d, lim (prox_f(z + t d) - prox_f z)/t for t > 0, of a
+    piecewise linear-quadratic f, as fractions (Rockafellar and Wets 1998, exercise 13.24). Multipliers need not be
+    unique.
+
+    z, d: floats at their exact value, integers, fractions.Fraction, or texts such as "1/3".
+    Raises InvalidInput for another f.
+    """
+    _require_function(f)
+    return _moreau.prox_derivative(f, z, d, W)
+
+
+def prox_jacobian(f, z, W=None):
+    """An element of Clarke's generalised Jacobian of z -> prox_f z (Clarke 1983), n by n, where the prox has a formula;
+    W J is symmetric positive semidefinite.
+
+    W: None, or a diagonal where the formula takes one. Raises InvalidInput for another f or W.
+    """
+    _require_function(f)
+    return _moreau.prox_jacobian(f, z, W)
+
+
+class Symbols:
+    """A function of one variable in symbols: formulas f of f(x), prox of prox_f z, conjugate of g(y).
+
+    Each is a Formula: called with a number it gives the value; text, latex, cases. Where there is no rule the formula
+    raises InvalidInput.
+    """
+
+    def __init__(self, f, W):
+        self._f, self._W = f, W
+
+    @property
+    def f(self):
+        return _moreau.formula(self._f, self._W)
+
+    @property
+    def prox(self):
+        return _moreau.prox_formula(self._f, self._W)
+
+    @property
+    def conjugate(self):
+        return _moreau.conjugate_formula(self._f, self._W)
+
+    def __repr__(self):
+        return f"{self.f.text}{self.prox.text}"
+
+    def _repr_latex_(self):
+        return self.f.latex + self.prox.latex
+
+
+def symbolic(f, W=None):
+    """f of one variable, its prox and its conjugate by cases: pieces of quadratics in fractions, the rest by rules.
+
+    W: one number w > 0, [w]; the product is then w x y. Raises InvalidInput where f takes more than one variable.
+    """
+    _require_function(f)
+    made = Symbols(f, W)
+    made.f  # what has no rule is told now
+    return made
 
 
 def subdifferential(f, x, W=None):
