@@ -24,9 +24,9 @@ using convex::Vector;
 struct Package {
   const char *name, *how;
 };
-constexpr std::array quadratic_packages{Package{"daqp", "-DDAQP_ROOT=FOLDER"},
-                                        Package{"piqp", "-DPIQP_ROOT=FOLDER"},
-                                        Package{"qpoases", "-DQPOASES_ROOT=FOLDER"}};
+constexpr std::array quadratic_packages{
+    Package{"daqp", "-DDAQP_ROOT=FOLDER"}, Package{"osqp", "version 1, -DOSQP_ROOT=FOLDER"},
+    Package{"piqp", "-DPIQP_ROOT=FOLDER"}, Package{"qpoases", "-DQPOASES_ROOT=FOLDER"}};
 constexpr Package siconos{"siconos", "libsiconos-numerics-dev"};
 
 /// What was found when this was built: "daqp siconos".

@@ -1,7 +1,7 @@
 #include "peers.hpp"
 
 #ifdef MOREAU_HAS_DAQP
-#include <daqp/api.h>
+#include "cli/measurement/peer_module/daqp_program.hpp"
 
 #include <algorithm>
 extern "C" {
@@ -11,29 +11,13 @@ extern "C" {
 namespace speed {
 namespace {
 
-/// DAQP: Arnström, Bemporad and Axehill 2022, a dual active set method. Again: its factors and rows are kept.
+/// DAQP, a dual active set method. Again: its factors and rows are kept.
 class Daqp final : public Peer {
  public:
   explicit Daqp(const DenseProblem& problem)
-      : A_(problem.A),
-        U_(problem.U),
-        linear_(-problem.z),
-        lower_(problem.s),
-        upper_(Vector::Constant(problem.s.size(), 1e30)),
-        lambda_(problem.s.size()),
-        sense_(static_cast<std::size_t>(problem.s.size()), 0) {
-    answer.resize(problem.z.size());
-    problem_.n = static_cast<int>(problem.z.size());
-    problem_.m = static_cast<int>(problem.s.size());
-    problem_.H = A_.data();
-    problem_.f = linear_.data();
-    problem_.A = U_.data();
-    problem_.bupper = upper_.data();
-    problem_.blower = lower_.data();
-    problem_.sense = sense_.data();
-    result_.x = answer.data();
-    result_.lam = lambda_.data();
-  }
+      : with_room_(answer, problem.z.size()),
+        program_(static_cast<int>(problem.z.size()), static_cast<int>(problem.s.size()), problem.A.data(),
+                 problem.z.data(), problem.U.data(), problem.s.data(), nullptr, answer.data()) {}
   ~Daqp() override {
     if (!kept_) return;
     free_daqp_workspace(&work_);
@@ -43,33 +27,34 @@ class Daqp final : public Peer {
   Daqp& operator=(const Daqp&) = delete;
 
   Outcome cold() override {
-    std::fill(sense_.begin(), sense_.end(), 0);
-    daqp_quadprog(&result_, &problem_, nullptr);
+    std::fill(program_.sense.begin(), program_.sense.end(), 0);
+    daqp_quadprog(&program_.result, &program_.problem, nullptr);
     return outcome();
   }
   Outcome again(const Vector& z, const Vector& s) override {
-    linear_ = -z;
-    lower_ = s;
+    Vector::Map(program_.linear.data(), z.size()) = -z;
+    Vector::Map(program_.lower.data(), s.size()) = s;
     if (kept_)
-      daqp_update_ldp(DAQP_UPDATE_v | DAQP_UPDATE_d, &work_, &problem_);
+      daqp_update_ldp(DAQP_UPDATE_v | DAQP_UPDATE_d, &work_, &program_.problem);
     else
-      kept_ = setup_daqp(&problem_, &work_, nullptr) >= 0;
-    daqp_solve(&result_, &work_);
+      kept_ = setup_daqp(&program_.problem, &work_, nullptr) >= 0;
+    daqp_solve(&program_.result, &work_);
     return outcome();
   }
 
  private:
+  /// Makes room for the answer before the program points to it.
+  struct Room {
+    Room(Vector& answer, Index n) { answer.resize(n); }
+  };
+
   Outcome outcome() const {
-    if (result_.exitflag == DAQP_EXIT_OPTIMAL) return Outcome::solved;
-    return result_.exitflag == DAQP_EXIT_INFEASIBLE ? Outcome::infeasible : Outcome::failed;
+    if (program_.is_solved()) return Outcome::solved;
+    return program_.is_infeasible() ? Outcome::infeasible : Outcome::failed;
   }
 
-  Matrix A_;
-  RowMatrix U_;
-  Vector linear_, lower_, upper_, lambda_;
-  std::vector<int> sense_;
-  DAQPProblem problem_{};
-  DAQPResult result_{};
+  Room with_room_;
+  DaqpProgram program_;
   DAQPWorkspace work_{};
   bool kept_ = false;
 };
