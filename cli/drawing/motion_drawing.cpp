@@ -58,7 +58,9 @@ struct Panel {
 };
 
 std::string panel_script(const Panel& panel, bool is_last, const std::string& key_of_events) {
-  std::string text = fmt::format("set ylabel {} font \",10\"\n", quoted(panel.label));
+  // A label of its own: one beside tics of many digits would leave the picture.
+  std::string text = fmt::format(
+      "set label 1 {} at screen 0.015, graph 0.5 center rotate by 90 font \",10\"\n", quoted(panel.label));
   text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
   text += "plot ";
   for (std::size_t k = 0; k < panel.names.size(); ++k)

@@ -1,23 +1,39 @@
 #include "mechanics/motion/accumulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mechanics {
+namespace {
+
+/// Of the speed and of the interval after it.
+constexpr double roundings_of_bounce = 2;
+
+}  // namespace
 
 void ImpactHistory::add(double since, double speed, double t, double noise) {
   interval_[2] = interval_[1];
   interval_[1] = interval_[0];
   interval_[0] = since;
   speed_ = speed;
-  ++count_;
+  highest_ = std::max(highest_, 0.5 * speed * since);  // a fall from rest, or a bounce
+  if (++count_ == 1) begin_ = t;
   if (!shrinks()) {
     if (t > end_ + end_error_) end_error_ = std::numeric_limits<double>::infinity();
     return;
   }
-  // The end t + Δ r / (1 - r), Δ and r uncertain.
+  // The ratios to come. Their drift shrinks as the intervals do, by r each, so that it adds up to this at
+  // most.
   const double r = ratio(), before = interval_[1] / interval_[2];
-  const double error = (interval_[0] * std::abs(r - before) + 2 * noise) / ((1 - r) * (1 - r));
+  const double uncertain = 2 * noise / interval_[0];
+  const double highest = r + std::abs(r - before) * r / (1 - r) + uncertain;
   const double end = t + remaining();
+  // Every impact rounds the speed that all later intervals are multiples of.
+  const double by_speeds = roundings_of_bounce * std::numeric_limits<double>::epsilon() *
+                           static_cast<double>(count_) * (end - begin_);
+  const double error = highest < 1
+                           ? interval_[0] * (highest / (1 - highest) - r / (1 - r)) + noise + by_speeds
+                           : std::numeric_limits<double>::infinity();
   if (error > end_error_ && std::abs(end - end_) <= error + end_error_) return;
   end_ = end;
   end_error_ = error;

@@ -25,18 +25,21 @@ class ImpactHistory {
   double ratio() const { return interval_[0] / interval_[1]; }
   /// The time from the last impact to the end.
   double remaining() const;
-  /// When it ends, and how far that may be off by the drift of the ratio and by rounding, of all that the
-  /// impacts told so far the surest. The last bounces are too low to tell it best: rounding of f decides
-  /// them.
+  /// When it ends, and how far that may be off: the tail Δ r / (1 - r) with r enclosed by what its drift,
+  /// which shrinks as the intervals do, adds up to, and by rounding. Of all that the impacts told so far the
+  /// surest: the last bounces may be so low that rounding of f decides them.
   double end() const { return end_; }
   double end_error() const { return end_error_; }
   /// A bound on how high, in units of f, the next bounce goes.
   double next_height() const { return 0.25 * speed_ * interval_[0]; }
+  /// A bound on the highest f so far: what is far below it has no part in the motion any more, whatever the
+  /// unit.
+  double highest() const { return highest_; }
 
  private:
   long count_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
-  double speed_ = 0;
+  double speed_ = 0, begin_ = 0, highest_ = 0;
   double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };
 

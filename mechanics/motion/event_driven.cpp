@@ -22,9 +22,6 @@ constexpr double roundings_of_f = 16;
 /// A step that misses the equations at its end by more than this many times its tolerance is taken again.
 constexpr double allowed_defect = 1e3;
 
-/// A multiplier below this part of the forces is none.
-constexpr double weakest_multiplier = 1e-12;
-
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
@@ -109,8 +106,6 @@ void Motion::EventDriven::watch() {
   };
   is_held_.assign(system.constraints().size(), false);
   for (const Index a : persist_) is_held_[static_cast<std::size_t>(a)] = true;
-  const double force =
-      persist_.empty() ? 0 : std::max(expansion_.norm(acceleration), expansion_.force_norm());
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const auto k = static_cast<std::size_t>(a);
     if (is_two_sided(a)) continue;
@@ -120,8 +115,8 @@ void Motion::EventDriven::watch() {
       continue;
     }
     // A contact without a multiplier has one from rounding: only what is more than that releases it.
-    const double least = weakest_multiplier * force / expansion_.inertia().dual_norm(expansion_.row(a));
-    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], is_weak_[k] ? least : 0);
+    const double least = is_weak_[k] ? expansion_.rounding_of_multiplier(a) : 0;
+    add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], least);
     if (is_weak_[k]) watched_[count - 1].c[0] += 10 * least;
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
@@ -158,7 +153,7 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
     const double correction = value / slope_at(c, tau);
     if (!(std::abs(correction) < 0.5 * tau)) return tau;
     tau -= correction;
-    if (std::abs(correction) <= epsilon * (tau + std::abs(next.t))) break;
+    if (std::abs(correction) <= 2 * epsilon * tau) break;
   }
   return tau;
 }

@@ -11,11 +11,8 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// A closing contact slower than this part of what its rate is the sum of closes softly.
-constexpr double softest_impact = 1e-12;
-
-/// An impulse below this part of the change of velocity is what rounding left of 0.
-constexpr double undecided_part = 1e-12;
+/// A product of gradients that do not move each other is left by so many roundings of their lengths.
+constexpr double roundings_of_product = 64;
 
 /// Impacts of one contact that are followed one by one, however high they bounce.
 constexpr long most_impacts_followed = 100'000;
@@ -41,7 +38,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
     if (zero.of != Zero::Of::constraint) continue;
-    const bool closes = expansion_.rate(zero.which) < -softest_impact * expansion_.rate_scale(zero.which);
+    const bool closes = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
     (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
     if (zero.is_touch)
       remark(
@@ -92,7 +89,7 @@ void Motion::EventDriven::tell_order(const std::vector<Zero>& zeros, const std::
     for (std::size_t j = 0; j < i; ++j) {
       if (time(closing[i]) == time(closing[j])) continue;
       const Vector u = A.whiten(expansion_.row(closing[i])), w = A.whiten(expansion_.row(closing[j]));
-      if (std::abs(u.dot(w)) <= undecided_part * u.norm() * w.norm()) continue;
+      if (std::abs(u.dot(w)) <= roundings_of_product * epsilon * u.norm() * w.norm()) continue;
       return remark(constraint_name(closing[j]) + " and " + constraint_name(closing[i]) +
                     " close at times that rounding hardly tells apart and are one impact: one after the "
                     "other may leave other velocities");
@@ -122,7 +119,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     position_scales.push_back(expansion_.position_scale(a));
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
-    const bool moves = contains(closing, a) || rate > softest_impact * expansion_.rate_scale(a);
+    const bool moves = contains(closing, a) || rate > expansion_.rounding_of_rate(a);
     contacts.push_back(
         {expansion_.row(a), moves && !is_two_sided(a) ? rate : 0, options.restitution[a], is_two_sided(a)});
   }
@@ -154,13 +151,13 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
     if (is_two_sided(a)) continue;
     if (contains(persist_, a)) held.push_back(a);
-    const double pushed = outcome.impulse[at] * A.dual_norm(contacts[k].u);
-    if (rate_before < 0 || pushed > undecided_part * A.norm(outcome.change)) hit.push_back(a);
+    if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
     (outcome.rate[at] > 0 ? left : resting).push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0)
       history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
-                  epsilon * (std::abs(state.t) + position_scales[k] / -rate_before));
+                  epsilon * (elapsed_[static_cast<std::size_t>(a)] + position_scales[k] / -rate_before +
+                             (expansion_.uses_time() ? std::abs(state.t) : 0)));
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
   event(EventKind::impact, hit, before);
@@ -181,13 +178,14 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                       });
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
-      endings_.push_back({std::max(state.t + low_, last.end()), ending});
+      const double end = std::max(state.t + low_, last.end());
+      endings_.push_back({end, ending});
       std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
-      if (last.next_height() > options.tolerance)
+      if (last.next_height() > options.tolerance || last.end_error() > options.tolerance * std::abs(end))
         remark("impacts of " + constraint_name(ending.front()) +
                " that bounce up to f = " + number_text(last.next_height()) +
-               " are not followed one by one; they end at t = " + number_text(endings_.back().t) +
-               " within " + number_text(std::max(last.end_error(), epsilon * state.t)));
+               " are not followed one by one; they end at t = " + number_text(end) + " within " +
+               number_text(std::max(last.end_error(), epsilon * std::abs(end))));
       return;
     }
     if (status != MotionStatus::done) return;
@@ -204,7 +202,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   const auto is_near_its_end = [&](Index a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (!history.shrinks()) return false;
-    const double scale = std::max(1.0, expansion_.position_scale(a));
+    const double scale = std::max(history.highest(), expansion_.position_scale(a));
     return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * std::abs(state.t) ||
            history.count() >= most_impacts_followed;
   };

@@ -101,6 +101,9 @@ class Expansion {
   std::span<const double> switch_argument(std::size_t k) const {
     return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
   }
+  /// Up to here rounding may have made df_a/dt, and the multiplier of a contact held.
+  double rounding_of_rate(Index a);
+  double rounding_of_multiplier(Index a);
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
   double& branch(std::size_t k) { return series_.branches()[k]; }
@@ -121,10 +124,11 @@ class Expansion {
   void begin_order(int k);
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
   Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
-  /// What df/dt of these constraints and the forces are the sums of, at order k of the question.
+  /// What df/dt of these constraints and v are the sums of, at order k of the question.
   struct Magnitudes {
-    Vector rates;
-    double force = 0;  ///< in the norm of A⁻¹
+    Vector rates, velocity;
+    /// What u·v is the sum of, u the gradient of a constraint.
+    double along(const Vector& u) const { return u.cwiseAbs().dot(velocity); }
   };
   Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
   /// What rounding makes of a coefficient of order k, as a part of its magnitude.
@@ -143,15 +147,16 @@ class Expansion {
   TaylorSeries series_;
   State state_;
   bool has_branches_ = false;
-  convex::Matrix small_;  // A of few coordinates
-  InertiaFactor factor_;  // the same
+  convex::Matrix small_, found_;  // A of few coordinates, and where it is looked for
+  InertiaFactor factor_;          // the same
   mutable std::optional<convex::Metric> A_;
   Vector r_, force_;             // what velocities of the order looked for are solved from; that of order 0
   std::vector<double> columns_;  // of every series, when velocities of highest order change
   std::vector<double> lambda_;   // by constraint and order
   std::vector<double> f_;        // likewise
   TaylorMagnitude magnitude_;    // while it is open who persists
-  Vector unit_norms_;            // ||e_i||_(A⁻¹)
+  convex::Matrix inverse_;       // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;            // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };

@@ -18,8 +18,8 @@ constexpr double roundings_of_state = 1 << 10;
 /// the count of roundings is an estimate.
 constexpr double factor_in_doubt = 100;
 
-/// Up to so many coordinates ||e_i||_(A⁻¹) is found by solving with A.
-constexpr Index solved_units = 300;
+/// Up to so many coordinates A⁻¹ is found entry by entry.
+constexpr Index inverted_coordinates = 300;
 
 /// Coefficients are rounded about so many times, where rows that depend on each other are compared.
 constexpr double roundings_of_coefficients = 1 << 10;
@@ -31,10 +31,13 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
   const auto n = program.coordinates();
   if (k == 0) {
     magnitude_.begin();
-    unit_norms_.resize(coordinates());
-    for (Index i = 0; i < coordinates(); ++i)
-      unit_norms_[i] = coordinates() <= solved_units ? inertia().dual_norm(Vector::Unit(coordinates(), i))
-                                                     : 1 / std::sqrt(inertia().diagonal()[i]);
+    if (coordinates() <= inverted_coordinates) {
+      inverse_.resize(coordinates(), coordinates());
+      for (Index i = 0; i < coordinates(); ++i)
+        inverse_.col(i) = inertia().solve(Vector::Unit(coordinates(), i)).cwiseAbs();
+    } else {
+      unit_norms_ = inertia().diagonal().cwiseSqrt().cwiseInverse();
+    }
   } else {
     for (const std::size_t group : {std::size_t{0}, std::size_t{1}}) magnitude_.find(group, k);
   }
@@ -48,19 +51,37 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
     magnitude_.at(program.coordinate(i), k + 1) = magnitude_.at(program.velocity(i), k) / (k + 1);
   magnitude_.at(program.time(), k + 1) = k == 0 ? 1 : 0;
   magnitude_.find(0, k + 1);
-  Magnitudes of{Vector(static_cast<Index>(constraints.size())), 0};
   for (Index i = 0; i < coordinates(); ++i)
-    of.force += unit_norms_[i] * (S[i] / (k + 1) + magnitude_.at(equations_.momentum[index(i)], k + 1));
+    S[i] = S[i] / (k + 1) + magnitude_.at(equations_.momentum[index(i)], k + 1);
+  for (const Index a : constraints.empty() ? pushing_ : constraints)
+    for (const auto& [i, slot] : equations_.row[index(a)])
+      S[i] += std::abs(multiplier(a)[static_cast<std::size_t>(k)]) / (k + 1) * magnitude_.at(slot, 0);
+  Magnitudes of{Vector(static_cast<Index>(constraints.size())), {}};
+  if (coordinates() <= inverted_coordinates)
+    of.velocity = inverse_ * S;
+  else  // |A⁻¹_ij| <= ||e_i|| ||e_j||
+    of.velocity = unit_norms_.dot(S) * unit_norms_;
   for (std::size_t a = 0; a < constraints.size(); ++a)
     of.rates[static_cast<Index>(a)] = magnitude_.at(equations_.rate[index(constraints[a])], k + 1);
   for (std::size_t i = 0; i < n; ++i)
-    magnitude_.at(program.velocity(i), k + 1) = of.force * unit_norms_[static_cast<Index>(i)];
+    magnitude_.at(program.velocity(i), k + 1) = of.velocity[static_cast<Index>(i)];
   return of;
 }
 
 double Expansion::rounding(int k) const {
   return (roundings_of_state + static_cast<double>(series_.operations() * static_cast<std::size_t>(k + 1))) *
          convex::unit_roundoff;
+}
+
+double Expansion::rounding_of_rate(Index a) {
+  magnitude_.begin();
+  return rounding(0) * magnitude_.at(equations_.rate[index(a)], 0);
+}
+
+double Expansion::rounding_of_multiplier(Index a) {
+  const Magnitudes of = magnitudes({a}, 0);
+  const Vector u = row(a);
+  return rounding(0) * (of.rates[0] + of.along(u)) / u.dot(inertia().solve(u));
 }
 
 std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
@@ -91,22 +112,21 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   }
   give_multipliers(k, rows, solution.lambda * (k + 1));
   const Magnitudes of = magnitudes(rows, k);
-  const double scale = std::max({of.force, solution.acceleration_norm, solution.force_norm});
   const double part = rounding(k);
   std::vector<Index> undecided;
   for (std::size_t a = persist.size(); a < rows.size(); ++a) {
     const auto at = static_cast<Index>(a);
-    const double length = A.dual_norm(U.row(at).transpose());
-    // Up to here rounding may have made them.
-    const double of_slack = part * (std::abs(problem.s[at]) + of.rates[at] + length * scale);
-    const double of_push = part * scale, push = solution.lambda[at] * length;
-    const auto is_near = [](double number, double by_rounding) {
+    const Vector u = U.row(at).transpose();
+    // What the contact's push changes in d²f/dt², and what rounding may have made of that.
+    const double push = solution.lambda[at] * u.dot(A.solve(u));
+    const double by_rounding = part * (std::abs(problem.s[at]) + of.rates[at] + of.along(u));
+    const auto is_near = [&](double number) {
       return number > by_rounding && number < factor_in_doubt * by_rounding;
     };
-    if (is_near(solution.slack[at], of_slack) || is_near(push, of_push)) in_doubt_.push_back(rows[a]);
-    if (solution.slack[at] > of_slack) {
+    if (is_near(solution.slack[at]) || is_near(push)) in_doubt_.push_back(rows[a]);
+    if (solution.slack[at] > by_rounding) {
       answer.open.push_back({rows[a], k + 2});
-    } else if (push > of_push) {
+    } else if (push > by_rounding) {
       persist.push_back(rows[a]);
       pushing_.push_back(rows[a]);
     } else {

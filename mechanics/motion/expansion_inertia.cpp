@@ -25,7 +25,7 @@ void Expansion::find_inertia() {
   const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
   columns_.assign(series_.series() * lanes, 0.0);
   const bool is_small = n <= small_system;
-  if (is_small) small_.resize(n, n);
+  if (is_small) found_.resize(n, n);
   std::vector<Eigen::Triplet<double>> entries;
   for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
     const Index count = std::min(static_cast<Index>(lanes), n - first);
@@ -38,16 +38,17 @@ void Expansion::find_inertia() {
     for (Index i = 0; i < n; ++i)
       for (Index l = 0; l < count; ++l)
         if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; is_small)
-          small_(i, first + l) = a;
+          found_(i, first + l) = a;
         else if (a != 0)
           entries.emplace_back(i, first + l, a);
     seed(0);
   }
-  A_.reset();
-  factor_.forget();
   if (is_small) {
     for (Index i = 0; i < n; ++i)
-      for (Index j = 0; j < i; ++j) small_(i, j) = small_(j, i) = 0.5 * (small_(i, j) + small_(j, i));
+      for (Index j = 0; j < i; ++j) found_(i, j) = found_(j, i) = 0.5 * (found_(i, j) + found_(j, i));
+    if (small_.size() == found_.size() && small_ == found_) return;  // and so is all that follows from it
+    small_ = found_;
+    A_.reset();
     if (!factor_.make(small_)) inertia();
     return;
   }
@@ -84,10 +85,14 @@ void Expansion::sizes(std::vector<double>& of_order) const {
   }
   std::array<const double*, small_system> q;
   const auto find_eight = [&](std::size_t first) {
+    bool is_zero = true;
+    for (Index i = 0; i < coordinates() && is_zero; ++i)
+      is_zero = std::all_of(position(i).data() + first, position(i).data() + first + Eight::count,
+                            [](double c) { return c == 0; });
+    if (is_zero) return false;
     for (Index i = 0; i < coordinates(); ++i) q[index(i)] = position(i).data() + first;
     factor_.norms(q.data(), of_order.data() + first, Eight::count);
-    return std::any_of(of_order.data() + first, of_order.data() + first + Eight::count,
-                       [](double size) { return size != 0; });
+    return true;
   };
   std::size_t first = of_order.size() - Eight::count;
   while (!find_eight(first) && first > 0) first -= Eight::count;

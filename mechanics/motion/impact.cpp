@@ -8,8 +8,9 @@
 namespace mechanics {
 namespace {
 
-/// f'(v+) below this part of what it is the sum of is 0: a contact that the impact closed for good.
-constexpr double undecided_part = 1e-12;
+/// f'(v+) and what an impulse changes in it are rounded about so many times, relative to what f'(v+) is the
+/// sum of; less is 0: a contact that the impact closed for good, or that did not push.
+constexpr double roundings_of_impact = 1 << 10;
 
 /// Rows and rates are rounded about so many times.
 constexpr double roundings_of_rows = 64;
@@ -40,18 +41,32 @@ ImpactOutcome excluded(const convex::Solution& solution) {
   return outcome;
 }
 
-/// f' after a change, 0 where rounding hides what it is.
-Vector rates_after(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
-                   const Vector& change) {
-  Vector rates(static_cast<Index>(contacts.size()));
-  const double moved = A.norm(change);
-  for (std::size_t a = 0; a < contacts.size(); ++a) {
-    const ImpactContact& contact = contacts[a];
-    const double scale = std::abs(contact.rate) + A.dual_norm(contact.u) * moved;
-    const double after = contact.rate + contact.u.dot(change);
-    rates[static_cast<Index>(a)] = std::abs(after) <= undecided_part * scale ? 0 : after;
+/// f'(v+) and P from a change and its P, 0 where rounding hides what they are. f'_a(v+) is the sum of
+/// f'_a(v-) and of u_ai (A⁻¹u_b)_i P_b over the contacts b: contacts that do not move each other, however
+/// fast, leave each other's digits alone.
+ImpactOutcome rounded_outcome(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
+                              Vector change, Vector impulse) {
+  Vector moved = Vector::Zero(change.size());
+  Vector by_own(impulse.size());  // what the contact's own impulse changes in its rate
+  for (std::size_t b = 0; b < contacts.size(); ++b) {
+    const auto at = static_cast<Index>(b);
+    by_own[at] = 0;
+    if (impulse[at] == 0) continue;
+    const Vector along = A.solve(contacts[b].u);
+    moved += std::abs(impulse[at]) * along.cwiseAbs();
+    by_own[at] = impulse[at] * contacts[b].u.dot(along);
   }
-  return rates;
+  Vector rates(impulse.size());
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    const ImpactContact& contact = contacts[a];
+    const double by_rounding = roundings_of_impact * convex::unit_roundoff *
+                               (std::abs(contact.rate) + contact.u.cwiseAbs().dot(moved));
+    const double after = contact.rate + contact.u.dot(change);
+    rates[at] = std::abs(after) <= by_rounding ? 0 : after;
+    if (!contact.two_sided && by_own[at] <= by_rounding) impulse[at] = 0;
+  }
+  return {std::move(change), std::move(impulse), std::move(rates)};
 }
 
 /// One contact alone: v+ - v- along A⁻¹u. Nothing where |u|² leaves the range of doubles.
@@ -118,8 +133,7 @@ ImpactOutcome moreau_impact(const convex::Metric& A, const std::vector<ImpactCon
   }
   convex::Solution solution = convex::automatic(least_change(A, contacts, s));
   if (solution.status == convex::Status::infeasible) return excluded(solution);
-  Vector rates = rates_after(A, contacts, solution.q);
-  return {std::move(solution.q), std::move(solution.lambda), std::move(rates)};
+  return rounded_outcome(A, contacts, std::move(solution.q), std::move(solution.lambda));
 }
 
 ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
@@ -128,9 +142,9 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
   const convex::NearestPointProblem closing = least_change(A, contacts, s);
   const convex::Solution compression = convex::automatic(closing);
   if (compression.status == convex::Status::infeasible) return excluded(compression);
-  ImpactOutcome outcome;
   if (!have_one_restitution(contacts, compression.lambda) &&
       !convex::multipliers(closing, compression, alike, false).unique) {
+    ImpactOutcome outcome;
     outcome.undetermined =
         "Poisson's law does not determine the impact: the impulses of compression are not unique, and the "
         "restitutions differ";
@@ -149,10 +163,7 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
     s[static_cast<Index>(a)] = -contacts[a].rate - contacts[a].u.dot(before);
   const convex::Solution expansion = convex::automatic(least_change(A, contacts, s));
   if (expansion.status == convex::Status::infeasible) return excluded(expansion);
-  outcome.change = before + expansion.q;
-  outcome.impulse = compression.lambda + given + expansion.lambda;
-  outcome.rate = rates_after(A, contacts, outcome.change);
-  return outcome;
+  return rounded_outcome(A, contacts, before + expansion.q, compression.lambda + given + expansion.lambda);
 }
 
 }  // namespace mechanics

@@ -23,7 +23,7 @@ struct ImpactContact {
 /// contacts, and the rest is empty; likewise when the law does not determine v+, which `undetermined` says.
 struct ImpactOutcome {
   Vector change;   ///< v+ - v-: n
-  Vector impulse;  ///< P, one a contact
+  Vector impulse;  ///< P, one a contact; exactly 0 where rounding hides the difference
   Vector rate;     ///< f'(v+), one a contact; exactly 0 where rounding hides the difference
   std::vector<Index> excluding = {};
   std::string_view undetermined = {};

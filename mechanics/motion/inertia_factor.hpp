@@ -13,7 +13,6 @@ class InertiaFactor {
   /// False, and nothing is known, where a pivot is lost in the rounding of its diagonal entry.
   bool make(const convex::Matrix& A);
   bool is_made() const { return is_made_; }
-  void forget() { is_made_ = false; }
 
   /// x becomes A⁻¹x.
   void solve(Vector& x) const;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr long most_strokes = 100'000;
 
-/// A contact closes no longer when its rate is below this part of the largest there was.
-constexpr double at_rest = 1e-14;
+/// A contact closes no longer when its rate is what so many roundings leave of all that it was the sum of.
+constexpr double roundings_of_stroke = 64;
 /// What has not come to rest after all strokes, but to this part, goes to its limit.
 constexpr double nearly_at_rest = 1e-6;
 
@@ -55,15 +55,18 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
                         Vector(static_cast<Index>(m))};
   std::vector<Stroke> strokes(m);
   Vector length(static_cast<Index>(m));
+  Vector all(static_cast<Index>(m));  // what the rate is the sum of
   double largest = 0;
   for (std::size_t a = 0; a < m; ++a) {
     const auto at = static_cast<Index>(a);
     length[at] = A.dual_norm(contacts[a].u);
     outcome.rate[at] = contacts[a].two_sided ? 0 : contacts[a].rate;
+    all[at] = std::abs(outcome.rate[at]);
     if (contacts[a].two_sided) continue;
     strokes[a] = stroke(A, contacts, a);
     largest = std::max(largest, std::abs(outcome.rate[at]) / length[at]);
   }
+  const auto by_rounding = [&](Index a) { return roundings_of_stroke * convex::unit_roundoff * all[a]; };
   long count = 0;
   double worst = 0;
   for (; count < most_strokes; ++count) {
@@ -71,7 +74,8 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
     worst = 0;
     for (std::size_t a = 0; a < m; ++a)
       if (const double speed = -outcome.rate[static_cast<Index>(a)] / length[static_cast<Index>(a)];
-          !contacts[a].two_sided && speed > worst * (1 + tie) && speed > at_rest * largest) {
+          !contacts[a].two_sided && speed > worst * (1 + tie) &&
+          -outcome.rate[static_cast<Index>(a)] > by_rounding(static_cast<Index>(a))) {
         worst = speed;
         striking = a;
       }
@@ -101,14 +105,15 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
         outcome.impulse[static_cast<Index>(a)] += change * by.impulse_two_sided[held++];
     const double after = -contacts[striking].restitution * outcome.rate[at];
     outcome.rate += change * by.rates;
+    all += (change * by.rates).cwiseAbs();
     outcome.rate[at] = after;
   }
   if (count == most_strokes && worst > nearly_at_rest * largest) {
     outcome.undetermined = "the sequence of impacts, one contact at a time, has no end within 100000";
     return outcome;
   }
-  for (double& rate : outcome.rate)
-    if (rate < 0 || std::abs(rate) <= 100 * at_rest * largest) rate = 0;
+  for (Index a = 0; a < outcome.rate.size(); ++a)
+    if (outcome.rate[a] <= by_rounding(a)) outcome.rate[a] = 0;
   return outcome;
 }
 

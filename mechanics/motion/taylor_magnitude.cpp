@@ -7,11 +7,13 @@ namespace mechanics {
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
+/// Orders above 0 of what never varies stay 0.
+TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
+    : of_(series), m_(series.rows_.series * width()), slopes_(series.rows_.terms.size()) {}
+
 void TaylorMagnitude::begin() {
   const TaylorRows& rows = of_.rows_;
-  m_.assign(rows.series * width(), 0.0);
-  slopes_.clear();
-  for (const TaylorRows::Term& term : rows.terms) slopes_.push_back(std::abs(term.c));
+  for (std::size_t t = 0; t < slopes_.size(); ++t) slopes_[t] = std::abs(rows.terms[t].c);
   for (std::size_t slot = 0; slot < of_.steps_->variables; ++slot)
     at(static_cast<Slot>(slot), 0) = std::abs(of_[static_cast<Slot>(slot)][0]);
   for (const auto& [slot, value] : of_.steps_->constants) at(slot, 0) = std::abs(value);

@@ -14,9 +14,9 @@ class TaylorMagnitude {
  public:
   using Slot = expression::Slot;
 
-  explicit TaylorMagnitude(const TaylorSeries& series) : of_(series) {}
+  explicit TaylorMagnitude(const TaylorSeries& series);
 
-  /// Order 0 of all series, at the state of the series. The others are forgotten.
+  /// Order 0 of all series, at the state of the series.
   void begin();
   /// Order k of the series of a group, from those of the variables and from lower orders.
   void find(std::size_t group, int k);

@@ -14,6 +14,7 @@
 
 #include "mechanics/motion/motion.hpp"
 #include "tests/benchmarks/impact_speed/siconos_events.hpp"
+#include "tests/benchmarks/impact_speed/slider_crank.hpp"
 
 namespace {
 
@@ -111,6 +112,48 @@ mechanics::LagrangianText pair() {
   return text;
 }
 
+mechanics::LagrangianText slider_crank() {
+  using namespace peers::slider_crank;
+  mechanics::LagrangianText text;
+  text.coordinates = {{"p1", {}}, {"p2", {}}, {"p3", {}}};
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, double>>{{"l1", l1},
+                                                                                         {"l2", l2},
+                                                                                         {"a", a},
+                                                                                         {"b", b},
+                                                                                         {"c", c},
+                                                                                         {"m1", m1},
+                                                                                         {"m2", m2},
+                                                                                         {"m3", m3},
+                                                                                         {"J1", J1},
+                                                                                         {"J2", J2},
+                                                                                         {"J3", J3},
+                                                                                         {"g", gravity}})
+    text.parameters.push_back({{name, {}}, {fmt::format("{}", value), {}}});
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, const char*>>{{"X1", "l1/2*cos(p1)"},
+                                                                  {"Y1", "l1/2*sin(p1)"},
+                                                                  {"X2", "l1*cos(p1) + l2/2*cos(p2)"},
+                                                                  {"Y2", "l1*sin(p1) + l2/2*sin(p2)"},
+                                                                  {"X3", "l1*cos(p1) + l2*cos(p2)"},
+                                                                  {"Y3", "l1*sin(p1) + l2*sin(p2)"}})
+    text.definitions.push_back({{name, {}}, {value, {}}});
+  text.kinetic = {
+      "m1/2*(X1'^2 + Y1'^2) + m2/2*(X2'^2 + Y2'^2) + m3/2*(X3'^2 + Y3'^2) + J1/2*p1'^2 + J2/2*p2'^2 + "
+      "J3/2*p3'^2",
+      {}};
+  text.potential = mechanics::Text{"g*(m1*Y1 + m2*Y2 + m3*Y3)", {}};
+  text.constraints = {{{"corner1", {}}, {"Y3 - a*sin(p3) + b*cos(p3) <= b + c", {}}},
+                      {{"corner2", {}}, {"Y3 + a*sin(p3) + b*cos(p3) <= b + c", {}}},
+                      {{"corner3", {}}, {"Y3 - a*sin(p3) - b*cos(p3) >= -b - c", {}}},
+                      {{"corner4", {}}, {"Y3 + a*sin(p3) - b*cos(p3) >= -b - c", {}}}};
+  return text;
+}
+
+/// By our own events at their best: both of our integrators agree with these to the last digits (`moreau
+/// simulate docs/problems/motion_slider_crank.toml`).
+const Times crank_truth{0.0026925027520212134, 0.005607797868070757, 0.007465635169560194,
+                        0.008409252749069568, 0.00883164216054835};
+
 void time(const char* scene, const char* name, double setting, double span, const Times& truth,
           int repetitions, const std::function<Times()>& run) {
   Times found;
@@ -139,6 +182,13 @@ int main(int count, char** arguments) {
   for (const double tolerance : {1e-6, 1e-10, 1e-14})
     time("impact pair", "events", tolerance, pair_end - pair_begin, of_pair, repetitions,
          [&] { return impacts(*pair_system, pair_start, loss, pair_end, tolerance); });
+  const auto crank_system = mechanics::lagrangian_system(slider_crank());
+  const mechanics::State in_line{0, Vector::Zero(3),
+                                 Vector{{peers::slider_crank::w0, -peers::slider_crank::w0 / 2, 0}}};
+  const double crank_end = peers::slider_crank::end, crank_loss = peers::slider_crank::restitution;
+  for (const double tolerance : {1e-6, 1e-10, 1e-14})
+    time("slider-crank", "events", tolerance, crank_end, crank_truth, repetitions,
+         [&] { return impacts(*crank_system, in_line, crank_loss, crank_end, tolerance); });
 #ifdef MOREAU_HAS_SICONOS
   // Theirs is seen from the walls: y = x - A sin(omega t), y'' = A omega² sin(omega t).
   const peers::SiconosScene theirs{0, ball_end, 1, 0, bounce, -gravity, 0, {{1, 0}}},
@@ -158,6 +208,10 @@ int main(int count, char** arguments) {
   for (const double tolerance : {1e-6, 1e-10, 1e-14})
     time("impact pair", "siconos h 0.05", tolerance, pair_end - pair_begin, of_pair, fewer,
          [&] { return peers::by_siconos(shaken, tolerance, 0.05); });
+  for (const double step : {0.5, 1e-3})
+    for (const double tolerance : {1e-6, 1e-10, 1e-14})
+      time("slider-crank", step > 0.1 ? "siconos h 0.5" : "siconos h 0.001", tolerance, crank_end,
+           crank_truth, fewer, [&] { return peers::slider_crank_by_siconos(tolerance, step); });
 #else
   fmt::print("siconos: peer not found\n");
 #endif
