@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/composite/metric_difference.hpp"
+#include "convex/composite/work_limit.hpp"
 
 namespace convex {
 namespace {
@@ -57,39 +58,50 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
   return made;
 }
 
-std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                             const Metric& W) {
+std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                           const Metric& W) {
   // Nearer to W the passes converge faster, and in V the result is the most accurate.
-  constexpr double towards_W[] = {0x1p-12, 0x1p-6, 1, 1, 1};
+  constexpr double towards_W[] = {0x1p-24, 0x1p-18, 0x1p-12, 0x1p-6, 1};
   constexpr double slow = 0.5;
-  if (!near || near->v.size() != z.size() || !near->v.allFinite()) return std::nullopt;
+  constexpr int most_passes = 3;
+  std::vector<Prox> found;
+  if (!near || near->v.size() != z.size() || !near->v.allFinite()) return found;
   // What is 0 may be anything within the bound.
   const double X = std::max(W.norm(near->x), near->error_bound),
                V = std::max(W.dual_norm(near->v), near->error_bound);
   const double ratio = std::exp2(std::round(std::log2(V / X)));
-  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return std::nullopt;
-  std::optional<Prox> best;
+  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return found;
   Vector x = near->x, v = near->v;
+  double last = 0;
   for (const double part : towards_W) {
     const double s = ratio >= 1 ? std::max(1.0, part * ratio) : std::min(1.0, ratio / part);
-    if (ratio >= 1)
-      v = metric_difference(W, z, x);
-    else
-      x = z - refined_solve(W, v);
-    Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
-    if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) break;
-    x = made.x;
-    v = made.v;
-    // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
-    made.error_bound = 2 * made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
-                       W.dual_norm(metric_difference(W, x, z) + v) +
-                       roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
-    const bool better = !best || made.error_bound < best->error_bound;
-    const bool done = ratio == 1 || (best && part == 1 && !(made.error_bound < slow * best->error_bound));
-    if (better) best = std::move(made);
-    if (done) break;
+    if (s == last) continue;
+    last = s;
+    double least = INFINITY;
+    for (int pass = 0; pass < most_passes && !WorkLimit::passed(); ++pass) {
+      if (ratio >= 1)
+        v = metric_difference(W, z, x);
+      else
+        x = z - refined_solve(W, v);
+      Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
+      if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) return found;
+      x = made.x;
+      v = made.v;
+      // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
+      made.error_bound = 2 * made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
+                         W.dual_norm(metric_difference(W, x, z) + v) +
+                         roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
+      const bool converging = made.error_bound < slow * least;
+      least = std::min(least, made.error_bound);
+      if (pass > 0 && made.error_bound < found.back().error_bound)
+        found.back() = std::move(made);
+      else if (pass == 0)
+        found.push_back(std::move(made));
+      if (!converging) break;
+    }
   }
-  return best;
+  std::reverse(found.begin(), found.end());
+  return found;
 }
 
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "convex/functions/function.hpp"
 
@@ -23,9 +24,10 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 
 /// x and v again, each right to roundings of itself and not of z. x = prox_f (x + V⁻¹v) in every metric V; in
 /// V = s W, s = ||v||_(W⁻¹) / ||x||_W, the two are of one size, so that neither drowns the other. The smaller
-/// of the two is kept from pass to pass, the larger follows from z.
-std::optional<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                             const Metric& W);
+/// of the two is kept from pass to pass, the larger follows from z. Passes in a V far from W converge slowly
+/// where f is much flatter or steeper than s: one comes for each of some metrics between the two, V's first.
+std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                           const Metric& W);
 
 /// The same point with the covector that the function itself has there, where it has only one.
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "convex/composite/conjugate_atom.hpp"
+#include "convex/composite/look.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/perspective.hpp"
 #include "convex/composite/work_limit.hpp"
@@ -52,6 +53,16 @@ class EpigraphAtom final : public Atom {
   }
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return inside(z) ? z : project(z).point;
+  }
+  /// A multiple of (v, -1), v the slope of f at x by its own formula.
+  std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
+    if (!Look::by_steep_terms() || !f_->facts().smooth || inside(z)) return std::nullopt;
+    const double mu = side_ * (x[n_] - z[n_]);
+    const std::optional<Vector> v = f_->subgradient(x.head(n_));
+    if (!(mu > 0) || !v || !v->allFinite()) return std::nullopt;
+    Vector whole(n_ + 1);
+    whole << *v / unit_, -side_;
+    return d[0] * mu * whole;
   }
   Matrix prox_jacobian(const Vector& z, const Vector&) const override {
     if (inside(z)) return Matrix::Identity(n_ + 1, n_ + 1);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/composite/look.hpp"
+
 namespace convex {
 namespace {
 
@@ -61,14 +63,23 @@ void set_scales(SaddleProblem& problem) {
   }
 }
 
-/// Sets first: a point that misses a set by rounding has the value +inf, and no other function cares as much.
+/// Which terms give x first. A point that misses a set by rounding has the value +inf, and no other function
+/// cares as much; but that of a term that is steep at an open end of its domain, as log x near 0, feels the
+/// rounding of a much larger z, and an interval has room for such a point.
+int rank_of(const SaddleTerm& term) {
+  const Facts facts = term.f->facts();
+  if (!Look::by_steep_terms()) return facts.indicator ? 0 : 1;
+  if (facts.indicator) return term.separable ? 2 : 0;
+  return facts.smooth && !facts.finite ? 1 : 3;
+}
+
 void set_pins(SaddleProblem& problem) {
   const SparseRows rows = problem.M;
   problem.pin.assign(static_cast<std::size_t>(problem.n), -1);
   Index pinned = 0;
-  for (const bool of_sets : {true, false})
+  for (int rank = 0; rank <= 3; ++rank)
     for (const SaddleTerm& term : problem.terms) {
-      if (term.f->facts().indicator != of_sets) continue;
+      if (rank_of(term) != rank) continue;
       for (Index r = term.first; r < term.first + term.rows; ++r) {
         SparseRows::InnerIterator entry(rows, r);
         if (!entry || entry.value() != 1 || entry.col() >= problem.n) continue;

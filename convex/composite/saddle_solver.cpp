@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/look.hpp"
 #include "convex/composite/multiplier_step.hpp"
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/saddle_error.hpp"
@@ -31,6 +32,9 @@ constexpr double separated = 1e-5, separating = 1e-2, nearly_whole = 0.9, nearby
                  farthest = 1e13, stiff = 0x1p120;
 /// D is enlarged when multipliers exceed it by this factor.
 constexpr double unbalanced = 16;
+/// Exponents of 2 by which D is off where the steps do not come to an end, as none of its own data tells
+/// them.
+constexpr int other_scales[] = {-12, 12, -24, 24, -6, 6, -18, 18, -36, 36};
 
 /// Do the terms' domains lie apart along the gap of a step? Its normal q = D·gap has Mᵀq = 0 then, and
 /// q·b > sum of sup {q·u : u in a domain}, which the nearest point of a point far out along q
@@ -175,7 +179,9 @@ bool domains_apart(const GraphForm& f) {
   return false;
 }
 
-SaddleSolution solve(SaddleProblem problem) {
+namespace {
+
+SaddleSolution solve_balanced(SaddleProblem problem) {
   Vector xi = Vector::Zero(problem.n + problem.k);
   xi.head(problem.n) = problem.z;
   SaddleSolution solution;
@@ -197,6 +203,40 @@ SaddleSolution solve(SaddleProblem problem) {
                                                                   : error_of(problem, other.point) <
                                                                         error_of(problem, solution.point));
   return better ? other : solution;
+}
+
+/// The sum of what a value is made of, without signs.
+double size_of_value(const SaddleProblem& problem, const SaddlePoint& point) {
+  double size = point.xi.cwiseAbs().dot(problem.c.cwiseAbs());
+  if (problem.Q.size() > 0) size += 0.5 * std::abs(point.xi.dot(problem.Q * point.xi));
+  for (const SaddleTerm& term : problem.terms)
+    size += term.scale * std::abs(term.f->value(point.u.segment(term.first, term.rows)));
+  return size;
+}
+
+bool is_settled(const SaddleProblem& problem, const SaddleSolution& solution) {
+  if (solution.infeasible) return true;
+  const double size =
+      problem.n > 0 ? target_size(problem, solution.point) : size_of_value(problem, solution.point);
+  return error_of(problem, solution.point) <= accuracy_of_prox * size;
+}
+
+}  // namespace
+
+SaddleSolution solve(const SaddleProblem& problem) {
+  SaddleSolution best = solve_balanced(problem);
+  if (!Look::at_other_scales()) return best;
+  for (const int exponent : other_scales) {
+    if (is_settled(problem, best) || WorkLimit::passed()) break;
+    SaddleProblem other = problem;
+    other.D *= std::exp2(exponent);
+    other.R *= std::exp2(exponent);
+    SaddleSolution next = solve_balanced(std::move(other));
+    if (next.infeasible) continue;
+    const double error = error_of(problem, next.point), least = error_of(problem, best.point);
+    if (error < least || !std::isfinite(least)) best = std::move(next);
+  }
+  return best;
 }
 
 }  // namespace convex

@@ -6,7 +6,7 @@ namespace convex {
 namespace {
 
 /// Some seconds; a question with one root in another takes some ten thousand.
-constexpr double most_evaluations = 400'000;
+constexpr double most_evaluations = 2'500'000;
 
 thread_local long evaluations = 0;
 thread_local const WorkLimit* innermost = nullptr;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/look.hpp"
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/split_candidate.hpp"
@@ -19,9 +20,17 @@ double size_of_slope(const Function& f, const Vector& x) {
   return v && v->allFinite() ? v->cwiseAbs().dot(x.cwiseAbs()) : 0;
 }
 
-/// What each prox, and each move into a domain, may take of the work that a decomposition may; pairs are made
-/// of the rest.
-constexpr double part_of_a_prox = 0.25, part_of_a_move = 0.05;
+/// What each prox, each move into a domain and each other way to a pair may take of the work that a question
+/// may.
+constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3;
+
+/// How a question is looked at until an answer is borne out, and what each look may take of the work.
+struct LookWithWork {
+  Look::Kind kind;
+  double work;
+};
+constexpr LookWithWork looks[] = {
+    {Look::Kind::plain, 1}, {Look::Kind::at_other_scales, 0.75}, {Look::Kind::by_steep_terms, 0.5}};
 
 /// `found`, or a point of which nothing is known.
 Prox made_up(const std::optional<Prox>& found, const Vector& point) {
@@ -92,14 +101,20 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     if (!ended()) consider_covector(with_slope(of.f, of_x, z, W));
     if (!ended()) consider_covector(into(of.f, of_x));
   };
-  if (!ended()) {
+  // Each of the ways takes its own part of the work, so that a costly one leaves some to the next.
+  const auto attempt = [&](double most, const auto& way) {
+    if (is_found()) return;
+    const WorkLimit part(most);
+    way();
+  };
+  attempt(part_of_a_way, [&] {
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
     consider(x_inside, y);
     consider(x_inside, y_inside);
-  }
+  });
   // What costs little beside the proxes is tried however much work these took.
-  if (!is_found()) {
+  attempt(part_of_a_way, [&] {
     const std::optional<Prox> x_of_y = moreau_partner(y, z, W);
     consider(x, moreau_partner(x, z, W));
     consider_covector(x);
@@ -109,30 +124,31 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     consider(x_cut, y);
     consider(x, y_cut);
     consider(x_cut, y_cut);
-  }
-  if (!ended()) {
-    if (const auto* made = dynamic_cast<const Operation*>(&of.f.node())) {
-      const WorkLimit part(part_of_a_prox);
-      const std::optional<Prox> other = made->other_prox(z, W);
-      consider(other, y);
-      consider_covector(other);
-    }
-  }
-  if (!ended()) consider_all(x);
-  if (!ended()) {
-    const WorkLimit part(part_of_a_prox);
-    consider_all(balanced(of.f, x, z, W));
-  }
-  if (!ended()) {
-    consider(into(of.f, moreau_partner(y, z, W)), y);
-  }
-  if (!ended()) {
-    const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
-    const Metric V = inverse(W);
-    const Prox dual = prox_of(of.plain, force, V);
+  });
+  attempt(part_of_a_prox, [&] {
+    const auto* made = dynamic_cast<const Operation*>(&of.f.node());
+    if (!made) return;
+    const std::optional<Prox> other = made->other_prox(z, W);
+    consider(other, y);
+    consider_covector(other);
+  });
+  attempt(part_of_a_way, [&] { consider_all(x); });
+  attempt(part_of_a_way, [&] {
+    for (const Prox& pair : balanced(of.f, x, z, W))
+      if (!ended()) consider_all(pair);
+  });
+  attempt(part_of_a_way, [&] { consider(into(of.f, moreau_partner(y, z, W)), y); });
+  const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
+  const Metric V = inverse(W);
+  std::optional<Prox> dual;
+  attempt(part_of_a_prox, [&] {
+    dual = prox_of(of.plain, force, V);
     consider_all(turned(dual, z, W));
-    if (!ended()) consider_all(turned(balanced(of.plain, dual, force, V), z, W));
-  }
+  });
+  attempt(part_of_a_way, [&] {
+    for (const Prox& pair : balanced(of.plain, dual, force, V))
+      if (!ended()) consider_all(turned(pair, z, W));
+  });
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
     best.rounding += roundings_of_a_term * unit_roundoff *
@@ -149,11 +165,9 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   return std::move(best.split);
 }
 
-}  // namespace
-
-Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
-  const WorkLimit question;
-  Decomposition split = guarded({f, f.conjugate(W), f.conjugate()}, z, W, tolerance);
+/// One look at f, its status by the tolerance.
+Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance) {
+  Decomposition split = guarded(of, z, W, tolerance);
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
   const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&
                         split.error_bound <= enough;  // each by itself: a maximum may hide a NaN
@@ -164,6 +178,22 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   const bool gave_up = split.x.status == Status::gave_up || split.y.status == Status::gave_up;
   split.status = gave_up ? Status::gave_up : Status::inaccurate;
   return split;
+}
+
+}  // namespace
+
+Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+  const SplitFunctions of{f, f.conjugate(W), f.conjugate()};
+  std::optional<Decomposition> best;
+  for (const auto& [kind, work] : looks) {
+    const Look look(kind);
+    const WorkLimit question(work);
+    Decomposition split = looked_at(of, z, W, tolerance);
+    if (split.status == Status::solved) return split;
+    if (!best || split.error_bound < best->error_bound) best = std::move(split);
+    if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
+  }
+  return *std::move(best);
 }
 
 }  // namespace convex

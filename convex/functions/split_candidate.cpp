@@ -18,7 +18,7 @@ constexpr double smallest_term = 1e-3;
 constexpr double largest_open_part = 1e-3;
 
 /// What each value may take of the work that a decomposition may.
-constexpr double part_of_a_value = 0.05;
+constexpr double part_of_a_value = 0.1;
 
 /// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
 double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
