@@ -18,7 +18,7 @@ class WorkLimit {
   WorkLimit(const WorkLimit&) = delete;
   WorkLimit& operator=(const WorkLimit&) = delete;
   /// What one evaluation of a saddle problem counts as.
-  static constexpr long of_a_saddle_point = 10;
+  static constexpr long of_a_saddle_point = 4;
   static void count(long evaluations = 1);
   static bool passed();
 

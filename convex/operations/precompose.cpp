@@ -58,6 +58,12 @@ class Precompose : public Operation {
     const Vector p = linear_algebra::least_squares(A_.transpose(), v);
     const bool in_range = (A_.transpose() * p - v).norm() <= membership_tolerance * v.norm();
     double least = in_range ? of(p) : std::numeric_limits<double>::infinity();
+    // An entry of Ax + b that is always b_i must be within the domain's own bounds.
+    for (Index i = 0; i < A_.rows(); ++i)
+      for (const double sign : {1.0, -1.0})
+        if (A_.row(i).isZero(0) &&
+            of(sign * Vector::Unit(A_.rows(), i)) < -membership_tolerance * (1 + std::abs(b_[i])))
+          return -std::numeric_limits<double>::infinity();
     // Of one entry, each row alone bounds the domain.
     for (Index i = 0; A_.cols() == 1 && i < A_.rows(); ++i)
       if (A_(i, 0) != 0) least = std::min(least, of(v[0] / A_(i, 0) * Vector::Unit(A_.rows(), i)));

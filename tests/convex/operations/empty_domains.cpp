@@ -32,6 +32,7 @@ constexpr Expression without_points[] = {
     {"inf_convolution(quadratic([[9,0,-6,-6],[0,0,0,0],[-6,0,4,4],[-6,0,4,4]], [3,1,-3,2]), "
      "distance(ball_inf(1), 2))",
      4},
+    {"precompose(perspective(norm2(1)), [[3],[3],[0]], [-3,-1,-3])", 1},  // s = -3
     // slopes of one sign, and slopes strictly of the other
     {"inf_convolution(distance(box(-inf,1), 1024), negative_power(0.5))", 4},
 };
