@@ -147,7 +147,8 @@ Metric Metric::diagonal(const Vector& d) {
   auto data = std::make_shared<Data>();
   data->kind = MetricKind::diagonal;
   data->diagonal = d;
-  for (Index i = 0; i < d.size(); ++i) {
+  const bool is_right = dense_kernels().is_finite(d.size(), d.data()) && (d.array() > 0).all();
+  for (Index i = 0; i < d.size() && !is_right; ++i) {
     require_finite(d[i], i, i);
     if (!(d[i] > 0)) refuse_indefinite(d);
   }

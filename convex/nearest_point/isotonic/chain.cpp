@@ -3,10 +3,37 @@
 #include <cmath>
 
 #include "convex/nearest_point/isotonic/chain_answer.hpp"
+#include "convex/nearest_point/isotonic/chain_kernels.hpp"
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
 
 namespace convex {
 namespace {
+
+bool are_plain_links(const InOrder& order) { return order.plain; }
+bool are_plain_links(const Listed&) { return false; }
+
+/// Adds the rows q_(k+1) - q_k >= s, which come after the first `floor` rows, to the residuals found.
+void add_links(const NearestPointProblem& problem, Index floor, double scale, Solution& found) {
+  using namespace chain_kernels;
+  const Index links = problem.dimension() - 1;
+  const double *const mass = problem.A.diagonal().data(), *const s = problem.s.data() + floor,
+                      *const lambda = found.lambda.data() + floor;
+  const double most = found.lambda.maxCoeff(), largest = most > 0 ? most : 1;
+  Residuals& all = found.residuals;
+  double gap = all.duality_gap * scale * all.duality_gap * scale;
+  Links block;
+  for (Index k = 0; k < links; k += width) {
+    const Index count = std::min(width, links - k);
+    const auto of = [&](Numbers& x) { return Eigen::Map<Vector>(x.data(), count); };
+    measure_links(count, mass + k, found.q.data() + k, s + k, lambda + k, largest, block);
+    of(block.square) = of(block.square).cwiseSqrt();
+    divide_links(count, s + k, block.square.data(), found.acceleration_norm, scale, block);
+    all.feasibility = std::max(all.feasibility, of(block.violation).maxCoeff());
+    all.complementarity = std::max(all.complementarity, of(block.complementarity).maxCoeff());
+    gap += of(block.slack).dot(Eigen::Map<const Vector>(lambda + k, count));
+  }
+  if (scale > 0) all.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
+}
 
 template <class Order>
 Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, const Order& order) {
@@ -20,11 +47,12 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   const double scale = std::max(found.acceleration_norm, found.force_norm);
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);
-  const bool level = chain.offset.empty();
+  const bool by_blocks = are_plain_links(order), few = chain.is_level() || by_blocks;
   found.residuals =
       sparse_residuals(problem, found.q, found.lambda, found.slack,
                        {found.acceleration_norm, found.force_norm, found.residuals.stationarity},
-                       level ? std::max(floor, Index{0}) : 0, level ? floor + 1 : m);
+                       few ? std::max(floor, Index{0}) : 0, few ? floor + 1 : m);
+  if (by_blocks && !chain.is_level()) add_links(problem, floor + 1, scale, found);
   found.error_bound = found.rounding + rounding_of_pools(chain, scale);
   const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
   found.status = close && found.undecided.empty() ? Status::solved : Status::inaccurate;

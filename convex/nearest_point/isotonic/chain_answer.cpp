@@ -1,9 +1,11 @@
 #include "convex/nearest_point/isotonic/chain_answer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
+#include <tuple>
+#include <utility>
 
+#include "convex/nearest_point/isotonic/chain_kernels.hpp"
 #include "convex/nearest_point/isotonic/exact_rise.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
@@ -11,89 +13,9 @@
 namespace convex {
 namespace {
 
-/// Members looked at together, what a member does alone by loops that vectorise; and sums kept side by side.
-constexpr Index width = 128, lanes = 4;
+using namespace chain_kernels;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-using Numbers = std::array<double, width>;
-using Shifted = std::array<double, width + 1 + lanes>;  ///< a place for the member before, and some to spare
-
-/// Members from `first` on. Of the row above each: factor, what it pushes with, lambda, and their product.
-struct Block {
-  Index first, count;
-  const double *mass, *force;
-  Numbers mass_list, force_list, factor, goes_on, inertia, plain_hi, plain_lo, left_hi, left_lo, pushed,
-      lambda;
-  Shifted x_hi, x_lo, load_hi, load_lo;
-};
-
-struct Squares {
-  std::array<double, lanes> unbalanced{}, q{}, z{}, lost{};
-};
-
-/// force - mass x, and its parts.
-void weigh(Block& block) {
-  for (std::size_t j = 0; j < at(block.count); ++j) {
-    const double mass = block.mass[j], lo = block.x_lo[j + 1];
-    const DoubleDouble plain = two_product(mass, block.x_hi[j + 1]),
-                       inertia = two_sum(plain.hi, plain.lo + lo * mass),
-                       left = two_sum(block.force[j], -inertia.hi);
-    block.plain_hi[j] = plain.hi;
-    block.plain_lo[j] = plain.lo;
-    block.inertia[j] = std::abs(inertia.hi);
-    block.left_hi[j] = left.hi;
-    block.left_lo[j] = left.lo - inertia.lo;
-  }
-}
-
-/// lambda from what the rows push with.
-void divide(Block& block) {
-  for (std::size_t j = 0; j < at(block.count); ++j) {
-    const double lambda = block.pushed[j] / block.factor[j];
-    const DoubleDouble load = two_product(lambda, block.factor[j]);
-    block.lambda[j] = lambda;
-    block.load_hi[j + 1] = load.hi;
-    block.load_lo[j + 1] = load.lo;
-  }
-}
-
-/// The same where all factors are 1.
-void copy(Block& block) {
-  for (std::size_t j = 0; j < at(block.count); ++j) {
-    block.lambda[j] = block.load_hi[j + 1] = block.pushed[j];
-    block.load_lo[j + 1] = 0;
-  }
-}
-
-/// The sum of n terms, in lanes that are kept apart.
-void gather_sum(Index count, const Numbers& term, std::array<double, lanes>& sum) {
-  Index j = 0;
-  for (; j + lanes <= count; j += lanes)
-    for (Index lane = 0; lane < lanes; ++lane) sum[at(lane)] += term[at(j + lane)];
-  for (std::size_t lane = 0; j < count; ++j, ++lane) sum[lane] += term[at(j)];
-}
-
-/// What is out of balance as the numbers are printed, and the norms.
-void judge(Block& block, Squares& squares) {
-  Numbers unbalanced, q, z, lost;
-  for (std::size_t j = 0; j < at(block.count); ++j) {
-    const double mass = block.mass[j], force = block.force[j], x = block.x_hi[j + 1], lo = block.x_lo[j + 1];
-    const DoubleDouble below = two_sum(force, block.load_hi[j]),
-                       above = two_sum(below.hi, -block.load_hi[j + 1]),
-                       inertia = two_sum(above.hi, -block.plain_hi[j]);
-    const double small = (below.lo + block.load_lo[j]) + (above.lo - block.load_lo[j + 1]),
-                 rest = inertia.hi + (small + (inertia.lo - block.plain_lo[j])), inverse = 1 / mass;
-    unbalanced[j] = rest * rest * inverse;
-    q[j] = x * x * mass;
-    z[j] = force * force * inverse;
-    lost[j] = lo * lo * mass;
-  }
-  gather_sum(block.count, unbalanced, squares.unbalanced);
-  gather_sum(block.count, q, squares.q);
-  gather_sum(block.count, z, squares.z);
-  gather_sum(block.count, lost, squares.lost);
-}
 
 double root_of_sum(const std::array<double, lanes>& part) {
   return std::sqrt((part[0] + part[1]) + (part[2] + part[3]));
@@ -149,20 +71,41 @@ class Placement {
   struct Sums {
     DoubleDouble weight, sum;
   };
-  Sums sums(std::size_t pool) const {
+  Sums sums(std::size_t pool) {
     RunningSum weight, sum;
-    const Index first = pools_[pool], end = pools_[pool + 1];
-    if (chain_.offset.empty())
-      for (Index k = first; k < end; ++k) {
+    Index k = pools_[pool];
+    const Index end = pools_[pool + 1];
+    for (; k < end && chain_.is_level(); ++k) {
+      weight.add(chain_.mass[order_.coordinate(k)]);
+      sum.add(chain_.force[order_.coordinate(k)]);
+    }
+    while (k < end) {
+      if (k < lowered_ || k >= lowered_end_) lower_from(k);
+      for (const Index last = std::min(end, lowered_end_); k < last; ++k) {
         weight.add(chain_.mass[order_.coordinate(k)]);
-        sum.add(chain_.force[order_.coordinate(k)]);
+        sum.add(DoubleDouble{lowered_hi_[at(k - lowered_)], lowered_lo_[at(k - lowered_)]});
       }
-    else
-      for (Index k = first; k < end; ++k) {
-        weight.add(chain_.mass[order_.coordinate(k)]);
-        sum.add(chain_.load(k));
-      }
+    }
     return {weight.tidy(), sum.tidy()};
+  }
+
+  /// Forces on the members from k on in the coordinates that pools have in common.
+  void lower_from(Index k) {
+    lowered_ = k;
+    lowered_end_ = std::min(k + width, chain_.n);
+    const auto [mass, force] = numbers(k, lowered_end_ - k, lowered_mass_, lowered_force_);
+    lower(lowered_end_ - k, mass, force, chain_.offset_hi.data() + k, chain_.offset_lo.data() + k,
+          lowered_hi_.data(), lowered_lo_.data());
+  }
+
+  /// Masses and forces of members from k on, as they stand or brought together.
+  std::pair<const double*, const double*> numbers(Index k, Index count, Numbers& mass, Numbers& force) const {
+    if constexpr (std::is_same_v<Order, InOrder>) return {chain_.mass + k, chain_.force + k};
+    for (Index j = 0; j < count; ++j) {
+      mass[at(j)] = chain_.mass[order_.coordinate(k + j)];
+      force[at(j)] = chain_.force[order_.coordinate(k + j)];
+    }
+    return {mass.data(), force.data()};
   }
 
   /// Pools below the floor are lifted to it.
@@ -191,17 +134,7 @@ class Placement {
         block_.factor[at(k - first)] = order_.factor(k + 1);
       if (end == chain_.n) block_.factor[at(end - 1 - first)] = 1;
     }
-    if constexpr (std::is_same_v<Order, InOrder>) {
-      block_.mass = chain_.mass + first;
-      block_.force = chain_.force + first;
-    } else {
-      for (Index k = first; k < end; ++k) {
-        block_.mass_list[at(k - first)] = chain_.mass[order_.coordinate(k)];
-        block_.force_list[at(k - first)] = chain_.force[order_.coordinate(k)];
-      }
-      block_.mass = block_.mass_list.data();
-      block_.force = block_.force_list.data();
-    }
+    std::tie(block_.mass, block_.force) = numbers(first, block_.count, block_.mass_list, block_.force_list);
     const std::size_t known = placed_;
     std::size_t begun = 0;
     for (; pools_[known + begun] < end; ++begun) {
@@ -231,19 +164,14 @@ class Placement {
       }
       const Index over = pools_[placed_], last = std::min<Index>(end, over);
       if (over <= end && (placed_ >= lifted_ || over == chain_.n)) block_.goes_on[at(over - 1 - first)] = 0;
-      if (chain_.offset.empty())
-        for (; k < last; k += lanes)  // by lanes: pools are short; what is too much the next pool replaces
-          for (Index lane = 0; lane < lanes; ++lane) {
-            block_.x_hi[at(k - first + lane) + 1] = height_.hi;
-            block_.x_lo[at(k - first + lane) + 1] = height_.lo;
-          }
-      for (; k < last; ++k) {
-        const DoubleDouble x = add(height_, chain_.offset[at(k)]);
-        block_.x_hi[at(k - first) + 1] = x.hi;
-        block_.x_lo[at(k - first) + 1] = x.lo;
-      }
+      for (; k < last; k += lanes)  // by lanes: pools are short; what is too much the next pool replaces
+        for (Index lane = 0; lane < lanes; ++lane) {
+          block_.x_hi[at(k - first + lane) + 1] = height_.hi;
+          block_.x_lo[at(k - first + lane) + 1] = height_.lo;
+        }
       k = last;
     }
+    if (!chain_.is_level()) lift(block_, chain_.offset_hi.data() + first, chain_.offset_lo.data() + first);
     return rising;
   }
 
@@ -320,6 +248,8 @@ class Placement {
   Solution& found_;
   Block block_;
   Squares squares_;
+  Numbers lowered_mass_, lowered_force_, lowered_hi_, lowered_lo_;  // of the members from lowered_ on
+  Index lowered_ = 0, lowered_end_ = 0;
   Numbers weight_hi_, weight_lo_, sum_hi_, sum_lo_, mean_hi_, mean_lo_;  // of pools that begin in the block
   DoubleDouble floor_height_{}, height_{}, mean_{-INFINITY, 0};
   RunningSum push_;  // what the rows below push up with

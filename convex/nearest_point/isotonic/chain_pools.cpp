@@ -3,6 +3,8 @@
 #include <cmath>
 #include <memory>
 
+#include "convex/nearest_point/isotonic/chain_kernels.hpp"
+
 namespace convex {
 namespace {
 
@@ -85,17 +87,13 @@ std::optional<InOrder> in_order(const NearestPointProblem& problem) {
   value += floor;
   constexpr int block = 512;  // looked at without a branch
   const int links = static_cast<int>(n) - 1;
-  int ones = 0;
+  Index ones = 0;
   for (int first = 0; first < links; first += block) {
     const int end = std::min(links, first + block);
     int wrong = 0;
     for (int a = first; a < end; ++a)
       wrong |= (outer[a] ^ (2 * a + floor)) | (inner[2 * a] ^ a) | (inner[2 * a + 1] ^ (a + 1));
-    int fit = 0;
-    for (int a = first; a < end; ++a) {
-      fit += value[2 * a + 1] > 0 && value[2 * a] == -value[2 * a + 1];
-      ones += value[2 * a + 1] == 1;
-    }
+    const Index fit = chain_kernels::count_links(end - first, value + 2 * first, ones);
     if (wrong != 0 || fit != end - first) return std::nullopt;
   }
   return InOrder{U.valuePtr(), floor, ones == links};
@@ -119,14 +117,27 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
   level = true;  // but for the floor
   for (Index k = 1; k < n && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
   if (level) return;
-  offset.resize(static_cast<std::size_t>(n));
-  DoubleDouble sum{};
-  total_mass = mass[order.coordinate(0)];
-  for (Index k = 1; k < n; ++k) {
-    offset[static_cast<std::size_t>(k)] = sum = add(sum, bound(k));
-    farthest_offset = std::max(farthest_offset, std::abs(sum.hi));
-    total_mass += mass[order.coordinate(k)];
+  offset_hi.resize(n);
+  offset_lo.resize(n);
+  constexpr Index at_once = 16;  // terms that do not wait for a sum to be tidy
+  RunningSum sum;
+  for (Index first = 0; first < n; first += at_once) {
+    const Index end = std::min(first + at_once, n);
+    for (Index k = first; k < end; ++k) {
+      if (k > 0) sum.add(order.plain ? DoubleDouble{s[order.row(k)], 0} : bound(k));
+      offset_hi[k] = sum.hi;
+      offset_lo[k] = sum.lo;
+    }
+    for (Index k = first; k < end; ++k) {
+      const DoubleDouble offset = two_sum(offset_hi[k], offset_lo[k]);
+      offset_hi[k] = offset.hi;
+      offset_lo[k] = offset.lo;
+    }
+    const DoubleDouble tidy = sum.tidy();
+    sum = {tidy.hi, tidy.lo};
   }
+  farthest_offset = offset_hi.cwiseAbs().maxCoeff();
+  total_mass = problem.A.diagonal().sum();
 }
 
 template <class Order>
@@ -135,10 +146,10 @@ std::vector<int> pool(const Chain<Order>& chain) {
     const Index i = order.coordinate(k);
     return Pool<double>{static_cast<int>(k), mass[i], force[i]};
   };
-  if (chain.offset.empty()) return pool_members<double>(chain.n, member);
-  return pool_members<double>(chain.n, [member, offset = chain.offset.data()](Index k) {
+  if (chain.is_level()) return pool_members<double>(chain.n, member);
+  return pool_members<double>(chain.n, [member, offset = chain.offset_hi.data()](Index k) {
     Pool<double> lowered = member(k);
-    lowered.sum -= offset[k].hi * lowered.weight;
+    lowered.sum -= offset[k] * lowered.weight;
     return lowered;
   });
 }

@@ -53,13 +53,13 @@ struct Chain {
   DoubleDouble load(Index k) const {
     const Index i = order.coordinate(k);
     const DoubleDouble plain{force[i], 0};
-    return offset.empty() ? plain
-                          : add(plain, negative(product(offset[static_cast<std::size_t>(k)], mass[i])));
+    return is_level() ? plain : add(plain, negative(product({offset_hi[k], offset_lo[k]}, mass[i])));
   }
+  bool is_level() const { return offset_hi.size() == 0; }
   Index n;
   const double *mass, *force, *s;
   Order order;
-  std::vector<DoubleDouble> offset;            ///< of a member over the first; empty when all are 0
+  Vector offset_hi, offset_lo;                 ///< of a member over the first; empty when all are 0
   double farthest_offset = 0, total_mass = 0;  ///< |offset| at most, and Σ m, where there are offsets
 };
 

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -78,6 +79,9 @@ TEST_CASE(
       std::shuffle(rows.begin(), rows.end(), generator);
       const std::optional<Solution> shuffled = convex::solve_chain(column.problem(place, rows));
       REQUIRE(shuffled.has_value());
+      const auto agree = [](double x, double y) { return std::abs(x - y) <= 1e-9 * x; };
+      CHECK(agree(found->residuals.feasibility, shuffled->residuals.feasibility));
+      CHECK(agree(found->residuals.complementarity, shuffled->residuals.complementarity));
       for (std::size_t k = 0; k < place.size(); ++k) {
         const Index body = static_cast<Index>(k);
         CHECK(shuffled->q[place[k]] == found->q[body]);

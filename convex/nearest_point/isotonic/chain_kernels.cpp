@@ -1,0 +1,142 @@
+#include "convex/nearest_point/isotonic/chain_kernels.hpp"
+
+#include <cmath>
+
+#include "convex/double_double.hpp"
+#include "convex/processor.hpp"
+
+namespace convex::chain_kernels {
+
+MOREAU_CLONES
+Index count_links(Index count, const double* values, Index& ones) {
+  Index fit = 0, units = 0;
+  for (Index a = 0; a < count; ++a) {
+    const double c = values[2 * a + 1];
+    fit += (c > 0 ? 1 : 0) & (values[2 * a] == -c ? 1 : 0);
+    units += c == 1 ? 1 : 0;
+  }
+  ones += units;
+  return fit;
+}
+
+MOREAU_CLONES
+void lift(Block& block, const double* offset_hi, const double* offset_lo) {
+  double *const x_hi = block.x_hi.data() + 1, *const x_lo = block.x_lo.data() + 1;
+#pragma GCC ivdep
+  for (Index j = 0; j < block.count; ++j) {
+    const DoubleDouble x = add({x_hi[j], x_lo[j]}, {offset_hi[j], offset_lo[j]});
+    x_hi[j] = x.hi;
+    x_lo[j] = x.lo;
+  }
+}
+
+MOREAU_CLONES
+void lower(Index count, const double* mass, const double* force, const double* offset_hi,
+           const double* offset_lo, double* hi, double* lo) {
+#pragma GCC ivdep
+  for (Index j = 0; j < count; ++j) {
+    const DoubleDouble load = add({force[j], 0}, negative(product({offset_hi[j], offset_lo[j]}, mass[j])));
+    hi[j] = load.hi;
+    lo[j] = load.lo;
+  }
+}
+
+MOREAU_CLONES
+void weigh(Block& block) {
+  const double *const masses = block.mass, *const forces = block.force;
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+    const double mass = masses[j], lo = block.x_lo[j + 1];
+    const DoubleDouble plain = two_product(mass, block.x_hi[j + 1]),
+                       inertia = two_sum(plain.hi, plain.lo + lo * mass),
+                       left = two_sum(forces[j], -inertia.hi);
+    block.plain_hi[j] = plain.hi;
+    block.plain_lo[j] = plain.lo;
+    block.inertia[j] = std::abs(inertia.hi);
+    block.left_hi[j] = left.hi;
+    block.left_lo[j] = left.lo - inertia.lo;
+  }
+}
+
+MOREAU_CLONES
+void divide(Block& block) {
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+    const double lambda = block.pushed[j] / block.factor[j];
+    const DoubleDouble load = two_product(lambda, block.factor[j]);
+    block.lambda[j] = lambda;
+    block.load_hi[j + 1] = load.hi;
+    block.load_lo[j + 1] = load.lo;
+  }
+}
+
+void copy(Block& block) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+    block.lambda[j] = block.load_hi[j + 1] = block.pushed[j];
+    block.load_lo[j + 1] = 0;
+  }
+}
+
+namespace {
+
+/// The sum of n terms, in lanes that are kept apart.
+void add_by_lanes(Index count, const Numbers& term, std::array<double, lanes>& sum) {
+  Index j = 0;
+  for (; j + lanes <= count; j += lanes)
+    for (Index lane = 0; lane < lanes; ++lane)
+      sum[static_cast<std::size_t>(lane)] += term[static_cast<std::size_t>(j + lane)];
+  for (std::size_t lane = 0; j < count; ++j, ++lane) sum[lane] += term[static_cast<std::size_t>(j)];
+}
+
+}  // namespace
+
+MOREAU_CLONES
+void judge(Block& block, Squares& squares) {
+  Numbers unbalanced, q, z, lost;
+  const double *const masses = block.mass, *const forces = block.force;
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+    const double mass = masses[j], force = forces[j], x = block.x_hi[j + 1], lo = block.x_lo[j + 1];
+    const DoubleDouble below = two_sum(force, block.load_hi[j]),
+                       above = two_sum(below.hi, -block.load_hi[j + 1]),
+                       inertia = two_sum(above.hi, -block.plain_hi[j]);
+    const double small = (below.lo + block.load_lo[j]) + (above.lo - block.load_lo[j + 1]),
+                 rest = inertia.hi + (small + (inertia.lo - block.plain_lo[j])), inverse = 1 / mass;
+    unbalanced[j] = rest * rest * inverse;
+    q[j] = x * x * mass;
+    z[j] = force * force * inverse;
+    lost[j] = lo * lo * mass;
+  }
+  add_by_lanes(block.count, unbalanced, squares.unbalanced);
+  add_by_lanes(block.count, q, squares.q);
+  add_by_lanes(block.count, z, squares.z);
+  add_by_lanes(block.count, lost, squares.lost);
+}
+
+MOREAU_CLONES
+void measure_links(Index count, const double* mass, const double* q, const double* s, const double* lambda,
+                   double largest, Links& links) {
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const DoubleDouble rise = two_sum(q[k + 1], -q[k]), rest = two_sum(rise.hi, -s[k]);
+    const double slack = rest.hi + (rise.lo + rest.lo);
+    links.slack[k] = slack;
+    links.square[k] = 1 / mass[k] + 1 / mass[k + 1];
+    links.violation[k] = slack < 0 ? -slack : 0;
+    links.complementarity[k] = std::abs(lambda[k] / largest * slack);
+  }
+}
+
+MOREAU_CLONES
+void divide_links(Index count, const double* s, const double* length, double q_norm, double scale,
+                  Links& links) {
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    const double size = std::abs(s[k]) + length[k] * q_norm, other = length[k] * scale;
+    const double some = other > 0 ? other : 1, over = size > 0 ? size : some;
+    links.violation[k] /= over;
+    links.complementarity[k] /= over;
+  }
+}
+
+}  // namespace convex::chain_kernels
