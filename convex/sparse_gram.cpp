@@ -22,21 +22,33 @@ Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot) {
   Vector excess(n), diagonal(n), resistance(n);
   std::vector<int> reached;  // nodes with a path to the ground, nearest first as far as steps go
   reached.reserve(static_cast<std::size_t>(n));
+  const auto is_firm = [&](Index j) { return resistance[j] * diagonal[j] * least_pivot < 0.5; };
+  bool all_firm = true;  // by paths to nodes before, as nodes of a grid have them
   for (Index j = 0; j < n; ++j) {
     RunningSum sum;
+    double nearest = -1, link = 1;
     for (SparseMatrix::InnerIterator it(W, j); it; ++it) {
-      if (it.row() == j) diagonal[j] = it.value();
-      sum.add(it.row() == j ? it.value() : -std::abs(it.value()));
+      const Index i = it.row();
+      if (i == j) diagonal[j] = it.value();
+      const double size = std::abs(it.value());
+      sum.add(i == j ? it.value() : -size);
+      if (i >= j || !(size > 0) || resistance[i] < 0 || (nearest >= 0 && nearest <= resistance[i])) continue;
+      nearest = resistance[i];
+      link = size;
     }
     excess[j] = std::abs(sum.value()) <= zero_of_long_sums * diagonal[j] ? 0 : sum.value();
     if (excess[j] < 0) return {};
     const bool grounded = excess[j] > 2 * least_pivot * diagonal[j];
-    resistance[j] = grounded ? 1 / excess[j] : -1;
+    resistance[j] = grounded ? 1 / excess[j] : nearest >= 0 ? nearest + 1 / link : -1;
     if (grounded) reached.push_back(static_cast<int>(j));
+    all_firm = all_firm && resistance[j] >= 0 && is_firm(j);
   }
+  if (all_firm) return excess;
+  resistance.setConstant(-1);
+  for (const int j : reached) resistance[j] = 1 / excess[j];
   for (std::size_t k = 0; k < reached.size(); ++k) {
     const Index j = reached[k];
-    if (!(resistance[j] * diagonal[j] * least_pivot < 0.5)) return {};
+    if (!is_firm(j)) return {};
     for (SparseMatrix::InnerIterator it(W, j); it; ++it) {
       double& there = resistance[it.row()];
       if (there >= 0 || !(std::abs(it.value()) > 0)) continue;

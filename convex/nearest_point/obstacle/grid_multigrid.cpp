@@ -146,18 +146,21 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   for (Index j = 0; j < grid.height; ++j)
     for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
       square += grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] * right[k] : 0;
-  u.setZero(size);
+  u.resize(size);
   constexpr double least = 0x1p-900, so_little = 0x1p-400;  // squares below are no ordinary doubles
   if (!(square >= least)) {
     bool is_zero = true;
     for (Index j = 0; j < grid.height; ++j)
       for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
         is_zero = is_zero && !(grid.free[static_cast<std::size_t>(k)] > 0 && right[k] != 0);
+    u.setZero();
     return is_zero ? Size{0, 0} : Size{so_little, so_little};
   }
   // Numbers of size 1, and c = 1: of A/c x = r, r scaled, energies are those of A u = r over unit²/c.
   const double unit = std::sqrt(square / static_cast<double>(n * grid.height));
-  for (std::vector<float>* field : {&x_, &p_, &Ap_}) field->assign(static_cast<std::size_t>(size), 0);
+  // What they have of a solve before, but for their frames of 0, is written over.
+  for (std::vector<float>* field : {&p_, &Ap_}) field->resize(static_cast<std::size_t>(size));
+  x_.assign(static_cast<std::size_t>(size), 0);
   for (Index k = 0; k < size; ++k) {
     const auto i = static_cast<std::size_t>(k);
     // Beside tiny forces on the free points those that are not may be beyond all floats.
@@ -174,9 +177,10 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
     const double beta = count == 0 ? 0 : -step * with.of_Ap / previous;
     double curvature = 0;
     for (Index j = -1; j < grid.height; ++j) {  // a row is turned before the one below it is applied
-      if (j + 1 < grid.height)
-        grid_kernels::turn(n, static_cast<float>(beta), grid.u.data() + grid.at(j + 1),
-                           p_.data() + grid.at(j + 1));
+      const Index next = grid.at(j + 1);
+      if (j + 1 < grid.height && count == 0) std::copy_n(grid.u.data() + next, n, p_.data() + next);
+      if (j + 1 < grid.height && count > 0)
+        grid_kernels::turn(n, static_cast<float>(beta), grid.u.data() + next, p_.data() + next);
       if (j < 0) continue;
       const Index k = grid.at(j);
       curvature += grid_kernels::apply(n, grid.stride(), grid.d, grid.c, grid.free.data() + k, p_.data() + k,

@@ -26,6 +26,23 @@ Vector on_grid(const GridOperator& A, const Vector& x) {
   return field;
 }
 
+/// The place of a point in a field; those that follow each other are found without a division.
+class GridPlace {
+ public:
+  explicit GridPlace(const GridOperator& A) : A_(A) {}
+  Index operator()(Index k) {
+    if (k < first_ || k >= first_ + A_.width) {
+      row_ = k == first_ + A_.width ? row_ + 1 : k / A_.width;
+      first_ = row_ * A_.width;
+    }
+    return A_.at(k - first_, row_);
+  }
+
+ private:
+  const GridOperator& A_;
+  Index row_ = 0, first_ = 0;
+};
+
 std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   constexpr Index smallest = 8;
   if (problem.A.kind() != MetricKind::sparse || !problem.U.is_sparse()) return std::nullopt;
@@ -45,11 +62,11 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   grid.A.height = n / width;
   if (std::min(width, grid.A.height) < smallest || !(grid.A.c > 0) || !(grid.A.d >= 4 * grid.A.c))
     return std::nullopt;
-  for (Index k = 0; k < n; ++k) {
-    Index expected = 1 + (k % width > 0) + (k % width + 1 < width) + (k >= width) + (k + width < n);
+  for (Index k = 0, i = 0; k < n; ++k, i = i + 1 < width ? i + 1 : 0) {
+    Index expected = 1 + (i > 0) + (i + 1 < width) + (k >= width) + (k + width < n);
     for (SparseMatrix::InnerIterator it(W, k); it; ++it, --expected) {
       const Index by = std::abs(it.row() - k);
-      const bool beside = by == 1 && it.row() / width == k / width;
+      const bool beside = by == 1 && (it.row() < k ? i > 0 : i + 1 < width);
       if (by == 0 ? it.value() != grid.A.d : (!(beside || by == width) || it.value() != -grid.A.c))
         return std::nullopt;
     }
@@ -59,10 +76,11 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   grid.lower = Vector::Constant(grid.A.size(), none);
   if (!problem.two_sided.empty()) grid.held = grid.A.field();
   auto next_two_sided = problem.two_sided.begin();
+  GridPlace place(grid.A);
   for (Index a = 0; a < problem.rows(); ++a) {
     SparseRows::InnerIterator it(problem.U.sparse(), a);
     if (!it || !(it.value() > 0)) return std::nullopt;
-    const Index point = grid.A.at(it.col() % width, it.col() / width);
+    const Index point = place(it.col());
     if (next_two_sided != problem.two_sided.end() && *next_two_sided == a) {
       grid.held[point] = 1;
       ++next_two_sided;
@@ -192,15 +210,16 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   ObstaclePoint point = solve_obstacle_grid(*grid, multigrid);
   if (!point.ended) return std::nullopt;
   const bool decided = TouchedPoints(*grid, point).decide();
-  const Index n = problem.dimension(), width = grid->A.width;
-  const auto place = [&](Index k) { return grid->A.at(k % width, k / width); };
+  const Index n = problem.dimension();
+  GridPlace place(grid->A);
   Solution found;
   found.method = "obstacle";
   found.q.resize(n);
   Vector lost(n);
   for (Index k = 0; k < n; ++k) {
-    found.q[k] = point.q.hi[place(k)];
-    lost[k] = point.q.lo[place(k)];
+    const Index at = place(k);
+    found.q[k] = point.q.hi[at];
+    lost[k] = point.q.lo[at];
   }
   found.lambda = Vector::Zero(problem.rows());
   found.slack = Vector::Zero(problem.rows());
