@@ -14,12 +14,11 @@ constexpr double whole = 0x1p52;
 /// A point with more steps leaves too few for the rows.
 constexpr double most_steps = 0x1p44;
 
-/// The largest power of 2 that x, not 0 and not subnormal, is a multiple of.
-double lowest_bit(double x) {
+/// k, where 2ᵏ is the largest power of 2 that x, not 0 and not subnormal, is a multiple of.
+int lowest_bit(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const int exponent = static_cast<int>((bits >> 52) & 0x7ff) - 1075;
-  const int trailing = std::countr_zero(bits | (std::uint64_t{1} << 52));
-  return std::ldexp(1, exponent + trailing);
+  return exponent + std::countr_zero(bits | (std::uint64_t{1} << 52));
 }
 
 /// The power of 2 no less than x > 0.
@@ -32,16 +31,18 @@ bool is_multiple(double x, double step) {
 
 }  // namespace
 
-GridSum::GridSum(const Vector& q) : q_(q) {
-  double step = std::numeric_limits<double>::infinity(), largest = 0;
+GridSum::GridSum(const Eigen::Ref<const Vector>& q) : q_(q.data()), n_(q.size()) {
+  int lowest = std::numeric_limits<int>::max();
+  double largest = 0;
   for (const double x : q) {
     if (x == 0) continue;
     if (!std::isnormal(x)) return;
-    step = std::min(step, lowest_bit(x));
+    lowest = std::min(lowest, lowest_bit(x));
     largest = std::max(largest, std::abs(x));
   }
   is_zero_ = largest == 0;
   if (is_zero_) return;
+  const double step = std::ldexp(1, lowest);
   const double steps = static_cast<double>(q.size()) * largest / step;
   if (!(steps <= most_steps) || !std::isnormal(step)) return;
   step_ = step;
@@ -51,7 +52,7 @@ GridSum::GridSum(const Vector& q) : q_(q) {
 std::optional<double> GridSum::value(const double* u, double s) const {
   if (is_zero_) return -s;
   if (step_ == 0) return std::nullopt;
-  const Index n = q_.size();
+  const Index n = n_;
   double largest = 0;
   for (Index i = 0; i < n; ++i) largest = std::max(largest, std::abs(u[i]));
   if (largest == 0) return -s;

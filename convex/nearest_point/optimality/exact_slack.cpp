@@ -59,7 +59,7 @@ double entry(const ConstraintRows& U, Index a, Index i) {
 }
 
 /// u_a·q - s_a.
-ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Vector& q) {
+ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Point& q) {
   ExactSum sum;
   sum.add(-problem.s[a]);
   if (problem.U.is_sparse())
@@ -143,33 +143,31 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
   return slack_of_loads(p, whole);
 }
 
-std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Vector& q,
-                                     const std::vector<Index>& held, const std::vector<Index>& touched) {
-  if ((q.array() == 0).all()) {
-    const auto is_kept = [&](Index a) {
-      return problem.s[a] == 0 || (problem.s[a] < 0 && !is_two_sided(problem, a));
-    };
-    if (std::any_of(held.begin(), held.end(), [&](Index a) { return problem.s[a] != 0; }) ||
-        !std::all_of(touched.begin(), touched.end(), is_kept))
-      return std::nullopt;
-    return Vector(0 - problem.s(touched).array());
-  }
+bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<const Index> held,
+                std::span<const Index> touched, double* slacks) {
+  const auto is_kept = [&](Index a, double slack) {
+    return slack == 0 || (slack > 0 && !is_two_sided(problem, a));
+  };
+  const bool at_rest = (q.array() == 0).all();
   const GridSum on_grid(q);
   // A slack that is too small for a double has its sign all the same.
   const auto slack_of = [&](Index a) {
+    if (at_rest) return 0 - problem.s[a];
     if (!problem.U.is_sparse())
       if (const auto slack = on_grid.value(problem.U.dense().data() + a * q.size(), problem.s[a]))
         return *slack;
     return slack_at(problem, a, q);
   };
-  for (Index a : held)
-    if (slack_of(a) != 0) return std::nullopt;
+  return std::all_of(held.begin(), held.end(), [&](Index a) { return slack_of(a) == 0; }) &&
+         std::all_of(touched.begin(), touched.end(),
+                     [&](Index a) { return is_kept(a, *slacks++ = slack_of(a)); });
+}
+
+std::optional<Vector> slacks_if_kept(const NearestPointProblem& problem, const Point& q,
+                                     std::span<const Index> held, std::span<const Index> touched) {
   Vector slacks(static_cast<Index>(touched.size()));
-  for (std::size_t k = 0; k < touched.size(); ++k) {
-    const double slack = slacks[static_cast<Index>(k)] = slack_of(touched[k]);
-    if (slack < 0 || (slack > 0 && is_two_sided(problem, touched[k]))) return std::nullopt;
-  }
-  return slacks;
+  return keeps_rows(problem, q, held, touched, slacks.data()) ? std::optional(std::move(slacks))
+                                                              : std::nullopt;
 }
 
 double quotient_with_sign(const ExactSum& sum, double divisor) {
@@ -177,11 +175,11 @@ double quotient_with_sign(const ExactSum& sum, double divisor) {
   return sum.sign() * std::copysign(size, divisor);
 }
 
-double slack_at(const NearestPointProblem& problem, Index a, const Vector& q) {
+double slack_at(const NearestPointProblem& problem, Index a, const Point& q) {
   return quotient_with_sign(exact_slack(problem, a, q), 1);
 }
 
-int sign_of_slack(const NearestPointProblem& problem, Index a, const Vector& q) {
+int sign_of_slack(const NearestPointProblem& problem, Index a, const Point& q) {
   return exact_slack(problem, a, q).sign();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "convex/exact/exact_sum.hpp"
@@ -35,18 +36,25 @@ class SlackOnEdge {
   bool rows_on_grid_ = false, loads_on_grid_ = false;  ///< sums of few U or s are exact in doubles
 };
 
-/// The slacks of the rows `touched` at the doubles q, each the double nearest to its own, if q is the point
-/// of the rows `held` and keeps those touched, all without rounding: the rows held and two-sided ones have a
-/// slack of 0, the others none below. With multipliers lambda >= 0 of the rows held, ||q - q*||_A <=
-/// ||Aq - z - Uᵀlambda||_(A⁻¹) then, q* the solution.
-std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Vector& q,
-                                     const std::vector<Index>& held, const std::vector<Index>& touched);
+/// Doubles q, of which no copy is made.
+using Point = Eigen::Ref<const Vector>;
+
+/// Whether q is the point of the rows `held` and keeps those `touched`, all without rounding: the rows held
+/// and two-sided ones have a slack of 0, the others none below. Their slacks at q then, each the double
+/// nearest to its own, one for each row touched. With multipliers lambda >= 0 of the rows held, ||q - q*||_A
+/// <=
+/// ||Aq - z - Uᵀlambda||_(A⁻¹), q* the solution.
+bool keeps_rows(const NearestPointProblem&, const Point& q, std::span<const Index> held,
+                std::span<const Index> touched, double* slacks);
+/// The slacks; none where q does not keep the rows.
+std::optional<Vector> slacks_if_kept(const NearestPointProblem&, const Point& q, std::span<const Index> held,
+                                     std::span<const Index> touched);
 
 /// sum / divisor, rounded, and a double of its sign where that is 0 but the sum is not.
 double quotient_with_sign(const ExactSum& sum, double divisor);
 
 /// u_a·q - s_a at the doubles q, rounded once, with its sign.
-double slack_at(const NearestPointProblem&, Index a, const Vector& q);
+double slack_at(const NearestPointProblem&, Index a, const Point& q);
 /// The sign alone.
-int sign_of_slack(const NearestPointProblem&, Index a, const Vector& q);
+int sign_of_slack(const NearestPointProblem&, Index a, const Point& q);
 }  // namespace convex

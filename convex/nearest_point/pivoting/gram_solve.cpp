@@ -96,8 +96,7 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
 /// forces are, so far as their signs are told, the point is that one.
 bool GramSolve::is_exact_vertex() const {
   return set_->size() == n_ && !problem_.radii &&
-         slacks_if_kept(problem_, Eigen::Map<const Vector>(q_, n_), std::vector<Index>(rows_, rows_ + n_),
-                        {});
+         keeps_rows(problem_, Eigen::Map<const Vector>(q_, n_), {rows_, rows_ + n_}, {}, nullptr);
 }
 
 /// q and lambda of the rows held, in doubles.

@@ -50,7 +50,6 @@ class GramSolve {
   Index measure_touched_slacks();
   double slack_noise(Index a) const;
   double rise(Index a) const;
-  std::optional<Vector> slacks_of_touched_rows_if_kept() const;
   std::optional<double> slack_by_parallel_row(Index a) const;
   bool is_independent(Index a);
   void find_dual_rows();

@@ -72,8 +72,9 @@ Slacks GramSolve::look_at_violated(Index count) {
 /// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
 /// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
 Slacks GramSolve::decide_degenerate_rows() {
-  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
-    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k] = (*slacks)[k];
+  if (keeps_rows(problem_, Eigen::Map<const Vector>(q_, n_), {rows_, rows_ + set_->size()},
+                 {touched_, touched_ + touched_count_}, touched_slack_)) {
+    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k];
     return Slacks::kept;
   }
   if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
@@ -133,13 +134,6 @@ Index GramSolve::measure_touched_slacks() {
 double GramSolve::slack_noise(Index a) const {
   return zero_of_pairs * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
          known_.missing_slack(row_scale_[a]);
-}
-
-/// The slacks of the rows touched where q is, without rounding, the point of the rows held and keeps them.
-std::optional<Vector> GramSolve::slacks_of_touched_rows_if_kept() const {
-  return slacks_if_kept(problem_, Eigen::Map<const Vector>(q_, n_),
-                        std::vector<Index>(rows_, rows_ + set_->size()),
-                        std::vector<Index>(touched_, touched_ + touched_count_));
 }
 
 /// The slack of row a, with its sign, where a row held that is parallel to it, not one bit off, holds with

@@ -28,6 +28,7 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
       tableau_(tableau),
       row_scale_(tableau.row_scale),
       slack_(tableau.slack),
+      touched_slack_(tableau.touched_slack),
       close_(tableau.close) {
   const DenseFactor factor = problem.A.dense_factor();
   tableau.m = tableau.stride = tableau.size = tableau.steps = 0;
@@ -45,14 +46,13 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
   Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = diagonal.sqrt().inverse();
   if (tableau.all <= SmallTableau::few_rows) return;
   const Index rows = padded(tableau.all);
-  const auto size = static_cast<std::size_t>(rows);
-  numbers_ = std::make_unique_for_overwrite<double[]>(3 * size);
-  indices_ = std::make_unique_for_overwrite<Index[]>(2 * size);
-  row_scale_ = numbers_.get();
-  slack_ = row_scale_ + rows;
-  inverse_scale_ = slack_ + rows;
-  close_ = indices_.get();
-  place_ = close_ + rows;
+  tableau.all_rows.start(6 * rows / 8);
+  row_scale_ = tableau.all_rows.take<double>(rows);
+  slack_ = tableau.all_rows.take<double>(rows);
+  inverse_scale_ = tableau.all_rows.take<double>(rows);
+  touched_slack_ = tableau.all_rows.take<double>(rows);
+  close_ = tableau.all_rows.take<Index>(rows);
+  place_ = tableau.all_rows.take<Index>(rows);
   fill_packs(8, 0, row_scale_ + rows - 8);
   fill_packs(8, 0, slack_ + rows - 8);
   dense_kernels().squares(tableau.all, tableau.n, tableau.U, tableau.inverse_diagonal, row_scale_);
@@ -279,8 +279,8 @@ bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
   if (std::all_of(t.q, t.q + t.n, [](double x) { return x == 0; })) t.acceleration_norm = 0;
   const double close = accuracy.tolerance * std::max(1.0, t.acceleration_norm);
   if (!(known_.bound <= close) && t.size == t.n && !problem_.radii) {
-    touched_.clear();
-    if (slacks_of_touched_rows_if_kept()) known_.bound = 0;
+    touched_count_ = 0;
+    if (keeps_touched_rows()) known_.bound = 0;
   }
   solution.residuals = residuals();
   solution.method = "active-set";

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <memory>
-
 #include <optional>
+#include <span>
 
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/pivoting/corrections.hpp"
@@ -56,12 +55,13 @@ class SmallGramSolve {
   bool take_noise_for_zero(bool more);
   bool is_at_rest() const;
   Slacks measure_slacks();
-  Slacks look_at_violated(const std::vector<Index>& rows);
+  Slacks look_at_violated(std::span<const Index> rows);
+  bool look_at_fresh(std::span<const Index> rows, Index most);
   Slacks decide_degenerate_rows();
   bool holds(Index a) const { return place(a) >= 0 && tableau_.held[place(a)]; }
-  bool look_at_touched(Index most);
   bool leave_sums_of_rows_held();
-  std::optional<Vector> slacks_of_touched_rows_if_kept() const;
+  bool keeps_touched_rows() const;
+  std::span<const Index> touched() const { return {close_, close_ + touched_count_}; }
   void find_magnitude();
   bool is_clear(double size);
   Index close_rows(double absolute, double by_length);
@@ -72,14 +72,13 @@ class SmallGramSolve {
   const NearestPointProblem& problem_;
   SmallTableau& tableau_;
   double *row_scale_, *slack_;  ///< of all rows; ||u_a||_(D⁻¹), where rows are many no less and hardly more
+  double* touched_slack_;       ///< of the rows touched, where they are known without rounding
   double* inverse_scale_ = nullptr;
   Index *close_, *place_ = nullptr;  ///< place_: of a row, -1 for one not looked at; where rows are many
-  std::unique_ptr<double[]> numbers_;
-  std::unique_ptr<Index[]> indices_;
+  Index touched_count_ = 0;          ///< so many of close_ are rows touched
   Index sweeps_ = 0;
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
-  std::vector<Index> touched_, violated_;
   double zeroed_ = 0;  ///< the multipliers of weak rows, times their lengths
   double magnitude_ = 0, touched_violation_ = 0;
 };

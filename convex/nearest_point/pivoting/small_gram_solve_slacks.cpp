@@ -8,8 +8,9 @@
 namespace convex {
 namespace {
 
-/// Rows touched that are looked at before it is known whether they are sums of rows held.
-constexpr Index few_touched = 16;
+/// Rows touched that are looked at before it is known whether they are sums of rows held; where some must be,
+/// for all are more than there are coordinates, and otherwise.
+constexpr Index few_where_sums = 8, few_touched = 16;
 
 }  // namespace
 
@@ -64,83 +65,74 @@ Slacks SmallGramSolve::measure_slacks() {
                by_length = rounding * magnitude_ + known_.missing_slack(1);
   const Index close = close_rows(rounding, by_length);
   const Index open = std::remove_if(close_, close_ + close, [&](Index a) { return holds(a); }) - close_;
-  touched_.clear();
-  violated_.clear();
-  if (open > 0) {
-    const auto violated = std::partition(close_, close_ + open, [&](Index a) {
-      return !(slack_[a] < -(rounding * std::abs(problem_.s[a]) + by_length * row_scale_[a]));
-    });
-    touched_.assign(close_, violated);
-    violated_.assign(violated, close_ + open);
-  }
-  if (!violated_.empty()) return look_at_violated(violated_);
+  touched_count_ = std::partition(close_, close_ + open,
+                                  [&](Index a) {
+                                    return !(slack_[a] < -(rounding * std::abs(problem_.s[a]) +
+                                                           by_length * row_scale_[a]));
+                                  }) -
+                   close_;
+  if (touched_count_ < open) return look_at_violated({close_ + touched_count_, close_ + open});
   if (known_.wrong > 0) return Slacks::violated;
-  return touched_.empty() ? Slacks::kept : decide_degenerate_rows();
+  return touched_count_ == 0 ? Slacks::kept : decide_degenerate_rows();
 }
 
 /// Rows violated beyond rounding are to come in with the next correction.
-Slacks SmallGramSolve::look_at_violated(const std::vector<Index>& rows) {
-  std::vector<Index> fresh;
-  for (Index a : rows) {
-    known_.wrong = std::max(known_.wrong, -slack_[a] / row_scale_[a]);
-    if (place(a) < 0) fresh.push_back(a);
-  }
+Slacks SmallGramSolve::look_at_violated(std::span<const Index> rows) {
+  for (Index a : rows) known_.wrong = std::max(known_.wrong, -slack_[a] / row_scale_[a]);
   if (!std::isfinite(known_.wrong)) return Slacks::doubtful;  // 0 >= s > 0
-  const Index count = static_cast<Index>(fresh.size());
-  return tableau_.stride + padded(count) <= SmallTableau::most && (count == 0 || look_at(fresh.data(), count))
-             ? Slacks::violated
-             : Slacks::doubtful;
+  return look_at_fresh(rows, tableau_.all) ? Slacks::violated : Slacks::doubtful;
+}
+
+/// Looks at those of the rows that have not been looked at, if they are no more than so many. False when
+/// there is no room for them.
+bool SmallGramSolve::look_at_fresh(std::span<const Index> rows, Index most) {
+  Index fresh[SmallTableau::most], count = 0;
+  for (Index a : rows)
+    if (place(a) < 0 && count++ < SmallTableau::most) fresh[count - 1] = a;
+  return count == 0 || count > most ||
+         (tableau_.stride + padded(count) <= SmallTableau::most && look_at(fresh, count));
 }
 
 /// As in `GramSolve`, but for the way up, which is left to it.
 Slacks SmallGramSolve::decide_degenerate_rows() {
   SmallTableau& t = tableau_;
   if (problem_.radii) return Slacks::doubtful;
-  if (const std::optional<Vector> slacks = slacks_of_touched_rows_if_kept()) {
-    for (std::size_t k = 0; k < touched_.size(); ++k) slack_[touched_[k]] = (*slacks)[static_cast<Index>(k)];
+  if (keeps_touched_rows()) {
+    for (Index k = 0; k < touched_count_; ++k) slack_[close_[k]] = touched_slack_[k];
     return Slacks::kept;
   }
   // ||u||_(A⁻¹) is at least this part of ||u||_(D⁻¹).
   const double part = 1 / std::sqrt(static_cast<double>(t.n));
-  for (Index a : touched_) {
+  for (Index a : touched()) {
     const double size = std::abs(problem_.s[a]) + part * row_scale_[a] * t.acceleration_norm;
     if (slack_[a] < 0 && size > 0) touched_violation_ = std::max(touched_violation_, -slack_[a] / size);
   }
   // Few are looked at, so that their columns tell what they depend on; of many the sums are taken out first.
-  if (!look_at_touched(few_touched) || !leave_sums_of_rows_held()) return Slacks::doubtful;
-  if (touched_.empty()) return Slacks::kept;
-  if (!look_at_touched(t.all)) return Slacks::doubtful;
+  const Index few = t.size + touched_count_ > t.n ? few_where_sums : few_touched;
+  if (!look_at_fresh(touched(), few) || !leave_sums_of_rows_held()) return Slacks::doubtful;
+  if (touched_count_ == 0) return Slacks::kept;
+  if (!look_at_fresh(touched(), t.all)) return Slacks::doubtful;
   alignas(64) double known[SmallTableau::most], precise[SmallTableau::most];
   copy_packs(t.stride, t.slack, known);
   small_kernels().measure_precisely(t);
   copy_packs(t.stride, t.slack, precise);
   copy_packs(t.stride, known, t.slack);
-  violated_.clear();
-  for (Index a : touched_) {
+  Index violated = 0;
+  for (Index a : touched()) {
     const Index p = place(a);
     slack_[a] = t.slack[p] = precise[p];
     const double noise = zero_of_pairs * (std::abs(t.level[p]) + t.row_scale[p] * known_.scale) +
                          known_.missing_slack(t.row_scale[p]);
     if (slack_[a] < -noise)
-      violated_.push_back(a);
+      close_[violated++] = a;  // those before have been seen
     else if (!(slack_[a] > noise))
       return Slacks::doubtful;
   }
-  return violated_.empty() ? Slacks::kept : look_at_violated(violated_);
+  return violated == 0 ? Slacks::kept : look_at_violated({close_, close_ + violated});
 }
 
-/// Looks at the rows touched if they are no more than so many. False when there is no room for them.
-bool SmallGramSolve::look_at_touched(Index most) {
-  violated_.clear();
-  for (Index a : touched_)
-    if (place(a) < 0) violated_.push_back(a);
-  const Index count = static_cast<Index>(violated_.size());
-  return count == 0 || count > most ||
-         (tableau_.stride + padded(count) <= tableau_.most && look_at(violated_.data(), count));
-}
-
-/// Takes out of touched_ the rows that are sums of rows held with short fractions as coefficients, not one
-/// bit left over, and ask for no more than they do. False when one asks for more.
+/// Takes out of the rows touched those that are sums of rows held with short fractions as coefficients, not
+/// one bit left over, and ask for no more than they do. False when one asks for more.
 bool SmallGramSolve::leave_sums_of_rows_held() {
   const SmallTableau& t = tableau_;
   if (t.size == 0) return true;
@@ -149,31 +141,35 @@ bool SmallGramSolve::leave_sums_of_rows_held() {
   bool has_dual = false, asks_more = false;
   if (!edge_) edge_.emplace(problem_, row_scale_);
   edge_->begin();
-  std::erase_if(touched_, [&](Index a) {
-    if (const Index p = place(a); p >= 0) {  // swept, its column has its coefficients
-      if (t.swept[p * (t.stride + 1)] > zero_coefficient * t.square[p]) return false;
-      for (Index k = 0; k < t.size; ++k) coefficients[k] = t.swept[p * t.stride + t.place[k]];
-    } else {
-      if (!std::exchange(has_dual, true)) small_kernels().dual_rows(t, dual);
-      dense_kernels().combine_runs(t.n, padded(t.size), dual, t.U + a * t.n, coefficients);
-    }
-    // Most rows that are no sum show it in their first entry.
-    double first = t.U[a * t.n];
-    for (Index k = 0; k < t.size; ++k) first -= coefficients[k] * t.U[t.rows[k] * t.n];
-    if (std::abs(first) * t.unit[0] > zero_coefficient * row_scale_[a]) return false;
-    const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
-    if (!on_edge) return false;
-    asks_more = asks_more || *on_edge < 0;
-    slack_[a] = *on_edge;
-    return true;
-  });
+  touched_count_ =
+      std::remove_if(close_, close_ + touched_count_,
+                     [&](Index a) {
+                       if (const Index p = place(a); p >= 0) {  // swept, its column has its coefficients
+                         if (t.swept[p * (t.stride + 1)] > zero_coefficient * t.square[p]) return false;
+                         for (Index k = 0; k < t.size; ++k)
+                           coefficients[k] = t.swept[p * t.stride + t.place[k]];
+                       } else {
+                         if (!std::exchange(has_dual, true)) small_kernels().dual_rows(t, dual);
+                         dense_kernels().combine_runs(t.n, padded(t.size), dual, t.U + a * t.n, coefficients);
+                       }
+                       // Most rows that are no sum show it in their first entry.
+                       double first = t.U[a * t.n];
+                       for (Index k = 0; k < t.size; ++k) first -= coefficients[k] * t.U[t.rows[k] * t.n];
+                       if (std::abs(first) * t.unit[0] > zero_coefficient * row_scale_[a]) return false;
+                       const std::optional<double> on_edge = edge_->slack(a, t.rows, t.size, coefficients);
+                       if (!on_edge) return false;
+                       asks_more = asks_more || *on_edge < 0;
+                       slack_[a] = *on_edge;
+                       return true;
+                     }) -
+      close_;
   return !asks_more;
 }
 
-std::optional<Vector> SmallGramSolve::slacks_of_touched_rows_if_kept() const {
+bool SmallGramSolve::keeps_touched_rows() const {
   const SmallTableau& t = tableau_;
-  return slacks_if_kept(problem_, Eigen::Map<const Vector>(t.q, t.n),
-                        std::vector<Index>(t.rows, t.rows + t.size), touched_);
+  return keeps_rows(problem_, Eigen::Map<const Vector>(t.q, t.n), {t.rows, t.rows + t.size}, touched(),
+                    touched_slack_);
 }
 
 }  // namespace convex

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <span>
-#include "convex/dense/dense_kernels.hpp"
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/double_double.hpp"
+#include "convex/nearest_point/pivoting/arena.hpp"
 
 namespace convex {
 
@@ -41,6 +42,8 @@ struct SmallTableau {
   bool is_weak[most];                                                    ///< may change sides in a correction
   Index row[most];                                                       ///< at a place; -1 for none
   Index close[most];  ///< rows whose slack doubles do not tell from 0, where rows are few
+  double touched_slack[most];
+  Arena all_rows;                           ///< arrays for all rows, where these are many
   Index rows[most], place[most], size = 0;  ///< rows held, their places, and how many
   bool held[most], two_sided[most];
 
