@@ -37,6 +37,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
   zeros_of_switch_.assign(expansion_.switches(), 0);
+  branches_behind_.assign(expansion_.switches(), 0.0);
   is_weak_.assign(m, false);
   is_blurred_.assign(m, false);
   elapsed_.assign(m, 0.0);

@@ -59,6 +59,7 @@ class Motion::EventDriven final : public Motion::Course {
   double low_ = 0;              // the time is state.t + low_
   std::vector<Index> persist_;  // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
+  std::vector<double> branches_behind_;                              // by switch, before the event
   std::vector<bool> is_weak_;                                        // held without a multiplier
   std::vector<bool> is_blurred_;  // of an impact it was told that its time is uncertain
   std::vector<double> elapsed_;   // since the last impact, by constraint

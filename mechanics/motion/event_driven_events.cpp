@@ -47,6 +47,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
           "nothing");
   }
   const Vector before = state.v;
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) branches_behind_[k] = expansion_.branch(k);
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
     if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
@@ -225,8 +226,6 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   std::fill(zeros_of_lambda_.begin(), zeros_of_lambda_.end(), 0);
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);
-  std::vector<double> branches;
-  for (const Index k : switches) branches.push_back(expansion_.branch(static_cast<std::size_t>(k)));
   const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
   if (!answer)
     return stop(
@@ -265,8 +264,10 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
   fill_next();
   bool changed = false;
-  for (std::size_t j = 0; j < switches.size(); ++j)
-    changed = changed || branches[j] != expansion_.branch(static_cast<std::size_t>(switches[j]));
+  for (const Index which : switches) {
+    const auto k = static_cast<std::size_t>(which);
+    changed = changed || branches_behind_[k] != expansion_.branch(k);
+  }
   if (changed && done.length > 0) event(EventKind::branch, {}, state.v);
 }
 

@@ -111,6 +111,24 @@ TEST_CASE("an impact turns the velocity, and with it the branch of a drag that o
   }
 }
 
+TEST_CASE("a body that comes back from the place where its force would change has taken no branch") {
+  const SystemText text{{"x"}, "x'^2/2", "", {}, {}, {{"x", "-3*sign(x) - 1"}}, {{"floor", "x >= 0"}}};
+  const auto s = system(text);
+  mechanics::MotionOptions options;
+  options.restitution = convex::Vector::Constant(1, 0.5);
+  mechanics::Motion motion(*s, state({1}, {0}), options);
+  std::vector<double> impacts;
+  while (motion.advance(2))
+    for (const auto& event : motion.events()) {
+      CHECK(event.kind == mechanics::EventKind::impact);
+      impacts.push_back(event.t);
+    }
+  REQUIRE(impacts.size() > 2);
+  const double fall = std::sqrt(0.5);  // the weight is 4
+  CHECK(impacts[0] == doctest::Approx(fall).epsilon(1e-14));
+  CHECK(impacts[2] == doctest::Approx(fall * 2.5).epsilon(1e-14));
+}
+
 TEST_CASE("where a velocity stays 0 a drag against it is 0, until the body is lifted") {
   // 2 g = 19.62 pushes down, t up, and 3 against the motion: it begins at t = 19.62 + 3 with the floor left.
   const SystemText text{{"y"}, "y'^2", "19.62*y", {}, {}, {{"y", "t - 3*sign(y')"}}, {{"floor", "y >= 0"}}};
