@@ -257,7 +257,9 @@ void Expansion::find_constraints() {
     const std::span<const double> rate_of = series_[equations_.rate[index(a)]];
     double* f_a = f_.data() + a * (order_ + 1);
     f_a[0] = f(a);
-    for (int k = 1; k <= order_; ++k) f_a[k] = rate_of[static_cast<std::size_t>(k - 1)] / k;
+    const int last = std::min(order_, series_.found());
+    for (int k = 1; k <= last; ++k) f_a[k] = rate_of[static_cast<std::size_t>(k - 1)] / k;
+    std::fill(f_a + last + 1, f_a + order_ + 1, 0.0);
   }
 }
 

@@ -286,8 +286,7 @@ bool TaylorRecurrence::run() {
                    wide(x_),
                    wide(y_)};
   bool all_finite = true;
-  const std::size_t end = find_orders(all, all_finite);
-  std::fill(numbers_.begin() + static_cast<std::ptrdiff_t>(end * number_blocks_), numbers_.end(), Eight{});
+  end_ = find_orders(all, all_finite);
   return all_finite;
 }
 

@@ -29,7 +29,8 @@ class TaylorRecurrence {
   /// a number found is not finite.
   bool find(const TaylorRows& rows, const std::vector<double>& factor, const InertiaFactor& A,
             const double* v, const double* F);
-  /// The coefficients after `find`, up to `order` - 1.
+  /// The coefficients after `find`, of orders below `end` <= `order`; all others are 0.
+  int end() const { return static_cast<int>(end_); }
   double velocity(Index i, int k) const { return number(static_cast<std::size_t>(i), k); }
   double kept(std::size_t which, int k) const { return number(first_kept_ + which, k); }
 
@@ -43,7 +44,7 @@ class TaylorRecurrence {
 
   Equations equations_;
   std::size_t coordinates_, variables_, rows_, products_, orders_;
-  std::size_t product_blocks_ = 0, number_blocks_ = 0, blocks_ = 0, first_kept_ = 0;
+  std::size_t end_ = 0, product_blocks_ = 0, number_blocks_ = 0, blocks_ = 0, first_kept_ = 0;
   std::vector<std::pair<Slot, std::size_t>> places_;  // of series among the numbers and factors
   std::vector<Eight> by_series_;                      // a row of blocks each; first the variables: q, v, t
   std::vector<Eight> of_moving_;                      // columns of v_(k-1) / k and of F_(k-1) / k

@@ -210,6 +210,7 @@ void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
 void TaylorSeries::restart() {
   for (const Slot series : kept_) std::fill_n(at(series) + 1, width_ - 1, 0.0);
   degree_ = 0;
+  found_ = order_;
 }
 
 /// Rows are found one after the other: each may read those before it.
@@ -252,13 +253,17 @@ bool TaylorSeries::find_free(const InertiaFactor& A, std::span<const double> for
   velocity_.resize(n);
   for (std::size_t i = 0; i < n; ++i) velocity_[i] = at(static_cast<Slot>(n + i))[0];
   if (!free_.find(rows_, factor_, A, velocity_.data(), force.data())) return false;
+  const int end = free_.end();
+  found_ = end;
   for (std::size_t which = 0; which < kept_.size(); ++which) {
     double* c = at(kept_[which]);
-    for (int k = 1; k < order_; ++k) c[k] = free_.kept(which, k);
+    for (int k = 1; k < end; ++k) c[k] = free_.kept(which, k);
+    std::fill(c + end, c + width_, 0.0);
   }
   for (std::size_t i = 0; i < n; ++i) {
     double* q = at(static_cast<Slot>(i));
-    for (int k = 0; k < order_; ++k) q[k + 1] = free_.velocity(static_cast<Index>(i), k) / (k + 1);
+    for (int k = 0; k < end; ++k) q[k + 1] = free_.velocity(static_cast<Index>(i), k) / (k + 1);
+    std::fill(q + end + 1, q + width_, 0.0);
     now_[n + i] = free_.velocity(static_cast<Index>(i), 1);
   }
   return true;

@@ -49,6 +49,8 @@ class TaylorSeries {
   bool find_free(const InertiaFactor& A, std::span<const double> force);
   /// The highest order at which a series that products or askers read has had a coefficient that is not 0.
   int degree() const { return degree_; }
+  /// From this order on the series that are kept, but for variables, are 0.
+  int found() const { return found_; }
   /// The last coefficient of a variable, which nothing depends on any more.
   void end(Slot variable, double coefficient) { at(variable)[order_] = coefficient; }
 
@@ -83,7 +85,7 @@ class TaylorSeries {
   std::vector<double> now_;     // of the order looked for, by series
   std::vector<double> branches_;
   std::vector<double> velocity_;
-  int degree_ = 0;
+  int degree_ = 0, found_ = 0;
 };
 
 /// Σ c_k τ^k.
