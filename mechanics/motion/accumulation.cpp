@@ -7,7 +7,7 @@ namespace mechanics {
 namespace {
 
 /// Of the speed and of the interval after it.
-constexpr double roundings_of_bounce = 2;
+constexpr double roundings_of_interval = 2;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void ImpactHistory::add(double since, double speed, double t, double noise) {
   const double highest = r + std::abs(r - before) * r / (1 - r) + uncertain;
   const double end = t + remaining();
   // Every impact rounds the speed that all later intervals are multiples of.
-  const double by_speeds = roundings_of_bounce * std::numeric_limits<double>::epsilon() *
+  const double by_speeds = roundings_of_interval * std::numeric_limits<double>::epsilon() *
                            static_cast<double>(count_) * (end - begin_);
   const double error = highest < 1
                            ? interval_[0] * (highest / (1 - highest) - r / (1 - r)) + noise + by_speeds

@@ -39,6 +39,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
   zeros_of_switch_.assign(expansion_.switches(), 0);
   branches_behind_.assign(expansion_.switches(), 0.0);
   is_weak_.assign(m, false);
+  least_multiplier_.assign(m, 0.0);
   is_blurred_.assign(m, false);
   elapsed_.assign(m, 0.0);
   history_.resize(m);
@@ -116,7 +117,7 @@ void Motion::EventDriven::watch() {
       continue;
     }
     // A contact without a multiplier has one from rounding: only what is more than that releases it.
-    const double least = is_weak_[k] ? expansion_.rounding_of_multiplier(a) : 0;
+    const double least = is_weak_[k] ? least_multiplier_[k] : 0;
     add(Zero::Of::multiplier, a, coefficients(next.lambda, a), zeros_of_lambda_[k], least);
     if (is_weak_[k]) watched_[count - 1].c[0] += 10 * least;
   }

@@ -61,8 +61,9 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
   std::vector<bool> is_weak_;                                        // held without a multiplier
-  std::vector<bool> is_blurred_;  // of an impact it was told that its time is uncertain
-  std::vector<double> elapsed_;   // since the last impact, by constraint
+  std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning
+  std::vector<bool> is_blurred_;          // of an impact it was told that its time is uncertain
+  std::vector<double> elapsed_;           // since the last impact, by constraint
   std::vector<ImpactHistory> history_;
   std::vector<Ending> endings_;
   std::vector<Watched> watched_;  // on the next arc

@@ -14,6 +14,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// A product of gradients that do not move each other is left by so many roundings of their lengths.
 constexpr double roundings_of_product = 64;
 
+/// Bounces lower than so many roundings of f come at times that rounding decides.
+constexpr double roundings_of_bounce = 64;
+
 /// Impacts of one contact that are followed one by one, however high they bounce.
 constexpr long most_impacts_followed = 100'000;
 
@@ -203,7 +206,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   const auto is_near_its_end = [&](Index a) {
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (!history.shrinks()) return false;
-    const double scale = std::max(history.highest(), expansion_.position_scale(a));
+    const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
     return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * std::abs(state.t) ||
            history.count() >= most_impacts_followed;
   };
@@ -257,6 +260,11 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
     while (zeros < lambda.size() && lambda[zeros] == 0) ++zeros;
     is_weak_[k] = zeros == lambda.size();
     zeros_of_lambda_[k] = is_weak_[k] ? 0 : static_cast<int>(zeros);
+  }
+  if (std::find(is_weak_.begin(), is_weak_.end(), true) != is_weak_.end()) {
+    const Vector least = expansion_.rounding_of_multipliers(persist_);
+    for (std::size_t k = 0; k < persist_.size(); ++k)
+      least_multiplier_[static_cast<std::size_t>(persist_[k])] = least[static_cast<Index>(k)];
   }
   const State unprojected = state;
   project();

@@ -38,6 +38,7 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
 
 void Expansion::look_at(const State& state) {
   state_ = state;
+  magnitude_is_begun_ = false;
   const expression::Program& program = equations_.program;
   for (std::size_t i = 0; i < program.coordinates(); ++i) {
     series_.start(program.coordinate(i)) = state.q[static_cast<Index>(i)];

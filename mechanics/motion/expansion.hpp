@@ -101,9 +101,9 @@ class Expansion {
   std::span<const double> switch_argument(std::size_t k) const {
     return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
   }
-  /// Up to here rounding may have made df_a/dt, and the multiplier of a contact held.
+  /// Up to here rounding may have made df_a/dt, and the multipliers of contacts held.
   double rounding_of_rate(Index a);
-  double rounding_of_multiplier(Index a);
+  Vector rounding_of_multipliers(const std::vector<Index>& held);
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
   double& branch(std::size_t k) { return series_.branches()[k]; }
@@ -155,8 +155,9 @@ class Expansion {
   std::vector<double> lambda_;   // by constraint and order
   std::vector<double> f_;        // likewise
   TaylorMagnitude magnitude_;    // while it is open who persists
-  convex::Matrix inverse_;       // |A⁻¹| of its entries, for few coordinates
-  Vector unit_norms_;            // ||e_i||_(A⁻¹), for many
+  bool magnitude_is_begun_ = false;
+  convex::Matrix inverse_;  // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;       // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };

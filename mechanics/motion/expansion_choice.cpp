@@ -49,6 +49,7 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
         S[i] += std::abs(multiplier(a)[static_cast<std::size_t>(j)]) * magnitude_.at(slot, k - j);
   for (std::size_t i = 0; i < n; ++i)
     magnitude_.at(program.coordinate(i), k + 1) = magnitude_.at(program.velocity(i), k) / (k + 1);
+  for (std::size_t i = 0; i < n; ++i) magnitude_.at(program.velocity(i), k + 1) = 0;  // not yet
   magnitude_.at(program.time(), k + 1) = k == 0 ? 1 : 0;
   magnitude_.find(0, k + 1);
   for (Index i = 0; i < coordinates(); ++i)
@@ -74,14 +75,19 @@ double Expansion::rounding(int k) const {
 }
 
 double Expansion::rounding_of_rate(Index a) {
-  magnitude_.begin();
+  if (!magnitude_is_begun_) magnitude_.begin();
+  magnitude_is_begun_ = true;
   return rounding(0) * magnitude_.at(equations_.rate[index(a)], 0);
 }
 
-double Expansion::rounding_of_multiplier(Index a) {
-  const Magnitudes of = magnitudes({a}, 0);
-  const Vector u = row(a);
-  return rounding(0) * (of.rates[0] + of.along(u)) / u.dot(inertia().solve(u));
+Vector Expansion::rounding_of_multipliers(const std::vector<Index>& held) {
+  const Magnitudes of = magnitudes(held, 0);
+  Vector by_rounding(of.rates.size());
+  for (Index k = 0; k < by_rounding.size(); ++k) {
+    const Vector u = row(held[index(k)]);
+    by_rounding[k] = rounding(0) * (of.rates[k] + of.along(u)) / u.dot(inertia().solve(u));
+  }
+  return by_rounding;
 }
 
 std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
