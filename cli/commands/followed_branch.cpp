@@ -32,6 +32,13 @@ mechanics::State in_proportion(const Station& a, const Station& b, double value)
   return state;
 }
 
+double distance(const mechanics::State& x, const mechanics::State& y) {
+  return std::hypot((x.q - y.q).norm(), (x.v - y.v).norm());
+}
+
+/// States of one branch at values that agree to ten digits differ by less than this part.
+constexpr double jump = 1e-2;
+
 /// The first orbit is a fold itself if that is no further from it than this part of a step.
 constexpr double at_fold = 1e-8;
 
@@ -55,6 +62,9 @@ std::string FollowedBranch::follow() {
       begin(*next);
     } else if (next) {
       arrive(*next);
+      if (is_lost_)
+        return fmt::format("the branch ends before {} = {}: the nearest orbit there is of another branch",
+                           range_.parameter, value);
     } else if (turns <= most_turns && trail_.size() > 1 && turn(value)) {
       forward_ = -forward_;
       if (!begin_behind_fold(range_.value(k + forward_)))
@@ -102,14 +112,11 @@ mechanics::OrbitFamily FollowedBranch::family() const {
 bool FollowedBranch::follows(const Station& next) const {
   if (trail_.size() < 2) return true;
   const Station &last = trail_.back(), &before = trail_[trail_.size() - 2];
-  const auto distance = [](const Station& x, const Station& y) {
-    return std::hypot((x.orbit.start.q - y.orbit.start.q).norm(), (x.orbit.start.v - y.orbit.start.v).norm());
-  };
-  const double usual =
-      distance(last, before) * std::abs((next.value - last.value) / (last.value - before.value));
+  const double usual = distance(last.orbit.start, before.orbit.start) *
+                       std::abs((next.value - last.value) / (last.value - before.value));
   constexpr double factor = 4, least = 1e-6;  // 2.4 into a fold
   const double size = std::hypot(last.orbit.start.q.norm(), last.orbit.start.v.norm());
-  const double away = distance(next, last);
+  const double away = distance(next.orbit.start, last.orbit.start);
   if (away <= least * size) return true;
   const double onward =  // a branch does not turn about between two values
       (next.orbit.start.q - last.orbit.start.q).dot(last.orbit.start.q - before.orbit.start.q) +
@@ -172,6 +179,7 @@ void FollowedBranch::arrive(const Station& next) {
       event = event_between(from.orbit, next.orbit);
       if (event.empty()) break;
       const std::optional<Station> there = locate(from, next, event);
+      if (is_lost_) return;
       if (!there) break;  // told in the row after it
       row(*there, event);
       from = *there;
@@ -201,6 +209,10 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate(Station a, Station
       is_located = true;
     }
   }
+  // A branch is one curve: what jumps between two values that are one but for rounding is not an event of it.
+  const double away = distance(a.orbit.start, b.orbit.start);
+  is_lost_ = is_located && away > jump * std::hypot(b.orbit.start.q.norm(), b.orbit.start.v.norm());
+  if (is_lost_) return std::nullopt;
   constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
   if (!is_located && std::abs(b.value - a.value) > near * step) return std::nullopt;
   return b;

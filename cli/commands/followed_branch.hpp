@@ -82,6 +82,7 @@ class FollowedBranch {
   std::vector<Station> trail_;     // the last two, those between values of the range too
   std::string table_, why_;
   std::vector<BranchPoint> points_;
+  bool is_lost_ = false;                         // Newton's method went to another branch
   int forward_ = 1;                              // -1 behind a fold
   std::optional<mechanics::TurningPoint> fold_;  // the last one
 };

@@ -49,6 +49,9 @@ class Motion::TimeStepping final : public Motion::Course {
     convex::ConstraintRows U;
     Vector s;
   };
+  /// From here on the dense active set, to which the default turns where the sparse one gives up, is too slow
+  /// for a step.
+  static constexpr Index fewest_for_sparse_method = 300;
   /// How well a problem is solved where very many rows change in every step: exactly; by gradients to what
   /// the scheme makes of it, from multipliers that are nearly right; or as far as a few steps of them lead.
   enum class Effort { exact, warm, rough };

@@ -166,6 +166,7 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
       const Index n = at.x.size() / 2;
       found.orbit = find_orbit(*at.system, {t, at.x.head(n), at.x.tail(n)}, at.question);
       if (!found.orbit.is_found) return std::nullopt;
+      found.orbit.is_stable = false;  // a multiplier is 1, but for rounding
       found.along = Vector::Zero(2 * n);
       for (Index i = 0; i < size; ++i) found.along += v[i] * at.chart->direction(i);
       found.along.normalize();
