@@ -19,6 +19,14 @@ Surd inner_point(const std::optional<Surd>& low, const std::optional<Surd>& high
   return high ? *high - Surd{Fraction{1}} : Surd{};
 }
 
+/// The sign of d inside of an interval where it does not change: it may be 0 at one point, where two
+/// parabolas touch, and then another one tells.
+int sign_inside(const Parabola& d, const std::optional<Surd>& low, const std::optional<Surd>& high) {
+  const Surd middle = inner_point(low, high);
+  if (const int found = sign(d.at(middle)); found != 0) return found;
+  return sign(d.at(inner_point(low, middle)));
+}
+
 bool is_inside(const Surd& x, const std::optional<Surd>& low, const std::optional<Surd>& high) {
   return (!low || *low < x) && (!high || x < *high);
 }
@@ -79,7 +87,7 @@ ExactCurve pointwise_max(const ExactCurve& f, const ExactCurve& g) {
         for (const Surd& x : crossings(d, low, high)) ends.emplace_back(x);
       ends.push_back(high);
       for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
-        const bool first = sign(d.at(inner_point(ends[k], ends[k + 1]))) >= 0;
+        const bool first = sign_inside(d, ends[k], ends[k + 1]) >= 0;
         highest.push_back(first ? p : q);
         highest.back().low = ends[k];
         highest.back().high = ends[k + 1];

@@ -155,8 +155,8 @@ TEST_CASE(
   const auto line = [](const Fraction& slope, const Fraction& at_zero) {
     return exact_curve({{std::nullopt, std::nullopt, q(0), slope, at_zero}});
   };
-  CHECK(pieces(pointwise_max(square, line(q(1), q(6)))).size() == 3);      // x² = x + 6 at -2 and 3
-  CHECK_THROWS_AS(pointwise_max(square, line(q(0), q(2))), InvalidInput);  // x² = 2
+  CHECK(pieces(pointwise_max(square, line(q(1), q(6)))).size() == 3);  // x² = x + 6 at -2 and 3
+  CHECK(pieces(pointwise_max(square, line(q(0), q(2)))).size() == 3);  // x² = 2
   const ExactCurve beyond = exact_curve({{q(3, 2), std::nullopt, q(2), q(0), q(0)}});
   CHECK(pieces(pointwise_max(beyond, line(q(0), q(2)))).size() == 1);  // both roots are outside
 }
@@ -182,6 +182,20 @@ TEST_CASE("a double counts as the fraction of least denominator that rounds to i
   CHECK(text(simplest_fraction(12345.678)) == "6172839/500");
   for (const double x : {std::sqrt(2.0), 1e-300, 3e17, -0.30000000000000004})
     CHECK(nearest_double(simplest_fraction(x)) == x);
+}
+
+TEST_CASE("of parabolas that touch the higher one is the maximum, on both sides") {
+  for (const Fraction& at : {q(0), q(2), q(-1, 3)}) {
+    const auto touching = [&](const Fraction& c) {
+      return translate(exact_curve({{std::nullopt, std::nullopt, c, q(0), q(0)}}), at);
+    };
+    for (const ExactCurve& highest : {pointwise_max(touching(q(1, 3)), touching(q(3))),
+                                      pointwise_max(touching(q(3)), touching(q(1, 3)))}) {
+      const auto all = pieces(highest);
+      REQUIRE(all.size() == 1);
+      CHECK(all.front().c2 == q(3));
+    }
+  }
 }
 
 TEST_CASE("a number of the field of a root is ordered and written as its digits are") {
