@@ -45,7 +45,7 @@ void solve_lower_triangle(Eigen::Ref<const Matrix> T, Eigen::Ref<Matrix> X) {
     if (X.cols() == 1) {
       auto x = X.col(0);  // for one the solve with a matrix would pack and block in vain
       T.triangularView<Eigen::Lower>().solveInPlace(x);
-    } else {
+    } else if (X.cols() > 0) {
       T.triangularView<Eigen::Lower>().solveInPlace(X);
     }
     return;
