@@ -189,6 +189,12 @@ void Motion::EventDriven::move_time(double by) {
 }
 
 void Motion::EventDriven::take_step(double until) {
+  if (const std::vector<Zero> now = closing_at_once(); !now.empty()) {
+    ++record.steps;
+    std::swap(done, next);
+    done.length = 0;
+    return handle(now);
+  }
   double end = std::min(step_ahead_, until - state.t);
   bool is_last = end == until - state.t;
   const Ending* ending = endings_.empty() ? nullptr : &endings_.front();

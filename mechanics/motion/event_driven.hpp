@@ -24,6 +24,7 @@ class Motion::EventDriven final : public Motion::Course {
   void begin(const State& at);
   void take_step(double until);
   std::vector<Zero> zeros_before(double end) const;
+  std::vector<Zero> closing_at_once();
   void watch();
   double polished(const Zero& zero, double tau);
   bool fits(double tau);

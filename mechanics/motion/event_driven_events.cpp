@@ -14,6 +14,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// A product of gradients that do not move each other is left by so many roundings of their lengths.
 constexpr double roundings_of_product = 64;
 
+/// f of a closed contact is 0 up to so many roundings of what it is the sum of.
+constexpr double roundings_of_closed = 16;
+
 /// Bounces lower than so many roundings of f come at times that rounding decides.
 constexpr double roundings_of_bounce = 64;
 
@@ -32,6 +35,20 @@ bool contains(const std::vector<Index>& all, Index a) {
 }
 
 }  // namespace
+
+/// Free contacts that are closed, as far as rounding tells, and closing: an impact of another turned them
+/// back before they had left, and no zero lies ahead of them.
+std::vector<Zero> Motion::EventDriven::closing_at_once() {
+  std::vector<Zero> found;
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const auto k = static_cast<std::size_t>(a);
+    if (is_two_sided(a) || is_held_[k] || zeros_of_f_[k] > 0 || !(expansion_.rate(a) < 0)) continue;
+    if (expansion_.f(a) <= roundings_of_closed * epsilon * expansion_.position_scale(a) &&
+        expansion_.rate(a) < -expansion_.rounding_of_rate(a))
+      found.push_back({Zero::Of::constraint, a, 0, false});
+  }
+  return found;
+}
 
 /// What comes to 0 at the end of a step, all at once.
 void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
@@ -57,7 +74,11 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
       switches.push_back(static_cast<Index>(k));
   tell_blur(closing);
   if (closing.size() > 1) tell_order(zeros, closing);
-  if (!closing.empty()) {
+  if (!closing.empty()) {  // with all contacts that are closed, those that open included
+    for (Index a = 0; a < expansion_.constraints(); ++a)
+      if (!is_two_sided(a) && !contains(closing, a) &&
+          std::abs(expansion_.f(a)) <= roundings_of_closed * epsilon * expansion_.position_scale(a))
+        touching.push_back(a);
     collide(closing, united(held, touching), switches);
     return;
   }
@@ -194,6 +215,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     }
     if (status != MotionStatus::done) return;
     state.v = bouncing;
+    std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);  // what was tried tells nothing of what opens
     for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
     after = branches_after_jump(arguments, switches);
   }

@@ -137,3 +137,25 @@ TEST_CASE("impacts whose order is lost in the rounding of time, and matters, are
           }) == (later == 1e-15));
   }
 }
+
+TEST_CASE("walls that strike a body by turns, faster and faster, without restitution, are not passed") {
+  const SystemText text{{"q0", "q1", "q2"},
+                        "(1.5 + 0.5*sin(q1))*q0'^2 + (1.5 + 0.5*sin(t))*q1'^2 + (1.5 + 0.5*sin(q1))*q2'^2 + "
+                        "0.3*cos(q0 - q1)*q0'*q1'",
+                        "q0^2 + q1^2 + q2^2 + 1/(2 + sin(q2)) + tanh(q2 + q0) + asin(sin(q2)/2)",
+                        {},
+                        {},
+                        {{"q0", "sin(3*t)*q2 - 0.1*q0'"}},
+                        {{"c0", "q2 + 0.3*q0^2 >= -0.6"}, {"c1", "q0 + 0.3*q2^2 >= -0.3"}}};
+  const auto s = system(text);
+  MotionOptions options;
+  options.tolerance = 1e-11;
+  Motion motion(*s, state({0.281, 0.227, 0.121}, {-0.482, -0.422, -0.357}), options);
+  double least = 0;
+  while (motion.advance(6))
+    for (double part = 0; part <= 1; part += 1e-3)
+      least =
+          std::min(least, s->constraint_rates(motion.arc().state(part * motion.arc().length)).f.minCoeff());
+  CHECK(motion.state().t == 6);
+  CHECK(least >= -1e-13);
+}
