@@ -70,7 +70,8 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
   const double X = std::max(W.norm(near->x), near->error_bound),
                V = std::max(W.dual_norm(near->v), near->error_bound);
   const double ratio = std::exp2(std::round(std::log2(V / X)));
-  if (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(1 / ratio)) return found;
+  constexpr double farthest = 0x1p400;  // times and over weights it is a double still
+  if (!(ratio > 1 / farthest && ratio < farthest)) return found;
   Vector x = near->x, v = near->v;
   double last = 0;
   for (const double part : towards_W) {

@@ -188,9 +188,13 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   for (const auto& [kind, work] : looks) {
     const Look look(kind);
     const WorkLimit question(work);
-    Decomposition split = looked_at(of, z, W, tolerance);
-    if (split.status == Status::solved) return split;
-    if (!best || split.error_bound < best->error_bound) best = std::move(split);
+    try {
+      Decomposition split = looked_at(of, z, W, tolerance);
+      if (split.status == Status::solved) return split;
+      if (!best || split.error_bound < best->error_bound) best = std::move(split);
+    } catch (const InvalidInput&) {
+      if (!best) throw;  // a metric far from W left the range of doubles on the way; the look before stands
+    }
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
   }
   return *std::move(best);
