@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/liquid/cell_mean.hpp"
 #include "mechanics/liquid/cut_walls.hpp"
 #include "mechanics/liquid/wall_level.hpp"
 
@@ -51,8 +52,9 @@ class Cutting {
       if (grid().is_unknown(k)) join(k);
     });
     hang_walls(made_, side_, normals_);
+    const CellMean source(scene_.h, domain_, made_);
     for_points([&](Index k) {
-      if (grid().is_unknown(k)) load(k);
+      if (grid().is_unknown(k)) load(k, source);
     });
     return std::move(made_);
   }
@@ -286,10 +288,10 @@ class Cutting {
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
   }
 
-  void load(Index k) {
+  void load(Index k, const CellMean& source) {
     Point x = made_.at(k);
     if (side_[at(k)] == Side::outside) x = domain_.foot(x);
-    const double h = scene_.h(x);
+    const double h = source(k, x);
     made_.h[at(k)] = h;
     grid().load[at(k)] += h * made_.volume[at(k)];
   }

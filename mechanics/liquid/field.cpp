@@ -16,6 +16,11 @@ expression::Range around(expression::Rounded number) {
   return {convex::moved_down(number.value - number.radius), convex::moved_up(number.value + number.radius)};
 }
 
+/// An operation by which a derivative of what is continuous may jump.
+bool is_choice(expression::Operation operation) {
+  return expression::is_where(operation) || operation == expression::Operation::sign;
+}
+
 }  // namespace
 
 Region region(const Ray& from, expression::Range r) {
@@ -51,6 +56,21 @@ Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<
   program_ = expression::Program(tape, coordinates_.size(), {{node}});
   for (expression::Slot slot = program_.time() + 1; slot < program_.begin(); ++slot)
     constants_.push_back(numbers[program_.node(slot)]);
+  for (expression::Slot slot = program_.begin(); slot < program_.end(0); ++slot)
+    has_branches_ = has_branches_ || is_choice(program_[slot].operation);
+}
+
+std::uint64_t Field::branches(const Point& x) const {
+  const auto n = static_cast<Index>(coordinates_.size());
+  bool is_finite = true;
+  const expression::Values values =
+      program_.values({0, Vector::Map(x.data(), n), Vector::Zero(n)}, 0, is_finite);
+  std::uint64_t mixed = 0;
+  constexpr std::uint64_t factor = 0x9E3779B97F4A7C15;  // the golden ratio's bits
+  for (expression::Slot slot = program_.begin(); slot < program_.end(0); ++slot)
+    if (is_choice(program_[slot].operation))
+      mixed = (mixed ^ (values[program_[slot].a] < 0 ? 1U : 2U)) * factor;
+  return mixed;
 }
 
 expression::TimeSeries Field::along(const Ray& from, expression::Rounded r, int order) const {

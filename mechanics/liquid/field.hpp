@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,10 @@ class Field {
 
   /// It, or another expression of its file, chooses between branches that need not fit together.
   bool may_jump() const { return may_jump_; }
+  /// It chooses between branches itself.
+  bool has_branches() const { return has_branches_; }
+  /// A number that is the same where the same branches are taken.
+  std::uint64_t branches(const Point&) const;
   /// Of one that is not constant, in two or three dimensions.
   const CoordinateForm& form() const { return *form_; }
 
@@ -60,7 +65,7 @@ class Field {
   std::vector<std::string> coordinates_;
   std::string what_;
   convex::Place place_;
-  bool is_constant_ = true, may_jump_ = false;
+  bool is_constant_ = true, may_jump_ = false, has_branches_ = false;
   expression::Rounded constant_;
   std::vector<expression::Rounded> constants_;  // of the program, as they are written
 };

@@ -12,6 +12,8 @@ using convex::CutPoint;
 using convex::CutSolution;
 using convex::Index;
 
+using NodeValue = std::function<double(Index)>;
+
 std::size_t entry_of(Index k) { return static_cast<std::size_t>(k); }
 
 /// How many steps from a junction or corner second differences count.
@@ -37,17 +39,19 @@ double largest_difference(const CutCells& fine, const CutSolution& p, const CutC
   return largest;
 }
 
-/// The orders that theory allows.
+/// The orders that theory allows: second where all of a smooth boundary is free or held, and not less than
+/// first there, since where the cavity's edge lies to the nodes moves the error.
 struct Orders {
-  double least = 0.5, most = 2;
+  double least = 1, most = 2;
 };
 
 /// At a corner of a polygon with the inner angle ω, p has r^(π/ω), or r^(π/2ω) where it is free on one side
 /// and held on the other.
 Orders possible_orders(const LiquidScene& scene) {
   Orders orders;
-  if (scene.has_free_part() && scene.has_wall()) orders.most = 1;
   const Domain& domain = scene.domain;
+  if (scene.has_free_part() && scene.has_wall()) orders = {0.5, 1};
+  if (domain.sheets.size() > 1) orders.least = 0.5;  // their angles are not known
   if (domain.shape != Domain::Shape::polygon) return orders;
   const std::size_t n = domain.vertices.size();
   const auto is_free_near = [&](const std::array<double, 2>& from, const std::array<double, 2>& to) {
@@ -70,7 +74,7 @@ Orders possible_orders(const LiquidScene& scene) {
 }
 
 /// Of p beside a given pressure: the largest difference of the steps to it and to the node on the other side.
-double largest_bend_at_pressures(const CutCells& cells, const CutSolution& found) {
+double largest_bend_at_pressures(const CutCells& cells, const NodeValue& value) {
   constexpr double least_part = 0.1;  // of a step: closer, the difference is rounding
   const convex::CutGrid& grid = cells.grid;
   double largest = 0;
@@ -82,10 +86,9 @@ double largest_bend_at_pressures(const CutCells& cells, const CutSolution& found
       if (std::abs(part) < least_part) continue;
       const Index other = given.from + (part > 0 ? -1 : 1) * grid.stride(axis);
       if (!grid.is_unknown(other)) continue;
-      const double here = found.q[entry_of(given.from)],
-                   bend =
-                       std::abs((given.pressure - here) / std::abs(part) - (here - found.q[entry_of(other)]));
-      largest = std::max(largest, bend);
+      const double here = value(given.from),
+                   bend = std::abs((given.pressure - here) / std::abs(part) - (here - value(other)));
+      if (bend > largest) largest = bend;  // not where a value is none
     }
   }
   return largest;
@@ -108,11 +111,8 @@ class SingularNodes {
   }
 
   /// The largest second difference around them.
-  double largest_bend(const CutSolution& found) const {
+  double largest_bend(const NodeValue& value) const {
     const convex::CutGrid& grid = cells_.grid;
-    const auto value = [&](Index k) {
-      return grid.is_unknown(k) ? found.q[entry_of(k)] : cells_.given[entry_of(k)];
-    };
     double largest = 0;
     for (const Index centre : found_)
       for_around(centre, [&](Index k) {
@@ -176,28 +176,37 @@ class SingularNodes {
 
 }  // namespace
 
+double error_by_differences(const LiquidScene& scene, const std::vector<double>& differences, long cells) {
+  constexpr double safety = 2;
+  constexpr std::size_t most_differences = 4;
+  if (differences.empty()) return std::numeric_limits<double>::infinity();
+  const Orders possible = possible_orders(scene);
+  double order = possible.least, left = differences[0];
+  const bool is_halved_twice = cells % 4 == 0;  // else the third grid lies otherwise to the boundary
+  if (is_halved_twice && cells >= few_cells && differences.size() > 1 && left > 0)
+    order = std::clamp(std::log2(differences[1] / left), possible.least, possible.most);
+  for (std::size_t l = 1; l < std::min(differences.size(), most_differences); ++l)
+    left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
+  return safety * left / (std::exp2(order) - 1);
+}
+
+double error_by_bends(const LiquidScene& scene, const CutCells& cells, long across, const NodeValue& value) {
+  const double beside = largest_bend_at_pressures(cells, value) / (across < few_cells ? 1 : 8);
+  return std::max(beside, SingularNodes(scene, cells).largest_bend(value));
+}
+
 double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
                             const std::vector<CutSolution>& found, double largest) {
-  constexpr double safety = 2, digits = 1e-9;
-  constexpr std::size_t most_differences = 4;
-  if (levels.count() < 2) return std::numeric_limits<double>::infinity();
-  const Orders possible = possible_orders(scene);
+  constexpr double digits = 1e-9;
   std::vector<double> differences;
-  for (std::size_t l = 0; l + 1 < levels.count() && l < most_differences; ++l)
+  for (std::size_t l = 0; l + 1 < levels.count(); ++l)
     differences.push_back(largest_difference(levels.level(l), found[l], levels.level(l + 1), found[l + 1]));
-  double order = std::min(1.0, possible.most), left = differences[0];
-  const bool is_halved_twice = levels.cells() % 4 == 0;  // else the third grid lies otherwise to the boundary
-  const bool is_coarse = levels.cells() < few_cells;
-  if (!is_halved_twice || is_coarse)
-    order = possible.least;
-  else if (differences.size() > 1 && left > 0)
-    order = std::clamp(std::log2(differences[1] / left), possible.least, possible.most);
-  for (std::size_t l = 1; l < differences.size(); ++l)
-    left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
   const CutCells& finest = levels.finest();
-  const double bend = largest_bend_at_pressures(finest, found[0]) / (is_coarse ? 1 : 8);
-  return safety * left / (std::exp2(order) - 1) +
-         std::max(bend, SingularNodes(scene, finest).largest_bend(found[0])) + digits * largest;
+  const auto value = [&](Index k) {
+    return finest.grid.is_unknown(k) ? found[0].q[entry_of(k)] : finest.given[entry_of(k)];
+  };
+  return error_by_differences(scene, differences, levels.cells()) +
+         error_by_bends(scene, finest, levels.cells(), value) + digits * largest;
 }
 
 }  // namespace mechanics::liquid

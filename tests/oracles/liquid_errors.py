@@ -49,6 +49,10 @@ SCENES = [
                                 'where = "true", pressure = "2 + (x^2+y^2)^(1/3)*sin(2/3*(if(atan2(y,x) < -0.001, '
                                 'atan2(y,x) + 2*pi, atan2(y,x))))"'),
      lambda x, y: 2 + math.hypot(x, y) ** (2 / 3) * math.sin(2 / 3 * turn(x, y)), None)]
+SCENES.append(("h jumps between nodes", scene("box(low=[-1, -1], high=[1, 1])",
+                                              'where = "true", pressure = "40 - 10*max(0.6*x + 0.8*y - 0.1, 0)^2"',
+                                              force=["-20/0.6*max(0.6*x + 0.8*y - 0.1, 0)", "0"]),
+               lambda x, y: 40 - 10 * max(0.6 * x + 0.8 * y - 0.1, 0) ** 2, None))
 for low, name in (("-1", "junction at a node"), ("-0.9", "junction between nodes")):
     SCENES.append((name, scene("box(low=[%s, 0], high=[1, 1])" % low,
                                'where = "y > 1e-7 or x >= 0", pressure = "2 + sqrt(hypot(x,y))*sin(atan2(y,x)/2)"',
