@@ -10,7 +10,7 @@
 
 #include "cli/petsc/grid_part.hpp"
 #include "convex/invalid_input.hpp"
-#include "mechanics/liquid/grid_scene.hpp"
+#include "mechanics/liquid/grid_error.hpp"
 
 namespace cli::petsc {
 namespace {
@@ -145,13 +145,59 @@ std::vector<std::string> parted_walls_of_all(const LiquidScene& scene, const Gri
   return names;
 }
 
+double largest_of_all(double own) {
+  MPI_Allreduce(MPI_IN_PLACE, &own, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return own;
+}
+
+/// The largest difference of p on two grids at the unknowns of the coarser one that are not below 0.
+double difference_of_grids(const LiquidScene& scene, DM coarse, Vec q, DM fine, Vec p) {
+  Mat injection;
+  Vec there;
+  require(DMCreateInjection(coarse, fine, &injection));
+  require(VecDuplicate(q, &there));
+  require(MatRestrict(injection, p, there));
+  const PetscScalar *a, *b;
+  require(VecGetArrayRead(q, &a));
+  require(VecGetArrayRead(there, &b));
+  const GridPart part(scene, coarse);
+  double largest = 0;
+  part.for_own([&](Index k, PetscInt, PetscInt own) {
+    if (part.cells().grid.kind[index_of(k)] == CutPoint::bounded)
+      largest = std::max(largest, std::abs(a[own] - b[own]));
+  });
+  require(VecRestoreArrayRead(q, &a));
+  require(VecRestoreArrayRead(there, &b));
+  require(VecDestroy(&there));
+  require(MatDestroy(&injection));
+  return largest_of_all(largest);
+}
+
+void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
+                 const std::vector<double>& differences, DistributedPressure& made) {
+  const Ghosted ghosted(grid, q);
+  const CutCells& cells = part.cells();
+  std::vector<double> p(index_of(cells.grid.size()), std::numeric_limits<double>::quiet_NaN());
+  part.for_own([&](Index k, PetscInt there, PetscInt) {
+    p[index_of(k)] = cells.grid.is_unknown(k) ? ghosted.values()[there] : cells.given[index_of(k)];
+  });
+  constexpr double digits = 1e-9;
+  const auto across = static_cast<long>(made.cells);
+  made.error_bound = mechanics::liquid::error_by_differences(scene, differences, across) +
+                     largest_of_all(mechanics::liquid::error_by_bends(
+                         scene, cells, across, [&](Index k) { return p[index_of(k)]; })) +
+                     digits * made.largest;
+}
+
 void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, DistributedPressure& made) {
   const Ghosted ghosted(grid, q);
   const CutCells& cells = part.cells();
   const double whole_cell = cells.face_area(3);
   double unknowns = 0, cavity = 0, volume = 0;
   Best best{-1, 0};
-  Point at{};
+  Point at{}, low{}, high{};
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-low[0]);
   part.for_own([&](Index k, PetscInt there, PetscInt) {
     volume += whole_cell * mechanics::liquid::part_in_domain(scene.domain, cells.at(k), cells.step);
     const double p = ghosted.values()[there];
@@ -164,7 +210,13 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
     }
     ++unknowns;
     const bool is_bounded = cells.grid.kind[index_of(k)] == CutPoint::bounded;
-    if (is_bounded && p <= 0 && cells.h[index_of(k)] < 0) cavity += cells.volume[index_of(k)];
+    if (is_bounded && p <= 0 && cells.h[index_of(k)] < 0) {
+      cavity += cells.volume[index_of(k)];
+      for (std::size_t i = 0; i < scene.dimension(); ++i) {
+        low[i] = std::min(low[i], cells.at(k)[i] - 0.5 * cells.step[i]);
+        high[i] = std::max(high[i], cells.at(k)[i] + 0.5 * cells.step[i]);
+      }
+    }
     if (is_bounded && p > best.value) {
       best.value = p;
       at = cells.at(k);
@@ -186,6 +238,11 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
   made.unknowns = static_cast<Index>(sum_of_all(unknowns));
   made.cavity_measure = sum_of_all(cavity);
   made.volume = sum_of_all(volume);
+  for (std::size_t i = 0; i < scene.dimension(); ++i) {
+    low[i] = -largest_of_all(-low[i]);
+    high[i] = largest_of_all(high[i]);
+  }
+  if (made.cavity_measure > 0) made.cavity_extent.emplace(low, high);
   made.parted_walls = parted_walls_of_all(scene, part, ghosted);
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
@@ -217,19 +274,39 @@ DistributedPressure solve_distributed(const LiquidScene& scene, long cells, cons
     throw convex::InvalidInput("cells: PETSc was built with 32-bit indices, which this grid exceeds");
 
   PartInWork context{&scene, nullptr};
-  DM grid = coarsest_grid(scene.dimension(), nesting.cells(from));
-  SNES snes;
-  require(SNESCreate(PETSC_COMM_WORLD, &snes));
-  require(SNESSetDM(snes, grid));
-  require(SNESSetApplicationContext(snes, &context));
-  require(SNESSetFunction(snes, nullptr, residual, &context));
-  require(SNESSetJacobian(snes, nullptr, nullptr, derivative, &context));
-  require(SNESVISetComputeVariableBounds(snes, bounds));
-  require(SNESSetGridSequence(snes, static_cast<PetscInt>(nesting.doublings - from)));
-  require(SNESSetFromOptions(snes));
-  require(SNESSolve(snes, nullptr, nullptr));
-
   DistributedPressure made;
+  std::vector<double> differences;  // finest first
+  DM grid = coarsest_grid(scene.dimension(), nesting.cells(from));
+  DM coarse_grid = nullptr;
+  Vec q, coarse = nullptr;
+  require(DMCreateGlobalVector(grid, &q));
+  require(VecSet(q, 0));
+  SNES snes = nullptr;
+  for (long level = from;; ++level) {
+    require(SNESDestroy(&snes));
+    require(SNESCreate(PETSC_COMM_WORLD, &snes));
+    require(SNESSetDM(snes, grid));
+    require(SNESSetApplicationContext(snes, &context));
+    require(SNESSetFunction(snes, nullptr, residual, &context));
+    require(SNESSetJacobian(snes, nullptr, nullptr, derivative, &context));
+    require(SNESVISetComputeVariableBounds(snes, bounds));
+    require(SNESSetFromOptions(snes));
+    require(SNESSolve(snes, nullptr, q));
+    if (level > from) {
+      differences.insert(differences.begin(), difference_of_grids(scene, coarse_grid, coarse, grid, q));
+      require(VecDestroy(&coarse));
+      require(DMDestroy(&coarse_grid));
+    }
+    if (level == nesting.doublings) break;
+    coarse_grid = grid;
+    coarse = q;
+    Mat between;
+    require(DMRefine(coarse_grid, PETSC_COMM_WORLD, &grid));
+    require(DMCreateInterpolation(coarse_grid, grid, &between, nullptr));
+    require(DMCreateGlobalVector(grid, &q));
+    require(MatInterpolate(between, coarse, q));
+    require(MatDestroy(&between));
+  }
   SNESConvergedReason reason;
   require(SNESGetConvergedReason(snes, &reason));
   made.has_converged = reason > 0;
@@ -240,15 +317,13 @@ DistributedPressure solve_distributed(const LiquidScene& scene, long cells, cons
   made.cells = 0;
   for (std::size_t i = 0; i < scene.dimension(); ++i)
     made.cells = std::max(made.cells, nesting.cells(nesting.doublings)[i]);
-  Vec q;
-  DM finest;
-  require(SNESGetSolution(snes, &q));
-  require(SNESGetDM(snes, &finest));
-  const GridPart& part = context.on(finest);
-  summarise(scene, part, finest, q, made);
-  if (!files.table.empty()) write_table(scene, part, finest, q, files.table);
-  if (!files.vtk.empty()) write_vtk(scene, finest, q, files.vtk);
+  const GridPart& part = context.on(grid);
+  summarise(scene, part, grid, q, made);
+  bound_error(scene, part, grid, q, differences, made);
+  if (!files.table.empty()) write_table(scene, part, grid, q, files.table);
+  if (!files.vtk.empty()) write_vtk(scene, grid, q, files.vtk);
   require(SNESDestroy(&snes));
+  require(VecDestroy(&q));
   require(DMDestroy(&grid));
   return made;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanics/liquid/liquid_scene.hpp"
@@ -15,7 +17,9 @@ struct DistributedPressure {
   long newton_steps = 0;
   double largest = 0;  ///< p, over nodes and what is given on the boundary
   mechanics::liquid::Point largest_at{};
-  double cavity_measure = 0;              ///< the sum of the cells whose node is held at p = 0 where h < 0
+  double cavity_measure = 0;  ///< the sum of the cells whose node is held at p = 0 where h < 0
+  std::optional<std::pair<mechanics::liquid::Point, mechanics::liquid::Point>> cavity_extent;  ///< of them
+  double error_bound = 0;                 ///< an estimate from grids, as the embedded solver makes it
   std::vector<std::string> parted_walls;  ///< walls of which any piece parts
   double volume = 0;                      ///< of the domain, to second order in the step
   double bytes_of_a_rank = 0;

@@ -16,7 +16,7 @@ namespace {
 using cli::petsc::DistributedPressure;
 using mechanics::liquid::LiquidScene;
 
-constexpr int solved = 0, wrong_input = 2, not_converged = 3;
+constexpr int solved = 0, wrong_input = 2, inaccurate = 3;
 
 /// What is set for PETSc before its own options are read.
 constexpr const char* petsc_settings =
@@ -32,14 +32,32 @@ struct Request {
   cli::petsc::DistributedFiles files;
 };
 
+/// As `moreau solve` has it: the bound is at most 1e-3 of the largest p.
+bool is_solved(const DistributedPressure& found) {
+  return found.has_converged && found.error_bound <= 1e-3 * found.largest;
+}
+
 void write_json(const Request& request, const LiquidScene& scene, const DistributedPressure& found, int ranks,
                 double seconds) {
   cli::JsonWriter json;
   json.begin_object().key("file").value(request.file).key("kind").value("liquid");
-  json.key("status").value(found.has_converged ? "solved" : "inaccurate").key("method").value("petsc");
+  json.key("status").value(is_solved(found) ? "solved" : "inaccurate").key("method").value("petsc");
   json.key("unknowns").value(found.unknowns).key("cells").value(found.cells);
   json.key("cavity").begin_object().key("measure").value(found.cavity_measure);
-  json.key("fraction").value(found.cavity_measure / found.volume).end_object();
+  json.key("fraction").value(found.cavity_measure / found.volume).key("extent");
+  if (found.cavity_extent) {
+    json.begin_object();
+    for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
+      json.key(scene.coordinates[i])
+          .begin_array()
+          .value(found.cavity_extent->first[i])
+          .value(found.cavity_extent->second[i])
+          .end_array();
+    json.end_object();
+  } else {
+    json.null();
+  }
+  json.end_object();
   json.key("pressure").begin_object().key("max").value(found.largest).key("at").begin_object();
   for (std::size_t i = 0; i < scene.coordinates.size(); ++i)
     json.key(scene.coordinates[i]).value(found.largest_at[i]);
@@ -47,6 +65,8 @@ void write_json(const Request& request, const LiquidScene& scene, const Distribu
   json.key("parted_walls").begin_array();
   for (const std::string& name : found.parted_walls) json.value(name);
   json.end_array();
+  json.key("certificate").begin_object().key("level").value("estimate");
+  json.key("error_bound").value(found.error_bound).end_object();
   json.key("petsc").begin_object().key("ranks").value(ranks).key("reason").value(found.reason);
   json.key("newton_steps").value(static_cast<convex::Index>(found.newton_steps));
   json.key("bytes_of_a_rank").value(found.bytes_of_a_rank).end_object();
@@ -67,10 +87,11 @@ void write_text(const Request& request, const DistributedPressure& found, int ra
   for (const std::string& name : found.parted_walls) std::printf("The liquid parts from %s.\n", name.c_str());
   std::printf("The largest pressure is %.12g.\n", found.largest);
   std::printf(
-      "%s after %ld Newton steps on the finest grid, %.3g s, %.3g MB a process. No error bound: `moreau "
-      "solve` gives one.\n",
+      "%s after %ld Newton steps on the finest grid, %.3g s, %.3g MB a process; p is known to %.1e.\n",
       found.has_converged ? "Solved" : ("Not solved (" + found.reason + ")").c_str(), found.newton_steps,
-      seconds, found.bytes_of_a_rank * 1e-6);
+      seconds, found.bytes_of_a_rank * 1e-6, found.error_bound);
+  if (found.has_converged && !is_solved(found))
+    std::printf("That is more than 1e-3 of the largest p; give more cells.\n");
 }
 
 int rank_of_this() {
@@ -94,7 +115,7 @@ int solve(const Request& request, const LiquidScene& scene, double start) {
   if (rank_of_this() == 0)
     request.json ? write_json(request, scene, found, ranks, MPI_Wtime() - start)
                  : write_text(request, found, ranks, MPI_Wtime() - start);
-  return found.has_converged ? solved : not_converged;
+  return is_solved(found) ? solved : inaccurate;
 }
 
 void tell(const Request& request, const std::exception& error) {
