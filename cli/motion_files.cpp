@@ -1,8 +1,10 @@
 #include "cli/motion_files.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "cli/report/json_writer.hpp"
 
@@ -92,7 +94,10 @@ void TrajectoryFile::write(const mechanics::State& state, const convex::Vector& 
 
 void TrajectoryFile::follow(const mechanics::Motion& motion) {
   const mechanics::Arc& arc = motion.arc();
-  while (row_ < instants_.count() && instants_[row_] < motion.state().t) {
+  // An instant within rounding of the end of the arc has the state there.
+  constexpr double same = 4 * std::numeric_limits<double>::epsilon();
+  const double end = motion.state().t, ended = end - same * std::max(std::abs(end), std::abs(arc.t));
+  while (row_ < instants_.count() && instants_[row_] < ended) {
     const double tau = std::min(std::max(0.0, instants_[row_] - arc.t), arc.length);
     mechanics::State state = arc.state(tau);
     state.t = instants_[row_];

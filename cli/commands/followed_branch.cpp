@@ -176,7 +176,7 @@ void FollowedBranch::arrive(const Station& next) {
   if (!stations_.empty()) {
     Station from = stations_.back();
     for (int i = 0; i < most_events_in_step; ++i) {
-      event = event_between(from.orbit, next.orbit);
+      event = event_between(from.orbit, next.orbit, asked_.is_free);
       if (event.empty()) break;
       const std::optional<Station> there = locate(from, next, event);
       if (is_lost_) return;
@@ -200,7 +200,7 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate(Station a, Station
     auto found = attempt(middle, in_proportion(a, b, middle), 0.5 * (a.orbit.period + b.orbit.period));
     if (!found) found = attempt(middle, a.orbit.start, a.orbit.period);
     if (!found) break;
-    const std::string here = event_between(a.orbit, found->orbit);
+    const std::string here = event_between(a.orbit, found->orbit, asked_.is_free);
     if (here.empty()) {
       a = std::move(*found);
     } else {

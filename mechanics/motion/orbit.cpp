@@ -75,7 +75,27 @@ std::optional<Matrix> for_multipliers(const PeriodMap& map, const TangentChart& 
   return std::nullopt;
 }
 
+/// The error of eigenvalues of a derivative of that norm: its own, or its root where two are nearly one (a
+/// double eigenvalue moves by the root of a perturbation).
+double circle_width(const std::vector<std::complex<double>>& multipliers, double norm) {
+  constexpr double derivative_error = 1e-12;  // relative, of the variational equations
+  const double error = derivative_error * std::max(1.0, norm), root = std::sqrt(error);
+  for (std::size_t i = 0; i < multipliers.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(multipliers[i] - multipliers[j]) < 4 * root) return root;
+  return error;
+}
+
 }  // namespace
+
+std::vector<std::complex<double>> multipliers_across(const Orbit& orbit, bool is_free) {
+  std::vector<std::complex<double>> others = *orbit.multipliers;
+  if (is_free && !others.empty())
+    others.erase(std::min_element(others.begin(), others.end(), [](const auto& a, const auto& b) {
+      return std::abs(a - 1.0) < std::abs(b - 1.0);
+    }));
+  return others;
+}
 
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
   Orbit orbit;
@@ -145,15 +165,13 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   for (const MotionEvent& event : flight.events())
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
   chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
-  if (const auto D = for_multipliers(map, *chart, orbit.period, flight))
-    orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
-  if (!orbit.multipliers) return orbit;
-  std::vector<std::complex<double>> others = *orbit.multipliers;
-  if (question.is_free)
-    others.erase(std::min_element(others.begin(), others.end(), [](const auto& a, const auto& b) {
-      return std::abs(a - 1.0) < std::abs(b - 1.0);
-    }));
-  orbit.is_stable = std::all_of(others.begin(), others.end(), [](const auto& m) { return std::abs(m) < 1; });
+  const auto D = for_multipliers(map, *chart, orbit.period, flight);
+  if (!D) return orbit;
+  orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
+  orbit.circle_width = circle_width(*orbit.multipliers, D->norm());
+  const auto others = multipliers_across(orbit, question.is_free);
+  orbit.is_stable = std::all_of(others.begin(), others.end(),
+                                [&](const auto& m) { return std::abs(m) < 1 - orbit.circle_width; });
   return orbit;
 }
 

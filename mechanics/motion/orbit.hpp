@@ -30,8 +30,14 @@ struct Orbit {
   /// go, or change their order however little the start is moved.
   std::optional<std::vector<std::complex<double>>> multipliers;
   bool is_stable = false;  ///< all inside the unit circle, but for the 1 along an orbit of free period
+  /// What is not told from the unit circle lies this near to it: the error of the moduli, larger where two
+  /// multipliers are nearly one.
+  double circle_width = 0;
   std::vector<MotionEvent> impacts;
 };
+
+/// Its multipliers but the 1 along an orbit of free period.
+std::vector<std::complex<double>> multipliers_across(const Orbit&, bool is_free);
 
 /// Newton's method on the map over one period, from a guess (shooting), on the states that satisfy the
 /// two-sided constraints in f and df/dt; the guess is brought to them. The derivative of the map, of which

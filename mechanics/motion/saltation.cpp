@@ -81,6 +81,7 @@ class Saltation {
   FlowDerivative change_of_force(const FlightPiece& piece, const State& at,
                                  const std::vector<Index>& held) const {
     FlowDerivative found{Kind::known, Matrix::Identity(2 * n_, 2 * n_)};
+    if (variation_.switches() == 0) return found;
     const Vector before = piece.arc.length > 0 ? piece.arc.acceleration(piece.arc.length)
                                                : variation_.acceleration(at, held).value;
     const Vector jump = piece.acceleration - before;

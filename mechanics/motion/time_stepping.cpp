@@ -214,12 +214,12 @@ void Motion::TimeStepping::take_step(double h, double end) {
   multipliers = Vector::Zero(m);
   for (std::size_t k = 0; k < now_.constraints.size(); ++k)
     multipliers[now_.constraints[k]] = impulse_[static_cast<Index>(k)] / h;
-  // A parabola with the mean acceleration, from one position to the other.
+  // A parabola with the velocities of both ends; a correction of the position moves no velocity.
   done.t = before.t;
   done.length = h;
   done.q.resize(before.q.size(), 3);
   done.q.col(0) = before.q;
-  done.q.col(1) = (state.q - before.q) / h - 0.5 * h * acceleration;
+  done.q.col(1) = before.v;
   done.q.col(2) = 0.5 * acceleration;
   done.lambda = multipliers;
   done.persist = now_.constraints;

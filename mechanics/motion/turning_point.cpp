@@ -165,7 +165,12 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
       found.value = value;
       const Index n = at.x.size() / 2;
       found.orbit = find_orbit(*at.system, {t, at.x.head(n), at.x.tail(n)}, at.question);
-      if (!found.orbit.is_found) return std::nullopt;
+      if (!found.orbit.is_found || !found.orbit.multipliers) return std::nullopt;
+      constexpr double near_one =
+          1e-3;  // by definition it is 1; what Newton's method met otherwise is no fold
+      if (std::none_of(found.orbit.multipliers->begin(), found.orbit.multipliers->end(),
+                       [](const auto& m) { return std::abs(m - 1.0) <= near_one; }))
+        return std::nullopt;
       found.orbit.is_stable = false;  // a multiplier is 1, but for rounding
       found.along = Vector::Zero(2 * n);
       for (Index i = 0; i < size; ++i) found.along += v[i] * at.chart->direction(i);

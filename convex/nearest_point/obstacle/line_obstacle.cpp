@@ -156,14 +156,22 @@ class LineCells {
         const std::size_t node = low ? k : k + 1;
         if (low && node > 0) mark(node - 1);
         if (high && node < cells.size()) mark(node);
-      } else if (low ? cells[k].load < -rounding * cells[k].absolute
-                     : std::min(p[k], p[k + 1]) < largest_dip(k)) {
-        for (double x : gauss_legendre().point) {
-          const double at = r[k] + (r[k + 1] - r[k]) * (0.5 + 0.5 * x);
-          if (low ? problem_.h(at) > 0 : value(k, at) < -rounding_) mark(k);
-        }
+      } else if (low) {
+        // p is 0 in no place where h > 0, whatever the loads beside it push; of a p within rounding nothing
+        // is known.
+        if (cells[k].largest_source * (r[k + 1] - r[k]) * cells[k].resistance > rounding_) mark(k);
+      } else if (std::min(p[k], p[k + 1]) < largest_dip(k)) {
+        for (double x : gauss_legendre().point)
+          if (value(k, r[k] + (r[k + 1] - r[k]) * (0.5 + 0.5 * x)) < -rounding_) mark(k);
       }
     }
+    // A wall that sucks, ∂p/∂n >= value > 0, has p > 0.
+    const auto draws = [&](const LineEnd& end, std::size_t node, std::size_t cell) {
+      return end.kind == Kind::flux && is_zero(node) &&
+             end_flux(end, node) * cells[cell].resistance > rounding_;
+    };
+    if (draws(problem_.at_low, 0, 0)) mark(0);
+    if (draws(problem_.at_high, last(), last() - 1)) mark(last() - 1);
     if (first() == 1 && !is_zero(1) && value(0, 0) < -rounding_) mark(0);
     if (cells.size() > most_cells) return false;
     if (std::none_of(halve.begin(), halve.end(), [](bool b) { return b; })) return false;

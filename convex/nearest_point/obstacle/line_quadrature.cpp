@@ -1,5 +1,6 @@
 #include "convex/nearest_point/obstacle/line_quadrature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -43,7 +44,9 @@ CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double 
   const GaussLegendre& rule = gauss_legendre();
   for (std::size_t k = 0; k < rule.point.size(); ++k) {
     const double r = a + (b - a) * (0.5 + 0.5 * rule.point[k]);
-    const double load = rule.weight[k] * w(r) * h(r) * (0.5 * (b - a)), moment = load * w.resistance(r, b);
+    const double source = w(r) * h(r), load = rule.weight[k] * source * (0.5 * (b - a)),
+                 moment = load * w.resistance(r, b);
+    sum.largest_source = std::max(sum.largest_source, source);
     sum.load += load;
     sum.moment += moment;
     sum.absolute += std::abs(load);
