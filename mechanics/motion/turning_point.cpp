@@ -1,6 +1,5 @@
 #include "mechanics/motion/turning_point.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
@@ -106,6 +105,14 @@ Borders borders(const Matrix& J) {
   return found;
 }
 
+/// By definition a fold has the multiplier 1; what Newton's method met otherwise is none.
+bool has_multiplier_one(const Orbit& orbit) {
+  constexpr double near_one = 1e-3;
+  for (const auto& m : *orbit.multipliers)
+    if (std::abs(m - 1.0) <= near_one) return true;
+  return false;
+}
+
 }  // namespace
 
 std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near) {
@@ -166,11 +173,7 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
       const Index n = at.x.size() / 2;
       found.orbit = find_orbit(*at.system, {t, at.x.head(n), at.x.tail(n)}, at.question);
       if (!found.orbit.is_found || !found.orbit.multipliers) return std::nullopt;
-      constexpr double near_one =
-          1e-3;  // by definition it is 1; what Newton's method met otherwise is no fold
-      if (std::none_of(found.orbit.multipliers->begin(), found.orbit.multipliers->end(),
-                       [](const auto& m) { return std::abs(m - 1.0) <= near_one; }))
-        return std::nullopt;
+      if (!has_multiplier_one(found.orbit)) return std::nullopt;
       found.orbit.is_stable = false;  // a multiplier is 1, but for rounding
       found.along = Vector::Zero(2 * n);
       for (Index i = 0; i < size; ++i) found.along += v[i] * at.chart->direction(i);
