@@ -130,7 +130,7 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
     if (!F_p) return std::nullopt;
     // The extended system's derivative: g by differences.
     Matrix all = bordered(*J, *F_p, Vector::Zero(size));
-    const auto g_at = [&](double p, const Vector& x) -> std::optional<double> {
+    const auto g_at = [&, &b = b, &c = c](double p, const Vector& x) -> std::optional<double> {
       Look there;
       if (!look(family, p, t, x, there)) return std::nullopt;
       const auto of = jacobian(there);
