@@ -60,7 +60,7 @@ std::vector<Subject> subjects(Index n) {
                               {set(call("halfspace", {number(weights), number(-1)}))},
                               {call("norm_inf")},
                               {call("max")},
-                              {call("sum_largest", {number(10)})},
+                              {call("sum_largest", {number(3)})},
                               {call("log_sum_exp")},
                               {call("total_variation", {number(0.3)})},
                               {set(call("psd_cone")), true},

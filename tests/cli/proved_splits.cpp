@@ -59,7 +59,8 @@ TEST_CASE("a decomposition file is proved too: strings are exact, floats are dou
 }
 
 TEST_CASE("without a proof the level is none, the reason is said and the exit code is 3") {
-  const Outcome outcome = run({"prox", "epigraph(exponential())", "--at", "[1,2,-1]", "--certify", "--json"});
+  const Outcome outcome =
+      run({"prox", "inf_convolution(norm2(), norm1(0.75))", "--at", "[1,2,-1]", "--certify", "--json"});
   CHECK(outcome.code == 3);
   const Json answer = Json::parse(outcome.out);
   CHECK(answer["certificate"]["level"] == "none");
