@@ -128,3 +128,21 @@ TEST_CASE("a flip is told where the multiplier of the closed form is -1") {
   }
   CHECK(is_told);
 }
+
+TEST_CASE("an orbit whose multipliers lie on the unit circle is not stable, and passes nothing") {
+  // Without damping x = cos(w t)/(1 - w²) is an orbit with the multipliers exp(±2 pi i/w), whatever w is.
+  const std::string free =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n"
+      "[system.parameters]\nw = 1.2\n[system.forces]\nx = \"cos(w*t)\"\n[state]\nposition = { x = -2.2 }\n";
+  for (const Row& row : branch(free, {"--period", "2*pi/w", "--over", "w=1.2:0.1:2.9"})) {
+    CHECK_FALSE(row.stable);
+    CHECK(row.event == "");
+  }
+  // Two multipliers outside the circle that meet on the real line and leave it as a pair cross nothing.
+  const std::string driven =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"k*x^2/2\"\n"
+      "[system.parameters]\nk = 0.05\n[system.forces]\nx = \"cos(t) + 0.5*x'\"\n[state]\nposition = { x = 0 "
+      "}\n";
+  for (const Row& row : branch(driven, {"--period", "2*pi", "--over", "k=0.05:0.005:0.08"}))
+    CHECK(row.event == "");
+}

@@ -194,3 +194,16 @@ TEST_CASE("a pile of very many discs overlaps nowhere, and gains no energy") {
   CHECK(motion.record().steps == 30);
   CHECK(motion.record().largest_penetration <= 1e-7);
 }
+
+TEST_CASE("between its ends a step has the velocities of both, whatever is corrected of its position") {
+  // A ball that falls on the floor within the last step: the correction lifts it, which is no velocity of the
+  // step.
+  const auto made = system(ball());
+  Motion motion(*made, state({1}, {0}), stepping(ball(), 0.1));
+  while (motion.advance(0.5)) {
+    const Vector before = motion.arc().state(0).v;
+    const double fallen = before[0] - 9.81 * 0.1;
+    if (motion.state().q[0] > 0) CHECK(motion.state().v[0] == doctest::Approx(fallen).epsilon(1e-12));
+    CHECK(before[0] == doctest::Approx(-9.81 * motion.arc().state(0).t).epsilon(1e-9));
+  }
+}

@@ -59,3 +59,26 @@ TEST_CASE("a cavity far below the first cells is found") {
   const double s = convex::solve_line(problem).pieces().front().high;
   CHECK(1 - s * s + 2 * s * s * std::log(s) == doctest::Approx(4 / 4.000000001).epsilon(1e-13));
 }
+
+TEST_CASE(
+    "layers thinner than the first cells are met: at a wall that draws, and at an end with p = 0 where h > "
+    "0") {
+  // h = -1 beside a wall with dp/dn = g: p = (x - (1 - g))²/2 there; the cavity ends at 1 - g.
+  for (const double g : {2e-4, 5e-3, 7.5e-3}) {
+    const LineObstacle problem{0, 0, 1, value(1e-4), flux(g), [](double) { return -1.0; }};
+    const LineSolution found = convex::solve_line(problem);
+    CAPTURE(g);
+    CHECK_FALSE(found.high_parts);
+    CHECK(found.p(1) == doctest::Approx(g * g / 2).epsilon(1e-9));
+  }
+  // h = 1 over the last d, else -1: p rises as (x - s)²/2 to 1 - d, there with slope k = 1 - d - s, and falls
+  // to 0: k²/2 + k d - d²/2 = 0, k = (√2 - 1) d.
+  for (const double d : {1e-3, 5e-3}) {
+    const LineObstacle problem{0,           0,        1,
+                               value(1e-4), value(0), [d](double x) { return x > 1 - d ? 1.0 : -1.0; }};
+    const LineSolution found = convex::solve_line(problem);
+    CAPTURE(d);
+    const double k = (std::sqrt(2.0) - 1) * d;
+    CHECK(found.p(1 - d) == doctest::Approx(k * k / 2).epsilon(1e-6));
+  }
+}
