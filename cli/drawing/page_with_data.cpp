@@ -1,5 +1,7 @@
 #include "cli/drawing/page_with_data.hpp"
 
+#include "cli/report/document.hpp"
+
 namespace cli {
 namespace {
 
@@ -18,24 +20,12 @@ constexpr std::string_view played_page_head = R"html(<!DOCTYPE html>
   #scrubber { width: 100%; margin: 0; }
 )html";
 
-std::string without_markup(const std::string& text) {
-  std::string clean;
-  for (const char c : text)
-    if (c == '<')
-      clean += "&lt;";
-    else if (c == '&')
-      clean += "&amp;";
-    else
-      clean += c;
-  return clean;
-}
-
 }  // namespace
 
 std::string page_with_data(const PlayedPage& own, const std::string& title, const std::string& data) {
   std::string page(played_page_head);
   constexpr std::string_view mark = "@TITLE@";
-  page.replace(page.find(mark), mark.size(), without_markup(title));
+  page.replace(page.find(mark), mark.size(), html_words(title));
   page.append(own.style).append("</style>\n</head>\n<body>\n<h1 id=\"title\"></h1>\n").append(own.body);
   page.append("<script type=\"application/json\" id=\"").append(own.data_id).append("\">");
   for (const char c : data)  // "</script>" in a name would end the data

@@ -55,4 +55,7 @@ Math number_math(double x);
 /// An expression of a problem file as LaTeX: "m/2*x'^2" is m/2\,\dot{x}^{2}.
 std::string expression_latex(const std::string& expression);
 
+/// Words as HTML shows them: nothing in them is markup.
+std::string html_words(const std::string& words);
+
 }  // namespace cli

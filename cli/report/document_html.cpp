@@ -1,7 +1,6 @@
 #include "cli/report/document.hpp"
 
 namespace cli {
-namespace {
 
 std::string html_words(const std::string& words) {
   std::string text;
@@ -19,6 +18,8 @@ std::string html_words(const std::string& words) {
   }
   return text;
 }
+
+namespace {
 
 std::string html_line(const Line& line) {
   std::string text;
