@@ -13,7 +13,9 @@ namespace mechanics {
 namespace expression {
 struct LagrangianModel;
 }
+inline namespace motions {
 struct EquationsOfMotion;
+}
 
 /// A system given by the text of T, V, Q and the constraints. Derivatives are exact: automatic
 /// differentiation, forward over reverse (Griewank and Walther 2008, ch. 3 and 5), nothing is approximated by

@@ -14,7 +14,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using mechanics::Assembly;
@@ -148,4 +148,4 @@ void add_assemble(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -19,7 +19,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "mechanics/exact_text.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -245,4 +245,4 @@ void add_atlas(CLI::App& program, Work& chosen) {
   add_files(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

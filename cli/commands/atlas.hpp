@@ -8,7 +8,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "cli/report/answer.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 /// What `moreau atlas` is told.
 struct AtlasOptions : FileOptions {
@@ -23,4 +23,4 @@ struct AtlasOptions : FileOptions {
 /// Throws InvalidInput.
 Answer atlas_of_problem(Problem problem, const std::string& file, const AtlasOptions& options);
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <complex>
 
-namespace cli {
+namespace cli::inline commands {
 
 std::string event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free) {
   if (before.impacts.size() != now.impacts.size() || !before.multipliers || !now.multipliers)
@@ -22,4 +22,4 @@ std::string event_between(const mechanics::Orbit& before, const mechanics::Orbit
   return "";
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

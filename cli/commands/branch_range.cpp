@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 BranchRange branch_range(const std::string& text) {
   const std::size_t equals = text.find('='), one = text.find(':'), two = text.find(':', one + 1);
@@ -28,4 +28,4 @@ BranchRange branch_range(const std::string& text) {
   return range;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-namespace cli {
+namespace cli::inline commands {
 
 /// The values of a parameter that a branch is followed over, "w=1:0.01:3".
 struct BranchRange {
@@ -16,4 +16,4 @@ struct BranchRange {
 /// Throws InvalidInput with the form that it should have.
 BranchRange branch_range(const std::string& text);
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -23,7 +23,7 @@
 #include "cli/report/text_table.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -270,4 +270,4 @@ void add_chart(CLI::App& program, Work& chosen) {
   add_measurement(command, *options, "the table: problem, n, m, method, setting, seconds, error, status");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

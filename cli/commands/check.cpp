@@ -16,7 +16,7 @@
 #include "convex/laws/laws.hpp"
 #include "mechanics/gauss_laws.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// What `moreau check` is told.
@@ -124,4 +124,4 @@ void add_check(CLI::App& program, Work& chosen) {
   });
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -16,7 +16,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/laws/call_laws.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// An example of the catalogue with what became of its laws.
@@ -143,4 +143,4 @@ Exit check_catalogue(const Printing& options) {
   return failures(all) > 0 ? Exit::no_solution : Exit::solved;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -15,7 +15,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::Index;
@@ -154,4 +154,4 @@ Exit prove_catalogue(const Printing& options) {
   return proved == all.size() ? Exit::solved : Exit::inaccurate;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -14,7 +14,7 @@
 #include "cli/report/map_report.hpp"
 #include "mechanics/map_text.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::ExactVector;
@@ -196,4 +196,4 @@ Exit check_map(const MapOptions& options, const Printing& printing) {
   });
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace cli {
+namespace cli::inline commands {
 
 /// `moreau check --map` and `--table`: is a map the prox of some function?
 struct MapOptions {
@@ -25,4 +25,4 @@ void add_map(CLI::App& command, MapOptions&);
 
 Exit check_map(const MapOptions&, const Printing&);
 
-}  // namespace cli
+}  // namespace cli::inline commands

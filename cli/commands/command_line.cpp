@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace cli {
+namespace cli::inline commands {
 
 CLI::App& add_command(CLI::App& program, const char* name, const char* help, Work& chosen, Work work) {
   CLI::App& command = *program.add_subcommand(name, help);
@@ -108,4 +108,4 @@ void add_measurement(CLI::App& command, MeasurementOptions& options, const char*
   command.add_flag("--quiet", options.quiet, "no text");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

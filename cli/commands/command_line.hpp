@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace cli {
+namespace cli::inline commands {
 
 /// What the program is to do, once its command line is read.
 using Work = std::function<Exit()>;
@@ -93,4 +93,4 @@ struct MeasurementOptions : Printing {
 };
 void add_measurement(CLI::App& command, MeasurementOptions&, const char* columns);
 
-}  // namespace cli
+}  // namespace cli::inline commands

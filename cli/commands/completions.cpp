@@ -8,7 +8,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 Exit completions(const CLI::App& program, const std::string& shell) {
@@ -35,4 +35,4 @@ void add_completions(CLI::App& program, Work& chosen) {
   command.add_option("SHELL", *shell, "bash, zsh or fish")->required();
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

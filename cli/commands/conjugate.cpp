@@ -20,7 +20,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_conjugate.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -202,4 +202,4 @@ void add_conjugate(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

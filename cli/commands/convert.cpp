@@ -7,7 +7,7 @@
 #include "cli/problem_file/settings.hpp"
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// What `moreau convert` is told.
@@ -59,4 +59,4 @@ void add_convert(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -15,7 +15,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::Index;
@@ -182,4 +182,4 @@ void add_derive(CLI::App& program, Work& chosen) {
       ->type_name("DIR");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -14,7 +14,7 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/resolved_scene.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -125,4 +125,4 @@ void add_explain(CLI::App& program, Work& chosen) {
   command.add_option("-o,--output", options->output, "the file to write")->type_name("F");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -7,7 +7,7 @@
 #include "cli/commands/branch_event.hpp"
 #include "cli/motion_settings.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -218,4 +218,4 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate(Station a, Station
   return b;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

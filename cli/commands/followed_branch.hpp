@@ -10,7 +10,7 @@
 #include "cli/drawing/branch_drawing.hpp"
 #include "mechanics/motion/turning_point.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 /// A branch of orbits over a parameter, followed with the values at which something happens on it.
 class FollowedBranch {
@@ -87,4 +87,4 @@ class FollowedBranch {
   std::optional<mechanics::TurningPoint> fold_;  // the last one
 };
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -3,7 +3,7 @@
 
 #include "cli/commands/followed_branch.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// An impact passes the time of the start if it is no further from it than this part of the period.
@@ -86,4 +86,4 @@ bool FollowedBranch::begin_behind_fold(double value) {
   return (four->value - one->value) * way() > 0;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -8,7 +8,7 @@
 #include "cli/each_file.hpp"
 #include "cli/report/catalogue_report.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// What `moreau functions` is told.
@@ -54,4 +54,4 @@ void add_functions(CLI::App& program, Work& chosen) {
   command.add_flag("--markdown", options->markdown, "the page docs/functions.md");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

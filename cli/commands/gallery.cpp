@@ -18,7 +18,7 @@
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::GalleryFamily;
@@ -185,4 +185,4 @@ void add_gallery(CLI::App& program, Work& chosen) {
   command.add_flag("--quiet", options->quiet, "no text after --write; the exit code tells");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

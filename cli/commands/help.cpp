@@ -11,7 +11,7 @@
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/methods.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// What `moreau help` is told.
@@ -71,4 +71,4 @@ void add_help(CLI::App& program, Work& chosen) {
   command.add_flag("--man", options->manual, "the manual page moreau(1), for man");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

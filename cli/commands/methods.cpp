@@ -9,7 +9,7 @@
 #include "cli/report/json_writer.hpp"
 #include "convex/nearest_point/methods.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 namespace {
 
@@ -46,4 +46,4 @@ void add_methods(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -12,7 +12,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// What `moreau new` is told.
@@ -76,4 +76,4 @@ void add_new(CLI::App& program, Work& chosen) {
   command.add_flag("--quiet", options->quiet, "no text; the exit code tells");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -19,7 +19,7 @@
 #include "mechanics/motion/orbit.hpp"
 #include "mechanics/motion/tangent_chart.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::Index;
@@ -162,4 +162,4 @@ void add_orbit(CLI::App& program, Work& chosen) {
   add_step_tolerance(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

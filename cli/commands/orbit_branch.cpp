@@ -7,7 +7,7 @@
 #include "cli/commands/followed_branch.hpp"
 #include "cli/report/json_writer.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 using convex::InvalidInput;
 
@@ -50,4 +50,4 @@ Answer orbit_branch(const std::string& file, const Problem& problem, const mecha
   return answer;
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

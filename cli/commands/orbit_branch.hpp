@@ -6,7 +6,7 @@
 #include "cli/report/answer.hpp"
 #include "mechanics/motion/orbit.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 /// What `moreau orbit` is told.
 struct OrbitOptions : FileOptions, MotionChoice {
@@ -22,4 +22,4 @@ struct OrbitOptions : FileOptions, MotionChoice {
 Answer orbit_branch(const std::string& file, const Problem&, const mechanics::OrbitQuestion&,
                     const OrbitOptions&);
 
-}  // namespace cli
+}  // namespace cli::inline commands

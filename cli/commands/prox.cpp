@@ -16,7 +16,7 @@
 #include "cli/report/symbolic_report.hpp"
 #include "convex/operations/takes_product.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -159,4 +159,4 @@ void add_prox(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -4,7 +4,7 @@
 
 #include "cli/commands/command_line.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 /// JSON Schema 2020-12 of a problem file, whether it is TOML or JSON. It knows keys and kinds of values; what
@@ -151,4 +151,4 @@ void add_schema(CLI::App& program, Work& chosen) {
   });
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

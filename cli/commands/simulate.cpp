@@ -20,7 +20,7 @@
 #include "convex/nearest_name.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -244,4 +244,4 @@ void add_simulate(CLI::App& program, Work& chosen) {
                    "what each law of impact makes of the first impact, side by side");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -14,7 +14,7 @@
 #include "cli/report/solve_progress.hpp"
 #include "cli/resolved_scene.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const SolveOptions& options) {
@@ -177,4 +177,4 @@ void add_solve(CLI::App& program, Work& chosen) {
       ->type_name("NAME=0:0.05:3");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -8,7 +8,7 @@
 #include "cli/report/answer.hpp"
 #include "cli/report/liquid_report.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 
 /// What `moreau solve` is told.
 struct SolveOptions : FileOptions, SceneOptions {
@@ -25,4 +25,4 @@ struct SolveOptions : FileOptions, SceneOptions {
 /// InvalidInput.
 Answer solve_problem(Problem problem, const std::string& file, const SolveOptions& options);
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -20,7 +20,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -206,4 +206,4 @@ void add_stress(CLI::App& program, Work& chosen) {
   add_measurement(command, *options, "the table: family, difficulty, n, m, method, seconds, error, status");
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -11,7 +11,7 @@
 #include "cli/report/subdifferential_report.hpp"
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -105,4 +105,4 @@ void add_subdifferential(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

@@ -19,7 +19,7 @@
 #include "cli/sweep/change_search.hpp"
 #include "cli/sweep/sweep_table.hpp"
 
-namespace cli {
+namespace cli::inline commands {
 namespace {
 
 using convex::InvalidInput;
@@ -325,4 +325,4 @@ void add_sweep(CLI::App& program, Work& chosen) {
   add_printing(command, *options);
 }
 
-}  // namespace cli
+}  // namespace cli::inline commands

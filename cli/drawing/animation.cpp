@@ -6,7 +6,7 @@
 #include "cli/motion_files.hpp"
 #include "cli/report/json_writer.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -114,4 +114,4 @@ std::string Animation::data(const std::string& title) const {
 
 std::string Animation::page(const std::string& title) const { return animation_page(title, data(title)); }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -8,7 +8,7 @@
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// A motion as one page that plays it: what `[draw]` shows, or the coordinates as sliders; forces of contacts
 /// as arrows, events on a line of time. The page needs no network.
@@ -42,4 +42,4 @@ class Animation {
 /// The page that plays the data of an animation, a JSON object (`docs/motion.md`).
 std::string animation_page(const std::string& title, const std::string& data);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -1,7 +1,7 @@
 #include "cli/drawing/animation.hpp"
 #include "cli/drawing/page_with_data.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr std::string_view motion_page_style = R"html(  body { max-width: 1000px; }
@@ -220,4 +220,4 @@ std::string animation_page(const std::string& title, const std::string& data) {
   return page_with_data({"motion", motion_page_style, motion_page_body, motion_page_script}, title, data);
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

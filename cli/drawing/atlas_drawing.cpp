@@ -10,7 +10,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "mechanics/gauss_solution.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::atlas::ParameterPolygon;
@@ -155,4 +155,4 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   return made;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

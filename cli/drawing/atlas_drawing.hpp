@@ -4,11 +4,11 @@
 #include "cli/report/atlas_report.hpp"
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The map of an atlas over two forces: its regions by their contacts, hatched where dropping negative
 /// multipliers is wrong; in the larger ones, and at the file's force, the free acceleration A⁻¹z and the true
 /// one as arrows, each of the two components to the scale of its largest.
 Drawing atlas_drawing(const SolvedAtlas&, const Scene&);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr std::array curve_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#222222"};
@@ -117,4 +117,4 @@ Drawing branch_drawing(const std::vector<BranchPoint>& points, const std::vector
   return made;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

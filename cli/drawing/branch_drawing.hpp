@@ -6,7 +6,7 @@
 #include "cli/drawing/gnuplot.hpp"
 #include "mechanics/motion/orbit.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// An orbit of a branch, in the order in which the branch is followed.
 struct BranchPoint {
@@ -20,4 +20,4 @@ struct BranchPoint {
 Drawing branch_drawing(const std::vector<BranchPoint>&, const std::vector<std::string>& coordinates,
                        const std::string& parameter, const std::string& title);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

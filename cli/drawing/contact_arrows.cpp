@@ -4,7 +4,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -98,4 +98,4 @@ std::vector<ContactArrow> ContactArrows::at(const mechanics::State& state, const
   return arrows;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

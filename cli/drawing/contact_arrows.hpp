@@ -7,7 +7,7 @@
 #include "cli/drawing/drawn_scene.hpp"
 #include "mechanics/system.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The force of a contact on a place that is drawn.
 struct ContactArrow {
@@ -40,4 +40,4 @@ class ContactArrows {
   std::vector<std::optional<Places>> found_;  // by constraint, once it has pushed
 };
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -13,7 +13,7 @@
 #include "cli/report/verdict_text.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -260,4 +260,4 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
           page_size, area.page_width};
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -7,7 +7,7 @@
 #include "cli/drawing/labelled_page.hpp"
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The decomposition of Moreau 1966, drawn in a plane of two accelerations (`plane_section`): the free
 /// acceleration A⁻¹z, A⁻¹C = {U q'' >= s} with the names of the contacts on their lines, the acceleration q''
@@ -18,4 +18,4 @@ namespace cli {
 Drawing decomposition_drawing(const SolvedScene&, const std::optional<std::string>& plane,
                               PageArea area = {});
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -79,4 +79,4 @@ convex::SparseRows DrawnScene::derivatives(const mechanics::State& state,
   return system_->contact_rows(state, values).U;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

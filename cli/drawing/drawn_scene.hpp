@@ -7,7 +7,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// What `[draw]` shows of a mechanism, as numbers of a state. Its expressions are read as the constraints of
 /// a system with the same coordinates, so that their derivatives are at hand too.
@@ -34,4 +34,4 @@ class DrawnScene {
   std::vector<Shape> shapes_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -11,7 +11,7 @@
 #include "cli/drawing/label_placement.hpp"
 #include "cli/drawing/method_style.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 /// Pixels: of a page 700 wide, the names of methods, a row of cells, and of each diagram what is above its
@@ -252,4 +252,4 @@ Drawing failure_map_drawing(const std::vector<StressTrial>& trials) {
   return drawing;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

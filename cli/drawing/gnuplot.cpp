@@ -13,7 +13,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::InvalidInput;
@@ -148,4 +148,4 @@ void draw(const std::string& file, const Drawing& drawing) {
   if (file.ends_with(".svg")) write_ampersands_as_entities(file);
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

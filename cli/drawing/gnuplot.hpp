@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// Whether the plotting program is there.
 bool has_gnuplot();
@@ -23,4 +23,4 @@ struct Drawing {
 /// Draws the picture into the file. Throws InvalidInput with gnuplot's words when it does not end well.
 void draw(const std::string& file, const Drawing&);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

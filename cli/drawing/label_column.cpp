@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// A block of labels that touch lies about the mean of what its members want (as in isotonic regression: the
 /// positions less their places in the column must not decrease).
@@ -40,4 +40,4 @@ std::vector<double> label_positions(const std::vector<double>& wanted, double ap
   return positions;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr double line_height = 1.25;  ///< over the font size
@@ -116,4 +116,4 @@ std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& a
   return PlacedLabel{middle, "center", text};
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -6,7 +6,7 @@
 
 #include "convex/vector.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// A point on the page, in pixels from its lower left corner.
 using PagePoint = Eigen::Vector2d;
@@ -58,4 +58,4 @@ double text_width(const std::string& text, double font_size);
 /// at `right`, in pixels.
 int width_with_key(double right, const std::vector<std::string>& words);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -8,7 +8,7 @@
 
 #include "cli/drawing/gnuplot.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 /// Pixels of the square of numbers in the picture, and of letters.
@@ -112,4 +112,4 @@ std::string heading_line(std::string line) {
   return line + "…";
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -5,7 +5,7 @@
 
 #include "cli/drawing/label_placement.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// A point or a curve in the units of a picture.
 using Point = Eigen::Vector2d;
@@ -59,4 +59,4 @@ class LabelledPage {
 /// A line of a title, cut to what the page holds.
 std::string heading_line(std::string line);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

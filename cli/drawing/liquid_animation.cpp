@@ -7,7 +7,7 @@
 #include "cli/drawing/liquid_section.hpp"
 #include "cli/report/json_writer.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using mechanics::liquid::LiquidScene;
@@ -172,4 +172,4 @@ std::string LiquidAnimation::data(const std::string& title) const {
 
 std::string LiquidAnimation::page(const std::string& title) const { return liquid_page(title, data(title)); }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -6,7 +6,7 @@
 #include "mechanics/liquid/liquid_solution.hpp"
 #include "mechanics/liquid/onset.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// Inception as a parameter grows, as one page that plays it: the pressure with contours, the cavity hatched,
 /// walls that part in red; of one coordinate p over it, of three the section through the middle of the
@@ -44,4 +44,4 @@ class LiquidAnimation {
 /// The page that plays the data of a liquid's animation, a JSON object.
 std::string liquid_page(const std::string& title, const std::string& data);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using mechanics::liquid::BoundaryPart;
@@ -101,4 +101,4 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, bo
   return {script + "\n", 640};
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -3,7 +3,7 @@
 #include "cli/drawing/gnuplot.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The pressure with contours, the cavity hatched, walls that part in red; of one coordinate p over it, of
 /// three the section through the middle of the domain. With u as arrows, if asked for; throws InvalidInput
@@ -11,4 +11,4 @@ namespace cli {
 Drawing liquid_drawing(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&,
                        bool with_velocity = false);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -1,7 +1,7 @@
 #include "cli/drawing/liquid_animation.hpp"
 #include "cli/drawing/page_with_data.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr std::string_view liquid_page_style = R"html(  body { max-width: 900px; }
@@ -251,4 +251,4 @@ std::string liquid_page(const std::string& title, const std::string& data) {
   return page_with_data({"liquid", liquid_page_style, liquid_page_body, liquid_page_script}, title, data);
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace cli {
+namespace cli::inline drawings {
 
 using mechanics::liquid::BoundaryPart;
 using mechanics::liquid::LiquidScene;
@@ -119,4 +119,4 @@ LiquidSection::Arrows LiquidSection::velocity() const {
   return arrows;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -5,7 +5,7 @@
 
 #include "mechanics/liquid/liquid_solution.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// What is drawn of a liquid in two or three dimensions: the first two coordinates, the third at the middle
 /// of the domain. As gnuplot's data.
@@ -40,4 +40,4 @@ class LiquidSection {
   double height_ = 0, step_ = 1;
 };
 
-}  // namespace cli
+}  // namespace cli::inline drawings

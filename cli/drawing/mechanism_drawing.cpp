@@ -10,7 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -112,4 +112,4 @@ Drawing scene_drawing(const SolvedScene& solved, const DrawnScene& drawn,
   return {"set multiplot\n" + left.script + right.script + "unset multiplot\n", page_size, both};
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -8,7 +8,7 @@
 #include "cli/drawing/labelled_page.hpp"
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The mechanism of `[draw]` at its state, with the forces of its contacts as arrows to one scale, each named
 /// with its size.
@@ -18,4 +18,4 @@ Drawing mechanism_drawing(const SolvedScene&, const DrawnScene&, PageArea area);
 /// there are two coordinates or more; without `[draw]` the decomposition.
 Drawing scene_drawing(const SolvedScene&, const DrawnScene&, const std::optional<std::string>& plane);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdlib>
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr std::array colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#882255", "#999933"};
@@ -53,4 +53,4 @@ const MethodStyle& MethodStyles::style(const std::string& method) const {
   return styles_[static_cast<std::size_t>(place)];
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

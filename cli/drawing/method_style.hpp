@@ -5,7 +5,7 @@
 
 #include "cli/measurement/trial.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// An error up to here is a right answer to an engineer; the quickest such method is named above a diagram.
 inline constexpr double good_error = 1e-9;
@@ -49,4 +49,4 @@ std::vector<T> in_order(const Range& range, Get get) {
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

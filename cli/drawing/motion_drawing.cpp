@@ -12,7 +12,7 @@
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/taylor_series.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -171,4 +171,4 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
   return made;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

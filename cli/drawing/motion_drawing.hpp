@@ -9,7 +9,7 @@
 #include "cli/drawing/gnuplot.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// A motion over one axis of time: coordinates, gaps f of the constraints, multipliers, T + V; events are
 /// marked. Of each kind the first eight are drawn.
@@ -36,4 +36,4 @@ class MotionDrawing {
   std::set<std::pair<mechanics::EventKind, long>> events_;  // where they are marked
 };
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -2,7 +2,7 @@
 
 #include "cli/report/document.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 constexpr std::string_view played_page_head = R"html(<!DOCTYPE html>
@@ -38,4 +38,4 @@ std::string page_with_data(const PlayedPage& own, const std::string& title, cons
       .append("</script>\n</body>\n</html>\n");
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// What a page that plays frames has of its own: the id of the element with its data, its style beside that
 /// of all such pages, what stands below its heading, and its script.
@@ -15,4 +15,4 @@ struct PlayedPage {
 /// that it stands in.
 std::string page_with_data(const PlayedPage&, const std::string& title, const std::string& data);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cli {
+namespace cli::inline drawings {
 
 PhaseDrawing::PhaseDrawing(const mechanics::LagrangianSystem& system, convex::Index coordinate,
                            Instants instants, bool is_strobe, convex::Vector modulo)
@@ -59,4 +59,4 @@ Drawing PhaseDrawing::drawing(const std::string& title) const {
   return made;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

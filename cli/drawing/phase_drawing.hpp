@@ -6,7 +6,7 @@
 #include "cli/motion_files.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The velocity of a coordinate over the coordinate: a curve that is interrupted where the velocity jumps, or
 /// the points of a strobe (Poincaré's section).
@@ -31,4 +31,4 @@ class PhaseDrawing {
   std::string points_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline drawings

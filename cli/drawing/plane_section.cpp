@@ -6,7 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::Index;
@@ -102,4 +102,4 @@ PlaneSection plane_section(const SolvedScene& solved, const std::optional<std::s
   return section;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -7,7 +7,7 @@
 
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// Moreau's problem in the plane of two accelerations, the others held at their true values: there too the
 /// true point is the nearest one that the contacts allow to the free one, in the metric A of the two.
@@ -30,4 +30,4 @@ struct PlaneSection {
 /// reactions change most. InvalidInput for other names and for a scene without two coordinates or an answer.
 PlaneSection plane_section(const SolvedScene&, const std::optional<std::string>& plane);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

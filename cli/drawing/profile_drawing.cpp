@@ -13,7 +13,7 @@
 #include "cli/drawing/method_style.hpp"
 #include "convex/infinity.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 using convex::infinity;
@@ -105,4 +105,4 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
   return drawing;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

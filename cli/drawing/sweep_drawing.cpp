@@ -8,7 +8,7 @@
 
 #include "cli/drawing/label_placement.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 /// Sets of contacts: pale, apart in grey too (Okabe and Ito 2008, lightened).
@@ -214,4 +214,4 @@ Drawing sweep_drawing(const SweepRecord& record, const std::vector<SweepRange>& 
                             : map(record.points(), ranges, sets);
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

@@ -3,7 +3,7 @@
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/sweep/sweep_point.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// The points of a sweep for a picture; of very many every second one is dropped, again and again.
 class SweepRecord {
@@ -21,4 +21,4 @@ class SweepRecord {
 Drawing sweep_drawing(const SweepRecord&, const std::vector<SweepRange>&, const std::vector<Watched>&,
                       const std::vector<std::string>& constraints);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

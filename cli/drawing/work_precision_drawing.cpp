@@ -12,7 +12,7 @@
 #include "cli/drawing/label_column.hpp"
 #include "cli/drawing/method_style.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 namespace {
 
 /// Pixels. A diagram's box lies between `left` and its width less `right`.
@@ -317,4 +317,4 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
   return drawing;
 }
 
-}  // namespace cli
+}  // namespace cli::inline drawings

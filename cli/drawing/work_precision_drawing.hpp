@@ -6,7 +6,7 @@
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/measurement/trial.hpp"
 
-namespace cli {
+namespace cli::inline drawings {
 
 /// What the axes of a work-precision diagram are.
 struct DrawnAs {
@@ -23,4 +23,4 @@ Drawing work_precision_drawing(const std::vector<Trial>&, const DrawnAs&);
 /// `good_error`.
 std::vector<Trial> ranked(std::vector<Trial> trials);
 
-}  // namespace cli
+}  // namespace cli::inline drawings

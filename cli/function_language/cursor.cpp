@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
@@ -52,4 +52,4 @@ void Cursor::fail(const std::string& message, convex::Place place) const {
   throw convex::InvalidInput(std::string(what_) + ": " + message, place);
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

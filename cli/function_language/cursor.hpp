@@ -5,7 +5,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// A text in the call language and how far it has been read. Lines and columns are those of the file or
 /// command line that the text stands in; columns count characters, not bytes.
@@ -42,4 +42,4 @@ class Cursor {
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
 constexpr bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -5,7 +5,7 @@
 
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 using convex::Argument;
@@ -126,4 +126,4 @@ std::string domain_text(const convex::Function& f, Index n) {
   return of_operation(call, n);
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -4,10 +4,10 @@
 
 #include "convex/functions/function.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// Where f, on n entries, is finite: "everywhere", a set of the language, or words made of such; "" when no
 /// rule says.
 std::string domain_text(const convex::Function& f, convex::Index n);
 
-}  // namespace cli
+}  // namespace cli::inline function_language

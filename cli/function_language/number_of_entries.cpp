@@ -5,7 +5,7 @@
 
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 using convex::Call;
@@ -49,4 +49,4 @@ Index number_of_entries(const Call& call) {
   return usual;
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -6,7 +6,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 using convex::Argument;
@@ -216,4 +216,4 @@ std::vector<convex::Fraction> written_numbers(std::string_view list) {
   return numbers;
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -5,7 +5,7 @@
 #include "convex/exact/fraction.hpp"
 #include "convex/gamma0/call.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// Calls are nested at most this deep.
 inline constexpr int deepest_call = 256;
@@ -24,4 +24,4 @@ convex::Matrix parse_matrix(std::string_view text, std::string_view what, convex
 /// of a matrix.
 std::vector<convex::Fraction> written_numbers(std::string_view list);
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -5,7 +5,7 @@
 #include "cli/function_language/read_list.hpp"
 #include "cli/problem_file/read_metric.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 constexpr const char* metric_form = "a matrix, [[2, 1], [1, 2]], or a diagonal, \"diagonal [1, 2]\"";
@@ -48,4 +48,4 @@ convex::ExactGram parse_exact_metric(std::string_view text) {
   return convex::exact_gram(rows);
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -5,7 +5,7 @@
 #include "convex/exact_program/exact_gram.hpp"
 #include "convex/metric.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// A metric as it is written on a command line: a matrix [[2, 1], [1, 2]], or diagonal [1, 2]. Throws
 /// InvalidInput, also when it is not symmetric positive definite.
@@ -14,4 +14,4 @@ convex::Metric parse_metric(std::string_view text);
 /// The same text, which has been read, with its numbers as they are written.
 convex::ExactGram parse_exact_metric(std::string_view text);
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -4,7 +4,7 @@
 
 #include "cli/function_language/read_number.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 using convex::Index;
@@ -71,4 +71,4 @@ WrittenList take_list(Cursor& cursor) {
   return list;
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

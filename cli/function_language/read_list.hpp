@@ -3,7 +3,7 @@
 #include "cli/function_language/cursor.hpp"
 #include "convex/gamma0/call.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// A vector or matrix, and its numbers as they were written, row by row.
 struct WrittenList {
@@ -15,4 +15,4 @@ struct WrittenList {
 /// list is a vector. Throws InvalidInput when rows differ in length.
 WrittenList take_list(Cursor& cursor);
 
-}  // namespace cli
+}  // namespace cli::inline function_language

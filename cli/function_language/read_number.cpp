@@ -6,7 +6,7 @@
 #include "cli/problem_file/exact_number.hpp"
 #include "cli/problem_file/keys.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 namespace {
 
 bool infinity_begins(const Cursor& cursor, std::size_t ahead) {
@@ -82,4 +82,4 @@ WrittenNumber take_number(Cursor& cursor) {
   return {*value, std::move(digits)};
 }
 
-}  // namespace cli
+}  // namespace cli::inline function_language

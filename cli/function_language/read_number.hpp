@@ -4,7 +4,7 @@
 
 #include "cli/function_language/cursor.hpp"
 
-namespace cli {
+namespace cli::inline function_language {
 
 /// Does a number begin here: a digit, a point, a sign, or inf?
 bool number_begins(const Cursor& cursor);
@@ -18,4 +18,4 @@ struct WrittenNumber {
 /// Takes a number: 2, -0.5, 1e-3, 1/3 (rounded once), inf, -inf. Throws InvalidInput.
 WrittenNumber take_number(Cursor& cursor);
 
-}  // namespace cli
+}  // namespace cli::inline function_language

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/methods.hpp"
 
-namespace cli {
+namespace cli::inline manual {
 namespace {
 
 /// The name of each member of a table.
@@ -75,4 +75,4 @@ CommandTable command_table(const CLI::App& program) {
   return table;
 }
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace cli {
+namespace cli::inline manual {
 
 /// An option of a command, or one of its arguments, as its help tells it.
 struct HelpLine {
@@ -34,4 +34,4 @@ struct CommandTable {
 /// The table of a program whose commands were added.
 CommandTable command_table(const CLI::App& program);
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -1,6 +1,6 @@
 #include "cli/manual/help_topics.hpp"
 
-namespace cli {
+namespace cli::inline manual {
 namespace {
 
 constexpr std::string_view start_text = R"text(  moreau new system ladder.toml     a file to begin with
@@ -106,4 +106,4 @@ constexpr HelpTopic topics[] = {
 
 std::span<const HelpTopic> help_topics() { return topics; }
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace cli {
+namespace cli::inline manual {
 
 /// What `moreau help NAME` tells besides the commands, and the sections of the manual page.
 struct HelpTopic {
@@ -14,4 +14,4 @@ struct HelpTopic {
 /// The one table of topics.
 std::span<const HelpTopic> help_topics();
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -4,7 +4,7 @@
 
 #include "cli/manual/help_topics.hpp"
 
-namespace cli {
+namespace cli::inline manual {
 namespace {
 
 /// Text as roff prints it: hyphens that can be typed again, and no line that is taken for a request.
@@ -82,4 +82,4 @@ std::string manual_page(const CommandTable& table, const std::string& version) {
          "constraints, SIAM J. Control 4 (1966), doi:10.1137/0304014.\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -4,9 +4,9 @@
 
 #include "cli/manual/command_table.hpp"
 
-namespace cli {
+namespace cli::inline manual {
 
 /// moreau(1): a page for man, of the commands with their options and the topics of `moreau help`.
 std::string manual_page(const CommandTable&, const std::string& version);
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace cli {
+namespace cli::inline manual {
 namespace {
 
 std::string words(const std::vector<std::string>& list) { return fmt::format("{}", fmt::join(list, " ")); }
@@ -168,4 +168,4 @@ std::string fish_completions(const CommandTable& table) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -1,6 +1,6 @@
 #include "cli/manual/starting_files.hpp"
 
-namespace cli {
+namespace cli::inline manual {
 namespace {
 
 constexpr std::string_view system_file =
@@ -174,4 +174,4 @@ constexpr StartingFile files[] = {
 
 std::span<const StartingFile> starting_files() { return files; }
 
-}  // namespace cli
+}  // namespace cli::inline manual

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-namespace cli {
+namespace cli::inline manual {
 
 /// A problem file to begin with: it solves as it stands, and says at each line what to change.
 struct StartingFile {
@@ -14,4 +14,4 @@ struct StartingFile {
 /// The one table of them, by kind.
 std::span<const StartingFile> starting_files();
 
-}  // namespace cli
+}  // namespace cli::inline manual

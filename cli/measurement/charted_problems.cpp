@@ -10,7 +10,7 @@
 #include "cli/measurement/peers.hpp"
 #include "cli/measurement/prox_exams.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Index;
@@ -88,4 +88,4 @@ ChartedProblem charted_file(const std::string& file, const std::vector<std::stri
   return {exam->name, [exam, peers] { return everybody(*exam, peers); }};
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

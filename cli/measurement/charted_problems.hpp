@@ -3,7 +3,7 @@
 #include "cli/measurement/contest.hpp"
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// A problem of the chart: it is made, and the methods put before it, when its turn comes.
 struct ChartedProblem {
@@ -27,4 +27,4 @@ std::vector<ChartedProblem> charted_motions(bool quick);
 /// The problem of a file, with what --set says of it.
 ChartedProblem charted_file(const std::string& file, const std::vector<std::string>& settings, bool peers);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -15,7 +15,7 @@
 
 #include "cli/measurement/progress.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -102,4 +102,4 @@ ChildOutcome in_child(double seconds, const std::function<std::vector<double>()>
   return outcome;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

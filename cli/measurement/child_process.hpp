@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// What became of work done in a process of its own. interrupted: Ctrl-C was pressed.
 enum class Ending { done, too_slow, crashed, interrupted };
@@ -17,4 +17,4 @@ struct ChildOutcome {
 /// `seconds` the child is killed. Its messages are dropped.
 ChildOutcome in_child(double seconds, const std::function<std::vector<double>()>& work);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -14,7 +14,7 @@
 #include "convex/functions/sets.hpp"
 #include "convex/gamma0/node.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Function;
@@ -149,4 +149,4 @@ std::vector<Contest> flat_polar_contests(double slope) {
                   std::move(ways));
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

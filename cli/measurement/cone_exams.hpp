@@ -4,7 +4,7 @@
 
 /// Projections on the polar of a cone, where the part that lies in the polar is small or the cone is nearly
 /// flat. The error is |y - y*| over |y*|, y the part in the polar: what z - proj_K z loses.
-namespace cli {
+namespace cli::inline measurement {
 
 enum class CurvedCone { exponential, power };
 
@@ -18,4 +18,4 @@ std::vector<Contest> boundary_contests(CurvedCone, double distance);
 /// polar's own generators, found in fractions, rounded and projected upon.
 std::vector<Contest> flat_polar_contests(double slope);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cli {
+namespace cli::inline measurement {
 
 std::string verdict_text(Verdict verdict) {
   constexpr std::array<const char*, 6> texts{"ok", "wrong", "gave-up", "too-slow", "refused", "crashed"};
@@ -15,4 +15,4 @@ bool exceeds(double error, double bound) {
   return !(error <= wrong_beyond * std::max(bound, convex::unit_roundoff));
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

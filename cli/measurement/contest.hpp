@@ -7,7 +7,7 @@
 
 #include "convex/nearest_point/methods.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// How a trial ended. wrong: the true error is more than ten times the bound that came with the answer, or a
 /// problem was called solvable that is not (or not solvable that is). gave_up: it said so. refused: it does
@@ -44,4 +44,4 @@ struct Contest {
   std::function<Judgement()> judged;  ///< of the last work
 };
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -13,7 +13,7 @@
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Metric;
@@ -177,4 +177,4 @@ Exam file_exam(const Scene& scene) {
   return exam;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

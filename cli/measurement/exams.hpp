@@ -8,7 +8,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// A nearest-point problem with its truth, to be put before methods.
 struct Exam {
@@ -41,4 +41,4 @@ convex::Metric anew(const convex::Metric&);
 /// A solution compared with the truth of an exam.
 Judgement judgement(const Exam&, const convex::Solution&);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -9,7 +9,7 @@
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::ExactVector;
@@ -142,4 +142,4 @@ std::string index_line(const LibraryProblem& problem, const LibraryTruth& truth)
                      truth.active_condition, problem.origin);
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -5,7 +5,7 @@
 #include "cli/measurement/problem_library.hpp"
 #include "convex/nearest_point/proof/exact_multipliers.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// The truth of a problem in fractions, of its doubles at their exact values, and how hard it is.
 struct LibraryTruth {
@@ -35,4 +35,4 @@ std::string truth_json(const LibraryProblem&, const LibraryTruth&);
 std::string index_heading();
 std::string index_line(const LibraryProblem&, const LibraryTruth&);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 std::string processor() {
@@ -30,4 +30,4 @@ std::string machine_text() {
 #endif
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

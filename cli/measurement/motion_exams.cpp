@@ -9,7 +9,7 @@
 
 #include "mechanics/lagrangian_system.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Index;
@@ -180,4 +180,4 @@ MotionExam many_balls(int count) {
   return exam;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

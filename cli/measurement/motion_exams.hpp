@@ -4,7 +4,7 @@
 #include "mechanics/lagrangian_text.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// What is left of a motion for its judge.
 struct MotionOutcome {
@@ -46,4 +46,4 @@ MotionExam kepler_orbit(int periods);
 /// Balls over one floor, each from its own height, e = 0.5, for 1 s.
 MotionExam many_balls(int count);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

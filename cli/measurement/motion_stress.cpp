@@ -5,7 +5,7 @@
 
 #include "cli/measurement/motion_exams.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Vector;
@@ -184,4 +184,4 @@ std::vector<StressFamily> motion_families() {
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

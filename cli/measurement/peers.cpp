@@ -10,7 +10,7 @@
 #include "convex/loaded_module.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Index;
@@ -189,4 +189,4 @@ std::vector<Contest> everybody(const Exam& exam, bool peers) {
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -2,7 +2,7 @@
 
 #include "cli/measurement/exams.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// Empty, or why there are no solvers of other packages.
 std::string why_no_peers();
@@ -28,4 +28,4 @@ std::vector<Contest> peer_contests(const Exam&);
 /// Every method before an exam, with `peers` those of other packages too.
 std::vector<Contest> everybody(const Exam&, bool peers);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -11,7 +11,7 @@
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Index;
@@ -130,4 +130,4 @@ std::vector<LibraryProblem> file_problems(const std::string& file,
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

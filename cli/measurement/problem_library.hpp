@@ -6,7 +6,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// A nearest-point problem of the library: a contact problem without friction, its numbers as they stand.
 struct LibraryProblem {
@@ -33,4 +33,4 @@ inline constexpr std::size_t most_instants = 6;
 /// A and U in full: the form that every format has.
 convex::NearestPointProblem in_full(const convex::NearestPointProblem&);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

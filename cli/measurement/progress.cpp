@@ -5,7 +5,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 volatile std::sig_atomic_t stop = 0;
@@ -51,4 +51,4 @@ void Progress::show() const {
 
 bool Progress::interrupted() { return stop != 0; }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

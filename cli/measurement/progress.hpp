@@ -3,7 +3,7 @@
 #include <chrono>
 #include <string>
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// A bar on standard error with the time left, where that is a terminal; and whether Ctrl-C was pressed, upon
 /// which a measurement ends with what it has.
@@ -28,4 +28,4 @@ class Progress {
   std::chrono::steady_clock::time_point start_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline measurement

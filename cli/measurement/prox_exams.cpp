@@ -18,7 +18,7 @@
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::Function;
@@ -172,4 +172,4 @@ std::vector<Contest> tie_contests(Sorting f, double gap) {
   return exam("ball1", convex::ball1(1).indicator, x, v);
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

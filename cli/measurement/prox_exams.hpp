@@ -4,7 +4,7 @@
 
 /// Proxes with planted answers: x and a subgradient v at x are chosen with few bits, and z = x + W⁻¹v has no
 /// rounding.
-namespace cli {
+namespace cli::inline measurement {
 
 /// The functions whose prox in a full metric is charted by its condition.
 enum class Charted { norm1, simplex, ball2, second_order_cone };
@@ -22,4 +22,4 @@ enum class Sorting { simplex, ball1, sum_largest };
 /// The same ways in the plain metric, entries of z being `gap` apart, or equal (0).
 std::vector<Contest> tie_contests(Sorting, double gap);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

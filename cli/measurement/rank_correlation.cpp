@@ -10,7 +10,7 @@
 #include "cli/measurement/contest.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 constexpr double good_error = 1e-9;
@@ -138,4 +138,4 @@ std::optional<std::string> committed_data() {
   return std::nullopt;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -6,7 +6,7 @@
 
 #include "cli/measurement/trial.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// How alike two measurements order the methods of a problem, best first.
 struct RankCorrelation {
@@ -24,4 +24,4 @@ std::vector<Trial> read_chart_csv(const std::string& file);
 /// docs/charts/speed_accuracy.csv beside the program's build folder or here, where it is.
 std::optional<std::string> committed_data();
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -7,7 +7,7 @@
 #include <ctime>
 #include <vector>
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 /// Reading the clock costs some hundred nanoseconds; a batch of this length is known to a part in a hundred.
@@ -67,4 +67,4 @@ void pin_to_one_processor() {
   sched_setaffinity(0, sizeof one, &one);
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// Processor seconds of one call: the median of several measurements and their quartiles.
 struct Timing {
@@ -18,4 +18,4 @@ Timing timed(const std::function<void()>& work, double budget);
 /// Keeps this process on one processor, where the system lets it.
 void pin_to_one_processor();
 
-}  // namespace cli
+}  // namespace cli::inline measurement

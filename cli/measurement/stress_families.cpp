@@ -8,7 +8,7 @@
 #include "cli/measurement/peers.hpp"
 #include "cli/measurement/prox_exams.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 using convex::GalleryFamily;
@@ -61,4 +61,4 @@ std::vector<StressFamily> stress_families(Index size, bool peers) {
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -2,7 +2,7 @@
 
 #include "cli/measurement/contest.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// Problems of one kind, harder and harder along one knob, each put before several methods.
 struct StressFamily {
@@ -16,4 +16,4 @@ struct StressFamily {
 /// nearly flat cones; motions. `peers`: with the solvers of other packages, where they were found.
 std::vector<StressFamily> stress_families(convex::Index size, bool peers);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

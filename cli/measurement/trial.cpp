@@ -5,7 +5,7 @@
 #include "cli/measurement/child_process.hpp"
 #include "cli/measurement/stopwatch.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 /// What the child reports.
@@ -61,4 +61,4 @@ Trial trial(const Contest& contest, const convex::Accuracy& accuracy, const Tria
   return result;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

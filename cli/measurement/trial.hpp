@@ -4,7 +4,7 @@
 
 #include "cli/measurement/contest.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// One contest at one setting of its method's accuracy.
 struct Trial {
@@ -30,4 +30,4 @@ struct TrialLimits {
 /// Runs a contest in a process of its own.
 Trial trial(const Contest&, const convex::Accuracy&, const TrialLimits&);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

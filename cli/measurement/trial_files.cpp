@@ -10,7 +10,7 @@
 #include "cli/report/json_writer.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 namespace {
 
 /// Four digits are more than any of these numbers has; empty where there is nothing to tell.
@@ -78,4 +78,4 @@ std::string about_file(const std::string& data_file) {
   return (has_ending ? data_file.substr(0, dot) : data_file) + ".about.json";
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

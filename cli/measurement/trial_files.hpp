@@ -5,7 +5,7 @@
 
 #include "cli/measurement/trial.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// The columns of `chart --data`: problem, n, m, method, setting, seconds, error, status.
 std::string chart_csv(const std::vector<Trial>&);
@@ -27,4 +27,4 @@ std::string measurement_json(const std::vector<Trial>&, const TrialLimits&);
 /// F.csv -> F.about.json.
 std::string about_file(const std::string& data_file);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-namespace cli {
+namespace cli::inline measurement {
 
 std::vector<Contest> contests(VectorExam given, std::vector<Way> ways) {
   const auto exam = std::make_shared<const VectorExam>(std::move(given));
@@ -30,4 +30,4 @@ std::vector<Contest> contests(VectorExam given, std::vector<Way> ways) {
   return all;
 }
 
-}  // namespace cli
+}  // namespace cli::inline measurement

@@ -4,7 +4,7 @@
 #include "convex/double_double.hpp"
 #include "convex/metric.hpp"
 
-namespace cli {
+namespace cli::inline measurement {
 
 /// A vector with its truth, to be found in several ways: a prox, a projection on a polar.
 struct VectorExam {
@@ -32,4 +32,4 @@ struct Way {
 /// Every way before an exam.
 std::vector<Contest> contests(VectorExam, std::vector<Way>);
 
-}  // namespace cli
+}  // namespace cli::inline measurement

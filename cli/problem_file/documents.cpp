@@ -12,7 +12,7 @@
 #include "cli/problem_file/tables.hpp"
 #include "cli/problem_file/write_projection.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -199,4 +199,4 @@ void write_matrix_folder(const TomlValue& document, const std::string& folder) {
   write_problem_folder(checked.problem, folder);
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

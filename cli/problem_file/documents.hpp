@@ -5,7 +5,7 @@
 #include "cli/problem_file/toml_document.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// The forms that a problem file may have, by the ending of its name; all else is TOML.
 enum class DocumentForm { toml, json, qps, matrix_market };
@@ -51,4 +51,4 @@ TomlValue projection_document(const std::vector<std::vector<std::string>>& A,
                               const std::vector<std::vector<std::string>>& U,
                               const std::vector<std::string>& s, const std::vector<std::size_t>& two_sided);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -2,7 +2,7 @@
 
 #include "convex/exact/fraction.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 std::optional<double> nearest_double(const std::string& text) {
   const auto value = convex::read_fraction(text);
@@ -10,4 +10,4 @@ std::optional<double> nearest_double(const std::string& text) {
   return convex::nearest_double(*value);
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -4,7 +4,7 @@
 
 #include "cli/problem_file/numbers.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::ExactRows;
@@ -87,4 +87,4 @@ convex::ExactProblem read_exact_projection(const TomlValue& table,
   }
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/toml_document.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// Whether every number of a [projection] is the double that was read for it, and A is symmetric as written.
 bool is_made_of_doubles(const TomlValue& table);
@@ -15,4 +15,4 @@ bool is_made_of_doubles(const TomlValue& table);
 convex::ExactProblem read_exact_projection(const TomlValue& table,
                                            const convex::NearestPointProblem& rounded);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -4,7 +4,7 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/keys.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -274,4 +274,4 @@ std::string json_text(const TomlValue& document) {
   return out + "\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -6,7 +6,7 @@
 #include "cli/problem_file/exact_number.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 using convex::InvalidInput;
 
@@ -193,4 +193,4 @@ double require_restitution(const TomlValue& value, const std::string& where) {
   return e;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 
 #include "cli/problem_file/toml_document.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// A text from a file as it can stand in a message: short, and without control characters.
 std::string shown(const std::string& text);
@@ -31,4 +31,4 @@ double require_positive(const TomlValue& value, const std::string& where);
 /// A coefficient of restitution, 0 <= e <= 1.
 double require_restitution(const TomlValue& value, const std::string& where);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -11,7 +11,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -148,4 +148,4 @@ convex::SparseMatrix read_matrix_market(const std::string& path, Index rows, Ind
   return Reader(path, rows, columns).read();
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// A matrix from a Matrix Market file (Boisvert, Pozo, Remington 1996): coordinate or array, real or integer,
 /// general or symmetric. rows (-1: any number) and columns are those that it
@@ -12,4 +12,4 @@ namespace cli {
 /// wrong.
 convex::SparseMatrix read_matrix_market(const std::string& path, convex::Index rows, convex::Index columns);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "convex/invariant.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 using convex::Index;
 using convex::InvalidInput;
@@ -99,4 +99,4 @@ convex::ExactRows read_exact_matrix(const TomlValue& value, const std::string& w
   return M;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

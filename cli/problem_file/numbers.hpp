@@ -6,7 +6,7 @@
 #include "convex/exact/fraction.hpp"
 #include "convex/vector.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// The value as a list; otherwise InvalidInput.
 const TomlValue& require_array(const TomlValue& value, const std::string& where);
@@ -25,4 +25,4 @@ convex::ExactVector read_exact_vector(const TomlValue& value, const std::string&
 convex::ExactRows read_exact_matrix(const TomlValue& value, const std::string& where, convex::Index columns,
                                     const std::string& why);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

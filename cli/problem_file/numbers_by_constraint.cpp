@@ -10,7 +10,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -111,4 +111,4 @@ convex::Vector numbers_by_constraint(const std::string& where, double otherwise,
   return numbers;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

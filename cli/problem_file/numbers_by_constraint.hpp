@@ -5,7 +5,7 @@
 
 #include "cli/problem_file/problem.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// A number for each constraint, `otherwise` where no entry names it: of the entries that do the most special
 /// counts, a member "gap[3]" before a part "gap[i in 2..5]" before its family "gap" or "gap[i]", and of two
@@ -15,4 +15,4 @@ convex::Vector numbers_by_constraint(const std::string& where, double otherwise,
                                      const std::vector<NamedNumber>& entries,
                                      const std::vector<std::string>& constraints);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

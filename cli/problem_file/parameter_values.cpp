@@ -2,7 +2,7 @@
 
 #include "mechanics/lagrangian_system.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 std::optional<double> value_in_parameters(const mechanics::LagrangianText& system,
                                           const std::string& expression) {
@@ -22,4 +22,4 @@ std::optional<double> value_in_parameters(const mechanics::LagrangianText& syste
   }
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

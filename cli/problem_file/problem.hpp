@@ -14,7 +14,7 @@
 #include "mechanics/lagrangian_text.hpp"
 #include "mechanics/liquid/liquid_text.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// A number that a file gives for a constraint, or for a family of them.
 struct NamedNumber {
@@ -120,4 +120,4 @@ Problem read_problem(const std::string& text, const std::string& directory);
 /// The bytes of a file, or of standard input for "-". Throws InvalidInput when it cannot be read.
 std::string read_file(const std::string& path);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

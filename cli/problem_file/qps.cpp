@@ -13,7 +13,7 @@
 #include "cli/problem_file/tables.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -343,4 +343,4 @@ std::string qps_text(const TomlValue& document, const std::string& name) {
   return text + "ENDATA\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -6,7 +6,7 @@
 #include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -114,4 +114,4 @@ void add_bodies(const TomlValue& bodies, LagrangianText& system) {
   }
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

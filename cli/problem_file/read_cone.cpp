@@ -3,7 +3,7 @@
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -110,4 +110,4 @@ ConeProblem read_cone(const TomlValue& table, const std::string& directory) {
   return cone;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -4,7 +4,7 @@
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 using convex::InvalidInput;
 
@@ -59,4 +59,4 @@ DecompositionProblem read_decomposition(const TomlValue& table, const std::strin
   return {std::move(point), std::move(W), std::move(call), std::move(exact)};
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -3,7 +3,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -68,4 +68,4 @@ std::vector<DrawnShape> read_draw(const TomlValue& table) {
   return shapes;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -6,7 +6,7 @@
 
 #include "cli/problem_file/problem.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 /// All there is, in large pieces.
@@ -38,4 +38,4 @@ std::string read_file(const std::string& path) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

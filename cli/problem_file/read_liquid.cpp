@@ -4,7 +4,7 @@
 #include "cli/problem_file/numbers.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -107,4 +107,4 @@ LiquidProblem read_liquid(const TomlValue& table) {
   return {std::move(text)};
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -6,7 +6,7 @@
 #include "cli/problem_file/matrix_market.hpp"
 #include "cli/problem_file/numbers.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -79,4 +79,4 @@ std::string metric_message(const std::string& message, const std::string& where)
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

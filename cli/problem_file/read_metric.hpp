@@ -5,7 +5,7 @@
 #include "cli/problem_file/toml_document.hpp"
 #include "convex/metric.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// What the reader of a metric has to know, to read it and to speak of it: the table and the key that hold
 /// it, where its matrix file is looked for, its number of rows and where that comes from ("one per entry of
@@ -29,4 +29,4 @@ convex::SparseMatrix read_matrix_file(const TomlValue& file, const std::string& 
 /// inertia.
 std::string metric_message(const std::string& message, const std::string& where);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

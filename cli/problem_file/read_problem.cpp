@@ -7,7 +7,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -81,4 +81,4 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   return problem;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 #include "cli/problem_file/read_metric.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -66,4 +66,4 @@ ProjectionProblem read_projection(const TomlValue& table, const std::string& dir
   }
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

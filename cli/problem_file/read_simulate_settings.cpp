@@ -1,7 +1,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -48,4 +48,4 @@ SimulateSettings read_simulate_settings(const TomlValue& table) {
   return settings;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -1,7 +1,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 SolveSettings read_solve_settings(const TomlValue& table) {
   require_known_keys(require_table(table, "solve"), "solve", {"method", "tolerance", "contact_tolerance"});
@@ -26,4 +26,4 @@ SolveSettings read_solve_settings(const TomlValue& table) {
   return settings;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 #include "cli/problem_file/table_points.hpp"
 #include "cli/problem_file/tables.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -150,4 +150,4 @@ SystemProblem read_system(const TomlValue& document, const std::string& director
   return problem;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

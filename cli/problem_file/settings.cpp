@@ -8,7 +8,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
@@ -183,4 +183,4 @@ void apply_settings(TomlValue& document, const std::vector<Setting>& settings) {
   for (const Setting& setting : settings) apply_setting(document, setting);
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -5,7 +5,7 @@
 
 #include "cli/problem_file/toml_document.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// `--set KEY=VALUE`: what a problem file says, said otherwise. KEY is a parameter, "position.x",
 /// "velocity.x", "t", or a path such as "simulate.until" and "state.position.x"; VALUE a number, an
@@ -26,4 +26,4 @@ void apply_settings(TomlValue& document, const std::vector<Setting>& settings);
 /// The same for one number, written with all its digits.
 Setting number_setting(const std::string& key, double value);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -6,7 +6,7 @@
 
 #include "cli/problem_file/problem.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 /// The words of a line.
@@ -65,4 +65,4 @@ mechanics::TablePoints read_table_points(const std::string& file) {
   return points;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

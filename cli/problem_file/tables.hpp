@@ -3,7 +3,7 @@
 #include "cli/problem_file/problem.hpp"
 #include "cli/problem_file/toml_document.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 /// `[system]` with its sub-tables, and `[state]` of the same document; tables in files are looked for in
 /// `directory`.
@@ -33,4 +33,4 @@ SimulateSettings read_simulate_settings(const TomlValue& table);
 /// `[draw]`.
 std::vector<DrawnShape> read_draw(const TomlValue& table);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

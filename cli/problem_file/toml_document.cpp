@@ -5,7 +5,7 @@
 
 #include "cli/problem_file/toml_slip.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 class Converter {
@@ -168,4 +168,4 @@ TomlValue parse_toml(const std::string& text) {
   }
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

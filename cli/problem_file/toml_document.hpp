@@ -5,7 +5,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 
 struct TomlEntry;
 
@@ -37,4 +37,4 @@ struct TomlEntry {
 /// Parses a TOML document. Throws InvalidInput with the place when it is not TOML, or not UTF-8.
 TomlValue parse_toml(const std::string& text);
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cstdlib>
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
@@ -184,4 +184,4 @@ std::string advice_on_slip(const std::string& text, convex::Place place, std::st
   return "not a TOML value: " + spot.value + "; put it in quotation marks, \"" + spot.value + "\"";
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

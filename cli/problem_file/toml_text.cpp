@@ -4,7 +4,7 @@
 #include "cli/problem_file/documents.hpp"
 #include "cli/problem_file/keys.hpp"
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using Kind = TomlValue::Kind;
@@ -112,4 +112,4 @@ std::string toml_text(const TomlValue& document) {
   return out;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

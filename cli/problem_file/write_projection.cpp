@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-namespace cli {
+namespace cli::inline problem_files {
 namespace {
 
 using convex::Index;
@@ -62,4 +62,4 @@ std::string matrix_market_text(const convex::SparseRows& M) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline problem_files

@@ -1,6 +1,6 @@
 #include "cli/report/answer.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 Exit exit_code(convex::Status status) {
   switch (status) {
@@ -45,4 +45,4 @@ std::string heading(const std::string& title, const std::string& file) {
   return (title.empty() ? file : title + "  (" + file + ")") + "\n\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

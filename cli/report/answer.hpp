@@ -7,7 +7,7 @@
 #include "convex/nearest_point/proof/certificate.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What a command prints on standard output, as text or as a line of JSON, its exit code, and what it has to
 /// say of the answer on standard error.
@@ -29,4 +29,4 @@ const char* name(convex::ProofLevel);
 /// What a readable result begins with: the title, if there is one, and the file.
 std::string heading(const std::string& title, const std::string& file);
 
-}  // namespace cli
+}  // namespace cli::inline reports

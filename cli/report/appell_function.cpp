@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace cli {
+namespace cli::inline reports {
 
 std::string appell_function(const Scene& scene, std::string (*number)(double)) {
   const auto& problem = scene.problem;
@@ -26,4 +26,4 @@ std::string appell_function(const Scene& scene, std::string (*number)(double)) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

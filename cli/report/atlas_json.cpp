@@ -3,7 +3,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -187,4 +187,4 @@ std::string atlas_json(const SolvedAtlas& solved) {
   return json.text();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 using convex::Fraction;
 using convex::InvalidInput;
@@ -57,4 +57,4 @@ std::optional<AtlasMap::RuleParts> AtlasMap::rule(const convex::atlas::Atlas& at
                    convex::nearest_double(wrong / whole)};
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

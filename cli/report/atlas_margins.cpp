@@ -5,7 +5,7 @@
 #include "cli/report/atlas_report.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 using convex::atlas::Probability;
 using convex::atlas::Wall;
@@ -70,4 +70,4 @@ std::vector<AtlasMargin> margins(const SolvedAtlas& solved) {
   return found;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -6,7 +6,7 @@
 #include "convex/atlas/dropping_rule.hpp"
 #include "convex/atlas/plane_map.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// `--over "force.x=-5:5"`: a force on one coordinate, added to that of the file.
 struct ForceRange {
@@ -71,4 +71,4 @@ std::vector<AtlasMargin> margins(const SolvedAtlas&);
 std::string atlas_json(const SolvedAtlas&);
 std::string atlas_text(const SolvedAtlas&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

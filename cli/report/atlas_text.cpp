@@ -5,7 +5,7 @@
 #include "cli/report/verdict_text.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::atlas::Probability;
@@ -110,4 +110,4 @@ std::string atlas_text(const SolvedAtlas& solved) {
   return text + here_text(solved) + (solved.map ? map_text(solved) : "");
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

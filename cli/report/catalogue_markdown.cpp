@@ -3,7 +3,7 @@
 #include "cli/report/catalogue_report.hpp"
 #include "convex/catalogue/references.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::CatalogueEntry;
@@ -101,4 +101,4 @@ std::string catalogue_markdown(const std::vector<CatalogueLine>& lines) {
          section(lines, EntryKind::operation, "Operations") + reference_list();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

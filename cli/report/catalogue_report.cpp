@@ -9,7 +9,7 @@
 #include "cli/report/json_writer.hpp"
 #include "convex/catalogue/references.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::CatalogueEntry;
@@ -177,4 +177,4 @@ std::string catalogue_json(const std::vector<CatalogueLine>& lines) {
   return json.text();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

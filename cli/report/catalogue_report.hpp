@@ -5,7 +5,7 @@
 
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// An entry of the catalogue and the facts of what its first example makes.
 struct CatalogueLine {
@@ -39,4 +39,4 @@ std::string arguments_text(const convex::CatalogueEntry&);
 /// The facts that hold, in words.
 std::vector<std::string> fact_words(const convex::Facts&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -6,7 +6,7 @@
 
 #include "cli/report/json_writer.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 void write_checks(JsonWriter& json, const convex::LawReport& report) {
   json.key("checks").begin_array();
@@ -33,4 +33,4 @@ Exit exit_code(const convex::LawReport& report, convex::Status status) {
   return report.all_passed() ? exit_code(status) : Exit::no_solution;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 #include "cli/report/answer.hpp"
 #include "convex/laws/check.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 class JsonWriter;
 
@@ -18,4 +18,4 @@ std::string checks_text(const convex::LawReport&);
 /// 1 when a law failed; else the exit code that goes with the status of the solve.
 Exit exit_code(const convex::LawReport&, convex::Status);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -11,7 +11,7 @@
 #include "cli/report/verdict_text.hpp"
 #include "convex/cones/cone_operations.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::ConeFace;
@@ -173,4 +173,4 @@ std::string cone_text(const SolvedCone& solved) {
   return solved.split ? text + split_text(solved) : text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

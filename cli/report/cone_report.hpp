@@ -8,7 +8,7 @@
 #include "convex/cones/cone_split.hpp"
 #include "convex/cones/polyhedral_cone.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 class JsonWriter;
 
@@ -34,4 +34,4 @@ std::string cone_json(const SolvedCone&, const std::string& file);
 /// The readable result below a heading.
 std::string cone_text(const SolvedCone&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -2,7 +2,7 @@
 
 #include "convex/catalogue/catalogue.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Call;
@@ -37,4 +37,4 @@ std::string conjugate_formula(const Call& f, convex::Index entries) {
   return "-r h(-v/r) for r < 0, y = (v, r), its limit at r = 0, +inf for r > 0, h = " + g;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

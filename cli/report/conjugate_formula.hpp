@@ -4,10 +4,10 @@
 
 #include "convex/functions/function.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// The conjugate of a function for which the language has no name, in words, such as "-n - log det(...)"; ""
 /// where none is known. `entries` is their number; the product is the plain one.
 std::string conjugate_formula(const convex::Call& f, convex::Index entries);
 
-}  // namespace cli
+}  // namespace cli::inline reports

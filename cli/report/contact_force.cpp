@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -47,4 +47,4 @@ std::optional<double> force_per_multiplier(const Scene& scene, Index constraint)
   return length;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "cli/scene.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// |∂f_a/∂q| where lambda_a times it is the force of the contact and lambda_a alone is not; none where f is a
 /// distance (a coordinate moves it one for one), where a coordinate is an angle (all that the contact says of
@@ -12,4 +12,4 @@ namespace cli {
 /// units nothing tells.
 std::optional<double> force_per_multiplier(const Scene&, convex::Index constraint);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -11,7 +11,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -221,4 +221,4 @@ std::string split_text(const SplitPoint& solved) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -8,7 +8,7 @@
 #include "convex/functions/decomposition.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 class JsonWriter;
 
@@ -41,4 +41,4 @@ std::string split_json(const SplitPoint&, const std::string& file);
 /// The readable result below a heading.
 std::string split_text(const SplitPoint&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

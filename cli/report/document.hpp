@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-namespace cli {
+namespace cli::inline reports {
 
 /// A formula, as plain Unicode text and as LaTeX without its dollars.
 struct Math {
@@ -58,4 +58,4 @@ std::string expression_latex(const std::string& expression);
 /// Words as HTML shows them: nothing in them is markup.
 std::string html_words(const std::string& words);
 
-}  // namespace cli
+}  // namespace cli::inline reports

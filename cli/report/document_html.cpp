@@ -1,6 +1,6 @@
 #include "cli/report/document.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 std::string html_words(const std::string& words) {
   std::string text;
@@ -76,4 +76,4 @@ std::string document_html(const Document& document) {
   return text + "</body>\n</html>\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

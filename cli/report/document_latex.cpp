@@ -1,6 +1,6 @@
 #include "cli/report/document.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 /// What pdflatex knows of Unicode is kept (Latin letters), the rest of what reports say is written out.
@@ -108,4 +108,4 @@ std::string document_latex(const Document& document) {
   return text + "\\end{document}\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -1,6 +1,6 @@
 #include "cli/report/document.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 /// Words of Markdown are words here.
@@ -57,4 +57,4 @@ std::string document_markdown(const Document& document) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

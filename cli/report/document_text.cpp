@@ -3,7 +3,7 @@
 #include "cli/report/document.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 constexpr std::size_t line_width = 100;
@@ -77,4 +77,4 @@ std::string document_text(const Document& document) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

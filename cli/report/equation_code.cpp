@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using mechanics::SymbolicEquations;
@@ -270,4 +270,4 @@ std::string equations_in_python(const SymbolicEquations& equations, const Equati
   return text + "    return A, z, U, s\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 
 #include "mechanics/symbolic_equations.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What is said of a system in the code that is made of it.
 struct EquationTitle {
@@ -23,4 +23,4 @@ std::string equations_in_c(const mechanics::SymbolicEquations&, const EquationTi
 /// A function NAME(q, v, t) of Python with numpy; it returns A, z, U, s.
 std::string equations_in_python(const mechanics::SymbolicEquations&, const EquationTitle&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "cli/report/greek_letters.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using mechanics::SymbolicEquations;
@@ -211,4 +211,4 @@ std::string equations_in_latex(const SymbolicEquations& equations, const Equatio
   return text + "\\end{align*}\n";
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -1,6 +1,6 @@
 #include "cli/report/exact_json.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::ExactVector;
@@ -177,4 +177,4 @@ void write_farkas(JsonWriter& json, const SolvedScene& solved) {
   json.end_object();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -3,7 +3,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// "certificate": the level of proof and the error bound, or the estimate when no proof was asked for.
 void write_certificate(JsonWriter&, const SolvedScene&);
@@ -15,4 +15,4 @@ void write_exact(JsonWriter&, const SolvedScene&);
 /// "farkas": weights by constraint; integers that no double holds are strings.
 void write_farkas(JsonWriter&, const SolvedScene&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

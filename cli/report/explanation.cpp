@@ -4,7 +4,7 @@
 
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 Name constraint_name(const Scene& scene, std::size_t constraint) {
   return {scene.constraints[constraint] + (scene.two_sided[constraint] ? " (=)" : "")};
@@ -55,4 +55,4 @@ Document explanation(const SolvedScene& solved, const SystemProblem* text, const
   return document;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 #include "cli/report/solve_report.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// The reasoning of Moreau 1966 on one scene, in words, numbers and formulas: T and the momenta, what z
 /// gathers, what each contact asks of q'', the classical hypothesis and Delassus' rule, Gauss' and Appell's
@@ -31,4 +31,4 @@ Math indexed(const std::string& plain, const std::string& latex, const std::stri
 /// "(0.5, -1)": the numbers of a vector; a long one is cut and counted.
 Math vector_math(const convex::Vector&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -11,7 +11,7 @@
 #include "cli/report/verdict_text.hpp"
 #include "convex/nearest_point/multipliers/sensitivity.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -216,4 +216,4 @@ void explain_answer(Document& document, const SolvedScene& solved) {
       scale > 0 ? primal.error_bound / scale : primal.error_bound)}});
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

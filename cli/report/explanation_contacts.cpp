@@ -4,7 +4,7 @@
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -86,4 +86,4 @@ void explain_contacts(Document& document, const SolvedScene& solved, const Syste
         {std::to_string(scene.constraints.size() - shown) + " more constraints are left out here."}});
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 #include "cli/report/text_table.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -126,4 +126,4 @@ void explain_mechanism(Document& document, const SolvedScene& solved, const Syst
         {std::to_string(scene.problem.dimension() - shown) + " more coordinates are left out here."}});
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

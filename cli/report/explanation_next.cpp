@@ -1,7 +1,7 @@
 #include "cli/report/explanation.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 /// How far the motion is looked ahead, in its own units of time, and in steps.
@@ -76,4 +76,4 @@ Line next_event(const Scene& scene, const mechanics::MotionOptions& given) {
   return line;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

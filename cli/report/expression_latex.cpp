@@ -8,7 +8,7 @@
 #include "cli/report/greek_letters.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 struct FunctionLatex {
@@ -190,4 +190,4 @@ Math number_math(double x) {
   return {plain, fmt::format("{}\\cdot 10^{{{}}}", plain.substr(0, e), std::stoi(plain.substr(e + 1)))};
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

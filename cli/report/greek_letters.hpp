@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace cli {
+namespace cli::inline reports {
 
 /// Names that LaTeX has a letter for.
 inline bool is_greek(std::string_view name) {
@@ -15,4 +15,4 @@ inline bool is_greek(std::string_view name) {
   return std::find(letters.begin(), letters.end(), name) != letters.end();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -7,7 +7,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -102,4 +102,4 @@ std::string impact_laws_text(const FollowedMotion& followed) {
   return text + table.text() + (said.empty() ? "" : "\n" + said);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

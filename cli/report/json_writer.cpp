@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace cli {
+namespace cli::inline reports {
 
 void JsonWriter::separate() {
   if (needs_comma_) text_ += ',';
@@ -98,4 +98,4 @@ void JsonWriter::quote(std::string_view text) {
   text_ += '"';
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

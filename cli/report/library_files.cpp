@@ -10,7 +10,7 @@
 #include "cli/problem_file/write_projection.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +58,4 @@ std::size_t write_library(const std::vector<LibraryProblem>& problems, const std
   return written;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

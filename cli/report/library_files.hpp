@@ -6,7 +6,7 @@
 
 #include "cli/measurement/problem_library.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// Writes problems with their truth (docs/problem-library.md) below a folder: CLASS/NAME.toml, .json,
 /// .truth.json and the folder NAME of Matrix Market files, and the index, index.csv. `done` hears of each.
@@ -15,4 +15,4 @@ std::size_t write_library(const std::vector<LibraryProblem>& problems, const std
                           const std::function<void(const std::string& name)>& done,
                           const std::function<void(const std::string& why)>& left_out);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -7,7 +7,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using mechanics::liquid::LiquidSample;
@@ -63,4 +63,4 @@ void write_liquid_image(const std::string& file, const LiquidSample& sample) {
           "</PointData>\n<CellData/>\n</Piece>\n</ImageData>\n</VTKFile>\n");
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

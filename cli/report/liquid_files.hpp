@@ -5,7 +5,7 @@
 
 #include "mechanics/liquid/sample.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// The points of the domain as a table: the coordinates, p, growth, cavity (0 or 1).
 void write_liquid_table(const std::string& file, const std::vector<std::string>& coordinates,
@@ -14,4 +14,4 @@ void write_liquid_table(const std::string& file, const std::vector<std::string>&
 /// The same as a VTK image, with an array `inside` that is 1 in the domain.
 void write_liquid_image(const std::string& file, const mechanics::liquid::LiquidSample&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

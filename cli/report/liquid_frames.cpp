@@ -5,7 +5,7 @@
 #include "cli/drawing/liquid_animation.hpp"
 #include "cli/measurement/progress.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::InvalidInput;
@@ -58,4 +58,4 @@ void LiquidFrames::write(const std::string& title) const {
   if (!out) throw InvalidInput("cannot write to " + file_ + "; give a path that can be written");
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

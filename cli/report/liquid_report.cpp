@@ -13,7 +13,7 @@
 #include "cli/report/verdict_text.hpp"
 #include "mechanics/liquid/liquid_language.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::InvalidInput;
@@ -256,4 +256,4 @@ std::string liquid_text(const SolvedLiquid& solved) {
                             found.error_bound);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

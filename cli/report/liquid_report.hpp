@@ -9,7 +9,7 @@
 #include "mechanics/liquid/liquid_solution.hpp"
 #include "mechanics/liquid/onset.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What is asked of a liquid beside its pressure.
 struct LiquidRequest {
@@ -50,4 +50,4 @@ std::string liquid_json(const SolvedLiquid&, const std::string& file);
 /// The readable result below a heading.
 std::string liquid_text(const SolvedLiquid&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

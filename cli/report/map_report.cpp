@@ -7,7 +7,7 @@
 #include "cli/report/text_table.hpp"
 #include "convex/symbolic/function.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::ExactVector;
@@ -140,4 +140,4 @@ std::string potential_table(const JudgedMap& judged) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "convex/laws/map_potential.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What the test of a map came to, and the function where it was reconstructed.
 struct JudgedMap {
@@ -21,4 +21,4 @@ std::string map_text(const JudgedMap&);
 /// z, T z and f(T z), a row a point.
 std::string potential_table(const JudgedMap&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -9,7 +9,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -179,4 +179,4 @@ std::string model_text(const SolvedScene& solved) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What was solved: `{"islands": [{"method", "first_coordinate", "coordinates", "contacts", "flops",
 /// "factor_nonzeros"}], "left_out": [{"constraint", "why"}], "flops"}`, and under --model full
@@ -19,4 +19,4 @@ std::string model_text(const SolvedScene&);
 /// where nothing had to run.
 std::string methods_that_ran(const SolvedScene&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace cli {
+namespace cli::inline reports {
 
 MotionProgress::MotionProgress(double begin, double end)
     : begin_(begin),
@@ -33,4 +33,4 @@ void MotionProgress::tell(const mechanics::Motion& motion) {
   std::fflush(stderr);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// A line on standard error for a motion that lasts over a second, where that is a terminal: the simulated
 /// time, steps and events so far. It goes when the motion is over.
@@ -22,4 +22,4 @@ class MotionProgress {
   std::chrono::steady_clock::time_point start_, last_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline reports

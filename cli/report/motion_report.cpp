@@ -7,7 +7,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -133,4 +133,4 @@ std::string motion_text(const FollowedMotion& followed) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -6,7 +6,7 @@
 #include "cli/options.hpp"
 #include "mechanics/motion/motion.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// A motion that has come to its end, and what is to be told of it.
 struct FollowedMotion {
@@ -28,4 +28,4 @@ std::string motion_text(const FollowedMotion&);
 /// How many events a text lists.
 inline constexpr std::size_t events_in_text = 24;
 
-}  // namespace cli
+}  // namespace cli::inline reports

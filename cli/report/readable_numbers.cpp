@@ -7,7 +7,7 @@
 
 #include "cli/report/contact_force.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -91,4 +91,4 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
   return read;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -2,7 +2,7 @@
 
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// The numbers of an answer as a person reads them: what is no larger than its rounding is 0. Each is
 /// measured in the metric of its kind, so that no unit is chosen: an acceleration q''_i by ||q''||_A
@@ -20,4 +20,4 @@ ReadableNumbers readable_numbers(const SolvedScene&, convex::Index shown);
 /// x, or 0 when it is no more than rounding of numbers as large as `scale`.
 double without_rounding(double x, double scale);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/multipliers/sensitivity.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -82,4 +82,4 @@ void write_sensitivity(JsonWriter& json, const SolvedScene& solved) {
   json.end_object();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

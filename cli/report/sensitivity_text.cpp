@@ -7,7 +7,7 @@
 #include "cli/report/text_table.hpp"
 #include "convex/nearest_point/multipliers/sensitivity.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -110,4 +110,4 @@ std::string sensitivity_text(const SolvedScene& solved) {
   return "\n" + derivatives_text(solved) + "\n" + margins_text(solved);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

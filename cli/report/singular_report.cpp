@@ -10,7 +10,7 @@
 #include "mechanics/branch_edges.hpp"
 #include "mechanics/near_contact.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -135,4 +135,4 @@ std::vector<std::string> warning_lines(const SolvedScene& solved) {
   return lines;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

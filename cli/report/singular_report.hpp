@@ -2,7 +2,7 @@
 
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// The keys `warnings` and, where equations were added, `added_rows`.
 void write_warnings(JsonWriter&, const SolvedScene&);
@@ -15,4 +15,4 @@ std::string touching_text(const SolvedScene&);
 /// The warnings as lines for standard error.
 std::vector<std::string> warning_lines(const SolvedScene&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -6,7 +6,7 @@
 #include "cli/report/sensitivity_json.hpp"
 #include "cli/report/singular_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -181,4 +181,4 @@ std::string solve_json(const SolvedScene& solved) {
   return json.end_object().text();
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using Seconds = std::chrono::duration<double>;
@@ -36,4 +36,4 @@ void SolveProgress::show(std::string_view method, convex::Index steps) {
   std::fflush(stderr);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/solve_watch.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// A line on standard error for a solve that lasts over a second, where that is a terminal: the method, its
 /// steps and the time so far. It goes when the solve is over.
@@ -24,4 +24,4 @@ class SolveProgress {
   convex::SolveWatch watch_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline reports

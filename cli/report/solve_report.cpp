@@ -4,7 +4,7 @@
 
 #include "mechanics/evaluation_error.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 std::optional<double> count_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
   convex::Solution& primal = solution.primal;
@@ -82,4 +82,4 @@ ConstraintState SolvedScene::state_of_row(convex::Index row) const {
                                    : ConstraintState::persists;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

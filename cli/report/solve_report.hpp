@@ -6,7 +6,7 @@
 #include "cli/scene.hpp"
 #include "mechanics/warning.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 class JsonWriter;
 
@@ -66,4 +66,4 @@ std::string solve_json(const SolvedScene&);
 /// The readable result.
 std::string solve_text(const SolvedScene&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -10,7 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -250,4 +250,4 @@ std::string solve_text(const SolvedScene& solved) {
          dual_text(solved) + accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

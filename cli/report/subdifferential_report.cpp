@@ -6,7 +6,7 @@
 #include "cli/report/text_table.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::ExactHalfspace;
@@ -158,4 +158,4 @@ std::string subdifferential_text(const ToldSubdifferential& told) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

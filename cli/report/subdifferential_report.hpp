@@ -4,7 +4,7 @@
 
 #include "convex/sets/subdifferential.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// A subdifferential with what was asked of it.
 struct ToldSubdifferential {
@@ -21,4 +21,4 @@ struct ToldSubdifferential {
 std::string subdifferential_json(const ToldSubdifferential&);
 std::string subdifferential_text(const ToldSubdifferential&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

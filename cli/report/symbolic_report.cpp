@@ -10,7 +10,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/symbolic/function_of_call.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 namespace symbolic = convex::symbolic;
@@ -158,4 +158,4 @@ void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
 Exit tell_prox_in_symbols(const FunctionOptions& options) { return tell(options, true); }
 Exit tell_conjugate_in_symbols(const FunctionOptions& options) { return tell(options, false); }
 
-}  // namespace cli
+}  // namespace cli::inline reports

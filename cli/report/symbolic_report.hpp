@@ -5,9 +5,11 @@
 #include "cli/options.hpp"
 #include "convex/symbolic/term.hpp"
 
-namespace cli {
-
+namespace cli::inline commands {
 struct FunctionOptions;
+}
+
+namespace cli::inline reports {
 class JsonWriter;
 
 /// "f(x) = …" by cases, a line each, +inf elsewhere.
@@ -22,4 +24,4 @@ void write_cases(JsonWriter&, const convex::symbolic::Cases&);
 Exit tell_prox_in_symbols(const FunctionOptions&);
 Exit tell_conjugate_in_symbols(const FunctionOptions&);
 
-}  // namespace cli
+}  // namespace cli::inline reports

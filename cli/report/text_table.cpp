@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 /// Characters on the screen, not bytes.
@@ -34,4 +34,4 @@ std::string TextTable::text() const {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace cli::inline reports {
 
 /// Longer tables are cut on the screen; --json has everything.
 inline constexpr std::ptrdiff_t most_rows = 40;
@@ -23,4 +23,4 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline reports

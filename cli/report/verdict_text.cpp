@@ -6,7 +6,7 @@
 
 #include "cli/report/text_table.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 namespace {
 
 using convex::Index;
@@ -121,4 +121,4 @@ std::string hypothesis_text(const SolvedScene& solved) {
   return text;
 }
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -4,7 +4,7 @@
 
 #include "cli/report/solve_report.hpp"
 
-namespace cli {
+namespace cli::inline reports {
 
 /// What the classical hypothesis and the rule "drop the negative ones" would have said, in words.
 std::string hypothesis_text(const SolvedScene&);
@@ -12,4 +12,4 @@ std::string hypothesis_text(const SolvedScene&);
 /// "a", "a and b", "a, b and c"; a long list is cut and counted.
 std::string listed(const std::vector<std::string>& names);
 
-}  // namespace cli
+}  // namespace cli::inline reports

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cli {
+namespace cli::inline sweeps {
 namespace {
 
 using convex::Index;
@@ -98,4 +98,4 @@ std::optional<double> ChangeSearch::secant(double a, double b, double width,
   return std::abs(b - a) <= change_part / 4 * range_ ? std::optional(b) : std::nullopt;
 }
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

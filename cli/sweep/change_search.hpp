@@ -2,7 +2,7 @@
 
 #include "cli/sweep/sweep_point.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 
 /// Where, between two points of a sweep over one range, the contacts that persist change: the roots of their
 /// multipliers, slacks, or of f and df/dt where they leave K, to `change_part` of the range.
@@ -27,4 +27,4 @@ class ChangeSearch {
   double range_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

@@ -11,7 +11,7 @@
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/automatic.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 namespace {
 
 using convex::Index;
@@ -207,4 +207,4 @@ SweepScene::Margins SweepScene::margins(const std::vector<double>& at, const std
   return found;
 }
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

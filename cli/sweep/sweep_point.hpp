@@ -7,7 +7,7 @@
 #include "cli/scene.hpp"
 #include "cli/sweep/sweep_range.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 
 /// The answer at one point of a sweep.
 struct SweepPoint {
@@ -64,4 +64,4 @@ class SweepScene {
   SceneOptions options_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

@@ -6,7 +6,7 @@
 #include "cli/problem_file/keys.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 namespace {
 
 using convex::Fraction;
@@ -65,4 +65,4 @@ SweepRange parse_sweep_range(const std::string& text) {
   return range;
 }
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

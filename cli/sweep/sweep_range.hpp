@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace cli::inline sweeps {
 
 /// `--over "a=0:0.1:1"` or "m=1,2,4": the values that a key of the file takes, as for `--set`.
 struct SweepRange {
@@ -15,4 +15,4 @@ struct SweepRange {
 /// Numbers are exact while they are counted: 0:0.1:0.3 ends with 0.3. Throws InvalidInput.
 SweepRange parse_sweep_range(const std::string& text);
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

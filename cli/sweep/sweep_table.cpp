@@ -7,7 +7,7 @@
 
 #include "cli/problem_file/keys.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 namespace {
 
 /// A cell of RFC 4180.
@@ -73,4 +73,4 @@ std::pair<std::uintmax_t, std::size_t> SweepTable::resumed(
   return points == 0 ? std::pair{std::uintmax_t{0}, points} : std::pair{kept, points - 1};
 }
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

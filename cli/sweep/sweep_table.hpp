@@ -4,7 +4,7 @@
 
 #include "cli/sweep/sweep_point.hpp"
 
-namespace cli {
+namespace cli::inline sweeps {
 
 /// The table of a sweep: parameters, status, active, change (where changes are looked for), what is watched,
 /// error_bound.
@@ -34,4 +34,4 @@ class SweepTable {
   bool has_changes_;
 };
 
-}  // namespace cli
+}  // namespace cli::inline sweeps

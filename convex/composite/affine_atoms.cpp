@@ -4,7 +4,7 @@
 #include "convex/infinity.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 Call call_of(const char* name) { return {name, {}, std::nullopt}; }
@@ -163,4 +163,4 @@ std::shared_ptr<const Atom> half_square_atom() { return std::make_shared<const H
 std::shared_ptr<const Atom> point_atom(const Vector& p) { return std::make_shared<const PointAtom>(p); }
 std::shared_ptr<const Atom> orthant_atom() { return std::make_shared<const OrthantAtom>(1.0); }
 
-}  // namespace convex
+}  // namespace convex::inline composite

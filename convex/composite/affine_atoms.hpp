@@ -3,7 +3,7 @@
 #include "convex/gamma0/node.hpp"
 
 /// The atoms that operations on graph forms need, with closed conjugates among themselves.
-namespace convex {
+namespace convex::inline composite {
 
 /// a·u.
 std::shared_ptr<const Atom> linear_atom(const Vector& a);
@@ -16,4 +16,4 @@ std::shared_ptr<const Atom> point_atom(const Vector& p);
 /// The indicator of {u : u >= 0}.
 std::shared_ptr<const Atom> orthant_atom();
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -6,7 +6,7 @@
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/infinity.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 void check_sizes(const GraphForm& f, Index n) {
@@ -156,4 +156,4 @@ Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -4,7 +4,7 @@
 
 #include "convex/composite/graph_form.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// prox_f z = argmin ½||x - z||_W² + f(x) of a graph form in any metric, to 1e-12 (||z||_W + ||x||_W) in
 /// metrics of condition 1e6; `status` is `inaccurate` where the bound says less, `infeasible` where no (x, w)
@@ -37,4 +37,4 @@ Value value_of(const GraphValue& found);
 /// The value of a graph form at x (n). A graph form of an improper function may be -inf.
 GraphValue evaluate(const GraphForm& f, const Vector& x);
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -5,7 +5,7 @@
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/infinity.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr double tolerance = 1e-12;  ///< of a value, relative to the sizes of what it is a sum of
@@ -188,4 +188,4 @@ Value value_of(const GraphValue& found) {
   return {found.value, open ? infinity : found.error_bound};
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -1,6 +1,6 @@
 #include "convex/composite/conjugate_atom.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 class ConjugateAtom final : public Atom {
@@ -47,4 +47,4 @@ std::shared_ptr<const Atom> conjugate_atom(std::shared_ptr<const Atom> f, Index 
   return std::make_shared<const ConjugateAtom>(std::move(f), n);
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

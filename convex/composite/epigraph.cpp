@@ -8,7 +8,7 @@
 #include "convex/composite/perspective.hpp"
 #include "convex/composite/work_limit.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// Roots below this part of the point's size are 0: the point of the domain that is nearest.
@@ -129,4 +129,4 @@ std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n
   return std::make_shared<const EpigraphAtom>(std::move(f), n, unit);
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -2,7 +2,7 @@
 
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// The indicator of {(x, t) : f(x) <= side t}, side not 0, as an atom of n + 1 entries, t last; the epigraph
 /// of f when side is 1, its reflection when -1, in other units of height else. n is the number of entries of
@@ -14,4 +14,4 @@ namespace convex {
 /// prox. Its conjugate is the perspective of f*, `perspective_atom(f*, n, -1/side)`.
 std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double side = 1);
 
-}  // namespace convex
+}  // namespace convex::inline composite

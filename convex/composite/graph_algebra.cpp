@@ -5,7 +5,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 SparseMatrix identity(Index n) { return selection(0, n, n); }
@@ -110,4 +110,4 @@ GraphForm proximal_average(const GraphForm& f, const GraphForm& g, double lambda
   return average;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -7,7 +7,7 @@
 
 /// Operations on graph forms; exact as functions, by auxiliary variables and linear terms. Sizes are the
 /// callers' to check (`invariant`).
-namespace convex {
+namespace convex::inline composite {
 
 /// One atom: f(x) itself.
 GraphForm graph_of(std::shared_ptr<const Atom> f, Index n);
@@ -44,4 +44,4 @@ GraphForm conjugate(const GraphForm& f);
 GraphForm proximal_average(const GraphForm& f, const GraphForm& g, double lambda, double gamma,
                            const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline composite

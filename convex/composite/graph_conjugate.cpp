@@ -3,7 +3,7 @@
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/composite/graph_placement.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// Is M the map ξ -> x?
@@ -72,4 +72,4 @@ GraphForm conjugate(const GraphForm& f) {
   return dual;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -6,7 +6,7 @@
 #include "convex/invariant.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// The two matrices one above the other.
@@ -156,4 +156,4 @@ GraphForm perspective(const GraphForm& given) {
   return cone;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

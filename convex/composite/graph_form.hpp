@@ -5,7 +5,7 @@
 
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// One term scale · f(M ξ + b) of a graph form. M: dim × (n + k), b: dim, scale > 0.
 struct GraphTerm {
@@ -25,4 +25,4 @@ struct GraphForm {
   double constant = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline composite

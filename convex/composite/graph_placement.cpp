@@ -2,7 +2,7 @@
 
 #include "convex/composite/affine_atoms.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 SparseMatrix placed(Index columns, const SparseMatrix& x_part, Index w_start, Index k) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -40,4 +40,4 @@ GraphTerm linear_term(const SparseMatrix& M, const Vector& a) {
   return {linear_atom(a), 1, M, Vector::Zero(a.size())};
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -3,7 +3,7 @@
 #include "convex/composite/graph_form.hpp"
 
 /// Maps between the ξ of a graph form and that of a larger one that it becomes a part of.
-namespace convex {
+namespace convex::inline composite {
 
 /// ξ of a form with k auxiliary variables from a ξ of `columns` entries: x = x_part ξ, w from `w_start` on.
 SparseMatrix placed(Index columns, const SparseMatrix& x_part, Index w_start, Index k);
@@ -20,4 +20,4 @@ std::optional<QuadraticForm> linear_form(const Atom& f, Index n);
 /// a·Mξ as a term.
 GraphTerm linear_term(const SparseMatrix& M, const Vector& a);
 
-}  // namespace convex
+}  // namespace convex::inline composite

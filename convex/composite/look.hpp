@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline composite {
 
 /// How a saddle problem is gone about while this stands. No one choice is right for all: the scales of D that
 /// suit one set of curvatures are slow for another, and an x taken from a steep term may leave a set by
@@ -29,4 +29,4 @@ class Look {
   Kind outer_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline composite

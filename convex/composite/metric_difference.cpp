@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr int power_iterations = 12;  // enough for the ends to a factor of 2, which is all that is needed
@@ -108,4 +108,4 @@ MetricScales metric_scales(const Metric& W) {
   return scales;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -3,7 +3,7 @@
 #include "convex/double_double.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// sum += W(x - z), sum of at least n entries, in twice the working precision: where W is ill-conditioned
 /// plain sums would lose what the dual norm of the covector sees.
@@ -37,4 +37,4 @@ struct MetricScales {
 
 MetricScales metric_scales(const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -5,7 +5,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// A value and a derivative of an increasing function.
 struct ValueAndSlope {
@@ -50,4 +50,4 @@ double monotone_root(const Increasing& increasing, double start, double smallest
   return 0.5 * (low + high);
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -5,7 +5,7 @@
 #include "convex/composite/newton_system.hpp"
 #include "convex/composite/work_limit.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr double armijo = 1e-4;
@@ -93,4 +93,4 @@ MultiplierStep multiplier_step(const SaddleProblem& problem, const SaddlePoint& 
   return result;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -2,7 +2,7 @@
 
 #include "convex/composite/saddle_problem.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// What a step of the method of multipliers came to.
 struct MultiplierStep {
@@ -22,4 +22,4 @@ struct MultiplierStep {
 MultiplierStep multiplier_step(const SaddleProblem&, const SaddlePoint& centre, const Vector& D,
                                const Vector& ridge, double accuracy = 0.1);
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -5,7 +5,7 @@
 #include "convex/composite/newton_system.hpp"
 #include "convex/composite/work_limit.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr double required_division = 0.7;
@@ -48,4 +48,4 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
   return polished;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

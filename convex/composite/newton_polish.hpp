@@ -2,7 +2,7 @@
 
 #include "convex/composite/saddle_problem.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// Newton's method on the optimality conditions in the unknowns (ξ, t), for one x = u the normal map of
 /// Robinson (1992): steps are kept while they divide `residual`; quadratic where the Jacobian at the solution
@@ -20,4 +20,4 @@ inline constexpr double polish_theta = 1e-9, far_theta = 1e-2;
 /// The same for w: times R.
 inline constexpr double polish_ridge = 1e-10;
 
-}  // namespace convex
+}  // namespace convex::inline composite

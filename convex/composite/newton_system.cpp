@@ -1,6 +1,6 @@
 #include "convex/composite/newton_system.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// A matrix that is not definite after its diagonal grew by this part is not so by rounding.
@@ -90,4 +90,4 @@ NewtonStep NewtonSystem::step(const Vector& rho, const Vector& r) const {
   return step;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

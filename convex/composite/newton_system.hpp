@@ -5,7 +5,7 @@
 #include "convex/composite/saddle_problem.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// The second order of a term at t: with J the Jacobian of its prox in D and theta in (0, 1],
 ///   B = J + theta (I - J),  H = D (I - J) B⁻¹,
@@ -40,4 +40,4 @@ class NewtonSystem {
   bool usable_ = true;
 };
 
-}  // namespace convex
+}  // namespace convex::inline composite

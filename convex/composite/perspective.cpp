@@ -10,7 +10,7 @@
 #include "convex/composite/work_limit.hpp"
 #include "convex/infinity.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr double vanishing_root = 1e-24;  ///< a root of this part of the point's size is 0
@@ -144,4 +144,4 @@ std::shared_ptr<const Atom> perspective_atom(std::shared_ptr<const Atom> f, Inde
   return std::make_shared<const PerspectiveAtom>(std::move(f), n, side);
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -2,7 +2,7 @@
 
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// The perspective (x, s) -> s f(x/s) for s > 0; its closure, the recession function of f, at s = 0; +inf for
 /// s < 0, as an atom of n + 1 entries, the last being s / side, side not 0. n is the number of entries of x.
@@ -13,4 +13,4 @@ namespace convex {
 /// At s = 0 the value is the limit of difference quotients; +inf where they do not settle.
 std::shared_ptr<const Atom> perspective_atom(std::shared_ptr<const Atom> f, Index n, double side = 1);
 
-}  // namespace convex
+}  // namespace convex::inline composite

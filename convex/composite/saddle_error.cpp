@@ -5,7 +5,7 @@
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/newton_system.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// A prox may be wrong by this many roundings of its result and of its step t - u.
@@ -115,4 +115,4 @@ SaddleError saddle_error(const SaddleProblem& problem, const SaddlePoint& point)
   return error;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

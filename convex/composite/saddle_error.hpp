@@ -2,7 +2,7 @@
 
 #include "convex/composite/saddle_problem.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// How far x of a point is from the solution, in ||·||_W, rounding included.
 struct SaddleError {
@@ -14,4 +14,4 @@ struct SaddleError {
 
 SaddleError saddle_error(const SaddleProblem&, const SaddlePoint& point);
 
-}  // namespace convex
+}  // namespace convex::inline composite

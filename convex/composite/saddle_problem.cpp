@@ -4,7 +4,7 @@
 
 #include "convex/composite/look.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// Compliances add along a row: D_r = 1 / sum_c M_rc² / stiffness_c, over the columns whose stiffness is
@@ -200,4 +200,4 @@ SaddlePoint saddle_point(const SaddleProblem& problem, Vector xi, Vector t, cons
   return point;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -5,7 +5,7 @@
 #include "convex/composite/graph_form.hpp"
 #include "convex/composite/metric_difference.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 /// A term scale · f(M ξ + b) of a saddle problem: its rows in the stacked M.
 struct SaddleTerm {
@@ -66,4 +66,4 @@ Vector mismatch(const SaddleProblem&, const Vector& xi, const Vector& u);
 Vector lagrangian_gradient(const SaddleProblem&, const Vector& xi, const Vector& t, const Vector& u,
                            const Vector& D);
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -10,7 +10,7 @@
 #include "convex/composite/work_limit.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 constexpr Index outer_limit = 60;
@@ -239,4 +239,4 @@ SaddleSolution solve(const SaddleProblem& problem) {
   return best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline composite

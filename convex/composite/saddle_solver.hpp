@@ -2,7 +2,7 @@
 
 #include "convex/composite/saddle_problem.hpp"
 
-namespace convex {
+namespace convex::inline composite {
 
 struct SaddleSolution {
   SaddlePoint point;
@@ -24,4 +24,4 @@ bool domains_apart(const GraphForm& f);
 /// other scales, others are tried where the steps do not come to rounding; the smallest error is taken.
 SaddleSolution solve(const SaddleProblem& problem);
 
-}  // namespace convex
+}  // namespace convex::inline composite

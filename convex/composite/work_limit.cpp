@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::inline composite {
 namespace {
 
 /// Some seconds; a question with one root in another takes some ten thousand.
@@ -30,4 +30,4 @@ void WorkLimit::count(long done) {
 
 bool WorkLimit::passed() { return innermost && evaluations > innermost->end_; }
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline composite {
 
 /// A bound on the work of one question, a decomposition, a prox or a value, counted and not timed, so that
 /// the same question has the same answer everywhere: evaluations of the functions of one variable whose roots
@@ -27,4 +27,4 @@ class WorkLimit {
   long end_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline composite

@@ -7,7 +7,7 @@
 #include "convex/cones/cone_operations.hpp"
 #include "convex/exact/elimination.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 using Indices = std::vector<Index>;
@@ -107,4 +107,4 @@ std::vector<Index> f_vector(const PolyhedralCone& K) {
   return counts;
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -4,7 +4,7 @@
 
 #include "convex/cones/polyhedral_cone.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// A face of a polyhedral cone: {x in K : a·x = 0 for its half-spaces a} = the cone of its generators and all
 /// lines of K. Both lists hold all that apply, as increasing indices of K.generators and K.halfspaces.
@@ -25,4 +25,4 @@ std::vector<std::vector<ConeFace>> faces(const PolyhedralCone& K);
 /// The number of faces of each dimension 0 .. K.dimension().
 std::vector<Index> f_vector(const PolyhedralCone& K);
 
-}  // namespace convex
+}  // namespace convex::inline cones

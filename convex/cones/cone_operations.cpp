@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 void require_dimension(Index found, Index wanted, const char* where) {
@@ -121,4 +121,4 @@ bool are_equal(const PolyhedralCone& first, const PolyhedralCone& second) {
   return includes(first, second) && includes(second, first);
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

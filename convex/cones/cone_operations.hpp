@@ -4,7 +4,7 @@
 #include "convex/cones/polyhedral_cone.hpp"
 
 /// Operations on polyhedral cones, all exact. Sizes that do not fit throw InvalidInput.
-namespace convex {
+namespace convex::inline cones {
 
 /// K° = {y : (x|y) <= 0 for all x in K}, in the product of the metric. Its generators and lines are W⁻¹a and
 /// W⁻¹e for the half-spaces a and the equations e of K; its half-spaces and equations, plain covectors, are
@@ -32,4 +32,4 @@ bool contains(const PolyhedralCone& K, const Vector& x);
 bool includes(const PolyhedralCone& K, const PolyhedralCone& part);
 bool are_equal(const PolyhedralCone& first, const PolyhedralCone& second);
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -6,7 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 /// Multipliers over one denominator.
@@ -169,4 +169,4 @@ ConeSplit split(const PolyhedralCone& K, const PolyhedralCone& polar_cone, const
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -3,7 +3,7 @@
 #include "convex/cones/cone_faces.hpp"
 #include "convex/cones/exact_metric.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// proj_K z, the point of K nearest to z in the metric, as a fraction: Lawson and Hanson's method (1974,
 /// chapter 23) over the generators and lines of K in exact arithmetic, which is finite without any tolerance.
@@ -25,4 +25,4 @@ struct ConeSplit {
 ConeSplit split(const PolyhedralCone& K, const PolyhedralCone& polar_cone, const ExactVector& z,
                 const ExactMetric& W);
 
-}  // namespace convex
+}  // namespace convex::inline cones

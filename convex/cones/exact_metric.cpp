@@ -4,7 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 /// As in Metric::dense: entries that should be equal may differ by so many roundings per coordinate.
@@ -86,4 +86,4 @@ Fraction inner(const ExactMetric& W, const ExactVector& x, const ExactVector& y)
   return {dot(times(x.numerators, W.gram), y.numerators), x.denominator * y.denominator * W.denominator};
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -4,7 +4,7 @@
 #include "convex/exact/fraction.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// A metric (x|y) = x·Wy in fractions: W = gram / denominator, gram⁻¹ = inverse.adjugate /
 /// inverse.determinant.
@@ -38,4 +38,4 @@ struct IntegerMatrix {
 };
 IntegerMatrix over_one_denominator(const ExactRows& rows);
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -11,7 +11,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 bool is_zero(const IntegerVector& v) {
@@ -197,4 +197,4 @@ RowMatrix nearest_directions(const IntegerRows& rows, Index n) {
   return M;
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

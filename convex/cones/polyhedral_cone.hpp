@@ -2,7 +2,7 @@
 
 #include "convex/exact/fraction.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// A polyhedral cone K in n dimensions by both of its minimal descriptions (Minkowski 1896, Weyl 1935):
 ///   K = {Σ lambda_k g_k + Σ mu_l b_l : lambda >= 0} = {x : a·x <= 0, e·x = 0},
@@ -41,4 +41,4 @@ PolyhedralCone halfspace_cone(const Matrix& halfspaces, const Matrix& equations 
 /// The rows as doubles, each scaled to have integers where those are doubles, else a largest entry of 1.
 RowMatrix nearest_directions(const IntegerRows& rows, Index n);
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -11,7 +11,7 @@
 #include "convex/exact/elimination.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 /// What CGAL's triangulation asks of its points, answered for the points where rays meet a section of their
@@ -134,4 +134,4 @@ std::vector<std::vector<std::size_t>> section_hull(const IntegerRows& rays, cons
   return simplices;
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -2,7 +2,7 @@
 
 #include "convex/exact/integer.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// A triangulation of the boundary of the section {x : y·x = 1} of the pointed cone that the rays generate,
 /// by CGAL's triangulations with exact signs of determinants: each simplex r - 1 indices of rays, increasing.
@@ -10,4 +10,4 @@ namespace convex {
 /// it.
 std::vector<std::vector<std::size_t>> section_hull(const IntegerRows& rays, const IntegerVector& y);
 
-}  // namespace convex
+}  // namespace convex::inline cones

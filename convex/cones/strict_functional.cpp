@@ -7,7 +7,7 @@
 #include "convex/exact/fraction.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 bool is_strict(const IntegerVector& y, const IntegerRows& rows) {
@@ -140,4 +140,4 @@ StrictFunctional strict_functional(const IntegerRows& rows, std::size_t r) {
   return Simplex(rows, r).run();
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -2,7 +2,7 @@
 
 #include "convex/exact/integer.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// One side of Gordan's alternative (1873) for vectors g_j: either y with y·g_j > 0 for all j, or a set of j
 /// for which some positive combination of the g_j is 0.
@@ -16,4 +16,4 @@ struct StrictFunctional {
 /// none is 0. A y that makes small numbers, such as a coordinate, is tried first.
 StrictFunctional strict_functional(const IntegerRows& rows, std::size_t r);
 
-}  // namespace convex
+}  // namespace convex::inline cones

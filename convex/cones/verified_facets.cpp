@@ -8,7 +8,7 @@
 #include "convex/invariant.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 namespace {
 
 using Simplex = std::vector<std::size_t>;
@@ -123,4 +123,4 @@ Facets verified_facets(const IntegerRows& rays, std::size_t r, const std::vector
   return facets;
 }
 
-}  // namespace convex
+}  // namespace convex::inline cones

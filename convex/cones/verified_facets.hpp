@@ -2,7 +2,7 @@
 
 #include "convex/exact/integer.hpp"
 
-namespace convex {
+namespace convex::inline cones {
 
 /// The facets of the pointed cone that the rays generate: {x : a·x <= 0 for every row a}, primitive, in
 /// increasing order. `touching`, one list a facet: the rays on it, increasing.
@@ -21,4 +21,4 @@ struct Facets {
 Facets verified_facets(const IntegerRows& rays, std::size_t r,
                        const std::vector<std::vector<std::size_t>>& simplices);
 
-}  // namespace convex
+}  // namespace convex::inline cones

@@ -5,7 +5,7 @@
 #include "convex/dense/pack_kernels.hpp"
 #include "convex/processor.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 // Each step waits for the one before: put into vectors, as the compiler would, it waits for their entries
 // too.
@@ -126,4 +126,4 @@ std::span<const DenseKernels* const> all_dense_kernels() {
   return {tables, static_cast<std::size_t>(processor()) + 1};
 }
 
-}  // namespace convex
+}  // namespace convex::inline dense

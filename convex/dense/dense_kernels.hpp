@@ -5,7 +5,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 /// n rounded up to whole packs of eight.
 constexpr Index padded(Index n) { return (n + 7) / 8 * 8; }
@@ -87,4 +87,4 @@ const DenseKernels& dense_kernels();
 /// All that this processor can run.
 std::span<const DenseKernels* const> all_dense_kernels();
 
-}  // namespace convex
+}  // namespace convex::inline dense

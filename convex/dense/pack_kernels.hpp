@@ -4,7 +4,7 @@
 
 #include "convex/dense/triangle_kernels.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 /// The kernels of `DenseKernels`, to be compiled for a processor family each.
 template <int W, bool Fused>
@@ -309,4 +309,4 @@ struct Kernels : TriangleKernels<W, Fused> {
   }
 };
 
-}  // namespace convex
+}  // namespace convex::inline dense

@@ -10,7 +10,7 @@
 /// Inlined into kernels that are compiled for a processor family each.
 #define MOREAU_INLINE [[gnu::always_inline]] static inline
 
-namespace convex {
+namespace convex::inline dense {
 
 template <int W>
 struct Register {
@@ -206,4 +206,4 @@ struct Packs {
   }
 };
 
-}  // namespace convex
+}  // namespace convex::inline dense

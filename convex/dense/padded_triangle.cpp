@@ -6,7 +6,7 @@
 
 #include "convex/linear_algebra/cholesky.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 namespace {
 
 /// From here on factoring by blocks of many columns, which keeps in the cache what it works on, is faster.
@@ -77,4 +77,4 @@ PaddedTriangle::~PaddedTriangle() {
   spare.size = bytes(ld_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline dense

@@ -5,7 +5,7 @@
 
 #include "convex/dense/dense_kernels.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 /// The Cholesky factor of a dense W as `DenseKernels` wants it. A W that is not positive definite leaves
 /// numbers on the diagonal that are not positive or not finite.
@@ -30,4 +30,4 @@ class PaddedTriangle {
   double *room_, *T_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline dense

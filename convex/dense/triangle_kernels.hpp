@@ -2,7 +2,7 @@
 
 #include "convex/dense/packs.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 /// The Cholesky factor of the lower triangle of C, 8×8 by columns, its first `width` columns.
 void factor_block(Index width, double* C);
@@ -161,4 +161,4 @@ struct TriangleKernels : Packs<W, Fused> {
   }
 };
 
-}  // namespace convex
+}  // namespace convex::inline dense

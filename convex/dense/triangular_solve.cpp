@@ -1,6 +1,6 @@
 #include "convex/dense/triangular_solve.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 namespace {
 
 /// Beyond this the blocked solver is as fast.
@@ -87,4 +87,4 @@ void solve_upper_triangle(Eigen::Ref<const Matrix> T, Eigen::Ref<Vector> x) {
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline dense

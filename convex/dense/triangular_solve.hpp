@@ -2,7 +2,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline dense {
 
 /// X := T⁻¹X by columns of T, four at a time: for a few short right-hand sides this takes little more than
 /// half the time of a solver that is blocked for large matrices, to which it leaves sizes beyond some dozens.
@@ -11,4 +11,4 @@ namespace convex {
 void solve_lower_triangle(Eigen::Ref<const Matrix> T, Eigen::Ref<Matrix> X);
 void solve_upper_triangle(Eigen::Ref<const Matrix> T, Eigen::Ref<Vector> x);
 
-}  // namespace convex
+}  // namespace convex::inline dense

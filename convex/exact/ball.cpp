@@ -6,7 +6,7 @@
 #include "convex/invariant.hpp"
 #include "convex/loaded_module.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 struct Module {
@@ -76,4 +76,4 @@ Fraction Ball::midpoint() const {
 
 double Ball::radius() const { return balls().radius(handle_.get()); }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

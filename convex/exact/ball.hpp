@@ -6,7 +6,7 @@
 #include "convex/exact/ball_module/ball_operations.hpp"
 #include "convex/exact/fraction.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// A real number known to lie within a radius of a midpoint (Johansson 2017: Arb): whatever is computed from
 /// balls contains what would be computed from the numbers. Held by a module that is loaded at first use.
@@ -38,4 +38,4 @@ class Ball {
   long precision_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -5,7 +5,7 @@
 
 #include "convex/exact/fraction_free.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 /// The factorisation in doubles is done in place on the stack; larger matrices go without it.
@@ -98,4 +98,4 @@ int DeterminantSign::exactly(const std::vector<std::size_t>& chosen) const {
   return sign_of(std::move(a), r_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

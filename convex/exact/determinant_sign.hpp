@@ -3,7 +3,7 @@
 #include "convex/exact/integer.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// Signs of determinants of r of the rows, of r entries each, always exact: by an LU factorisation in doubles
 /// where its error bound leaves no doubt, else without fractions in words of 64 or 128 bits where Hadamard's
@@ -25,4 +25,4 @@ class DeterminantSign {
   std::vector<double> bits_;  ///< norm_bits of the rows
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

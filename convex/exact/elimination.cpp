@@ -8,7 +8,7 @@
 #include "convex/exact/fraction.hpp"
 #include "convex/exact/minors.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 __extension__ using TwoWords = __int128;
@@ -167,4 +167,4 @@ std::optional<ExactInverse> positive_definite_inverse(const IntegerRows& A) {
   return inverse;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

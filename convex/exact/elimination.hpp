@@ -5,7 +5,7 @@
 #include "convex/exact/integer.hpp"
 
 /// Exact linear algebra over integer rows, without fractions (Bareiss 1968; Edmonds 1967).
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// Σ a_i b_i.
 Integer dot(const IntegerVector& a, const IntegerVector& b);
@@ -53,4 +53,4 @@ void exchange(ExactInverse& inverse, std::size_t k, const IntegerVector& c);
 /// v A for the rows of A.
 IntegerVector times(const IntegerVector& v, const IntegerRows& A);
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

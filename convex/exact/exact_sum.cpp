@@ -4,7 +4,7 @@
 
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 /// Products of sizes in between are exact as pairs of doubles; Veltkamp's split overflows above.
@@ -69,4 +69,4 @@ int ExactSum::sign() const {
   return (x > 0) - (x < 0);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

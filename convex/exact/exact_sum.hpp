@@ -2,7 +2,7 @@
 
 #include "convex/exact/fraction.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// A sum of doubles and of products of two doubles, without rounding: as three doubles while these can hold
 /// it (what two_sum and two_product leave over is carried on, after Shewchuk 1997), else as a fraction.
@@ -23,4 +23,4 @@ class ExactSum {
   Fraction sum_;  ///< when it is one
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -6,7 +6,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 constexpr long largest_exponent = 5000;
@@ -140,4 +140,4 @@ void make_primitive(IntegerVector& v) {
     for (Integer& entry : v) entry = exact_quotient(entry, factor);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

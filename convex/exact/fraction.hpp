@@ -7,7 +7,7 @@
 #include "convex/exact/integer.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// A rational number; the denominator is positive, common factors are allowed.
 struct Fraction {
@@ -52,4 +52,4 @@ ExactRows exact_rows(const Matrix& M);
 /// The common factor of the entries is taken out; 0 stays 0.
 void make_primitive(IntegerVector& v);
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

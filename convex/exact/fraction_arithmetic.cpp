@@ -5,7 +5,7 @@
 
 #include "convex/exact/elimination.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 Fraction lowest_terms(Fraction a) {
   if (a.denominator == 1) return a;
@@ -90,4 +90,4 @@ double root_above(const Fraction& a) {
   return std::nextafter(root, infinity);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -3,7 +3,7 @@
 #include "convex/exact/fraction.hpp"
 
 /// Arithmetic of fractions; every result is in lowest terms.
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 Fraction lowest_terms(Fraction a);
 /// Entry i of a vector of fractions, in lowest terms.
@@ -32,4 +32,4 @@ Fraction dot(const ExactVector& x, const ExactVector& y);
 /// The least double that is surely at least sqrt(a), to an ulp or two; a >= 0.
 double root_above(const Fraction& a);
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -7,7 +7,7 @@
 #include "convex/exact/integer.hpp"
 
 /// Elimination without fractions in any type of integers: every number that arises is a minor (Bareiss 1968).
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 __extension__ using DoubleWord = __int128;
 
@@ -69,4 +69,4 @@ double most_minor_bits(double word, std::size_t r);
 
 inline constexpr double word_bits = 63, double_word_bits = 127;  ///< without the sign
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

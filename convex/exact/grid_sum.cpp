@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 /// Doubles hold all multiples of a number up to so many times it.
@@ -70,4 +70,4 @@ std::optional<double> GridSum::value(const double* u, double s) const {
   return off == 0 ? std::optional(sum - s) : std::nullopt;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

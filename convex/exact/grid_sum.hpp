@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// Sums Σ u_i q_i - s that doubles make without rounding, as they do where the numbers are multiples of a
 /// power of 2 each and not too many times that: dyadic data, in short.
@@ -23,4 +23,4 @@ class GridSum {
   double steps_ = 0;  ///< at least n max |q_i| / step_
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

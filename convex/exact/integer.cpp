@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 static_assert(sizeof(long) == sizeof(std::int64_t), "GMP's signed words are taken as 64 bits");
 
@@ -173,4 +173,4 @@ double nearest_quotient(const Integer& a, const Integer& b) {
   return a.sign() < 0 ? -magnitude : magnitude;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

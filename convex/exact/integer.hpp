@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// An integer of any size. Those that fit 64 bits are held in place and computed without a call; the others
 /// are GMP's.
@@ -98,4 +98,4 @@ using IntegerVector = std::vector<Integer>;
 /// Integer vectors, one a row.
 using IntegerRows = std::vector<IntegerVector>;
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -7,7 +7,7 @@
 #include "convex/exact/modular.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 using Word = ModularField::Word;
@@ -223,4 +223,4 @@ ExactVector IntegerSystem::solve(const IntegerVector& b) const {
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -6,7 +6,7 @@
 
 #include "convex/exact/fraction.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// M x = b over the rationals for one regular integer matrix and any right sides, by lifting the solution
 /// modulo a prime p to one modulo p, p², p³, … (Dixon 1982) until fractions with a common denominator can be
@@ -25,4 +25,4 @@ class IntegerSystem {
   std::shared_ptr<const Data> data_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

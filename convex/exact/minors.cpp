@@ -6,7 +6,7 @@
 
 #include "convex/exact/fraction_free.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 /// Back substitution by Cramer's rule, so that every number is a minor again.
@@ -64,4 +64,4 @@ IntegerVector normal_by_minors(const std::vector<const IntegerVector*>& rows, st
   return normal_of(std::move(a), r);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

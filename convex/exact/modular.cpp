@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 using Word = ModularField::Word;
@@ -95,4 +95,4 @@ std::optional<std::vector<std::uint64_t>> modular_inverse(const IntegerRows& M, 
   return inverse;
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

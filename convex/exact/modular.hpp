@@ -8,7 +8,7 @@
 
 /// Linear algebra modulo a prime: what is independent or regular there is so over the rationals too, not the
 /// other way round.
-namespace convex {
+namespace convex::inline exact_arithmetic {
 
 /// Numbers modulo an odd prime below 2^62, held as a 2^64 (Montgomery 1985).
 class ModularField {
@@ -56,4 +56,4 @@ std::vector<std::size_t> independent_rows(const IntegerRows& rows, std::size_t c
 /// M⁻¹ modulo a prime, row by row, entries as the field holds them; none when M is singular there.
 std::optional<std::vector<std::uint64_t>> modular_inverse(const IntegerRows& M, const ModularField& field);
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

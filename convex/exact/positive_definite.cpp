@@ -8,7 +8,7 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 /// Bits of an entry of X against the largest of its row: a dominant diagonal needs few.
@@ -120,4 +120,4 @@ bool is_positive_definite(const IntegerRows& A) {
   return leading_minors_positive(A);
 }
 
-}  // namespace convex
+}  // namespace convex::inline exact_arithmetic

@@ -6,7 +6,7 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 namespace {
 
 /// D when W is the diagonal matrix D; a dense or sparse matrix may be diagonal too. Empty otherwise.
@@ -90,4 +90,4 @@ std::optional<GraphForm> Atom::graph(Index n) const {
       n, 0, {{std::static_pointer_cast<const Atom>(shared_from_this()), 1, identity, Vector::Zero(n)}}, 0};
 }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

@@ -5,7 +5,7 @@
 #include "convex/functions/sets.hpp"
 #include "convex/gamma0/parameter.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// {x : |x - center|₂ <= radius}; an empty center means 0 in any number of entries.
@@ -77,4 +77,4 @@ Function norm2(double weight) {
   return support_of(std::make_shared<Ball2>(weight, Vector()));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

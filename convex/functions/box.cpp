@@ -10,7 +10,7 @@
 #include "convex/piecewise/elementary.hpp"
 #include "convex/prox_formulas/separable.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 void check(double lower, double upper, const std::string& entry) {
@@ -93,4 +93,4 @@ Set point(const Vector& p) {
   return {piecewise_sum(std::move(parts)), set};
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -2,7 +2,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// What refinement in twice the working precision leaves of ||z||_W where 0 is meant.
@@ -44,4 +44,4 @@ Prox closed_form(const Vector& z, const Metric& W, Vector x, Vector v) {
   return result;
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

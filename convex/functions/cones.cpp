@@ -12,7 +12,7 @@
 #include "convex/prox_formulas/second_order_cone.hpp"
 #include "convex/prox_formulas/spectral.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// The indicator of -K.
@@ -128,4 +128,4 @@ Set monotone_cone() {
            .make_conjugate = prox_formulas::keep_normal_to_monotone});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -3,7 +3,7 @@
 #include "convex/functions/function.hpp"
 
 /// Closed convex cones. The conjugate of the indicator of each is that of its polar.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// {(v, t) : |v|₂ <= t}, t last.
 Set second_order_cone();
@@ -22,4 +22,4 @@ Set dual_power_cone(double alpha);
 /// {x : x_1 <= x_2 <= … <= x_n}; its projection is isotonic regression.
 Set monotone_cone();
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

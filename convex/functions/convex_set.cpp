@@ -3,7 +3,7 @@
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// What s in S and u, normal there, miss of that, in the metric d of u. From s', u' that miss nothing the
@@ -178,4 +178,4 @@ Set set_of(std::shared_ptr<const ConvexSet> S) {
 
 Set set_of(Cone K) { return set_of(std::make_shared<ConeSet>(std::move(K))); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -5,7 +5,7 @@
 
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 
 /// How `project` and `support_prox` split a point between them: each by its own formula, or one of them from
 /// what the other found.
@@ -91,4 +91,4 @@ struct Cone {
 };
 Set set_of(Cone K);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -11,7 +11,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/other_pairs.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// What a rounding of x makes of f(x), to first order: |v|·|x| for a subgradient there.
@@ -200,4 +200,4 @@ Decomposition decompose(const Function& f, const Vector& z, const Metric& W, dou
   return *std::move(best);
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

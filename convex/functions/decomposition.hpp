@@ -2,7 +2,7 @@
 
 #include "convex/functions/function.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 
 /// The decomposition of a point (Moreau 1965): z = x + y and f(x) + g(y) = (x|y), where x = prox_f z,
 /// y = prox_g z and g(y) = sup_x (x|y) - f(x) is the conjugate in the metric. y is computed as the prox of
@@ -35,4 +35,4 @@ struct Decomposition {
 /// z: as many entries as W. Throws InvalidInput when f has another number, or z is not finite.
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance = 1e-9);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

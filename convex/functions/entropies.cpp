@@ -6,7 +6,7 @@
 #include "convex/infinity.hpp"
 #include "convex/prox_formulas/relative_entropy.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 double x_log_x(double x) { return x > 0 ? x * std::log(x) : x < 0 ? infinity : 0; }
@@ -174,4 +174,4 @@ Function expm1(const Vector& weight) {
   return scalar_sum(Expm1{{}, one_or_each(weight)});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

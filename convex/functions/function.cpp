@@ -8,7 +8,7 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// Throws InvalidInput unless x can be an argument of f.
@@ -93,4 +93,4 @@ bool Function::is_subgradient(const Vector& v, const Vector& x) const {
   return (back.x - x).norm() <= membership_tolerance * (x.norm() + v.norm());
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -9,9 +9,11 @@
 #include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
-
+namespace convex::inline gamma0 {
 class FunctionNode;
+}
+
+namespace convex::inline named_functions {
 
 /// What the laws ask of a function that a user writes: a value with two verbs, f(x) and f.prox(z, W).
 template <class F>
@@ -67,4 +69,4 @@ struct Set {
   Call call;
 };
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

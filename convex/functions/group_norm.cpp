@@ -7,7 +7,7 @@
 #include "convex/gamma0/parameter.hpp"
 #include "convex/prox_formulas/norm2.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// A product of balls |x_k|₂ <= radius over consecutive groups; `sizes` has a single entry when all are equal
@@ -125,4 +125,4 @@ Function group_norm(double weight, const std::vector<Index>& sizes) {
   return support_of(checked("group_norm", "weight", weight, sizes));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

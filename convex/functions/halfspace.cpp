@@ -8,7 +8,7 @@
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// {x : a·x <= b}, or {x : a·x = b} when two-sided: the projection is one multiplier in any metric. a, b are
@@ -124,4 +124,4 @@ Set hyperplane(const Vector& a, double b) {
   return set_of(std::make_shared<Slab>(call, a, b, true));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -7,7 +7,7 @@
 #include "convex/prox_formulas/relative_entropy.hpp"
 #include "convex/prox_formulas/scalar_prox.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 using prox_formulas::ScalarProx;
@@ -170,4 +170,4 @@ Function entropy_on_simplex() { return Function(std::make_shared<EntropyOnSimple
 
 Function log_sum_exp() { return Function(std::make_shared<LogSumExp>()); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

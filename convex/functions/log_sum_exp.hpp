@@ -2,9 +2,9 @@
 
 #include "convex/functions/function.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 
 /// log Σ e^(x_i). Conjugate: Σ v log v on the simplex Σ v = 1, v >= 0 (Rockafellar 1970, section 16).
 Function log_sum_exp();
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

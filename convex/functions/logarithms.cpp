@@ -7,7 +7,7 @@
 #include "convex/prox_formulas/log_barrier.hpp"
 #include "convex/prox_formulas/logistic.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 struct LogBarrier {
@@ -103,4 +103,4 @@ Function logistic() { return scalar_sum(Logistic{}); }
 
 Function binary_entropy() { return scalar_sum(BinaryEntropy{}); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

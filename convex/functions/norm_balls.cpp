@@ -13,7 +13,7 @@
 #include "convex/prox_formulas/capped_simplex.hpp"
 #include "convex/prox_formulas/simplex.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 bool equal(const Vector& d) { return d.maxCoeff() == d.minCoeff(); }
@@ -198,4 +198,4 @@ Function sum_largest(double k) {
   return support_of(std::make_shared<CappedSimplex>(k, 1));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

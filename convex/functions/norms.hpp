@@ -3,7 +3,7 @@
 #include "convex/functions/function.hpp"
 
 /// Norms and other support functions, of plain coordinates. weight >= 0; 0 gives the function 0.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// weight |x|₂, the support function of ball2(weight).
 Function norm2(double weight = 1);
@@ -27,4 +27,4 @@ Function sorted_norm1(const Vector& weights);
 /// -log det X for a symmetric positive definite X stacked by columns, else +inf.
 Function neg_log_det();
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -9,7 +9,7 @@
 #include "convex/piecewise/pieces.hpp"
 #include "convex/prox_formulas/separable.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 using linear_quadratic::ball_inf;
@@ -144,4 +144,4 @@ Function plq(const Vector& breaks, const Matrix& coefficients) {
                            {}, {});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

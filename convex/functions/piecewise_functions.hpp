@@ -4,7 +4,7 @@
 
 /// Piecewise linear-quadratic functions of each entry by itself, and linear ones. Their conjugates are of the
 /// same kind. InvalidInput on a parameter that is not finite or outside its range.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// 0. Conjugate: the indicator of {0}.
 Function zero();
@@ -33,4 +33,4 @@ Function pinball(double tau = 0.5);
 /// +inf there. p has to be convex, continuous where finite and finite somewhere.
 Function plq(const Vector& breaks, const Matrix& coefficients);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

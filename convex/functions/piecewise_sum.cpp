@@ -11,7 +11,7 @@
 #include "convex/piecewise/pieces.hpp"
 #include "convex/piecewise/scalar_prox.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 bool is_indicator(const PiecewiseQuadratic& f) {
@@ -177,4 +177,4 @@ Call plq_call(const PiecewiseQuadratic& f) {
   return {"plq", {argument("breaks", rows.breaks), argument("coefficients", rows.coefficients)}};
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

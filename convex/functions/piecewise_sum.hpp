@@ -7,8 +7,10 @@
 #include "convex/piecewise/piecewise_quadratic.hpp"
 
 namespace convex {
-
 struct LinearQuadratic;
+}
+
+namespace convex::inline named_functions {
 
 /// Σ_i f_i(x_i) + offset with piecewise linear-quadratic f_i of one variable: the one node behind boxes,
 /// points, norm1, huber, hinge, elastic_net, linear, plq, …, and behind their conjugates, which are of the
@@ -31,4 +33,4 @@ Function piecewise_sum(PiecewiseSum parts);
 /// plq(breaks, coefficients) of the pieces of f.
 Call plq_call(const PiecewiseQuadratic& f);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -10,7 +10,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/sets.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 constexpr Facts set_facts{.indicator = true};
@@ -119,4 +119,4 @@ Function max_affine(const Matrix& A, const Vector& b) {
                            .graph = of_rows(largest, A, -b, 1)});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

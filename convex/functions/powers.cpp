@@ -7,7 +7,7 @@
 #include "convex/infinity.hpp"
 #include "convex/prox_formulas/power.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 struct AnySize {
@@ -160,4 +160,4 @@ Function negative_power(double r) {
   return scalar_sum(NegativePower{{}, r});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

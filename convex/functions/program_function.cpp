@@ -10,7 +10,7 @@
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// One side of the pair; `swapped` is the conjugate.
@@ -58,4 +58,4 @@ Function program_function(ProgramFunction parts) {
       std::make_shared<ProgramNode>(std::make_shared<const ProgramFunction>(std::move(parts)), false));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -4,7 +4,7 @@
 #include "convex/gamma0/facts.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 
 /// A piecewise linear-quadratic function of n entries without a formula of its own: its value, subgradient
 /// and prox come from its program, exact in any metric, and so do those of its conjugate.
@@ -20,4 +20,4 @@ struct ProgramFunction {
 
 Function program_function(ProgramFunction parts);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -13,7 +13,7 @@
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// Q symmetric positive semidefinite of rank r: Q = L Lᵀ, L = basis · diag(root), n×r, and the rest of an
@@ -218,4 +218,4 @@ Function quadratic(const Matrix& Q, const Vector& c, double constant) {
   return Function(std::make_shared<Quadratic>(symmetric, c, constant));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

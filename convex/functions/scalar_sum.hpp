@@ -7,7 +7,7 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/prox_formulas/scalar_prox.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 
 /// A closed interval.
 struct Ends {
@@ -127,4 +127,4 @@ Function scalar_sum(Law law) {
   return Function(std::make_shared<ScalarSum<Law>>(std::move(law)));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

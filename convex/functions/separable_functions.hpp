@@ -4,7 +4,7 @@
 
 /// Smooth functions of each entry by itself, summed; +inf outside the domain named, closed hull meant (0 log
 /// 0 = 0). Each makes its conjugate by rule. InvalidInput on a parameter outside its range.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// Σ x log x, x >= 0. Conjugate: Σ e^(v-1).
 Function entropy();
@@ -30,4 +30,4 @@ Function inverse_power(double q);
 /// -Σ x^r, x >= 0; 0 < r < 1. Conjugate: (1-r) Σ (-v/r)^(-r/(1-r)), v < 0.
 Function negative_power(double r);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

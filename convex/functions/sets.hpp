@@ -5,7 +5,7 @@
 
 /// The sets of the language; each throws InvalidInput when it would be empty or a number is out of range.
 /// Data are plain coordinates, whatever the metric. A number stands for equal entries, as many as are needed.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// {p}.
 Set point(double p);
@@ -51,4 +51,4 @@ Set signed_permutahedron(const Vector& weights);
 inline Function indicator(const Set& S) { return S.indicator; }
 inline Function support(const Set& S) { return S.indicator.conjugate(); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

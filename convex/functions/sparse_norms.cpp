@@ -12,7 +12,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/prox_formulas/k_support.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// {norm of the k largest entries <= radius}.
@@ -105,4 +105,4 @@ Function total_variation_2d(double weight, Index rows, Index n) {
                            .graph = precompose(*norm1(weight).node().graph(D.rows()), D, none)});
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -4,7 +4,7 @@
 
 /// Norms that favour vectors with at most k entries (Argyriou, Foygel and Srebro 2012). k = 1, 2, …; weight,
 /// radius >= 0.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// weight times the gauge of the convex hull of {|x|_2 <= 1, at most k entries not 0}: k = 1 is norm1, k = n
 /// is norm2. The support function of largest_entries_ball(k, weight).
@@ -16,4 +16,4 @@ Set largest_entries_ball(double k, double radius = 1);
 /// stacked by columns (Rudin, Osher and Fatemi 1992, by coordinates).
 Function total_variation_2d(double weight, Index rows, Index n);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

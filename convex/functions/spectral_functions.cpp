@@ -11,7 +11,7 @@
 #include "convex/prox_formulas/nuclear_norm.hpp"
 #include "convex/prox_formulas/spectral.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 Matrix unstacked(const Vector& x, Index rows) { return x.reshaped(rows, x.size() / rows); }
@@ -187,4 +187,4 @@ Function nuclear_norm(double weight, Index rows) {
 
 Function neg_log_det() { return Function(std::make_shared<NegLogDet>()); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -13,7 +13,7 @@
 #include "convex/prox_formulas/spectral.hpp"
 #include "convex/prox_formulas/spectral_map.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 using prox_formulas::dual_exponent;
@@ -187,4 +187,4 @@ Set spectraplex(double total) {
   return set_of(std::make_shared<Spectraplex>(total));
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

@@ -4,7 +4,7 @@
 
 /// Norms and support functions of matrices stacked by columns. weight, radius, total >= 0; rows >= 1, or 0
 /// for a square matrix.
-namespace convex {
+namespace convex::inline named_functions {
 
 /// weight (Σ sigma_i^p)^(1/p) over the singular values, 1 <= p <= inf: p = 1 is the nuclear norm, 2 the
 /// Frobenius norm, inf the largest singular value. The support function of schatten_ball of the dual
@@ -19,4 +19,4 @@ Function max_eigenvalue(double weight = 1);
 /// {X : ½(X + Xᵀ) is positive semidefinite with the trace `total`}.
 Set spectraplex(double total = 1);
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

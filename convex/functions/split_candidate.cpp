@@ -8,7 +8,7 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/other_pairs.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// Values smaller than this count as this where the tolerance is relative to them.
@@ -189,4 +189,4 @@ bool is_inner_of_points(const Decomposition& split, double tolerance, const Metr
   return std::abs(W.inner(x, y) - split.inner) <= tolerance * size + rounding;
 }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

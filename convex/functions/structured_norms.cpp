@@ -13,7 +13,7 @@
 #include "convex/prox_formulas/running_sums.hpp"
 #include "convex/prox_formulas/total_variation.hpp"
 
-namespace convex {
+namespace convex::inline named_functions {
 namespace {
 
 /// A bounded set whose support function is a norm with a Jacobian of its own.
@@ -242,4 +242,4 @@ Set signed_permutahedron(const Vector& weights) { return set_of(sorted("signed_p
 
 Function sorted_norm1(const Vector& weights) { return support_of(sorted("sorted_norm1", weights)); }
 
-}  // namespace convex
+}  // namespace convex::inline named_functions

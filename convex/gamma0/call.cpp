@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace convex {
+namespace convex::inline gamma0 {
 namespace {
 
 void append(std::string& text, double number) {
@@ -80,4 +80,4 @@ Call indicator_call(Call set) { return {"indicator", {argument(std::move(set))}}
 
 Call support_call(Call set) { return {"support", {argument(std::move(set))}}; }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

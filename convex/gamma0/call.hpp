@@ -10,7 +10,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 /// A set, function or operation as it is written: name(key=value, …), the language of docs/functions.md. A
 /// function knows the call that makes it again, so that conjugates print as expressions of the same language.
@@ -48,4 +48,4 @@ Call support_call(Call set);
 std::string to_text(const Call& call);
 std::string to_text(double number);
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

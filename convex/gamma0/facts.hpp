@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 /// What is known of a function f in Gamma_0; rules and fallbacks use it. A fact that is not known is false.
 struct Facts {
@@ -26,4 +26,4 @@ inline constexpr double membership_tolerance = 1e-9;
 /// What every prox aims at: ||x - x*||_W <= this (||z||_W + ||x||_W), in metrics of condition up to 1e6.
 inline constexpr double accuracy_of_prox = 1e-12;
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

@@ -6,7 +6,7 @@
 #include "convex/composite/graph_form.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 Value FunctionNode::evaluate(const Vector& x) const {
   constexpr double roundings_of_a_value = 4;
@@ -38,4 +38,4 @@ std::optional<LinearQuadratic> FunctionNode::linear_quadratic(Index) const { ret
 
 std::optional<GraphForm> FunctionNode::graph(Index) const { return std::nullopt; }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

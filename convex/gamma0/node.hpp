@@ -3,9 +3,13 @@
 #include "convex/functions/function.hpp"
 
 namespace convex {
-
-struct GraphForm;
 struct LinearQuadratic;
+inline namespace composite {
+struct GraphForm;
+}
+}  // namespace convex
+
+namespace convex::inline gamma0 {
 
 /// What a function is made of: the contract behind `Function`. Sizes have been checked at that door.
 class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
@@ -86,4 +90,4 @@ class Atom : public FunctionNode {
   std::optional<GraphForm> graph(Index n) const override;
 };
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

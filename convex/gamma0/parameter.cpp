@@ -5,7 +5,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 namespace {
 
 [[noreturn]] void refuse(const char* maker, const char* parameter, const char* what) {
@@ -43,4 +43,4 @@ void require_positive(const char* maker, const char* parameter, double number) {
   if (number <= 0) refuse(maker, parameter, "not positive; give more than 0");
 }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

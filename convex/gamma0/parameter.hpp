@@ -6,7 +6,7 @@
 
 /// What the makers of functions and sets ask of their numbers. Each throws InvalidInput
 /// "maker(parameter): what is wrong; what to do".
-namespace convex {
+namespace convex::inline gamma0 {
 
 void require_finite(const char* maker, const char* parameter, double number);
 void require_finite(const char* maker, const char* parameter, const Vector& numbers);
@@ -18,4 +18,4 @@ void require_square(const std::string& maker, Index n);
 /// Finite and > 0.
 void require_positive(const char* maker, const char* parameter, double number);
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

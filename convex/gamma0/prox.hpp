@@ -7,7 +7,7 @@
 #include "convex/nearest_point/solution.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 /// What computed a prox.
 enum class ProxRoute { closed_form, active_set, iterative };
@@ -46,4 +46,4 @@ struct Prox {
 /// evidence that they add up to the point.
 inline bool are_two_routes(const Prox& x, const Prox& y) { return !x.by_conjugate && !y.by_conjugate; }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

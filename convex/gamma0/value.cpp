@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 Value sum_of(const Value& a, const Value& b) {
   const double sum = a.value + b.value;
@@ -18,4 +18,4 @@ Value multiple_of(double factor, const Value& a) {
   return {product, factor * a.error + (std::isfinite(product) ? unit_roundoff * std::abs(product) : 0)};
 }
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline gamma0 {
 
 /// f(x) as it was computed. The true value is within `error`: a few roundings of the terms where a formula
 /// gives it, what a program leaves open otherwise, +inf where it was not decided whether x is in the domain.
@@ -13,4 +13,4 @@ struct Value {
 Value sum_of(const Value& a, const Value& b);
 Value multiple_of(double factor, const Value& a);
 
-}  // namespace convex
+}  // namespace convex::inline gamma0

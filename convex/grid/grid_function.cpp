@@ -6,7 +6,7 @@
 
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline grids {
 namespace {
 
 void require(bool holds, const char* where, const std::string& what) {
@@ -45,4 +45,4 @@ void validate(const GridFunction& f, const char* where) {
   require(proper, where, "every value is +inf, the function is improper; make one finite");
 }
 
-}  // namespace convex
+}  // namespace convex::inline grids

@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline grids {
 
 /// A function known by its values on a rectangular grid of one to three dimensions and taken as +inf off it.
 struct GridFunction {
@@ -45,4 +45,4 @@ GridFunction sample(const F& f, const std::vector<Vector>& axes) {
   return sampled;
 }
 
-}  // namespace convex
+}  // namespace convex::inline grids

@@ -7,7 +7,7 @@
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline grids {
 namespace {
 
 DoubleDouble product(DoubleDouble a, DoubleDouble b) {
@@ -139,4 +139,4 @@ GridFunction envelope(const GridFunction& f, double gamma, const std::vector<Vec
   return transformed(f, points, Family{1 / gamma}, "envelope");
 }
 
-}  // namespace convex
+}  // namespace convex::inline grids

@@ -2,7 +2,7 @@
 
 #include "convex/grid/grid_function.hpp"
 
-namespace convex {
+namespace convex::inline grids {
 
 /// g(s) = max_x s·x - f(x) over the points x of the grid, on the grid of slopes: the linear-time Legendre
 /// transform, dimension by dimension (Lucet 1997, "Faster than the fast Legendre transform, the linear-time
@@ -22,4 +22,4 @@ GridFunction conjugate(const GridFunction& f, const std::vector<Vector>& slopes)
 /// > 0.
 GridFunction envelope(const GridFunction& f, double gamma, const std::vector<Vector>& points);
 
-}  // namespace convex
+}  // namespace convex::inline grids

@@ -5,7 +5,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// Made in the product of W; where W couples what the call keeps apart, in the plain one.
@@ -60,4 +60,4 @@ LawReport laws(const Call& call, const std::vector<NamedMetric>& metrics) {
   return report;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -2,7 +2,7 @@
 
 #include "convex/laws/laws.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// The laws of what a call means on Rⁿ (a set stands for its indicator), in the trial metrics; in each the
 /// call is made anew in that product, on which conjugates, envelopes and supports depend. A few points
@@ -11,4 +11,4 @@ namespace convex {
 LawReport laws(const Call& call, Index n);
 LawReport laws(const Call& call, const std::vector<NamedMetric>& metrics);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

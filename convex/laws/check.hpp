@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// One claim put to the test: it holds when value <= bound. The bound is what rounding and the proxes' own
 /// error bounds allow, never a generous epsilon.
@@ -33,4 +33,4 @@ struct LawReport {
   std::string text() const;
 };
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

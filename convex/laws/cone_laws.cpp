@@ -5,7 +5,7 @@
 #include "convex/cones/cone_operations.hpp"
 #include "convex/exact/elimination.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// A description of so many rows is not made anew from the other side: facets may be many.
@@ -132,4 +132,4 @@ LawReport cone_laws(const PolyhedralCone& K, const PolyhedralCone& polar_cone, c
   return report;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

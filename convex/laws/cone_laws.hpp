@@ -3,7 +3,7 @@
 #include "convex/cones/cone_split.hpp"
 #include "convex/laws/check.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// What is tried of a polyhedral cone K, its polar K° in the metric, and, when there is a point, of its split
 /// (Moreau 1962). All of it in exact arithmetic: every bound is 0, and values that are no lengths are
@@ -18,4 +18,4 @@ LawReport cone_laws(const PolyhedralCone& K, const PolyhedralCone& polar_cone, c
 LawReport cone_laws(const PolyhedralCone& K, const PolyhedralCone& polar_cone, const ExactMetric& W,
                     const ExactVector& z, const ConeSplit& split);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -9,7 +9,7 @@
 #include "convex/laws/worst_check.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// y = prox_g z beside x = prox_f z, with what an error in them does to the values.
@@ -269,4 +269,4 @@ std::vector<Check> function_laws(const Function& f, const Subject& subject, cons
   return checks;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -2,7 +2,7 @@
 
 #include "convex/laws/subject.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// A function and what is claimed to be its conjugate, g(y) = sup_x (x|y) - f(x), in the metric of the trial.
 struct ConjugatePair {
@@ -37,4 +37,4 @@ ConjugatePair conjugate_pair(const Function& f, const Metric& W);
 std::vector<Check> function_laws(const Function& f, const Subject& subject, const Trial& trial,
                                  const std::vector<Vector>& others, std::vector<std::string>& no_evidence);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -7,7 +7,7 @@
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// Roundings of a value and of a tangent's, relative to the terms in them.
@@ -56,4 +56,4 @@ std::optional<Prox> prox_by_cutting_planes(
   return best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

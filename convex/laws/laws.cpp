@@ -6,7 +6,7 @@
 
 #include "convex/laws/remembered.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 using LawsAt =
@@ -164,4 +164,4 @@ LawReport laws(const Function& f, Index n) {
   return laws(f, points_near_solutions(subject, n), trial_metrics(n));
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -2,7 +2,7 @@
 
 #include "convex/laws/conjugate_laws.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// Puts a function known by f(x) and f.prox(z, W) to the test of Moreau's theorem and what follows from it
 /// (`prox_laws`), at all trial points in all trial metrics of n dimensions. Its prox is taken at its word of
@@ -32,4 +32,4 @@ LawReport laws(const Subject& f, const std::function<Subject(const Metric&)>& co
 /// The laws at the points and in the metrics given.
 LawReport laws(const Function& f, const std::vector<Vector>& points, const std::vector<NamedMetric>& metrics);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

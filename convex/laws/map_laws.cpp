@@ -8,7 +8,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 ExactVector exact_difference(const ExactVector& a, const ExactVector& b) {
@@ -304,4 +304,4 @@ MapVerdict laws(const Map& T, const ExactMetric& W, const MapSamples& samples) {
   return MapSearch(T, W, samples).run();
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -6,7 +6,7 @@
 
 #include "convex/cones/exact_metric.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// T z: a fraction for each entry, within `radius` of the number that is meant; 0: it is that number.
 struct MapImage {
@@ -67,4 +67,4 @@ MapVerdict laws(const Map& T, const ExactMetric& W, const MapSamples& samples = 
 std::optional<MapCounterexample> broken(const Map& T, const ExactMetric& W, MapLaw law,
                                         const std::vector<ExactVector>& points);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

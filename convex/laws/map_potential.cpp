@@ -5,7 +5,7 @@
 
 #include "convex/laws/quadrature.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 using symbolic::AffinePiece;
@@ -112,4 +112,4 @@ std::vector<PotentialPoint> potential(const Map& T, const ExactMetric& W, double
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

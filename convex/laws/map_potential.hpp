@@ -3,7 +3,7 @@
 #include "convex/laws/map_laws.hpp"
 #include "convex/symbolic/exact_curve.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// The pieces of a map of one variable that is affine between a few points, where fractions show it to be
 /// that at points of a grid and at others between them; the first and the last go on for ever. None where it
@@ -25,4 +25,4 @@ struct PotentialPoint {
 std::vector<PotentialPoint> potential(const Map& T, const ExactMetric& W, double low, double high,
                                       Index along);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -7,7 +7,7 @@
 
 #include "convex/nearest_point/cone_projection.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// Roundings of a product (z - x|s - x), relative to the lengths in it.
@@ -70,4 +70,4 @@ std::optional<Prox> nearest_by_support(const SupportPoint& support_point, const 
   return best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -6,7 +6,7 @@
 #include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// A point s of a bounded closed convex set S with the largest (s|c); none where that is not known.
 using SupportPoint = std::function<std::optional<Vector>(const Vector& c)>;
@@ -17,4 +17,4 @@ using SupportPoint = std::function<std::optional<Vector>(const Vector& c)>;
 /// The bound is sqrt(g), g = max over s in S of (z - x|s - x), beside rounding. None without support points.
 std::optional<Prox> nearest_by_support(const SupportPoint&, const Vector& z, const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -5,7 +5,7 @@
 #include "convex/laws/worst_check.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// The largest ||x||_V / ||x||_W.
@@ -109,4 +109,4 @@ std::vector<Check> prox_laws(const Subject& f, const Trial& trial, const std::ve
   return checks;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// Kronrod's nodes on [0, 1], every second one Gauss' (from the odd places), with both weights.
@@ -64,4 +64,4 @@ Quadrature integral(const std::function<double(double)>& f, double a, double b, 
   return sum;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// An integral, and the sum over its intervals of what Kronrod's rule of 21 points differs from Gauss' of 10.
 struct Quadrature {
@@ -15,4 +15,4 @@ Quadrature integral(const std::function<double(double)>& f, double a, double b, 
 
 inline constexpr int most_intervals = 60;
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

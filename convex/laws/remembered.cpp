@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 /// What an answer depends on, the point and the metric as it is stored, by their bits: a wrong prox may ask
@@ -52,4 +52,4 @@ Subject remembered(const Subject& f) {
   return subject;
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -7,7 +7,7 @@
 #include "convex/laws/check.hpp"
 #include "convex/laws/trial.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// Roundings of a value of f, relative to the terms it is compared with.
 inline constexpr double value_roundings = 64 * unit_roundoff;
@@ -40,4 +40,4 @@ double variation(const Subject& f, const Vector& x, double r);
 /// - one subgradient serves every metric: with v = W(z - x), x is also the prox of x + V⁻¹v in the metric V.
 std::vector<Check> prox_laws(const Subject& f, const Trial& trial, const std::vector<Vector>& others);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

@@ -6,7 +6,7 @@
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 namespace {
 
 Vector normal_vector(std::mt19937& generator, Index n) {
@@ -72,4 +72,4 @@ double rounding_bound(const Metric& W, const Vector& z, const Vector& x) {
          (W.norm(z) + W.norm(x));
 }
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

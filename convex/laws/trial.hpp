@@ -4,7 +4,7 @@
 
 #include "convex/metric.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// A point and a metric in which a law is tried.
 struct Trial {
@@ -39,4 +39,4 @@ Matrix gram_matrix(const Metric& W);
 /// 4 u n condition(W) (||z||_W + ||x||_W) (Higham 2002, Theorem 10.4).
 double rounding_bound(const Metric& W, const Vector& z, const Vector& x);
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

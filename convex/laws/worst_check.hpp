@@ -4,7 +4,7 @@
 
 #include "convex/laws/check.hpp"
 
-namespace convex {
+namespace convex::inline law_checks {
 
 /// The worst of many checks of one law: the first that failed, else the one nearest to its bound.
 class WorstCheck {
@@ -29,4 +29,4 @@ class WorstCheck {
   bool none_yet_ = true;
 };
 
-}  // namespace convex
+}  // namespace convex::inline law_checks

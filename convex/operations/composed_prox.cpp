@@ -6,7 +6,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// Which of two ways is the weaker evidence.
@@ -141,4 +141,4 @@ Prox joined(const std::vector<Prox>& blocks) {
   return whole;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

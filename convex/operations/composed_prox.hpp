@@ -6,7 +6,7 @@
 #include "convex/functions/function.hpp"
 
 /// Proxes of sums by the proxes of their parts.
-namespace convex {
+namespace convex::inline operations {
 
 /// prox^W z of f_1 + f_2 + … as one prox after another, prox_f ∘ prox_g: right where ∂g(u) lies in
 /// ∂g(prox_f u) for all u (Yu 2013, "On decomposing the proximal map", Theorem 1), W a multiple of the
@@ -24,4 +24,4 @@ std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, cons
 /// where a block has none.
 Prox joined(const std::vector<Prox>& blocks);
 
-}  // namespace convex
+}  // namespace convex::inline operations

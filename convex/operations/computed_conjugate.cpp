@@ -9,7 +9,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class ComputedConjugate : public Operation {
@@ -80,4 +80,4 @@ Function computed_conjugate(const Function& f) {
   return Function(std::make_shared<ComputedConjugate>(f));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

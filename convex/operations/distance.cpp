@@ -6,7 +6,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class Distance : public Operation {
@@ -94,4 +94,4 @@ Function distance(const Set& set, double weight) {
   return Function(std::make_shared<Distance>(set, weight));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -7,7 +7,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/quadratic_term.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class Envelope : public Operation {
@@ -107,4 +107,4 @@ Function squared_distance(const Set& set, double weight) {
   return Function(std::make_shared<SquaredDistance>(set, weight));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -9,7 +9,7 @@
 #include "convex/operations/two_function_max.hpp"
 
 /// The epigraph of a function and its perspective: each other's conjugates, through f* and a change of sign.
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// (v, r) -> h(v, -r) on n + 1 entries.
@@ -225,4 +225,4 @@ Function perspective(const Function& f) { return Function(std::make_shared<Persp
 
 Function epigraph(const Function& f) { return Function(std::make_shared<Epigraph>(f)); }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -5,7 +5,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// x -> h(Mx), M definite: one to one, and metrics stay what they are.
@@ -121,4 +121,4 @@ Function in_product(const Function& h, const Metric& M) {
   return Function(std::make_shared<InProduct>(h, M));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

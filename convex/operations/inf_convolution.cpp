@@ -9,7 +9,7 @@
 #include "convex/operations/quadratic_term.hpp"
 #include "convex/operations/supremum.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class InfConvolution : public Operation {
@@ -165,4 +165,4 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
   return proper_inf_convolution(f, g);
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

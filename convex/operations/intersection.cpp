@@ -7,7 +7,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/sum.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 std::vector<Function> indicators(std::span<const Set> sets) {
@@ -90,4 +90,4 @@ Function intersection(std::span<const Set> sets, Index n) {
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

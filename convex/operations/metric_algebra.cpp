@@ -8,7 +8,7 @@
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/singular_values.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// Entries that differ by so many roundings per term of the sums they come from are equal.
@@ -180,4 +180,4 @@ std::optional<ImageMetric> image_metric(const Metric& W, const Matrix& A) {
   return ImageMetric{Metric::dense(symmetric(R_inverse * R_inverse.transpose())), std::move(lift), condition};
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

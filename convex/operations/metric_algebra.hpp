@@ -9,7 +9,7 @@
 /// Metrics made of metrics. Diagonal kinds stay diagonal wherever the result is diagonal, so that closed
 /// forms survive. A sum keeps sparsity; an inverse does not. Each result carries a relative error of some
 /// roundings times the condition number of its operands, as every metric does that is rounded to doubles.
-namespace convex {
+namespace convex::inline operations {
 
 /// A sum with more than one entry in so many is stored in full.
 inline constexpr Index dense_above = 4;
@@ -55,4 +55,4 @@ struct ImageMetric {
 /// (semi-orthogonality in the metric: A W⁻¹ Aᵀ = nu I, and unequal entries too) the metric is diagonal.
 std::optional<ImageMetric> image_metric(const Metric& W, const Matrix& A);
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace convex {
+namespace convex::inline operations {
 
 /// While one stands, questions of its kind asked inside it are answered without it. The conjugate of the
 /// conjugate is the function itself, so a prox that asks its conjugate's, or a value that asks a supremum
@@ -26,4 +26,4 @@ class OneAtATime {
   bool first_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline operations

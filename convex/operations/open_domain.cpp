@@ -5,7 +5,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// A row a·(ξ, τ) >= bound.
@@ -105,4 +105,4 @@ bool has_empty_open_domain(const GraphForm& f) {
   return properness(program.finish()) == Defect::empty_domain;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

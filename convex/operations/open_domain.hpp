@@ -2,7 +2,7 @@
 
 #include "convex/composite/graph_form.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// Do rows show that no point has all terms of f finite? Each term's domain lies within rows: those of its
 /// program where it is piecewise linear-quadratic, else the bounds of its entries, without the end where the
@@ -13,4 +13,4 @@ namespace convex {
 /// sets that are not polyhedral enter by the bounds of their entries alone.
 bool has_empty_open_domain(const GraphForm& f);
 
-}  // namespace convex
+}  // namespace convex::inline operations

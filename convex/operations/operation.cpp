@@ -19,7 +19,7 @@
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// Moving a point or covector from a part to the whole costs a few roundings of each of its terms.
@@ -260,4 +260,4 @@ void require_proper(const Function& f, Index n, const char* where) {
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -8,7 +8,7 @@
 #include "convex/interval.hpp"
 #include "convex/operations/parts.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// A function made of others. What it does not say itself is found through its program: exactly when it is
 /// piecewise linear-quadratic, else through its graph form; InvalidInput when it has neither.
@@ -109,4 +109,4 @@ Function named(const char* name, std::vector<NamedArgument> arguments, Index n);
 /// The function x -> f(x) + constant.
 Function raised(const Function& f, double constant);
 
-}  // namespace convex
+}  // namespace convex::inline operations

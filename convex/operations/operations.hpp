@@ -11,7 +11,7 @@
 /// whether a result is proper depends on n, and is looked at when n is known from the parts or given.
 ///
 /// Each `conjugate()` is a rule on the expression: f** gives f back to the rounding of the numbers in it.
-namespace convex {
+namespace convex::inline operations {
 
 /// x -> f(x - by). prox^W z = by + prox^W_f(z - by); (f(· - by))* = f* + by·.
 Function translate(const Function& f, const Vector& by);
@@ -92,4 +92,4 @@ Function in_product(const Function& h, const Metric& M);
 /// program is at hand.
 void require_proper(const Function& f, Index n, const char* where);
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -5,7 +5,7 @@
 
 #include "convex/gamma0/node.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> parts, Index n) {
   std::vector<LinearQuadratic> forms;
@@ -48,4 +48,4 @@ bool domains_may_miss(std::span<const Function> parts) {
   return std::count_if(parts.begin(), parts.end(), [](const Function& f) { return !f.facts().finite; }) > 1;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -9,7 +9,7 @@
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 
 /// The parts of an operation, all together.
-namespace convex {
+namespace convex::inline operations {
 
 /// The parts on n entries as programs, when all are.
 std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> parts, Index n);
@@ -26,4 +26,4 @@ Index common_dimension(std::span<const Function> parts, const char* where);
 /// Is some part not finite, and another one too? Then their domains need not meet.
 bool domains_may_miss(std::span<const Function> parts);
 
-}  // namespace convex
+}  // namespace convex::inline operations

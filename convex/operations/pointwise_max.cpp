@@ -10,7 +10,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// The maximum of piecewise linear-quadratic functions, when it is one: all with the same quadratic part.
@@ -146,4 +146,4 @@ Function pointwise_max(std::span<const Function> parts, Index n) {
   return Function(std::make_shared<PointwiseMax>(std::vector<Function>(parts.begin(), parts.end())));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

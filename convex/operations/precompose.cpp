@@ -15,7 +15,7 @@
 #include "convex/operations/sum.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// x -> f(Ax + b).
@@ -197,4 +197,4 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

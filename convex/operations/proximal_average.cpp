@@ -11,7 +11,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class ProximalAverage : public Operation {
@@ -151,4 +151,4 @@ Function proximal_average(const Function& f, const Function& g, double t, double
   return average(f, g, t, gamma, M);
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -8,7 +8,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/reduction.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n) {
   const Facts facts = f.facts();
   if (!facts.smooth || !facts.finite || !facts.piecewise_quadratic) return std::nullopt;
@@ -98,4 +98,4 @@ Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Me
   return whole;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -5,7 +5,7 @@
 #include "convex/functions/function.hpp"
 
 /// Quadratic functions among the terms of a sum or an inf-convolution, and what they do to the other terms.
-namespace convex {
+namespace convex::inline operations {
 
 /// ½ x·Qx + c·x + constant on n entries, Q: n×n symmetric positive semidefinite.
 struct QuadraticTerm {
@@ -49,4 +49,4 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 /// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c).
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -2,7 +2,7 @@
 
 #include "convex/functions/closed_form.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// The prox x of a whole at z in W, and its v, from the prox of a part at `point`: from(point). What rounding
 /// left of the residual r = W(x - z) + v, which is formed with W and z as given, moves the point by
@@ -26,4 +26,4 @@ Prox reduced(Vector point, const Vector& z, const Metric& W, const From& from, c
   return best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -8,7 +8,7 @@
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 /// operation(f, number) as text, in one with the operation of that name that f is, where their numbers have
@@ -131,4 +131,4 @@ Function dilate(const Function& f, double rho) {
   return scaled(f, 1, rho);
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

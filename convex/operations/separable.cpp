@@ -7,7 +7,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class Separable : public Operation {
@@ -159,4 +159,4 @@ Function separable(std::span<const Function> parts, const std::vector<Index>& si
   return Function(std::make_shared<Separable>(std::vector<Function>(parts.begin(), parts.end()), sizes));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -14,7 +14,7 @@
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 SplitSum split(std::span<const Function> parts, Index n) {
   SplitSum sorted;
@@ -202,4 +202,4 @@ Function raised(const Function& f, double constant) {
   return proper_sum(terms);
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

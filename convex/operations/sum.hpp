@@ -5,7 +5,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/quadratic_term.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// f_1 + f_2 + …, at least one; see `sum` in operations.hpp.
 class Sum : public Operation {
@@ -47,4 +47,4 @@ struct SplitSum {
 };
 SplitSum split(std::span<const Function> parts, Index n);
 
-}  // namespace convex
+}  // namespace convex::inline operations

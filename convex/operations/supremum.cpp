@@ -8,7 +8,7 @@
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/sum.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 constexpr double first_step = 1e-3, last_step = 1e-150, power = 1.5;  ///< t_(k+1) = t_k^power, for |v| <= 1
@@ -194,4 +194,4 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   return is_open && recedes_far_out(f, v) ? Value{infinity, 0} : best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -2,7 +2,7 @@
 
 #include "convex/functions/function.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// f*(v) = sup_x v·x - f(x) by the proximal point method (Martinet 1970; Rockafellar 1976) on f - v·: with
 /// x_0 = 0 and x_(k+1) the prox of f at x_k + v/t_k in t_k times the plain metric, the lower bounds
@@ -29,4 +29,4 @@ bool grows_without_end(const Function& f, const Vector& v);
 /// has one, is no more: what lies between is part of the error.
 Value settled_value(const Value& found, const std::optional<Vector>& x, const Function& f, const Vector& v);
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -3,7 +3,7 @@
 #include <memory>
 #include <variant>
 
-namespace convex {
+namespace convex::inline operations {
 
 bool takes_product(const Call& call) {
   if (call.name == "precompose" || call.name == "perspective" || call.name == "epigraph") return false;
@@ -16,4 +16,4 @@ bool takes_product(const Call& call) {
   return false;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

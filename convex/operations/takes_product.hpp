@@ -2,7 +2,7 @@
 
 #include "convex/gamma0/call.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// Do the values of a function depend on the product of its space? Those of `conjugate`, `support`,
 /// `envelope` and `proximal_average` do, and of what has them as a part. Inside `precompose`, `perspective`
@@ -10,4 +10,4 @@ namespace convex {
 /// of the same call in the space with W/gamma.
 bool takes_product(const Call& call);
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -7,7 +7,7 @@
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class Tilt : public Operation {
@@ -80,4 +80,4 @@ Function tilt(const Function& f, const Vector& c) {
   return Function(std::make_shared<Tilt>(f, c));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

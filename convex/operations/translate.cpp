@@ -4,7 +4,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/two_function_max.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 class Translate : public Operation {
@@ -71,4 +71,4 @@ Function translate(const Function& f, const Vector& by) {
   return Function(std::make_shared<Translate>(f, by));
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

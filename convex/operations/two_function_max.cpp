@@ -7,7 +7,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 namespace {
 
 constexpr double least_weight = 1e-30;
@@ -106,4 +106,4 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline operations

@@ -5,7 +5,7 @@
 
 #include "convex/functions/function.hpp"
 
-namespace convex {
+namespace convex::inline operations {
 
 /// prox of max(f, g) by its dual in one number: the maximum over 0 <= t <= 1 of min over u of
 /// ½||u - z||_W² + (1 - t) f(u) + t g(u) (Rockafellar 1970, Theorem 36.3), u(t) the prox of the weighted sum.
@@ -30,4 +30,4 @@ Function proper_max(std::vector<Function> parts);
 /// in a maximum is taken so once; none further inside.
 std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline operations

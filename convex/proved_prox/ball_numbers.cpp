@@ -4,7 +4,7 @@
 
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
 
 /// The part by which witnesses are pulled away from a boundary.
@@ -53,4 +53,4 @@ FractionInterval times(const Fraction& factor, const FractionInterval& a) {
   return {factor * a.low, factor * a.high};
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -4,7 +4,7 @@
 #include "convex/proved_prox/proof_pair.hpp"
 
 /// Numbers of proofs: balls for what is not rational, fractions for everything else.
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// Bits that witnesses are made with, and bits that they are looked at with: the second resolves what the
 /// first leaves.
@@ -34,4 +34,4 @@ FractionInterval operator+(const FractionInterval& a, const FractionInterval& b)
 FractionInterval times(const Fraction& factor, const FractionInterval& a);
 inline FractionInterval only(const Fraction& a) { return {a, a}; }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

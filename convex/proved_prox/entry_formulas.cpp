@@ -2,7 +2,7 @@
 
 #include "convex/exact_program/exact_arguments.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
 
 using Maybe = std::optional<Ball>;
@@ -297,4 +297,4 @@ std::optional<ProofPair> entries_at_covector(const std::vector<std::unique_ptr<E
   return whole;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -4,7 +4,7 @@
 
 #include "convex/proved_prox/ball_numbers.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A function of one entry with its conjugate, in balls: what the separable functions of the catalogue that
 /// are no polynomials by pieces are made of. None stands for +inf, and for what balls cannot tell.
@@ -33,4 +33,4 @@ std::optional<ProofPair> entries_at_point(const std::vector<std::unique_ptr<Entr
 std::optional<ProofPair> entries_at_covector(const std::vector<std::unique_ptr<EntryFormula>>&,
                                              const Fractions& v);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -11,7 +11,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
 
 using pairs::MaybePair;
@@ -316,4 +316,4 @@ PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& 
   return {{}, f.name + ": no pair at a covector that another part chooses"};
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

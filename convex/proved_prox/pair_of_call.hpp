@@ -4,7 +4,7 @@
 
 #include "convex/proved_prox/proof_pair.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A pair near a point x and a covector v, or why there is none.
 struct PairSearch {
@@ -25,4 +25,4 @@ PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& 
 /// covector without rounding.
 PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -4,7 +4,7 @@
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
 
 /// The parts of a sum: those with programs as one, the others each.
@@ -126,4 +126,4 @@ PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fraction
   return {{}, f.name + " has no formula in balls"};
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

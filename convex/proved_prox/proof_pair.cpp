@@ -1,6 +1,6 @@
 #include "convex/proved_prox/proof_pair.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 ProofPair proof_pair(GraphPoint at) {
   return {std::move(at.x), std::move(at.v), {at.f_x, at.f_x}, {at.f_v, at.f_v}, true};
@@ -14,4 +14,4 @@ ProofPair turned_round(ProofPair pair) {
 
 Fraction gap_above(const ProofPair& pair) { return pair.f_x.high + pair.f_v.high - dot(pair.x, pair.v); }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

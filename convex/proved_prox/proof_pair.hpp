@@ -5,7 +5,7 @@
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/gamma0/call.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A number that lies in [low, high].
 struct FractionInterval {
@@ -27,4 +27,4 @@ ProofPair turned_round(ProofPair pair);
 /// An upper bound of f(x) + f*(v) - x·v, which is >= 0 (Fenchel 1949).
 Fraction gap_above(const ProofPair& pair);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

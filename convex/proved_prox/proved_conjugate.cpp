@@ -6,7 +6,7 @@
 #include "convex/exact_program/program_operations.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 double ProvedValue::error_of(double value) const {
   if (std::isinf(interval.low) && interval.low == interval.high) return value == interval.low ? 0 : INFINITY;
@@ -43,4 +43,4 @@ ProvedValue proved_conjugate(const SplitQuestion& question) {
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

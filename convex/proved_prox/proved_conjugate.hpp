@@ -2,7 +2,7 @@
 
 #include "convex/proved_prox/proved_split.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// What is proved of a value: it lies in the interval, which may be [inf, inf]; `exact` where it is a
 /// fraction.
@@ -21,4 +21,4 @@ struct ProvedValue {
 /// where a pair with the covector Wy itself is found.
 ProvedValue proved_conjugate(const SplitQuestion& question);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

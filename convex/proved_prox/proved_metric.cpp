@@ -5,7 +5,7 @@
 #include "convex/exact_program/linear_equations.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 namespace {
 
 /// A full W of so many entries is solved with in fractions.
@@ -111,4 +111,4 @@ Fractions ProvedMetric::solve(const Fractions& c) const {
   return solve_near(std::move(equations), Fractions(c.size())).value();
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -2,7 +2,7 @@
 
 #include "convex/exact_program/exact_gram.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A metric in fractions with what bounds its norms from above, in doubles rounded up. The bound is infinite
 /// where W is not proved positive definite.
@@ -40,4 +40,4 @@ Vector nearest(const Fractions& x);
 Fractions fractions(const Vector& x);
 Fractions difference(const Fractions& a, const Fractions& b);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -10,7 +10,7 @@
 #include "convex/proved_prox/doubles/proof_in_doubles.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 ProvedInterval outwards(const Fraction& low, const Fraction& high) {
   ProvedInterval made{nearest_double(low), nearest_double(high)};
@@ -242,4 +242,4 @@ Decomposition rounded(const ExactSplit& exact, const SplitQuestion& question) {
   return made;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

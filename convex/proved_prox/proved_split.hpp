@@ -9,7 +9,7 @@
 #include "convex/proved_prox/proof_pair.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
-namespace convex {
+namespace convex::inline proved_prox {
 
 /// A point to split, its numbers as they are written: z = x + y, x = prox_f z, y = prox_g z, g(y) = f*(Wy).
 struct SplitQuestion {
@@ -68,4 +68,4 @@ ProvedSplit proof_of(const ExactSplit&, const Decomposition& split, const SplitQ
 /// A decomposition whose numbers are the nearest doubles of exact ones.
 Decomposition rounded(const ExactSplit&, const SplitQuestion&);
 
-}  // namespace convex
+}  // namespace convex::inline proved_prox

@@ -8,7 +8,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/operations/operations.hpp"
 
-namespace convex {
+namespace convex::inline sets {
 namespace {
 
 bool all_zero(const IntegerVector& v, std::size_t n) {
@@ -273,4 +273,4 @@ Set as_set(const ExactPolyhedron& P) {
   return {intersection(sets, n), std::move(both)};
 }
 
-}  // namespace convex
+}  // namespace convex::inline sets

@@ -4,7 +4,7 @@
 #include "convex/exact_program/exact_program.hpp"
 #include "convex/functions/function.hpp"
 
-namespace convex {
+namespace convex::inline sets {
 
 /// normal·v <= limit, or = limit.
 struct ExactHalfspace {
@@ -56,4 +56,4 @@ ExactProgram program_of(const ExactPolyhedron& P);
 /// function its conjugate, the projection its prox. Throws InvalidInput when P is empty.
 Set as_set(const ExactPolyhedron& P);
 
-}  // namespace convex
+}  // namespace convex::inline sets

@@ -13,7 +13,7 @@
 #include "convex/proved_prox/proved_metric.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
-namespace convex {
+namespace convex::inline sets {
 namespace {
 
 ExactVector exact_row(const ExactRow& row, std::size_t n) {
@@ -189,4 +189,4 @@ Matrix prox_jacobian(const Function& f, const Vector& z, const Metric& W) {
   return atom->prox_jacobian(z, W.diagonal());
 }
 
-}  // namespace convex
+}  // namespace convex::inline sets

@@ -6,7 +6,7 @@
 #include "convex/exact_program/exact_gram.hpp"
 #include "convex/sets/exact_polyhedron.hpp"
 
-namespace convex {
+namespace convex::inline sets {
 
 /// ∂f(x) = {v : f(u) >= f(x) + v·(u - x) for all u} (Moreau 1963; Rockafellar 1970, section 23), covectors in
 /// the plain product; empty where f(x) = +inf, and where f has a vertical slope. Of an indicator it is the
@@ -61,4 +61,4 @@ Fractions prox_derivative(const Call& f, const ExactGram& W, const Fractions& z,
 /// InvalidInput for another f or W.
 Matrix prox_jacobian(const Function& f, const Vector& z, const Metric& W);
 
-}  // namespace convex
+}  // namespace convex::inline sets

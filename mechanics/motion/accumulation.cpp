@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Of the speed and of the interval after it.
@@ -52,4 +52,4 @@ double ImpactHistory::remaining() const {
   return interval_[0] * r / (1 - r);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 
 #include "convex/vector.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using convex::Index;
 
@@ -43,4 +43,4 @@ class ImpactHistory {
   double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

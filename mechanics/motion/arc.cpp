@@ -1,6 +1,6 @@
 #include "mechanics/motion/arc.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Without the zeros at the end, of which a polynomial has many.
@@ -64,4 +64,4 @@ Vector Arc::multipliers(double tau) const {
   return sum;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

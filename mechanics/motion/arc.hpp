@@ -5,7 +5,7 @@
 
 #include "mechanics/state.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// A piece of the motion without events inside, by its Taylor polynomials: q(t + τ), the multipliers of the
 /// contacts that persist, and the constraints, for 0 <= τ <= length.
@@ -31,4 +31,4 @@ inline std::span<const double> coefficients(const convex::RowMatrix& of, Index a
   return {of.data() + a * of.cols(), static_cast<std::size_t>(of.cols())};
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 
 #include "mechanics/number_text.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 MotionOptions checked(MotionOptions options, const LagrangianSystem& system) {
@@ -64,4 +64,4 @@ void Motion::Course::note_penetration(Index a, double f, double scale) {
   record.most_penetrated = a;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

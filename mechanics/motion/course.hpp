@@ -2,7 +2,7 @@
 
 #include "mechanics/motion/motion.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// The course of a motion: what `Motion` knows between two steps, whatever way it is followed.
 class Motion::Course {
@@ -50,4 +50,4 @@ class Motion::NotBegun final : public Motion::Course {
   bool advance(double) override { return false; }
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Eight numbers that are worked on at a time.
 struct alignas(64) Eight {
@@ -18,4 +18,4 @@ inline Wide* wide(std::vector<Eight>& x) { return reinterpret_cast<Wide*>(x.data
 
 constexpr std::size_t blocks_of(std::size_t numbers) { return (numbers + Eight::count - 1) / Eight::count; }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

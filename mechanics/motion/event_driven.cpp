@@ -8,7 +8,7 @@
 #include "mechanics/motion/step_length.hpp"
 #include "mechanics/number_text.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -347,4 +347,4 @@ void Motion::EventDriven::fill_next() {
       step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 #include "mechanics/motion/expansion.hpp"
 #include "mechanics/motion/zero_search.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// A motion followed from event to event. A step ends at the first event of its arc; the event changes the
 /// velocity, and the right limit of the motion chooses the contacts of the next arc.
@@ -75,4 +75,4 @@ class Motion::EventDriven final : public Motion::Course {
   long events_at_once_ = 0;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

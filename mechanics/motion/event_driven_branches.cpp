@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/event_driven.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 bool is_among(const std::vector<Index>& all, Index a) {
@@ -118,4 +118,4 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
   return std::nullopt;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -6,7 +6,7 @@
 #include "mechanics/motion/impact.hpp"
 #include "mechanics/number_text.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -301,4 +301,4 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   if (changed && done.length > 0) event(EventKind::branch, {}, state.v);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

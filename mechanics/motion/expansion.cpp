@@ -5,7 +5,7 @@
 
 #include "convex/invariant.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using expression::Slot;
 
@@ -264,4 +264,4 @@ void Expansion::find_constraints() {
   }
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

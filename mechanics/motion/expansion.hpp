@@ -13,7 +13,7 @@
 #include "mechanics/motion/taylor_series.hpp"
 #include "mechanics/state.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Contacts at the beginning of an arc. `held` persist for certain, in the order in which their multipliers
 /// are to be determined where they depend on each other; `open` have f = df/dt = 0, and it is asked whether
@@ -162,4 +162,4 @@ class Expansion {
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

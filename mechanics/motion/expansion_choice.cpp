@@ -5,7 +5,7 @@
 #include "mechanics/motion/expansion.hpp"
 
 /// Who persists, and which coefficients are not 0: decided by what rounding can have made of them.
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using expression::Slot;
 
@@ -144,4 +144,4 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
   return solution.q;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/motion/expansion.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using expression::Slot;
 
@@ -101,4 +101,4 @@ void Expansion::sizes(std::vector<double>& of_order) const {
   of_order.resize(count);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

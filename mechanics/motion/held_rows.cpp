@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Whitening rounds a row about so many times, for each coordinate.
@@ -57,4 +57,4 @@ HeldRows::Answer HeldRows::solve(const Vector& r, const Vector& s) const {
   return answer;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 
 #include "convex/metric.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using convex::Index;
 using convex::Vector;
@@ -37,4 +37,4 @@ class HeldRows {
   convex::Matrix Q_, R_;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

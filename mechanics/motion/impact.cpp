@@ -5,7 +5,7 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// f'(v+) and what an impulse changes in it are rounded about so many times, relative to what f'(v+) is the
@@ -166,4 +166,4 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
   return rounded_outcome(A, contacts, before + expansion.q, compression.lambda + given + expansion.lambda);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -6,7 +6,7 @@
 
 #include "convex/metric.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using convex::Index;
 using convex::Vector;
@@ -55,4 +55,4 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
 /// e and the two-sided contacts held, until none closes. Where that does not end, its limit.
 ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

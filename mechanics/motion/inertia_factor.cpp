@@ -7,7 +7,7 @@
 #include "convex/processor.hpp"
 #include "mechanics/motion/eight.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// A pivot is rounded about so many times, for each coordinate.
@@ -117,4 +117,4 @@ void InertiaFactor::norms(const double* const* x, double* of, std::size_t count)
   norms_by(M_.data(), root_.data(), static_cast<std::size_t>(n_), x, of, count);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 
 #include "mechanics/state.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// A = M D Mᵀ for few coordinates, M with a diagonal of 1, made anew at each step in the same memory.
 class InertiaFactor {
@@ -29,4 +29,4 @@ class InertiaFactor {
   std::vector<double> root_, inverse_;  // sqrt(D_ii), 1 / D_ii
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 #include "mechanics/expression/gradient_nodes.hpp"
 #include "mechanics/expression/total_derivative.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using namespace expression;
 
@@ -63,4 +63,4 @@ LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.
   constraint = program.roots(2);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -6,7 +6,7 @@
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/motion/taylor_steps.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// What has to be known along a motion to continue it, as expressions of one program. With p = ∂T/∂q' and
 /// F = ∂(T - V)/∂q + Q, Lagrange's equations (Moreau 1966, (5)) read
@@ -38,4 +38,4 @@ struct EquationsOfMotion {
   TaylorSteps steps;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -6,7 +6,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using convex::Index;
@@ -97,4 +97,4 @@ Matrix linear_flow(const std::function<Matrix(double)>& J, double length) {
   return refined(J, 0, length, piece(J, 0, length), most_halvings_of_piece);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 #include "mechanics/motion/time_stepping.hpp"
 #include "mechanics/number_text.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 const char* name(EventKind kind) {
   switch (kind) {
@@ -74,4 +74,4 @@ const std::string& Motion::why() const { return course_->why; }
 const std::vector<Index>& Motion::excluding() const { return course_->excluding; }
 const MotionRecord& Motion::record() const { return course_->record; }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -10,7 +10,7 @@
 #include "mechanics/motion/arc.hpp"
 #include "mechanics/motion/impact.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// How a motion is followed: from event to event, or in steps of one length that do not look for events.
 enum class MotionMethod { event_driven, time_stepping };
@@ -115,4 +115,4 @@ class Motion {
   std::unique_ptr<Course> course_;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

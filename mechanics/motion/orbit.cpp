@@ -7,7 +7,7 @@
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
 #include "mechanics/motion/period_map.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using convex::Matrix;
@@ -175,4 +175,4 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   return orbit;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

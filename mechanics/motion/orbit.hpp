@@ -7,7 +7,7 @@
 
 #include "mechanics/motion/motion.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// What is to come back.
 struct OrbitQuestion {
@@ -46,4 +46,4 @@ std::vector<std::complex<double>> multipliers_across(const Orbit&, bool is_free)
 /// order for the multipliers. Throws InvalidInput where the guess cannot begin a motion.
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using convex::Matrix;
@@ -123,4 +123,4 @@ std::optional<Matrix> PeriodMap::differences(const TangentChart& chart, double p
   return D;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 #include "mechanics/motion/saltation.hpp"
 #include "mechanics/motion/tangent_chart.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// A motion over a period, or what stopped it.
 struct Flight {
@@ -48,4 +48,4 @@ class PeriodMap {
   Variation variation_;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -7,7 +7,7 @@
 
 #include "convex/invariant.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Numbers where they stand: the search is made for each constraint in each step.
@@ -204,4 +204,4 @@ std::optional<FirstZero> first_zero(std::span<const double> coefficients, double
   return std::nullopt;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

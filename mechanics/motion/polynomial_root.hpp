@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// More than any series of a motion has.
 inline constexpr std::size_t most_coefficients = 64;
@@ -19,4 +19,4 @@ struct FirstZero {
 /// together nor a double one are missed. A minimum within `rounding` (absolute, in units of p) counts as 0.
 std::optional<FirstZero> first_zero(std::span<const double> c, double end, double rounding);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 
 #include "mechanics/motion/linear_flow.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using convex::Matrix;
@@ -219,4 +219,4 @@ FlowDerivative flow_derivative(const Variation& variation, const std::vector<Fli
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -3,7 +3,7 @@
 #include "mechanics/motion/motion.hpp"
 #include "mechanics/motion/variation.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// A step of a motion, with what happens at its end.
 struct FlightPiece {
@@ -33,4 +33,4 @@ struct FlowDerivative {
 FlowDerivative flow_derivative(const Variation& variation, const std::vector<FlightPiece>& flight,
                                const MotionOptions& options, const std::vector<Index>& two_sided);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

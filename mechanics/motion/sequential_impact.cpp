@@ -3,7 +3,7 @@
 #include "mechanics/motion/held_rows.hpp"
 #include "mechanics/motion/impact.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 constexpr long most_strokes = 100'000;
@@ -117,4 +117,4 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
   return outcome;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -6,7 +6,7 @@
 
 #include "convex/vector.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 double tolerance_of_step(double tolerance) {
   return std::max(part_of_a_step * tolerance, 0.5 * convex::unit_roundoff);
@@ -61,4 +61,4 @@ double trusted_length(std::span<const double> c, double tolerance) {
       c.size(), [&](std::size_t k) { return std::abs(c[k]); }, 0, tolerance);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

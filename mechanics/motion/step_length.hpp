@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Errors of steps add up and are carried on, so that a step aims at so much less than the tolerance: the
 /// work grows with its logarithm only.
@@ -26,4 +26,4 @@ double step_length(std::span<const double> sizes, double tolerance);
 /// The same for one function: as far as its series can be trusted in a search for zeros.
 double trusted_length(std::span<const double> c, double tolerance);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

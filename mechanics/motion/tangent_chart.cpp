@@ -6,7 +6,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/motion/held_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Newton's method has arrived when it moves a state by less than so many roundings of it.
@@ -115,4 +115,4 @@ Vector TangentChart::direction(Index k) const {
   return x;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -3,7 +3,7 @@
 #include "convex/metric.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Coordinates y of the states near one that satisfies the two-sided constraints in f and df/dt: 2 d numbers,
 /// d = n minus the number of independent rows. With U N = 0, Nᵀ A N = 1, a state belongs to
@@ -34,4 +34,4 @@ class TangentChart {
   convex::Matrix N_, dual_;  // dual_ = Nᵀ A
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

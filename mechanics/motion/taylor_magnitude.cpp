@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using expression::Slot;
 using Kind = TaylorStep::Kind;
@@ -126,4 +126,4 @@ void TaylorMagnitude::find(std::size_t group, int k) {
   }
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

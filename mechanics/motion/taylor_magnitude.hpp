@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/taylor_series.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// What the coefficients of a series are the sums of: the same recurrences with the absolute values of all
 /// terms, and a function of a with |f'(a)| |a| beside |f|. Where terms cancel, this is much larger than
@@ -33,4 +33,4 @@ class TaylorMagnitude {
   std::vector<double> slopes_;  // what stands for |c| in each term of the rows
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 
 #include "convex/processor.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// The newest factors, those of order k - 1, come last: what is older can be summed while they are found.
@@ -58,4 +58,4 @@ bool TaylorProducts::are_zero() const {
   });
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

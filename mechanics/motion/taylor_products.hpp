@@ -5,7 +5,7 @@
 #include "mechanics/motion/eight.hpp"
 #include "mechanics/motion/taylor_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// The rests R_(p,k) of products from the lower coefficients of their factors. Eight products stand side by
 /// side, order by order, so that one pass over contiguous numbers finds an order of all eight, and no sum
@@ -32,4 +32,4 @@ class TaylorProducts {
   std::vector<Eight> rest_;      // by block
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

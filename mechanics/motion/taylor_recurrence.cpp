@@ -6,7 +6,7 @@
 
 #include "convex/processor.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Instructions of a row, of a term, and of eight numbers of a column.
@@ -290,4 +290,4 @@ bool TaylorRecurrence::run() {
   return all_finite;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

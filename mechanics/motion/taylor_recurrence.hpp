@@ -3,7 +3,7 @@
 #include "mechanics/motion/inertia_factor.hpp"
 #include "mechanics/motion/taylor_products.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// All orders of a free motion of few coordinates in one pass. With no contact held, every number of order k
 /// is linear in the rests of that order and in v_(k-1) / k and F_(k-1) / k: the rows of an order and A⁻¹ are
@@ -57,4 +57,4 @@ class TaylorRecurrence {
   Vector change_;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

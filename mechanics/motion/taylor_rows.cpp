@@ -1,6 +1,6 @@
 #include "mechanics/motion/taylor_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using expression::Slot;
@@ -200,4 +200,4 @@ TaylorRows::TaylorRows(const TaylorSteps& steps, const Asked& asked) {
     if (is_read[rows[r].out]) after_velocity.push_back(r);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -2,7 +2,7 @@
 
 #include "mechanics/motion/taylor_steps.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// The recurrences of `TaylorSteps` beyond order 0. Coefficient k of each is linear in those of the same
 /// order, with the partial derivatives at order 0, and has a rest from lower orders:
@@ -51,4 +51,4 @@ struct TaylorRows {
   Slot zero = 0;  ///< a series that is 0
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

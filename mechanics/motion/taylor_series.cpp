@@ -5,7 +5,7 @@
 
 #include "mechanics/expression/operation.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using expression::Operation;
@@ -294,4 +294,4 @@ double slope_at(std::span<const double> c, double tau) {
   return sum;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 
 #include "mechanics/motion/taylor_recurrence.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// The Taylor coefficients of the slots of a program along a motion, found order by order (Jorba and Zou
 /// 2005): f(t + τ) = Σ c_k τ^k.
@@ -93,4 +93,4 @@ double value_at(std::span<const double> c, double tau);
 /// Σ k c_k τ^(k-1).
 double slope_at(std::span<const double> c, double tau);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

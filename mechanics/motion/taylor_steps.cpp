@@ -7,7 +7,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using namespace expression;
 
@@ -223,4 +223,4 @@ TaylorSteps::TaylorSteps(const Tape& tape, const Program& program)
   while (!by_velocity.empty() && by_velocity.back() >= ends[0]) by_velocity.pop_back();
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

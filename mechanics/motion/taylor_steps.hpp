@@ -4,7 +4,7 @@
 
 #include "mechanics/expression/program.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// One recurrence of Taylor arithmetic: coefficient k of series `out` (and `partner`) from coefficients up
 /// to k of `a` and `b` and up to k - 1 of its own.
@@ -60,4 +60,4 @@ struct TaylorSteps {
   std::vector<std::size_t> by_velocity;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -8,7 +8,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/number_text.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// The velocity of a step is found by iteration until it would change by less than this part: far below the
@@ -262,4 +262,4 @@ void Motion::TimeStepping::tell_events(double h, const Vector& velocity_before) 
   is_first_ = false;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

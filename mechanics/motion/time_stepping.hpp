@@ -4,7 +4,7 @@
 #include "convex/nearest_point/solution.hpp"
 #include "mechanics/motion/course.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Rows as a nearest-point problem wants them: sparse where there are many coordinates.
 convex::ConstraintRows rows_to_solve(convex::SparseRows U);
@@ -89,4 +89,4 @@ class Motion::TimeStepping final : public Motion::Course {
   Repeated velocities_, positions_, tangents_;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/time_stepping.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Fewer coordinates are solved with dense rows.
@@ -155,4 +155,4 @@ void Motion::TimeStepping::correct_velocity() {
   if (found.q.size() == state.v.size() && found.status != convex::Status::infeasible) state.v += found.q;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

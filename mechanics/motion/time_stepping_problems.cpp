@@ -7,7 +7,7 @@
 #include "convex/nearest_point/sparse/sparse_interior_point.hpp"
 #include "mechanics/motion/time_stepping.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// Numbers of rows are rounded about so many times.
@@ -119,4 +119,4 @@ const convex::Solution& Motion::TimeStepping::solve(Repeated& repeated, const st
   return repeated.solution;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "mechanics/motion/period_map.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 using convex::Matrix;
@@ -215,4 +215,4 @@ std::optional<OrbitBeside> orbit_beside(const OrbitFamily& family, const Turning
   return std::nullopt;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

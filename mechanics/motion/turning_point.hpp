@@ -5,7 +5,7 @@
 
 #include "mechanics/motion/orbit.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Systems, and what is to come back of them, by a parameter.
 struct OrbitFamily {
@@ -35,4 +35,4 @@ struct OrbitBeside {
 };
 std::optional<OrbitBeside> orbit_beside(const OrbitFamily& family, const TurningPoint& fold, double distance);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 using namespace expression;
 using convex::Matrix;
@@ -203,4 +203,4 @@ void Variation::hold(const State& at, const std::vector<Index>& constraints, Mat
   }
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

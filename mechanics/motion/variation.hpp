@@ -4,7 +4,7 @@
 #include "mechanics/lagrangian_system.hpp"
 #include "mechanics/motion/held_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// First derivatives of what a motion does, in its state (q, v) and t: those of q'' while contacts are held,
 /// and those of an impact. They follow from Lagrange's equations differentiated once more, with
@@ -68,4 +68,4 @@ class Variation {
         switch_roots_ = 0;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

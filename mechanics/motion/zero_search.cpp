@@ -7,7 +7,7 @@
 #include "convex/invariant.hpp"
 #include "mechanics/motion/polynomial_root.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 namespace {
 
 /// A value by Horner's rule is rounded about so many times, relative to what it is the sum of.
@@ -57,4 +57,4 @@ std::vector<Zero> first_zeros(const std::vector<Watched>& watched, double end, d
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -4,7 +4,7 @@
 
 #include "mechanics/motion/arc.hpp"
 
-namespace mechanics {
+namespace mechanics::inline motions {
 
 /// Something on an arc that comes to 0.
 struct Zero {
@@ -27,4 +27,4 @@ struct Watched {
 /// `together` are left out.
 std::vector<Zero> first_zeros(const std::vector<Watched>& watched, double end, double together);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline motions

@@ -5,7 +5,7 @@
 #include "mechanics/singular/rounded_rows.hpp"
 #include "mechanics/singular/singular_group.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using expression::Rounded;
 using expression::TimeSeries;
@@ -140,4 +140,4 @@ void SingularGroup::refuse(const Dependence& dependence, const std::string& what
                              main.place);
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -5,7 +5,7 @@
 #include "mechanics/singular/rounded_rows.hpp"
 #include "mechanics/singular/singular_group.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using expression::Rounded;
 using expression::TimeSeries;
@@ -173,4 +173,4 @@ std::optional<SingularGroup::Motion> SingularGroup::motion_with(const Dependence
   return std::nullopt;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

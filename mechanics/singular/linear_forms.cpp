@@ -5,7 +5,7 @@
 #include "mechanics/singular/rounded_rows.hpp"
 #include "mechanics/singular/singular_group.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using expression::Rounded;
 using expression::TimeSeries;
@@ -91,4 +91,4 @@ std::vector<AddedRow> SingularGroup::linear_forms(const Dependence& dependence) 
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

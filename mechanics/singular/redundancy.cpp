@@ -5,7 +5,7 @@
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "mechanics/singular/rounded_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 namespace {
 
 using convex::Matrix;
@@ -101,4 +101,4 @@ std::optional<bool> is_redundant(const ConstraintSeries& series, const State& st
   return true;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -2,7 +2,7 @@
 
 #include "mechanics/expression/constraint_series.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using convex::Index;
 using convex::Vector;
@@ -16,4 +16,4 @@ std::optional<bool> is_redundant(const expression::ConstraintSeries& series, con
                                  const std::vector<Index>& columns, Index main,
                                  const std::vector<Index>& others);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -1,6 +1,6 @@
 #include "mechanics/singular/resolution.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 Resolution resolve(const LagrangianSystem& system, const State& state, const StateRadii& radii,
                    const GaussProblem& gauss,
@@ -29,4 +29,4 @@ Resolution resolve(const LagrangianSystem& system, const State& state, const Sta
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -5,7 +5,7 @@
 #include "mechanics/gauss_solution.hpp"
 #include "mechanics/singular/singular_state.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 /// Gauss' problem with all the equations that its answer at the state needs.
 struct Resolution {
@@ -24,4 +24,4 @@ struct Resolution {
 Resolution resolve(const LagrangianSystem&, const State&, const StateRadii& radii, const GaussProblem&,
                    const std::function<const GaussSolution&(const convex::NearestPointProblem&)>& solve);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -5,7 +5,7 @@
 #include "mechanics/expression/time_series.hpp"
 #include "mechanics/singular/row_space.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 inline bool is_finite(expression::Rounded x) { return std::isfinite(x.value) && std::isfinite(x.radius); }
 
@@ -35,4 +35,4 @@ struct ScaledRows {
   }
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 namespace {
 
 /// Roundings of the products and sums of an expansion, relative to the lengths of the rows in it.
@@ -86,4 +86,4 @@ SplitRows split_rows(const RowMatrix& rows, const Vector& radius, RowSpace& spac
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -5,7 +5,7 @@
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "mechanics/singular/rounded_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using expression::Rounded;
 using expression::TimeSeries;
@@ -174,4 +174,4 @@ std::vector<SingularGroup::Repeated> SingularGroup::repeated() const {
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -4,7 +4,7 @@
 #include "mechanics/expression/constraint_series.hpp"
 #include "mechanics/singular/row_space.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 /// An equation row·q'' = rhs that third derivatives give where gradients depend on each other: Σ w_a
 /// d³f_a/dt³ = 0 with Σ w_a u_a = 0, so that q''' drops out and row = 3 Σ w_a (H_a q' + ∂u_a/∂t).
@@ -116,4 +116,4 @@ class SingularGroup {
   bool undecided_ = false;
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

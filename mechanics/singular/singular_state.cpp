@@ -8,7 +8,7 @@
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/singular/suspect_rows.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 namespace {
 
 using expression::Rounded;
@@ -285,4 +285,4 @@ convex::NearestPointProblem SingularState::extended(const convex::NearestPointPr
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

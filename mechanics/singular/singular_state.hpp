@@ -6,7 +6,7 @@
 #include "mechanics/singular/singular_group.hpp"
 #include "mechanics/warning.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 /// A state at which gradients of two-sided constraints may vanish or depend on each other. Second derivatives
 /// then do not fix q''; those of third order are linear in it and are added, in the order of need; those of
@@ -57,4 +57,4 @@ class SingularState {
   bool left_out_ = false;        ///< rows that others make up
 };
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -7,7 +7,7 @@
 
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 namespace {
 
 using convex::Matrix;
@@ -94,4 +94,4 @@ SuspectRows suspect_rows(const GaussProblem& gauss, const Vector& unit) {
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -2,7 +2,7 @@
 
 #include "mechanics/gauss_problem.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 /// Two-sided rows whose gradients may vanish or depend on each other: a quick look in doubles, which passes
 /// over nothing that is closer than a millionth to it.
@@ -12,4 +12,4 @@ struct SuspectRows {
 };
 SuspectRows suspect_rows(const GaussProblem&, const Vector& unit);
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

@@ -1,7 +1,7 @@
 #include "mechanics/singular/rounded_rows.hpp"
 #include "mechanics/singular/singular_group.hpp"
 
-namespace mechanics {
+namespace mechanics::inline singular_states {
 
 using expression::Rounded;
 using expression::TimeSeries;
@@ -76,4 +76,4 @@ std::vector<AddedRow> SingularGroup::missing(const std::vector<Rounded>& q2) {
   return found;
 }
 
-}  // namespace mechanics
+}  // namespace mechanics::inline singular_states

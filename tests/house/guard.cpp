@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
@@ -47,6 +48,27 @@ TEST_CASE("data flow from cli to mechanics to convex and never back") {
       CAPTURE(line);
       CHECK_FALSE(begins_with_any(included(line), forbidden));
     }
+  }
+}
+
+TEST_CASE("each room of the nearest point has a namespace of its own") {
+  std::map<std::string, std::set<std::string>> spaces;  // of a room
+  std::map<std::string, std::set<std::string>> rooms;   // of a namespace
+  static const std::regex opened(R"(^namespace (convex::inline \w+|convex)(::\w+)? \{$)");
+  for (const SourceFile& file : tests::source_files()) {
+    const std::string room = fs::path(file.path).parent_path().string();
+    if (!room.starts_with("convex/nearest_point/")) continue;
+    for (const std::string& line : file.lines)
+      if (std::smatch match; std::regex_match(line, match, opened)) {
+        spaces[room].insert(match[1]);
+        rooms[match[1]].insert(room);
+      }
+  }
+  CHECK(spaces.size() >= 12);
+  for (const auto& [room, names] : spaces) {
+    CAPTURE(room);
+    CHECK(names.size() == 1);
+    for (const std::string& name : names) CHECK(rooms[name].size() == 1);
   }
 }
 

@@ -44,7 +44,8 @@ std::string bare(const SourceFile& file) {
 /// The qualified names of the types that a file defines where the linker can see them: in named namespaces
 /// and in such types, not in functions nor in a namespace without a name.
 std::set<std::string> visible_types(const SourceFile& file) {
-  static const std::regex namespace_head(R"((?:^|\s)namespace(?:\s+([\w:]+))?\s*$)");
+  static const std::regex namespace_head(
+      R"((?:^|\s)namespace(?:\s+([\w: ]*\w))?\s*$)");
   static const std::regex type_head(
       R"((?:^|\s|>)(?:class|struct|union|enum(?:\s+class|\s+struct)?)\s+([\w:]+)(\s*<[^{]*>)?\s*(?:final\s*)?(?::[^{]*)?$)");
   std::set<std::string> found;
@@ -55,7 +56,7 @@ std::set<std::string> visible_types(const SourceFile& file) {
       std::smatch match;
       std::string scope;
       if (std::regex_search(head, match, namespace_head)) {
-        scope = match[1];
+        scope = std::regex_replace(match[1].str(), std::regex("inline\\s+"), "");
       } else if (std::regex_search(head, match, type_head)) {
         scope = match[1].str() + match[2].str();
         std::string name;
@@ -118,6 +119,7 @@ TEST_CASE(
   };
   CHECK(against({"namespace convex {", "struct Pool {", "  double x = f({1, 2});", "};", "}"}) == 1);
   CHECK(against({"namespace convex { enum class Pool { one }; }"}) == 1);
+  CHECK(against({"namespace convex::inline pivoting { struct Pool {}; }"}) == 0);
   CHECK(against({"namespace convex {", "struct Pool {", "  struct Part {};", "};", "}"}) == 2);
   CHECK(against({"namespace convex {", "template <class T>", "struct Pool", "{", "};", "}"}) == 1);
   // Hidden, local, only announced, elsewhere, or in words.

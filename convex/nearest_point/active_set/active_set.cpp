@@ -11,7 +11,7 @@
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -343,4 +343,4 @@ Solution active_set_of_valid(const NearestPointProblem& problem, const Accuracy&
   return with_open_signs(problem, decided_in_fractions(problem, std::move(found), accuracy), accuracy);
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

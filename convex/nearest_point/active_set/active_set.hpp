@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// The dual active-set method (Goldfarb and Idnani 1983) on whitened rows, finished by refinement against the
 /// original KKT system: on their Gram matrix, by blocks where these settle; what is in doubt goes on with an
@@ -20,4 +20,4 @@ Solution active_set(const NearestPointProblem&, const Accuracy& = {}, const std:
 /// The same for a problem and a guess that have been checked.
 Solution active_set_of_valid(const NearestPointProblem&, const Accuracy&, const std::vector<Index>& guess);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -12,7 +12,7 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy,
                     const std::vector<Index>& guess) {
@@ -96,4 +96,4 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
   return solution;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// The answer of the active-set method from its refined point, with residuals, status and an error bound:
 /// what refinement left, the rounding of q to doubles, and what rows that contradict W by rounding leave
@@ -17,4 +17,4 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
 /// max(||q||_A, ||z||_(A⁻¹)).
 Solution infeasible_answer(const NearestPointProblem&, const Vector& weights, double scale, Index steps);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,
                                         Vector& slack) {
@@ -34,4 +34,4 @@ std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVecto
   return {};
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

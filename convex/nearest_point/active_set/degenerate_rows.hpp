@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/active_set/working_set.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// Decides without rounding whether the point q of the rows W keeps the rows outside W that it touches as far
 /// as doubles tell: those with slack <= 0, and two-sided ones. Either q itself, in doubles, is the point and
@@ -14,4 +14,4 @@ namespace convex {
 std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,
                                         Vector& slack);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

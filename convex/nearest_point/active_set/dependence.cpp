@@ -7,7 +7,7 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/reductions/islands.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// Beyond so many multiplications there is no dense factor of tight rows.
@@ -143,4 +143,4 @@ std::vector<NullVector> null_space(const std::vector<Dependence>& groups) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

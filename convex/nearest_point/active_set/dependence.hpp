@@ -6,7 +6,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// Rows that depend on each other: independent ones, `basic`, and the others with their expansions in them,
 /// u_p = Σ T(k, p) u_k.
@@ -28,4 +28,4 @@ using NullVector = std::vector<std::pair<Index, double>>;
 /// A basis of {mu : Uᵀmu = 0} over the tight rows: e_p - Σ T(k, p) e_k for every dependent row p, in order.
 std::vector<NullVector> null_space(const std::vector<Dependence>&);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// Where s has no radii, the way goes on as if a gap of so many roundings were none; the end decides it
@@ -101,4 +101,4 @@ Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::S
   return weights;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

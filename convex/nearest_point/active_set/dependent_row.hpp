@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/active_set/working_set.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// What twice the working precision leaves of a row that depends on the others exactly, of its magnitude.
 inline constexpr double exact_dependence = 0x1p-90;
@@ -29,4 +29,4 @@ bool is_flat_wedge(const WorkingSet& set, Index p, const WorkingSet::Split& spli
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

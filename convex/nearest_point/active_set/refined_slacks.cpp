@@ -6,7 +6,7 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// How far the violation of a row that is taken for 0 may leave the point from the edge of that row and W.
@@ -39,4 +39,4 @@ Vector refined_slacks(WorkingSet& set, RefinedPoint& point, const Vector& row_sc
   return rest;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

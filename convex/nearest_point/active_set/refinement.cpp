@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// Beyond this the corrections do not converge fast enough to be trusted.
@@ -109,4 +109,4 @@ Index most_negative(const WorkingSet& set, const RefinedPoint& refined) {
   return worst;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/active_set/working_set.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// Corrections are made until what is left lies so far below the scale of the problem: the sixty bits that a
 /// rounded answer and the signs of its slacks can need.
@@ -69,4 +69,4 @@ RefinedPoint refine(const WorkingSet& set);
 /// what may be missing in it; -1 for none.
 Index most_negative(const WorkingSet& set, const RefinedPoint& refined);
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -1,6 +1,6 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 namespace {
 
 /// Below this part of |v_p| outside the span of W, doubles alone no longer tell how much is left, and the
@@ -122,4 +122,4 @@ void WorkingSet::correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda
   dlambda = r2;
 }
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/active_set/orthogonal_factor.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline dual_active_set {
 
 /// F⁻¹u_a of the rows given, as columns.
 Matrix whitened_rows(const NearestPointProblem&, const std::vector<Index>& rows);
@@ -70,4 +70,4 @@ class WorkingSet {
   Vector w_free_, w_, lambda_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline dual_active_set

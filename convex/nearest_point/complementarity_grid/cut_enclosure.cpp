@@ -6,7 +6,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_multigrid.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 namespace {
 
 constexpr double nothing_proved = std::numeric_limits<double>::infinity();
@@ -140,4 +140,4 @@ double enclosed_error(const std::vector<const CutGrid*>& grids, const CutSolutio
   return (delta * highest + moved) * upwards;
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

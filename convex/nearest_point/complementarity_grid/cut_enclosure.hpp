@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_obstacle.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 /// A proved bound of |q - q*| in the largest norm, q* the minimum on the finest grid for the doubles that the
 /// grid holds; infinite where nothing is proved, as without pull, where q* may be known up to a constant
@@ -15,4 +15,4 @@ namespace convex {
 /// is regular. All of it is checked with bounds of what each sum has rounded.
 double enclosed_error(const std::vector<const CutGrid*>& grids, const CutSolution& found);
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

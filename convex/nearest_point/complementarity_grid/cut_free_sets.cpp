@@ -1,7 +1,7 @@
 #include "convex/nearest_point/complementarity_grid/cut_multigrid.hpp"
 #include "convex/nearest_point/complementarity_grid/cut_rows.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 namespace {
 
 std::size_t entry(Index k) { return static_cast<std::size_t>(k); }
@@ -73,4 +73,4 @@ void CutMultigrid::set_free(const std::vector<std::uint8_t>& held, const std::ve
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 CutGrid::CutGrid(std::size_t space, const std::array<Index, 3>& counts) : dimension(space), points(counts) {
   Index size = 1;
@@ -21,4 +21,4 @@ Index CutGrid::unknowns() const {
   return std::count_if(kind.begin(), kind.end(), [](CutPoint point) { return point >= CutPoint::free; });
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

@@ -6,7 +6,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 /// What a point of a grid is.
 enum class CutPoint : std::uint8_t {
@@ -52,4 +52,4 @@ struct CutGrid {
   std::array<Index, 3> strides_{1, 0, 0};
 };
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

@@ -6,7 +6,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_rows.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 namespace {
 
 constexpr Index most_steps = 200;
@@ -300,4 +300,4 @@ Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, doub
   return step;
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

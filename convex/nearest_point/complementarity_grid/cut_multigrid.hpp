@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_grid.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 /// Conjugate gradients on the free unknowns of the finest of some grids, each made of the even points of the
 /// one before, with a V-cycle as preconditioner (Brandt 1977; truncated to free sets as by Kornhuber 1994):
@@ -48,4 +48,4 @@ class CutMultigrid {
   std::vector<double> load_, pull_, p_, Ap_, sum_, row_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_multigrid.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 namespace {
 
 std::size_t at(Index k) { return static_cast<std::size_t>(k); }
@@ -127,4 +127,4 @@ std::vector<CutSolution> solve_cut_grids(const std::vector<const CutGrid*>& grid
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_grid.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 /// q on a grid, and who bounds it.
 struct CutSolution {
@@ -21,4 +21,4 @@ struct CutSolution {
 /// 0 (or, without bounds, to anything else).
 std::vector<CutSolution> solve_cut_grids(const std::vector<const CutGrid*>& grids, bool one_sided = true);
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

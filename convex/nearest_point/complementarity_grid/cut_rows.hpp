@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/complementarity_grid/cut_grid.hpp"
 
-namespace convex {
+namespace convex::inline complementarity_grid {
 
 /// Calls row(first, j, k) for every row along the first axis, `first` its point 0.
 template <class Row>
@@ -22,4 +22,4 @@ void for_slab(const CutGrid& grid, Index slab, Row row) {
   for (Index j = 0; j < grid.points[1]; ++j) row(grid.at(0, j, slab), j, slab);
 }
 
-}  // namespace convex
+}  // namespace convex::inline complementarity_grid

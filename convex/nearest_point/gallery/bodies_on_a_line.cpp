@@ -4,7 +4,7 @@
 #include "convex/nearest_point/gallery/draw.hpp"
 #include "convex/nearest_point/gallery/families.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 namespace {
 
 /// Powers of two from 1 to about `ratio`.
@@ -61,4 +61,4 @@ GalleryInstance chain(Index bodies, double mass_ratio, std::uint32_t seed) {
           Vector(0)};
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

@@ -4,7 +4,7 @@
 #include "convex/nearest_point/gallery/families.hpp"
 #include "convex/nearest_point/gallery/planted.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 namespace {
 
 Index part_of(Index n, double part) {
@@ -130,4 +130,4 @@ GalleryInstance infeasible(Index n, double margin, std::uint32_t seed) {
   return instance;
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline families {
 
 /// Seeded integers, the same on every machine (the standard's distributions are not).
 class Draw {
@@ -27,4 +27,4 @@ class Draw {
   std::mt19937 generator_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline families

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/gallery/gallery.hpp"
 
 /// The makers of the gallery's families; `gallery.cpp` says what each knob is.
-namespace convex::families {
+namespace convex::inline families {
 
 GalleryInstance well_posed(Index n, double part_held, std::uint32_t seed);
 GalleryInstance redundant(Index n, double sums_per_row, std::uint32_t seed);
@@ -21,4 +21,4 @@ GalleryInstance chain(Index bodies, double mass_ratio, std::uint32_t seed);
 GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_t seed);
 GalleryInstance obstacle(Index side, double part_touching, std::uint32_t seed);
 
-}  // namespace convex::families
+}  // namespace convex::inline families

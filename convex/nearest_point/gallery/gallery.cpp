@@ -8,7 +8,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/gallery/families.hpp"
 
-namespace convex {
+namespace convex::inline families {
 namespace {
 
 constexpr std::array parts{0.0, 0.25, 0.5, 0.75, 1.0};
@@ -90,4 +90,4 @@ GalleryInstance gallery_instance(const GalleryFamily& family, Index size, double
   return family.make(size, difficulty, seed);
 }
 
-}  // namespace convex
+}  // namespace convex::inline families

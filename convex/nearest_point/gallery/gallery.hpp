@@ -7,7 +7,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline families {
 
 /// A nearest-point problem whose truth is known: by construction from numbers of few bits, so that not one
 /// rounding happened on the way, or by exact arithmetic on the data as they stand.
@@ -41,4 +41,4 @@ const GalleryFamily* find_family(std::string_view name);
 /// the size is below 4 (or beyond 1e7), or the difficulty outside the ladder's range.
 GalleryInstance gallery_instance(const GalleryFamily&, Index size, double difficulty, std::uint32_t seed = 1);
 
-}  // namespace convex
+}  // namespace convex::inline families

@@ -4,7 +4,7 @@
 #include "convex/nearest_point/gallery/draw.hpp"
 #include "convex/nearest_point/gallery/families.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 namespace {
 
 /// sin 60°, cut to 28 bits, so that its products with small integers are exact.
@@ -75,4 +75,4 @@ GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_
           Vector(0)};
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/gallery/families.hpp"
 #include "convex/nearest_point/gallery/planted.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 namespace {
 
 constexpr int bits = 53;
@@ -106,4 +106,4 @@ GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed) {
   }
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

@@ -4,7 +4,7 @@
 #include "convex/nearest_point/gallery/families.hpp"
 #include "convex/nearest_point/gallery/planted.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 namespace {
 
 /// Coordinate 1 stands apart in A and in all other rows, and q is 0 there: what the small angle multiplies
@@ -60,4 +60,4 @@ GalleryInstance near_opposite(Index n, double angle, std::uint32_t seed) {
   return pair(n, angle, seed, true);
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

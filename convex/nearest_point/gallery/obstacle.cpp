@@ -4,7 +4,7 @@
 #include "convex/nearest_point/gallery/draw.hpp"
 #include "convex/nearest_point/gallery/families.hpp"
 
-namespace convex::families {
+namespace convex::inline families {
 
 /// A membrane over the plane, fixed at height 0 around a square of side x side points: A is the 5-point
 /// Laplacian (4 and -1), U = I, s = 0. It is lifted in the middle and lies on the plane around; heights and
@@ -49,4 +49,4 @@ GalleryInstance obstacle(Index side, double part_touching, std::uint32_t) {
           Vector(0)};
 }
 
-}  // namespace convex::families
+}  // namespace convex::inline families

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <utility>
 
-namespace convex {
+namespace convex::inline families {
 
 Matrix integer_inertia(Index n, Draw& draw) {
   Matrix B(n, n);
@@ -47,4 +47,4 @@ GalleryInstance PlantedRows::instance(Draw& draw) const {
   return instance;
 }
 
-}  // namespace convex
+}  // namespace convex::inline families

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/gallery/draw.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 
-namespace convex {
+namespace convex::inline families {
 
 /// A problem made from its answer: q, and for each row its multiplier and its slack, one of them 0. Then
 /// s = Uq - slack and z = Aq - Uᵀlambda, exact as long as the numbers have few bits.
@@ -43,4 +43,4 @@ Matrix integer_inertia(Index n, Draw&);
 /// Nonzero, entries in -3..3.
 Vector integer_row(Index n, Draw&);
 
-}  // namespace convex
+}  // namespace convex::inline families

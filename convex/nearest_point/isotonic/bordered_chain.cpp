@@ -10,7 +10,7 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -275,4 +275,4 @@ std::optional<Solution> solve_bordered_chain(const NearestPointProblem& problem,
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// Strings of coordinates (`strings.hpp`) and a few rows that fit into none, its border: links of other
 /// factors, rings, ceilings, two-sided rows, anything. For given multipliers mu of the border the strings are
@@ -16,4 +16,4 @@ namespace convex {
 /// are checked.
 std::optional<Solution> solve_bordered_chain(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

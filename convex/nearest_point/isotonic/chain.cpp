@@ -6,7 +6,7 @@
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 bool are_plain_links(const InOrder& order) { return order.plain; }
@@ -78,4 +78,4 @@ std::optional<Solution> solve_chain(const NearestPointProblem& problem, const Ac
   return solve(problem, accuracy, Listed{strings, problem.U.sparse()});
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

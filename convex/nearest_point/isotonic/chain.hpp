@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// A chain: A diagonal, and one-sided rows c (q_j - q_i) >= s, c > 0, that string the coordinates up, each
 /// following at most one other; the first of a string may have a floor, c q_i >= s. By q_i = y_i + (sum of
@@ -15,4 +15,4 @@ namespace convex {
 /// chain. The data are checked.
 std::optional<Solution> solve_chain(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -10,7 +10,7 @@
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 using namespace chain_kernels;
@@ -275,4 +275,4 @@ template double rounding_of_pools(const Chain<Listed>&, double);
 template bool place_pools(const Chain<InOrder>&, const std::vector<int>&, bool, Solution&);
 template bool place_pools(const Chain<Listed>&, const std::vector<int>&, bool, Solution&);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/isotonic/chain_pools.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// What the pools of a chain make of it, `first` as `pool` gives them, in twice the working precision and in
 /// one pass: q, lambda, slack, the two norms, `rounding` and, as it stands, ||Aq - z - Uᵀlambda||_(A⁻¹) in
@@ -17,4 +17,4 @@ bool place_pools(const Chain<Order>&, const std::vector<int>& first, bool carefu
 template <class Order>
 double rounding_of_pools(const Chain<Order>&, double scale);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

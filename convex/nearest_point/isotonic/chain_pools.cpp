@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 /// Members that move together, from `begin` to the next pool.
@@ -170,4 +170,4 @@ template std::vector<int> pool(const Chain<Listed>&);
 template std::vector<int> pool_carefully(const Chain<InOrder>&);
 template std::vector<int> pool_carefully(const Chain<Listed>&);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

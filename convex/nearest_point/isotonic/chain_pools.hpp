@@ -7,7 +7,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/isotonic/strings.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// x y for pairs, exact to some u².
 inline DoubleDouble product_of_pairs(DoubleDouble x, DoubleDouble y) {
@@ -71,4 +71,4 @@ std::vector<int> pool(const Chain<Order>&);
 template <class Order>
 std::vector<int> pool_carefully(const Chain<Order>&);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

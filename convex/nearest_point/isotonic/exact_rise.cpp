@@ -4,7 +4,7 @@
 
 #include "convex/exact/fraction_arithmetic.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 /// Denominators grow with every factor that is no power of two.
@@ -68,4 +68,4 @@ std::optional<int> rise_over_floor(const StringMembers& members, Index first, In
   return sign(*above - fraction(lowest.bound) / fraction(lowest.factor));
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

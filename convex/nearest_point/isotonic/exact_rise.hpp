@@ -5,7 +5,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// A coordinate of a string, and the row factor (q - q_below) >= bound that ties it to the one below; of the
 /// first its floor, factor q >= bound.
@@ -22,4 +22,4 @@ std::optional<int> rise(const StringMembers&, Index first, Index middle, Index e
 /// The same where the members from `first`, the string's own, to `middle` - 1 stand on its floor.
 std::optional<int> rise_over_floor(const StringMembers&, Index first, Index middle, Index end);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

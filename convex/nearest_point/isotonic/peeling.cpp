@@ -1,6 +1,6 @@
 #include "convex/nearest_point/isotonic/peeling.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 template <class Visit>
@@ -47,4 +47,4 @@ std::vector<Index> rows_left_by_peeling(const ConstraintRows& U, const std::vect
   return core;
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

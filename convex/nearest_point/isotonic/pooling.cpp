@@ -7,7 +7,7 @@
 #include "convex/nearest_point/isotonic/exact_rise.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -265,4 +265,4 @@ std::optional<int> Pooling::rise_below(int k, const Vector& z, const Vector& for
   return rise(member, below.begin, k, pool->end);
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

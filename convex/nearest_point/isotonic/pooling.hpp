@@ -3,7 +3,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/isotonic/strings.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// The nearest point over the rows of strings alone, for forces that change where rows of the border act, and
 /// are z elsewhere. With q_i = y_i + (the gaps below) each string is an isotonic regression, solved by
@@ -76,4 +76,4 @@ class Pooling {
   Vector lambda_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 Solution string_answer(const NearestPointProblem& problem, const Accuracy& accuracy,
                        const DoubleDoubleVector& q, Vector lambda, double missing,
                        const std::function<std::optional<int>(Index)>& sign_of) {
@@ -41,4 +41,4 @@ Solution string_answer(const NearestPointProblem& problem, const Accuracy& accur
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// The solution that q, known in twice the working precision but for `missing` (in the norm of A), and its
 /// multipliers make: slacks, residuals, bound and status. A slack that `missing` and the rounding of sums
@@ -17,4 +17,4 @@ Solution string_answer(const NearestPointProblem&, const Accuracy&, const Double
                        Vector lambda, double missing,
                        const std::function<std::optional<int>(Index)>& sign_of);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace convex {
+namespace convex::inline isotonic {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -120,4 +120,4 @@ Strings find_strings(const NearestPointProblem& problem, Index most_border) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

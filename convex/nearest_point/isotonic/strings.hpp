@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline isotonic {
 
 /// Coordinates strung up by one-sided rows c (q_j - q_i) >= s, c > 0, each coordinate with at most one such
 /// row above and one below; a row c q_i >= s, c > 0, under the first of a string is its floor. Strings stand
@@ -21,4 +21,4 @@ struct Strings {
 /// as more than `most_border` rows do not fit.
 Strings find_strings(const NearestPointProblem&, Index most_border);
 
-}  // namespace convex
+}  // namespace convex::inline isotonic

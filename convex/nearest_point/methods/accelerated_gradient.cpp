@@ -6,7 +6,7 @@
 #include "convex/nearest_point/methods/iteration.hpp"
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 constexpr double most_work = 2e10;
@@ -107,4 +107,4 @@ Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 constexpr double relaxation = 1.6;
@@ -71,4 +71,4 @@ Solution admm(const NearestPointProblem& problem, const Accuracy& accuracy) {
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::inline algorithms {
 
 AugmentedLagrangian::AugmentedLagrangian(const ScaledProblem& scaled)
     : q(scaled.problem.A.solve(scaled.problem.z)),
@@ -79,4 +79,4 @@ double AugmentedLagrangian::line_minimum(const Vector& direction) const {
   return curvature > 0 ? std::max(0.0, at - slope / curvature) : 1;
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// The augmented Lagrangian of a problem about multipliers lambda with weights 1/theta,
 ///   ½ q·Aq - z·q + Σ ½/theta (theta lambda_a + s_a - u_a·q)²₊ (no positive part on two-sided rows),
@@ -33,4 +33,4 @@ class AugmentedLagrangian {
   double factored_theta_ = -1;
 };
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

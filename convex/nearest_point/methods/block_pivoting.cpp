@@ -4,7 +4,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/optimality/complementarity.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// Added to M, whose diagonal is 1.
@@ -132,4 +132,4 @@ Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accu
   return crossover(problem, candidate, accuracy);
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

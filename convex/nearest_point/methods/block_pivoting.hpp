@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// Block principal pivoting (Júdice and Pires 1994; Portugal, Júdice and Vicente 1994): all rows of a wrong
 /// sign change sides at once while their number falls, three blocks of patience beyond, then the worst of
@@ -13,4 +13,4 @@ namespace convex {
 /// which are finite.
 Solution block_pivoting(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/methods/iteration.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// Calls of Ceres, each from the point of the last, and its iterations in each.
@@ -76,4 +76,4 @@ Solution ceres_method(const NearestPointProblem& problem, const Accuracy& accura
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// Each proximal step on the multipliers y (Rockafellar 1976) is the nonlinear least-squares problem
 /// ½|d|² + Σ ½/theta (theta y_a + b_a - v_a·d)²₊, solved by the trust-region method of Ceres (Agarwal, Mierle
@@ -16,4 +16,4 @@ Solution ceres_method(const NearestPointProblem&, const Accuracy& = {});
 /// Empty, or why the module cannot be had.
 std::string why_no_ceres();
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

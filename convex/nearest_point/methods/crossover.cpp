@@ -13,7 +13,7 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// Up to so many numbers, a factor is dense.
@@ -248,4 +248,4 @@ bool is_dense_size(const NearestPointProblem& problem) {
   return n * std::min(n, m) <= most_dense_numbers;
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// What a method has found, to be judged.
 struct Candidate {
@@ -52,4 +52,4 @@ bool is_dense_size(const NearestPointProblem&);
 /// Up to so many rows, methods that work on a matrix of rows by rows are affordable.
 inline constexpr Index most_dense_rows = 3000;
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

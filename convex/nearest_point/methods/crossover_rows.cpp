@@ -7,7 +7,7 @@
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/active_set/refined_slacks.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -187,4 +187,4 @@ Holding hold_active_rows(const NearestPointProblem& problem, const Vector& q, co
   return Polish(problem, row_scale).run(q, lambda, most_changes);
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -6,7 +6,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// The point at which the rows of a set W hold with equality, as in `RefinedPoint`, for the set that a given
 /// q and lambda show to be active.
@@ -40,4 +40,4 @@ Holding hold_active_rows(const NearestPointProblem&, const Vector& q, const Vect
 Holding hold_active_rows_sparse(const NearestPointProblem&, const Vector& q, const Vector& lambda,
                                 const Vector& row_scale);
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/sparse/tight_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// The weights on the multipliers, as in `sparse_active_set`.
@@ -125,4 +125,4 @@ Holding hold_active_rows_sparse(const NearestPointProblem& problem, const Vector
   return SparsePolish(problem).run(q, lambda, row_scale);
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// A row this close to the span of others is taken to depend on them.
@@ -53,4 +53,4 @@ Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accur
   return crossover(problem, candidate, accuracy);
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// A set whose point violates nothing by more than this (of the scale of the problem) is judged in twice the
@@ -127,4 +127,4 @@ Solution enumerate(const NearestPointProblem& problem, const Accuracy& accuracy)
   return all.solution();
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// Every independent set of rows is held in turn, in the order of a tree over the rows, until one meets all
 /// conditions to rounding; the one that violates them least is handed to `crossover`. The definition turned
@@ -13,4 +13,4 @@ Solution enumerate(const NearestPointProblem&, const Accuracy& = {});
 /// The number of one-sided rows up to which `enumerate` applies.
 inline constexpr Index most_enumerated_rows = 20;
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/sparse/mehrotra_step.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// Added to Theta, rows being of length 1.
@@ -109,4 +109,4 @@ Solution interior_point(const NearestPointProblem& problem, const Accuracy& accu
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// The predictor-corrector interior-point method of Mehrotra (1992) for quadratic programs, with regularised
 /// equations (Vanderbei 1995; Altman and Gondzio 1999), dense or sparse as `RegularisedKkt` is. Two-sided
@@ -11,4 +11,4 @@ namespace convex {
 /// that, which `crossover` looks for.
 Solution interior_point(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

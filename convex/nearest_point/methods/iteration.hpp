@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/methods/crossover.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// Runs step(k) for k = 1 … limit and has what read(k) gives, a Candidate, judged now and then, more and more
 /// seldom; also when step returns true, for a stop test of its own. Ends with the first candidate that is
@@ -28,4 +28,4 @@ Solution iterate(const NearestPointProblem& problem, const Accuracy& accuracy, I
   return {};
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

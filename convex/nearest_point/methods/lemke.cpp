@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/optimality/complementarity.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// A pivot below this, the columns of M being of size 1, is rounding about zero.
@@ -160,4 +160,4 @@ Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -4,7 +4,7 @@
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// Bounds (of size 1) that a motion meets to this are consistent; a residual of the homogenised problem below
@@ -40,4 +40,4 @@ Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return crossover(problem, candidate, accuracy);
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// Lawson and Hanson's nonnegative least squares (1974). When Uq = s has a solution q_0, R is the nearest
 /// point to A q_0 - z in the cone of the u_a (Moreau 1966, section 5); otherwise the problem is brought to
@@ -11,4 +11,4 @@ namespace convex {
 /// proof that there is no solution.
 Solution nnls(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/methods/iteration.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 constexpr double relaxation = 1.3;
@@ -45,4 +45,4 @@ Solution projected_gauss_seidel(const NearestPointProblem& problem, const Accura
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

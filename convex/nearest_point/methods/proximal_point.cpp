@@ -3,7 +3,7 @@
 #include "convex/nearest_point/methods/augmented_lagrangian.hpp"
 #include "convex/nearest_point/methods/iteration.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// theta falls by this at each new centre, down to the least one.
@@ -42,4 +42,4 @@ Solution proximal_point(const NearestPointProblem& problem, const Accuracy& accu
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/methods/augmented_lagrangian.hpp"
 #include "convex/nearest_point/methods/iteration.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 namespace {
 
 /// The regularisation of rows of length 1.
@@ -43,4 +43,4 @@ Solution semismooth_newton(const NearestPointProblem& problem, const Accuracy& a
       });
 }
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

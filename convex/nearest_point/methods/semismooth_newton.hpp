@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline algorithms {
 
 /// The primal-dual active set method, which is a semismooth Newton method (Hintermüller, Ito and Kunisch
 /// 2003): all rows with lambda_a > (u_a·q - s_a)/theta are held at once, again and again, until they are the
@@ -12,4 +12,4 @@ namespace convex {
 /// converge (Qi and Sun 1993). Dense or sparse.
 Solution semismooth_newton(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline algorithms

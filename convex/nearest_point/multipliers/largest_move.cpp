@@ -7,7 +7,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 namespace {
 
 /// Rows that depend on others are held as softly as this part of their length squared: errors along them that
@@ -80,4 +80,4 @@ double largest_move(const Metric& A, const Vector& balance) {
   return largest;
 }
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

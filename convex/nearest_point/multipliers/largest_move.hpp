@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 /// How far the point of the rows W = `held` moves, max ||dq||_A over |r1| <= balance and |r2| <= rows entry
 /// by entry, where A dq - U_Wᵀ dlambda = r1 and U_W dq = r2: what errors of that size in z + U_Wᵀlambda - A q
@@ -18,4 +18,4 @@ double largest_move(const NearestPointProblem&, const std::vector<Index>& held, 
 /// The same with no rows held: max ||r1||_(A⁻¹), which bounds the part of r1 in any case.
 double largest_move(const Metric&, const Vector& balance);
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -6,7 +6,7 @@
 #include "convex/infinity.hpp"
 #include "convex/invariant.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 namespace {
 
 /// Entries of the tableau below this part of the largest are rounding about zero.
@@ -127,4 +127,4 @@ Interval MultiplierTableau::range(Index a) {
   return {silenced(extreme(a, -1)), silenced(extreme(a, 1))};
 }
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

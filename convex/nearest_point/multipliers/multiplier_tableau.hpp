@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
 /// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0.
@@ -36,4 +36,4 @@ class MultiplierTableau {
   double noise_, value_noise_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

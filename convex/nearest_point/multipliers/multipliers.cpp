@@ -13,7 +13,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 namespace {
 
 std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
@@ -218,4 +218,4 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 /// All multipliers of a solved problem. They form the polyhedron {lambda : Uᵀlambda = R, lambda_a >= 0 on
 /// one-sided rows, lambda_a = 0 off the tight rows}, R = Aq - z being unique even where they are not.
@@ -32,4 +32,4 @@ std::vector<Index> tight_rows(const NearestPointProblem&, const Solution&, doubl
 /// thousands of rows; uniqueness is then found all the same.
 Multipliers multipliers(const NearestPointProblem&, const Solution&, double tolerance, bool want_ranges);
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -9,7 +9,7 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 namespace {
 
 std::vector<bool> marks_of(Index size, const std::vector<Index>& rows) {
@@ -145,4 +145,4 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

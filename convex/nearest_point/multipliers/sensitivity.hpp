@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 /// How a solution answers to a change of the data: q(t) = q + t acceleration for small t > 0, exactly so
 /// until the active rows change; likewise lambda, where multipliers are unique.
@@ -29,4 +29,4 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem&, con
 /// unique.
 std::optional<Vector> margins(const NearestPointProblem&, const Solution&, const Multipliers&);
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/sparse/row_system.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 bool sparse_rows_are_independent(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   const std::vector<Index> core = rows_left_by_peeling(problem.U, rows);
@@ -77,4 +77,4 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   return true;
 }
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline multiplier_sets {
 
 /// Whether the rows given are independent: by peeling where that decides, else by what a vector drawn by lot
 /// keeps in the null space of the columns u_a, up to eigenvalues of 1e-8 of rows of length 1.
@@ -15,4 +15,4 @@ bool sparse_rows_are_independent(const NearestPointProblem&, const std::vector<I
 /// that gives up.
 bool least_norm_multipliers(const NearestPointProblem&, const std::vector<Index>& tight, Vector& lambda);
 
-}  // namespace convex
+}  // namespace convex::inline multiplier_sets

@@ -2,7 +2,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// Work on one row of a grid, vectorised; neighbours beside, above and below are read at i ± 1 and
 /// i ± stride. Results do not depend on the machine: no product is contracted with a sum, and sums have a
@@ -47,4 +47,4 @@ void advance(Index n, float step, const float* p, const float* Ap, float* x, flo
 void turn(Index n, float part, const float* z, float* p);
 
 }  // namespace grid_kernels
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/obstacle/grid_kernels.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 constexpr Index smallest = 3, most_steps = 200;
@@ -200,4 +200,4 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   return {std::sqrt(energy) * root, std::sqrt(previous) * root};
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// The operator d u_ij - c (u of the four neighbours) on width×height points inside a frame of zeros, seen
 /// only on free points; fields are stored with their frame, (width + 2)×(height + 2), row by row.
@@ -67,4 +67,4 @@ class GridMultigrid {
   Index steps_ = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -1,6 +1,6 @@
 #include "convex/nearest_point/obstacle/grid_transfer.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 void interpolate(const GridOperator& coarse, const Vector& from, const GridOperator& fine, Vector& to) {
   // Coarse point i lies on fine point 2i + 1; those between are means.
@@ -28,4 +28,4 @@ void restrict_to(const GridOperator& fine, const Vector& from, const GridOperato
     }
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

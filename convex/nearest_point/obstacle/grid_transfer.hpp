@@ -2,11 +2,11 @@
 
 #include "convex/nearest_point/obstacle/grid_multigrid.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// Fields with frames between a grid and the one of its odd points: bilinear interpolation, points off the
 /// grids counting as 0, and its transpose.
 void interpolate(const GridOperator& coarse, const Vector& from, const GridOperator& fine, Vector& to);
 void restrict_to(const GridOperator& fine, const Vector& from, const GridOperator& coarse, Vector& to);
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

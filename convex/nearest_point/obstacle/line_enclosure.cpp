@@ -8,7 +8,7 @@
 #include "convex/interval_arithmetic.hpp"
 #include "convex/nearest_point/obstacle/line_piece.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 using Kind = LineEnd::Kind;
@@ -306,4 +306,4 @@ std::optional<LineEnclosure> enclose_line(const EnclosedLineObstacle& problem, c
   return Enclosure(problem, found).result();
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

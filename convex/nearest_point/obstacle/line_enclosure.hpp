@@ -6,7 +6,7 @@
 #include "convex/interval.hpp"
 #include "convex/nearest_point/obstacle/line_obstacle.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// A function near a, for 0 <= t <= width: f(a + t) = Σ_{j<degree} c_j t^j + γ(t) t^degree, where c_j are
 /// numbers in the intervals and γ(t) is in c_degree throughout.
@@ -40,4 +40,4 @@ struct LineEnclosure {
 /// m up.
 std::optional<LineEnclosure> enclose_line(const EnclosedLineObstacle&, const LineSolution& found);
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/obstacle/line_quadrature.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 constexpr Index first_cells = 64;
@@ -307,4 +307,4 @@ LineSolution solve_line(const LineObstacle& problem, bool one_sided) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -5,7 +5,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// What holds at an end of a line: p = value; or p >= 0 and ∂p/∂n >= value with equality where p > 0 (n
 /// outward); or nothing, the end being the centre r = 0 of a weight that vanishes there.
@@ -72,4 +72,4 @@ class LineSolution {
 /// is exact to rounding and the edges of p > 0 are known to rounding; primal-dual active sets on them.
 LineSolution solve_line(const LineObstacle&, bool one_sided = true);
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -4,7 +4,7 @@
 
 #include "convex/interval_arithmetic.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 Interval exactly(double x) { return interval_at(x); }
@@ -99,4 +99,4 @@ Interval LinePieceEnclosure::flux_at(const EnclosedWeight& w, const Interval& t)
   return flux - load(w, t);
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/obstacle/line_enclosure.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// r^power for r in an interval.
 class EnclosedWeight {
@@ -45,4 +45,4 @@ struct LinePieceEnclosure {
   Interval rest_;  // and this times [0, 1] t^(degree + 2)/((degree + 1)(degree + 2))
 };
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

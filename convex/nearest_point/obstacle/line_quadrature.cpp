@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace convex {
+namespace convex::inline obstacle {
 
 const GaussLegendre& gauss_legendre() {
   static const GaussLegendre rule = [] {
@@ -55,4 +55,4 @@ CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double 
   return sum;
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

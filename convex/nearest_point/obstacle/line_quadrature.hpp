@@ -3,7 +3,7 @@
 #include <array>
 #include <functional>
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// Points and weights of Gauss and Legendre's rule on [-1, 1]; exact to degree 15.
 struct GaussLegendre {
@@ -26,4 +26,4 @@ struct CellLoad {
 };
 CellLoad cell_load(const std::function<double(double)>& h, LineWeight, double a, double b);
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

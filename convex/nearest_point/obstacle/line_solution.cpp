@@ -4,7 +4,7 @@
 #include "convex/nearest_point/obstacle/line_obstacle.hpp"
 #include "convex/nearest_point/obstacle/line_quadrature.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 double LineSolution::between(const LineObstacle& problem, const std::vector<double>& r,
                              const std::vector<double>& p, const std::vector<double>& flux, std::size_t cell,
@@ -62,4 +62,4 @@ LineSolution::Extreme LineSolution::extreme(double sign) const {
 LineSolution::Extreme LineSolution::largest() const { return extreme(1); }
 LineSolution::Extreme LineSolution::least() const { return extreme(-1); }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

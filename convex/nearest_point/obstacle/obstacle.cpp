@@ -9,7 +9,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 constexpr double none = -std::numeric_limits<double>::infinity();
@@ -253,4 +253,4 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// An obstacle problem on a grid: A the 5-point Laplacian on width×height points, d on the diagonal and -c
 /// beside it, d >= 4c > 0, coordinates row by row; each row of U bounds one coordinate from below or,
@@ -15,4 +15,4 @@ namespace convex {
 /// None when the problem is not of this kind, or the steps did not end. The data are checked.
 std::optional<Solution> solve_obstacle(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

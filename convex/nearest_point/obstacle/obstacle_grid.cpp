@@ -7,7 +7,7 @@
 #include "convex/nearest_point/obstacle/grid_transfer.hpp"
 #include "convex/nearest_point/solve_watch.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 namespace {
 
 constexpr double none = -std::numeric_limits<double>::infinity();
@@ -181,4 +181,4 @@ ObstaclePoint solve_obstacle_grid(const ObstacleGrid& grid, GridMultigrid& multi
   return GridSolver(grid, multigrid, true).solve();
 }
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

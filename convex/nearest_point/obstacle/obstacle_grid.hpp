@@ -3,7 +3,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/obstacle/grid_multigrid.hpp"
 
-namespace convex {
+namespace convex::inline obstacle {
 
 /// An obstacle problem on one grid, fields with frames: minimise ½ q·Aq - z·q over q >= lower, which is -inf
 /// where there is no bound, with q = lower on the points `held`: 1 there, else 0; empty when none is.
@@ -29,4 +29,4 @@ struct ObstaclePoint {
 /// multigrid: of its operator; the free points of the answer are set in it then.
 ObstaclePoint solve_obstacle_grid(const ObstacleGrid&, GridMultigrid& multigrid);
 
-}  // namespace convex
+}  // namespace convex::inline obstacle

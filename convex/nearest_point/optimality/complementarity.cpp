@@ -2,7 +2,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 Complementarity::Complementarity(const WhitenedProblem& white) {
   for (Index a = 0; a < white.size(); ++a)
@@ -32,4 +32,4 @@ Vector Complementarity::with_free(const WhitenedProblem& white, const Vector& y)
   return all;
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

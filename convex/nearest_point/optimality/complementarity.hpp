@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 /// The linear complementarity problem of a nearest-point problem: w = M y - b >= 0, y >= 0, y·w = 0 over the
 /// one-sided columns of `WhitenedProblem`, M = VᵀV after the free columns have been projected out by an
@@ -19,4 +19,4 @@ struct Complementarity {
   Vector with_free(const WhitenedProblem&, const Vector& y) const;
 };
 
-}  // namespace convex
+}  // namespace convex::inline optimality

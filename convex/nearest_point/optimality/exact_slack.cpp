@@ -10,7 +10,7 @@
 #include "convex/exact/grid_sum.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 namespace {
 
 /// Sums of a few of the numbers on a grid are exact in doubles when these are at most so many of its steps.
@@ -183,4 +183,4 @@ int sign_of_slack(const NearestPointProblem& problem, Index a, const Point& q) {
   return exact_slack(problem, a, q).sign();
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/problem.hpp"
 
 /// Signs of slacks without rounding, for rows whose slack twice the working precision cannot tell from zero.
-namespace convex {
+namespace convex::inline optimality {
 
 /// Slacks where rows W hold with equality, without rounding.
 class SlackOnEdge {
@@ -57,4 +57,4 @@ double quotient_with_sign(const ExactSum& sum, double divisor);
 double slack_at(const NearestPointProblem&, Index a, const Point& q);
 /// The sign alone.
 int sign_of_slack(const NearestPointProblem&, Index a, const Point& q);
-}  // namespace convex
+}  // namespace convex::inline optimality

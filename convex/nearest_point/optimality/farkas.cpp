@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-namespace convex {
+namespace convex::inline optimality {
 namespace {
 
 /// wᵀU may be off by so many roundings of its terms: w itself is rounded, and rows that depend on each other
@@ -44,4 +44,4 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
          gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach;
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

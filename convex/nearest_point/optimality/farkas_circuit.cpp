@@ -6,7 +6,7 @@
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 namespace {
 
 /// A weight this small beside the largest (times the lengths of the rows) is left out.
@@ -67,4 +67,4 @@ std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const V
   return std::nullopt;
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 /// Weights that prove infeasibility to rounding, from weights w that do so roughly: w >= 0 on one-sided rows
 /// with wᵀU near 0 and w·s > 0. While rows of its support depend on each other, w moves along the dependence
@@ -13,4 +13,4 @@ namespace convex {
 /// motions up to `reach`.
 std::optional<Vector> farkas_circuit(const NearestPointProblem&, const Vector& w, double reach);
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 /// `residuals` where only rows held with equality matter, gathered row by row.
 class HeldResiduals {
@@ -45,4 +45,4 @@ class HeldResiduals {
   Residuals found_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline optimality

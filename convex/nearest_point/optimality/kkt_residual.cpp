@@ -1,6 +1,6 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDoubleVector& q,
                              const std::vector<Index>& rows, const DoubleDoubleVector& lambda) {
@@ -37,4 +37,4 @@ DoubleDouble slack(const NearestPointProblem& problem, Index a, const DoubleDoub
   return add(problem.U.dot(a, q), {-problem.s[a], 0});
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

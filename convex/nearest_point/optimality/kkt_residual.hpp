@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 /// z + Σ lambda_k u_k - A q, k over `rows`, with the data as they are and sums in twice the working
 /// precision, rounded once at the end: n.
@@ -15,4 +15,4 @@ Vector stationarity_residual(const NearestPointProblem&, const DoubleDoubleVecto
 /// u_a·q - s_a in twice the working precision.
 DoubleDouble slack(const NearestPointProblem&, Index a, const DoubleDoubleVector& q);
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   Vector length = Vector::Zero(problem.rows());
@@ -115,4 +115,4 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -6,7 +6,7 @@
 #include "convex/double_double.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 namespace {
 
 /// A row as it is stored.
@@ -112,4 +112,4 @@ Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, 
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline optimality

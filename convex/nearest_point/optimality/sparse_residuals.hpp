@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/optimality/residuals.hpp"
 
-namespace convex {
+namespace convex::inline optimality {
 
 /// `residuals` for a diagonal A and sparse rows: the same numbers from one pass over the rows, without lists.
 /// Lengths are computed, whether known or not.
@@ -18,4 +18,4 @@ struct KnownNorms {
 Residuals sparse_residuals(const NearestPointProblem&, const Vector& q, const Vector& lambda,
                            const Vector& slack, const KnownNorms&, Index first, Index end);
 
-}  // namespace convex
+}  // namespace convex::inline optimality

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Slower corrections are left to an orthogonal factor.
@@ -83,4 +83,4 @@ bool Corrections::take_noise_for_zero(const Point& point, bool more) {
   return true;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// What corrections with residuals in twice the working precision make of the point of some rows held: how
 /// they converge, what of q and lambda is 0 as far as they tell, and the bound that is left.
@@ -90,4 +90,4 @@ bool finish(Engine& engine, const Accuracy& accuracy, Solution& solution) {
   return false;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

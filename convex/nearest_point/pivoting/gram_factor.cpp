@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline pivoting {
 
 GramFactor::GramFactor(const GramRows& rows, Arena& arena, Index capacity)
     : rows_(rows), kernels_(dense_kernels()), capacity_(capacity), ld_(padded(capacity)) {
@@ -125,4 +125,4 @@ void GramFactor::solve_upper(double* x) const {
   if (size_ > 0) kernels_.backward(size_, ld_, L_, inverse_, x);
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/pivoting/gram_rows.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// The Cholesky factor L Lᵀ of the Gram matrix of some of the rows looked at, the rows held, kept up to date
 /// as rows come and go: a row that comes is one more row of L; when one goes, what stands behind it takes up
@@ -79,4 +79,4 @@ class GramFactor {
   bool factored_ = true;
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

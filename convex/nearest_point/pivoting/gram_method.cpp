@@ -4,7 +4,7 @@
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/nearest_point/pivoting/small_gram_solve.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Beyond, the arrays by eights are no longer what the caches hold.
@@ -55,4 +55,4 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// What the Gram matrix of whitened rows tells of a problem: the answer; else the one-sided rows held when it
 /// stopped in doubt.
@@ -29,4 +29,4 @@ bool has_gram_matrix(const NearestPointProblem&);
 /// The same problem with its diagonal metric as a dense one, which the kernels are made for.
 NearestPointProblem with_dense_metric(NearestPointProblem);
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

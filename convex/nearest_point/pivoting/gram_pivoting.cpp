@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Up to so many rows all are looked at from the start, and pivoting goes on in their Gram matrix alone.
@@ -289,4 +289,4 @@ void GramPivoting::change(Index count) {
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/pivoting/gram_factor.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// Principal pivoting by blocks (Júdice and Pires 1994; Kunisch and Rendl 2003) on the Gram matrix of
 /// whitened rows: the deepest of the violated rows come in and rows with a multiplier that is not positive go
@@ -131,4 +131,4 @@ class GramPivoting {
   std::optional<Vector> contradiction_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -3,7 +3,7 @@
 
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Blocks that do not lower the number of wrong rows before the steps of the dual method follow.
@@ -108,4 +108,4 @@ bool GramPivoting::settle_known() {
   return false;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -3,7 +3,7 @@
 
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 void GramPivoting::clear_rows(double zero, const double* multipliers, const double* slacks) {
   any_close_ = false;
@@ -87,4 +87,4 @@ double GramPivoting::condition(double* x) const {
   return static_cast<double>(set_.size()) * largest;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

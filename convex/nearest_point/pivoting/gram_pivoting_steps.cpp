@@ -4,7 +4,7 @@
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -114,4 +114,4 @@ bool GramPivoting::raise(Index a) {
   }
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -1,6 +1,6 @@
 #include "convex/nearest_point/pivoting/gram_rows.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 GramRows::GramRows(const NearestPointProblem& problem, Arena& arena, Index most, const double* w_free)
     : problem_(problem),
@@ -64,4 +64,4 @@ bool GramRows::add(const Index* rows, Index count) {
   return true;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

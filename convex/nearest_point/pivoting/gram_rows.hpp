@@ -3,7 +3,7 @@
 #include "convex/nearest_point/pivoting/arena.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// Rows of a dense problem that have been looked at, by eights side by side (`DenseKernels`), as they are and
 /// whitened, v_a = L⁻¹u_a, with the Gram matrix of the latter. Each has a place; places without a row hold
@@ -47,4 +47,4 @@ class GramRows {
   Index *row_, *place_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

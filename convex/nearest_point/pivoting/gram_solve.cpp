@@ -9,7 +9,7 @@
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
     : problem_(problem),
       kernels_(dense_kernels()),
@@ -184,4 +184,4 @@ Residuals GramSolve::residuals_of_active() {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -7,7 +7,7 @@
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// The active-set method on the Gram matrix of whitened rows, for dense A and U: `GramPivoting` finds the
 /// rows held in doubles; their point is corrected with residuals in twice the working precision; rows that
@@ -75,4 +75,4 @@ class GramSolve {
   Index touched_count_ = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

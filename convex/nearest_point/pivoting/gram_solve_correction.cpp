@@ -5,7 +5,7 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// One correction of q and lambda with residuals in twice the working precision, in which rows change sides
 /// whose multipliers (times lengths) and slacks (over them) are `small`. False when it does not settle or
@@ -87,4 +87,4 @@ bool GramSolve::take_noise_for_zero(bool more) {
   return told;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

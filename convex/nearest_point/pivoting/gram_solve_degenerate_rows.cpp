@@ -7,7 +7,7 @@
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -261,4 +261,4 @@ double GramSolve::violation_of_touched_rows(double known) const {
   return known;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

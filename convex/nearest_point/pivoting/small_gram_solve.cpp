@@ -8,7 +8,7 @@
 #include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Sweeps add up their rounding: after so many a row, all is swept anew.
@@ -318,4 +318,4 @@ Residuals SmallGramSolve::residuals() const {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -9,7 +9,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// `GramSolve` where coordinates are few: the Gram matrix of the whitened rows looked at is swept at the rows
 /// held, so that one pivot gives all multipliers and slacks (principal pivoting: Keller 1973; the sweep:
@@ -83,4 +83,4 @@ class SmallGramSolve {
   double magnitude_ = 0, touched_violation_ = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

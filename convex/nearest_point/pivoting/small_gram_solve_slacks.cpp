@@ -5,7 +5,7 @@
 #include "convex/nearest_point/pivoting/small_gram_solve.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// Rows touched that are looked at before it is known whether they are sums of rows held; where some must be,
@@ -172,4 +172,4 @@ bool SmallGramSolve::keeps_touched_rows() const {
                     touched_slack_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

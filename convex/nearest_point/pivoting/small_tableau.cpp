@@ -3,7 +3,7 @@
 #include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
 #include "convex/processor.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 namespace {
 
 /// f of the steps for as many packs as there are.
@@ -54,4 +54,4 @@ std::span<const SmallKernels* const> all_small_kernels() { return {tables, all_d
 
 const SmallKernels& small_kernels() { return *all_small_kernels().back(); }
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

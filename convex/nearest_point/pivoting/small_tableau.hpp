@@ -6,7 +6,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/pivoting/arena.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// What `SmallGramSolve` and its kernels work on: the rows looked at of a dense problem of few coordinates,
 /// in arrays that stay in the first caches. Each has a place; blocks are of eight rows side by side
@@ -93,4 +93,4 @@ const SmallKernels& small_kernels();
 /// All that this processor can run.
 std::span<const SmallKernels* const> all_small_kernels();
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -5,7 +5,7 @@
 #include "convex/dense/pack_kernels.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// The rows that a `SmallTableau` looks at: whitened, with their Gram matrix, swept as that of those before.
 /// Packs of places at most: 1 when n and they are at most 8, so that loops over packs vanish; 4 or 8
@@ -187,4 +187,4 @@ struct SmallTableauRows : Kernels<W, Fused> {
   }
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/pivoting/small_tableau_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline pivoting {
 
 /// A row entering of which less than this part, squared, lies outside the span of those held is nearly
 /// dependent, and left to `GramSolve`.
@@ -322,4 +322,4 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
   }
 };
 
-}  // namespace convex
+}  // namespace convex::inline pivoting

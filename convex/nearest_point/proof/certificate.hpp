@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace convex {
+namespace convex::inline proof {
 
 /// How an error bound was proved: not at all, in doubles with bounds on every rounding, or in fractions.
 enum class ProofLevel { none, enclosure, exact };
@@ -14,4 +14,4 @@ struct Certificate {
   double error_bound = std::numeric_limits<double>::infinity();
 };
 
-}  // namespace convex
+}  // namespace convex::inline proof

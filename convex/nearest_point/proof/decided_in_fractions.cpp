@@ -6,7 +6,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& open) {
@@ -119,4 +119,4 @@ Solution with_open_signs(const NearestPointProblem& problem, Solution&& solved, 
   return with_signs_of_zeros(problem, std::move(solved), accuracy);
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// What doubles leave open, in the words of the reports.
 namespace open_question {
@@ -31,4 +31,4 @@ Solution with_signs_of_zeros(const NearestPointProblem&, Solution solved, const 
 /// The same where some are open.
 Solution with_open_signs(const NearestPointProblem&, Solution&& solved, const Accuracy&);
 
-}  // namespace convex
+}  // namespace convex::inline proof

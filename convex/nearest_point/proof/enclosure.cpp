@@ -13,7 +13,7 @@
 #include "convex/nearest_point/proof/open_rows.hpp"
 #include "convex/nearest_point/proof/sparse_enclosure.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 /// Dense matrices of X and of the active rows are made up to these sizes.
@@ -321,4 +321,4 @@ std::optional<double> enclosed_error(const NearestPointProblem& problem, const E
   return bound_within(problem, solution, RadiiOf(usable.is_zero() ? nullptr : &usable));
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// A proved bound on ||q - q*||_A for the q of the solution as it stands, q* the exact solution of the
 /// problem's doubles; it proves on the way that A is positive definite, that the rows of the solution's basis
@@ -19,4 +19,4 @@ std::optional<double> enclosed_error(const NearestPointProblem&, const Solution&
 /// is proved.
 std::optional<double> enclosed_error(const NearestPointProblem&, const EntryRadii&, const Solution&);
 
-}  // namespace convex
+}  // namespace convex::inline proof

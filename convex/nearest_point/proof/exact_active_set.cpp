@@ -8,7 +8,7 @@
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 /// The problem with rows W held: its KKT system, and its point, q before the multipliers of W, all over one
@@ -313,4 +313,4 @@ std::vector<ExactVector> exact_expansions(const ExactProblem& problem, const std
   return all;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

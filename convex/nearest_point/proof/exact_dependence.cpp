@@ -7,7 +7,7 @@
 #include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
 /// rows are independent in; empty when there is more than one such w up to a factor.
@@ -140,4 +140,4 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
   return true;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
 /// rows are independent in; empty when there is more than one such w up to a factor.
@@ -24,4 +24,4 @@ bool are_equalities(const NearestPointProblem&, Index a, const std::vector<Index
 bool follow_exactly(const NearestPointProblem&, const std::vector<Index>& rows,
                     const std::vector<Index>& held, double most_words);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 std::vector<Index> likely_active_rows(const NearestPointProblem& problem) {
   const Solution solution = active_set(problem, {.limit = 0});
@@ -78,4 +78,4 @@ Solution exact_method(const NearestPointProblem& problem, const Accuracy& accura
   return solution;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// The rows that a solve in doubles ends on, as a guess for an exact one: those of its answer, or those that
 /// its Farkas weights combine.
@@ -28,4 +28,4 @@ std::string exact_applies(const NearestPointProblem&);
 /// An upper bound on ||x - q||_A, q in fractions and x in doubles, exact but for its last digits.
 double distance_above(const ExactProblem&, const Vector& x, const ExactVector& q);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/exact_tableau.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 /// The row of N in lambda = start + N mu that belongs to a multiplier: -T_k· for a basic one, a unit for
@@ -152,4 +152,4 @@ Multipliers rounded(const ExactMultipliers& exact) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

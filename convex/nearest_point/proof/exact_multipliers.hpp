@@ -5,7 +5,7 @@
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// [low, high]; none is infinite.
 struct ExactInterval {
@@ -28,4 +28,4 @@ ExactMultipliers exact_multipliers(const ExactProblem&, const ExactSolution&, bo
 /// The nearest doubles.
 Multipliers rounded(const ExactMultipliers&);
 
-}  // namespace convex
+}  // namespace convex::inline proof

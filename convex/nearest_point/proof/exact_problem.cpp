@@ -8,7 +8,7 @@
 #include "convex/exact/positive_definite.hpp"
 #include "convex/invalid_input.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 constexpr int mantissa_bits = 53;
@@ -168,4 +168,4 @@ Fraction squared_norm(const ExactProblem& problem, const ExactVector& x) {
   return {dot(product, x.numerators), x.denominator * x.denominator * problem.unit};
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -5,7 +5,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// The place of row a in a std::vector.
 inline std::size_t at(Index a) { return static_cast<std::size_t>(a); }
@@ -50,4 +50,4 @@ Fraction squared_norm(const ExactProblem&, const ExactVector& x);
 /// ||x - y||_A².
 Fraction squared_distance(const ExactProblem&, const ExactVector& x, const ExactVector& y);
 
-}  // namespace convex
+}  // namespace convex::inline proof

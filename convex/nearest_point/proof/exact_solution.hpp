@@ -5,7 +5,7 @@
 #include "convex/nearest_point/proof/exact_problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// The solution in fractions: q: n; lambda: m; slack_a = u_a·q - s_a. When infeasible, `farkas` (m) holds
 /// integer weights without a common factor, w >= 0 on one-sided rows, with wᵀU = 0 and w·s > 0, and the rest
@@ -40,4 +40,4 @@ bool proves_infeasibility(const ExactProblem&, const IntegerVector& w);
 std::vector<ExactVector> exact_expansions(const ExactProblem&, const std::vector<Index>& basis,
                                           const std::vector<Index>& rows);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace convex {
+namespace convex::inline proof {
 
 ExactTableau::ExactTableau(std::vector<Index> basic, std::vector<Fraction> value, std::vector<Index> nonbasic,
                            std::vector<std::vector<Fraction>> T, std::vector<bool> is_free)
@@ -114,4 +114,4 @@ ExactInterval ExactTableau::range(Index a) {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

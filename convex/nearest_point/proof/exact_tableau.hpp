@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/proof/exact_multipliers.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau in fractions: the basic
 /// multipliers are value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0.
@@ -36,4 +36,4 @@ class ExactTableau {
   std::vector<bool> free_, unbounded_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline proof

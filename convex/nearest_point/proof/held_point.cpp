@@ -6,7 +6,7 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_algebra/householder.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 Vector RadiiOf::rows_times(const std::vector<Index>& rows, const Vector& x) const {
   Vector found(static_cast<Index>(rows.size()));
@@ -286,4 +286,4 @@ double dual_length_above(const Preconditioned& P, const Vector& c, const Vector&
   return above((norm_above(P.times_X(c)) + norm_above(P.spread(moved))) / std::sqrt(below(1 - P.delta)));
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -8,7 +8,7 @@
 
 /// The point that some rows define, with proved bounds for every problem within radii of the one given
 /// (docs/proof.md, section 3).
-namespace convex {
+namespace convex::inline proof {
 
 /// Radii of a problem as sums over them need it; all 0 where none are given.
 class RadiiOf {
@@ -86,4 +86,4 @@ double length_above(const Preconditioned&, const RadiiOf&, const Vector& dq);
 /// At least ||c||_(A⁻¹), |c_i| known to within `spread_i`, for every metric within the radii.
 double dual_length_above(const Preconditioned&, const Vector& c, const Vector& spread);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -6,7 +6,7 @@
 
 #include "convex/nearest_point/proof/open_rows.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// What is known of the slacks of rows that are not held.
 class HeldSlacks {
@@ -68,4 +68,4 @@ class HeldSlacks {
   Vector per_length_, size_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -11,7 +11,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 /// The rows with weights, over the coordinates that they touch.
@@ -163,4 +163,4 @@ std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem&
   return by_enclosure(rows, w.size());
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

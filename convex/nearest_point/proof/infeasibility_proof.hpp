@@ -6,7 +6,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/proof/certificate.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// A proof that no q satisfies the rows of a problem, its doubles taken at their exact values.
 struct InfeasibilityProof {
@@ -24,4 +24,4 @@ std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem&
 
 inline constexpr Index most_exact_rows = 250;
 
-}  // namespace convex
+}  // namespace convex::inline proof

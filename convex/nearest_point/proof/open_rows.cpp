@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/automatic.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
@@ -130,4 +130,4 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/proof/held_point.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// A row that is not held and whose slack at the held point may be negative, by `below_zero` at most.
 struct OpenRow {
@@ -31,4 +31,4 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem&, const 
                                               const std::vector<Index>& held, const HeldPoint&,
                                               const std::vector<OpenRow>&);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -2,7 +2,7 @@
 
 #include "convex/processor.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 constexpr double splitter = 0x1p27 + 1;  // Dekker 1971
@@ -63,4 +63,4 @@ void CompensatedSums::result(Vector& value, Vector& radii) const {
   for (Index i = 0; i < value.size(); ++i) radii[i] = radius(value[i], magnitude_[i], terms_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -5,7 +5,7 @@
 #include "convex/linear_algebra/sparse_cholesky.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 SparseMatrix shifted(const SparseMatrix& M, double shift) {
@@ -240,4 +240,4 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   return radius;
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

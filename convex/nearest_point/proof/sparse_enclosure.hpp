@@ -5,7 +5,7 @@
 #include "convex/nearest_point/proof/held_point.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// As `enclosed_error`, for problems too large for dense factors whose A is sparse or diagonal: with lower
 /// bounds on eigenvalues that sparse Cholesky factors prove, and the residuals of the solution as it stands.
@@ -20,4 +20,4 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem&, const Ra
 /// theorem 10.3; Rump 2006).
 std::optional<double> least_eigenvalue_below(const SparseMatrix& M, double uncertainty);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -10,7 +10,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 namespace {
 
 /// The nearest doubles of the middle, with what their rounding adds.
@@ -227,4 +227,4 @@ double distance_above(const UncertainProblem& problem, const EnclosedSolution& s
   return above(solution.stretch * distance_above(problem.middle, x, solution.q) + solution.radius);
 }
 
-}  // namespace convex
+}  // namespace convex::inline proof

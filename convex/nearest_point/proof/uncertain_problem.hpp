@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
-namespace convex {
+namespace convex::inline proof {
 
 /// A nearest-point problem whose numbers are known to lie within radii of exact ones: |A - middle.A| <= A
 /// entry by entry, and so on; A itself is symmetric. Which rows are two-sided is certain.
@@ -48,4 +48,4 @@ Decimals decimals(const UncertainProblem&, const EnclosedSolution&, int digits);
 /// one.
 double distance_above(const UncertainProblem&, const EnclosedSolution&, const Vector& x);
 
-}  // namespace convex
+}  // namespace convex::inline proof

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline reductions {
 namespace {
 
 SparseMatrix gram(const Metric& A) {
@@ -51,4 +51,4 @@ BalancedProblem balanced_problem(const NearestPointProblem& problem) {
   return scaled;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

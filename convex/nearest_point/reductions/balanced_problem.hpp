@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 /// A sparse nearest-point problem in units in which numbers are near 1: coordinates in which the diagonal of
 /// A is 1, rows of length 1, forces and bounds in units of the largest. q = unit coordinate ∘ q_scaled, and
@@ -19,4 +19,4 @@ struct BalancedProblem {
 /// The data are checked; A may be of any kind.
 BalancedProblem balanced_problem(const NearestPointProblem&);
 
-}  // namespace convex
+}  // namespace convex::inline reductions

@@ -8,7 +8,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 namespace {
 
 /// As in refinement.cpp: what may be missing at the end, what corrections made of rounding are, how slowly
@@ -145,4 +145,4 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
   return solution;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

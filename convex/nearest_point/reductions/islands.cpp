@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace convex {
+namespace convex::inline reductions {
 namespace {
 
 /// Below this many coordinates, or with more than this part of the entries there, dense is faster.
@@ -183,4 +183,4 @@ NearestPointProblem island_problem(const NearestPointProblem& whole, const std::
   return part;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

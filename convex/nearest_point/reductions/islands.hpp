@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 /// Coordinates that A or a row of U couples belong to one island; the nearest point of the whole is made of
 /// those of the islands. Islands are numbered by their first coordinate.
@@ -29,4 +29,4 @@ IslandLists list_islands(const Islands&);
 NearestPointProblem island_problem(const NearestPointProblem&, const std::vector<Index>& coordinates,
                                    const std::vector<Index>& rows, std::vector<Index>& place);
 
-}  // namespace convex
+}  // namespace convex::inline reductions

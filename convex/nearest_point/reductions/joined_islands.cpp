@@ -6,7 +6,7 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 JoinedIslands::JoinedIslands(const NearestPointProblem& whole) : whole_(whole) {
   solution_.method = "active-set";
@@ -91,4 +91,4 @@ Solution JoinedIslands::finish(const Accuracy& accuracy) {
   return std::move(solution_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

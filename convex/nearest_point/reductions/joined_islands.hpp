@@ -5,7 +5,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 /// Puts the answer of the whole together from those of its islands. Energies of islands add up, and so do the
 /// squares of errors; residuals are computed for the whole.
@@ -31,4 +31,4 @@ class JoinedIslands {
   bool failed_ = false;
 };
 
-}  // namespace convex
+}  // namespace convex::inline reductions

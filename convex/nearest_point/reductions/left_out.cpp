@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/optimality/residuals.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 namespace {
 
 /// What rounding of norms and products may do to the test, relative to its terms, with room to spare.
@@ -58,4 +58,4 @@ NearestPointProblem with_rows(const NearestPointProblem& problem, const std::vec
   return part;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

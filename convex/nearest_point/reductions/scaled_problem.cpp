@@ -1,6 +1,6 @@
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 namespace {
 
 ConstraintRows divided(const ConstraintRows& U, const std::vector<Index>& rows, const Vector& length) {
@@ -42,4 +42,4 @@ Vector ScaledProblem::multipliers(const Vector& lambda) const {
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 /// A problem with rows divided by ||u_a||_(D⁻¹), D the diagonal of A, and all motions by one unit, so that
 /// they are of size 1: for methods that measure steps and residuals without knowing the scale. Rows that are
@@ -22,4 +22,4 @@ struct ScaledProblem {
   Vector weights(const Vector& lambda) const { return multipliers(lambda) / unit; }
 };
 
-}  // namespace convex
+}  // namespace convex::inline reductions

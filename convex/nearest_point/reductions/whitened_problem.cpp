@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline reductions {
 
 WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
   const Index n = problem.dimension(), m = problem.rows();
@@ -57,4 +57,4 @@ double WhitenedProblem::defect(const Vector& y, const Vector& slack) const {
   return worst;
 }
 
-}  // namespace convex
+}  // namespace convex::inline reductions

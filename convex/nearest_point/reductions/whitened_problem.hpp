@@ -2,7 +2,7 @@
 
 #include "convex/nearest_point/methods/crossover.hpp"
 
-namespace convex {
+namespace convex::inline reductions {
 
 /// The problem in whitened terms, rows of length 1 and largest bound 1, for methods that work on dense data:
 /// minimise ½|d|² over v_a·d >= b_a, with equality for the free ones, where d = (w - w_free)/unit. Its dual
@@ -28,4 +28,4 @@ struct WhitenedProblem {
   double defect(const Vector& y, const Vector& slack) const;
 };
 
-}  // namespace convex
+}  // namespace convex::inline reductions

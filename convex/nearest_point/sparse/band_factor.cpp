@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace convex {
+namespace convex::inline sparse {
 
 Index BandFactor::width(const std::vector<Place>& places) {
   Index width = 0;
@@ -57,4 +57,4 @@ double BandFactor::flops() const {
   return static_cast<double>(n_) * (w * (w + 1) / 2 + 2 * w);
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

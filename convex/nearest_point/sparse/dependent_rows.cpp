@@ -8,7 +8,7 @@
 #include "convex/exact/modular.hpp"
 #include "convex/nearest_point/sparse/elimination_order.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 using Residue = ModularField::Word;
@@ -198,4 +198,4 @@ std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vec
   return second && *second == *first ? first : std::nullopt;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

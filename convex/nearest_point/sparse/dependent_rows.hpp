@@ -5,7 +5,7 @@
 
 #include "convex/constraint_rows.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// Which of some rows depend on others, and whether their bounds agree with that: for rows `held`, whose
 /// equations u_a·q = s_a hold, and rows `touched` besides.
@@ -28,4 +28,4 @@ std::optional<RowDependences> row_dependences(const ConstraintRows& U, const Vec
                                               const std::vector<Index>& held,
                                               const std::vector<Index>& touched, double most);
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -2,7 +2,7 @@
 
 #include <Eigen/OrderingMethods>
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -131,4 +131,4 @@ Elimination elimination_order(const Neighbours& graph) {
   return order;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

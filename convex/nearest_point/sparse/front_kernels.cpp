@@ -5,7 +5,7 @@
 
 #include "convex/processor.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// Columns eliminated at once.
@@ -149,4 +149,4 @@ void subtract_outer(double* C, Index size, const double* panel, Index rows, Inde
                      [&](Index c) { return C + c * size + c; });
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -2,7 +2,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// The dense work of a multifrontal factorisation, column-major, lower triangles only.
 
@@ -14,4 +14,4 @@ bool factor_panel(double* panel, Index rows, Index columns);
 /// panel.
 void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns);
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// So many powers at most. What is left of numbers of size 1, the least part among them allowed for, is then
@@ -45,4 +45,4 @@ bool is_zero_within(const NearestPointProblem& problem, const BalancedProblem& s
   return sum.norm() <= radius + roundings * unit_roundoff * terms.norm();
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/sparse/row_system.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// What corrections leave of residuals of `rows`: powers of (I + S D)⁻¹, S = U A⁻¹Uᵀ in scaled units and D
 /// the weights of all rows held, applied to numbers without a pattern. It vanishes unless a combination of
@@ -20,4 +20,4 @@ bool is_held_firmly(const Vector& slowest);
 /// Whether Σ y_a u_a is 0 to the radii of the rows: some rows within them depend on each other so.
 bool is_zero_within(const NearestPointProblem&, const BalancedProblem&, const Vector& y);
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/solve_watch.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// Added to 1/weight, so that systems stay solvable where slacks vanish (relative to rows of length 1).
@@ -164,4 +164,4 @@ InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_stea
   return End::stalled;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/sparse/mehrotra_step.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// Mehrotra's predictor-corrector method (1992) on a scaled sparse problem, regularised as in Friedlander and
 /// Orban (2012), to see which rows are active; not to be exact. Two-sided rows are held by a weight
@@ -49,4 +49,4 @@ class InteriorPointStart {
   bool started_ = false;
 };
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -7,7 +7,7 @@
 #include "convex/infinity.hpp"
 #include "convex/vector.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// A point inside: slack = Uq - s and lambda positive on one-sided rows, slack 0 on two-sided ones. Also a
 /// direction there.
@@ -66,4 +66,4 @@ class MehrotraStep {
   InteriorPointState to_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline sparse

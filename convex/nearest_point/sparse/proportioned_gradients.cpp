@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 constexpr Index usual_limit = 1500;
@@ -192,4 +192,4 @@ Solution proportioned_gradients(const NearestPointProblem& problem, const Accura
   return ProportionedGradients(problem, accuracy, guess).run();
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// The dual, ½ lambda·M lambda - b·lambda over lambda_a >= 0 (free on two-sided rows), M = U A⁻¹ Uᵀ and
 /// b = s - U A⁻¹z, by conjugate gradients on a face, projected where they leave it, and steps off it where
@@ -20,4 +20,4 @@ namespace convex {
 Solution proportioned_gradients(const NearestPointProblem& problem, const Accuracy& accuracy,
                                 const Vector& guess = {});
 
-}  // namespace convex
+}  // namespace convex::inline sparse

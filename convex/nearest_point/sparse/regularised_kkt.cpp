@@ -5,7 +5,7 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 struct RegularisedKkt::Dense {
   Matrix all;  // F⁻¹u_a of all rows
@@ -108,4 +108,4 @@ void RegularisedKkt::solve(const Vector& r1, const Vector& r2, Vector& dq, Vecto
   dlambda = -x.tail(k);
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

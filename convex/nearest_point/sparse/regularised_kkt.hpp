@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/problem.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// The equations A dq - U_Jᵀ dlambda = r1, U_J dq + Theta dlambda = r2 for some rows J and a diagonal Theta >
 /// 0: what one step of an interior-point, augmented Lagrangian or splitting method comes to. Quasidefinite,
@@ -29,4 +29,4 @@ class RegularisedKkt {
   std::unique_ptr<Sparse> sparse_;
 };
 
-}  // namespace convex
+}  // namespace convex::inline sparse

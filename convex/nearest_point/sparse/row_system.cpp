@@ -1,6 +1,6 @@
 #include "convex/nearest_point/sparse/row_system.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// A row with more entries than this, whose square would be a dense block of that size, is put on the border.
@@ -111,4 +111,4 @@ double RowSystem::nonzeros() const {
   return std::visit([](const auto& factor) { return factor.nonzeros(); }, factor_);
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -6,7 +6,7 @@
 #include "convex/nearest_point/sparse/band_factor.hpp"
 #include "convex/nearest_point/sparse/sparse_factor.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// A + Uᵀ D U for weights D >= 0 that change, with one order for all: the given one where that makes a narrow
 /// band, else a fill-reducing one. Rows with many entries would fill it:
@@ -42,4 +42,4 @@ class RowSystem {
   Index factorisations_ = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -15,7 +15,7 @@
 #include "convex/nearest_point/sparse/tight_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 constexpr std::string_view method = "sparse-active-set";
@@ -303,4 +303,4 @@ Solution sparse_active_set(const NearestPointProblem& problem, const Accuracy& a
   return found;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

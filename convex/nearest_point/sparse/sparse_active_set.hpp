@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// For many coordinates and sparse A and U: an interior-point start shows which rows are active, and the
 /// equations of these, made definite by a small weight on the multipliers, are refined against the original
@@ -17,4 +17,4 @@ namespace convex {
 Solution sparse_active_set(const NearestPointProblem&, const Accuracy& = {},
                            const std::vector<Index>& guess = {});
 
-}  // namespace convex
+}  // namespace convex::inline sparse

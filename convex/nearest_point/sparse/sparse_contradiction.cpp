@@ -7,7 +7,7 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 Solution sparse_contradiction(const NearestPointProblem& problem, const BalancedProblem& scaled,
                               RowSystem& system, const Vector& lambda) {
@@ -48,4 +48,4 @@ Solution sparse_contradiction(const NearestPointProblem& problem, const Balanced
   return solution;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/sparse/front_kernels.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -237,4 +237,4 @@ void SparseFactor::solve(Vector& x) const {
   for (Index i = 0; i < x.size(); ++i) x[i] = y[new_place_[at(i)]];
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -4,7 +4,7 @@
 
 #include "convex/nearest_point/sparse/elimination_order.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// L D Lᵀ of a symmetric matrix of fixed pattern whose values change: positive definite, or quasi-definite
 /// (Vanderbei 1995: blocks E and -F, both positive definite), which has such a factor in every order.
@@ -61,4 +61,4 @@ class SparseFactor {
   double flops_ = 0;
 };
 
-}  // namespace convex
+}  // namespace convex::inline sparse

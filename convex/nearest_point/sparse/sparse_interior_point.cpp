@@ -5,7 +5,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/interior_point_start.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 constexpr std::string_view method_name = "sparse-interior-point";
@@ -57,4 +57,4 @@ Solution sparse_interior_point(const NearestPointProblem& problem, const Accurac
   return best;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -3,7 +3,7 @@
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// The interior-point method that begins the sparse active set, taken as far as doubles allow and left there:
 /// an answer to some ten digits where the active rows do not settle, as in a large packing in which most
@@ -11,4 +11,4 @@ namespace convex {
 /// be met, or multipliers grow beyond all bounds. Throws InvalidInput as `validate` does.
 Solution sparse_interior_point(const NearestPointProblem&, const Accuracy& = {});
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -5,7 +5,7 @@
 
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// As for dense problems: corrections end when less than this part of the scale is missing, or at the
@@ -143,4 +143,4 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   return true;
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// A point with its multipliers, as pairs of doubles, in the units of the original problem.
 struct SparsePoint {
@@ -39,4 +39,4 @@ Vector central_weights(const BalancedProblem&, const std::vector<Index>& rows, d
 bool refine_rows(const NearestPointProblem&, const BalancedProblem&, RowSystem&,
                  const std::vector<Index>& rows, const Vector& weight, double silence, SparsePoint& point);
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -9,7 +9,7 @@
 #include "convex/nearest_point/sparse/sparse_refinement.hpp"
 #include "convex/zero_tolerances.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 namespace {
 
 /// Of the word operations that fractions may take, what eliminations modulo a prime may: their numbers are in
@@ -75,4 +75,4 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
   return {};
 }
 
-}  // namespace convex
+}  // namespace convex::inline sparse

@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
 
-namespace convex {
+namespace convex::inline sparse {
 
 /// Rows held with equality and rows besides that the point touches for all that twice the working precision
 /// tells, both increasing.
@@ -24,4 +24,4 @@ struct TightRows {
 std::string_view decide_tight_rows(const TightRows&, const DoubleDoubleVector& q, const Vector& weight,
                                    double limit, Vector& slack);
 
-}  // namespace convex
+}  // namespace convex::inline sparse
