@@ -35,31 +35,63 @@ const char* name_of(AssemblyStatus status) {
                                                 : "gave-up";
 }
 
-std::string assembly_json(const LagrangianSystem& system, const Assembly& found, const std::string& file) {
+/// What was asked of the state beside the constraints, as conditions of "there is no such state".
+std::string conditions_text(const LagrangianSystem& system, const mechanics::AssemblyQuestion& question,
+                            const mechanics::State& guess) {
+  std::string held;
+  for (const Index i : question.held)
+    held += fmt::format("{}{} = {}", held.empty() ? "" : ", ",
+                        system.coordinates()[static_cast<std::size_t>(i)], guess.q[i]);
+  if (!held.empty()) held += " held";
+  const std::string contacts = fighting_text(system, question.contacts);
+  if (held.empty() && contacts.empty()) return "";
+  return " with " + held + (held.empty() || contacts.empty() ? "" : " and ") +
+         (contacts.empty() ? "" : contacts + " in contact");
+}
+
+void write_names(JsonWriter& json, const char* key, const std::vector<std::string>& names) {
+  json.key(key).begin_array();
+  for (const std::string& name : names) json.value(name);
+  json.end_array();
+}
+
+std::vector<std::string> constraint_names(const LagrangianSystem& system, const std::vector<Index>& chosen) {
+  std::vector<std::string> names;
+  for (const Index a : chosen) names.push_back(system.constraints()[static_cast<std::size_t>(a)].name);
+  return names;
+}
+
+std::vector<std::string> coordinate_names(const LagrangianSystem& system, const std::vector<Index>& chosen) {
+  std::vector<std::string> names;
+  for (const Index i : chosen) names.push_back(system.coordinates()[static_cast<std::size_t>(i)]);
+  return names;
+}
+
+std::string assembly_json(const LagrangianSystem& system, const mechanics::AssemblyQuestion& question,
+                          const Assembly& found, const std::string& file) {
   JsonWriter json;
   json.begin_object().key("file").value(file).key("kind").value("system");
   json.key("status").value(name_of(found.status));
   json.key("position").numbers(system.coordinates(), found.state.q);
   json.key("velocity").numbers(system.coordinates(), found.state.v);
   json.key("residual").value(found.residual).key("moved").value(found.moved);
-  json.key("fighting").begin_array();
-  for (const Index a : found.fighting) json.value(system.constraints()[static_cast<std::size_t>(a)].name);
-  json.end_array();
+  write_names(json, "held", coordinate_names(system, question.held));
+  write_names(json, "in_contact", constraint_names(system, question.contacts));
+  write_names(json, "fighting", constraint_names(system, found.fighting));
   if (found.status == AssemblyStatus::infeasible) json.key("proved").value(found.proved);
-  if (!found.singular.empty()) {
-    json.key("singular").begin_array();
-    for (const Index a : found.singular) json.value(system.constraints()[static_cast<std::size_t>(a)].name);
-    json.end_array();
-  }
+  if (!found.singular.empty()) write_names(json, "singular", constraint_names(system, found.singular));
   return json.end_object().text();
 }
 
-std::string assembly_text(const LagrangianSystem& system, const Assembly& found) {
+std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
+                          const std::string& conditions) {
   if (found.status == AssemblyStatus::infeasible && found.proved)
-    return "There is no such state: " + fighting_text(system, found.fighting) +
-           " exclude each other at every position (proved).\n";
+    return "There is no state" + conditions + ": " + fighting_text(system, found.fighting) +
+           (found.fighting.size() == 1 ? " does not hold at any position"
+                                       : " exclude each other at every position") +
+           (conditions.empty() ? "" : " of that kind") + " (proved).\n";
   if (found.status == AssemblyStatus::infeasible)
-    return "No such state was found from many starts: " + fighting_text(system, found.fighting) +
+    return "No state" + conditions + " was found from many starts: " + fighting_text(system, found.fighting) +
            (found.fighting.size() == 1 ? " does not hold" : " do not hold together") +
            " where the searches end (not proved).\n";
   if (!found.singular.empty())
@@ -113,13 +145,15 @@ Exit assemble_file(const AssembleOptions& options) {
   for (const Index a : constraints_named(*system, options.contacts, "--contact"))
     question.contacts.push_back(a);
   for (const Index i : coordinates_named(*system, options.held, "--hold")) question.held.push_back(i);
-  const Assembly found = mechanics::assemble(*system, system->state(text->state), question);
+  const mechanics::State guess = system->state(text->state);
+  const Assembly found = mechanics::assemble(*system, guess, question);
   if (options.output && found.status == AssemblyStatus::solved)
     write_file(*options.output, assembled_file(document, *system, found.state));
   if (options.json)
-    fmt::print("{}\n", assembly_json(*system, found, options.file));
+    fmt::print("{}\n", assembly_json(*system, question, found, options.file));
   else if (!options.quiet)
-    fmt::print("{}{}", heading(problem.title, options.file), assembly_text(*system, found));
+    fmt::print("{}{}", heading(problem.title, options.file),
+               assembly_text(*system, found, conditions_text(*system, question, guess)));
   if (found.status == AssemblyStatus::infeasible) return Exit::no_solution;
   if (found.status == AssemblyStatus::gave_up) return Exit::inaccurate;
   return Exit::solved;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <string>
+#include <vector>
 
 namespace cli::inline commands {
 
@@ -9,8 +9,9 @@ namespace cli::inline commands {
 struct BranchRange {
   std::string parameter;
   double first = 0, step = 0, last = 0;
-  long count() const { return static_cast<long>(std::floor((last - first) / step * (1 + 1e-12) + 1e-9)) + 1; }
-  double value(long k) const { return first + static_cast<double>(k) * step; }
+  std::vector<double> values;  ///< each the double nearest to the decimal number
+  long count() const { return static_cast<long>(values.size()); }
+  double value(long k) const { return values[static_cast<std::size_t>(k)]; }
 };
 
 /// Throws InvalidInput with the form that it should have.

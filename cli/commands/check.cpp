@@ -85,6 +85,11 @@ Answer check_file(const std::string& file, const CheckOptions& options) {
     return check_decomposition(*decomposition, problem, file, options);
   if (const auto* cone = std::get_if<ConeProblem>(&problem.content))
     return check_cone(*cone, problem, file, options);
+  if (std::holds_alternative<LiquidProblem>(problem.content))
+    throw convex::InvalidInput(
+        "check puts the answers of [system], [projection], [decomposition] and [cone] to their laws; a "
+        "liquid's is "
+        "proved by `moreau solve --certify`");
   return check_scene(make_scene(std::move(problem), file, options), options);
 }
 
@@ -115,12 +120,15 @@ void add_check(CLI::App& program, Work& chosen) {
       ->needs(catalogue);
   add_map(command, options->map);
   add_accuracy(command, *options);
+  add_overrides(command, *options);
   add_printing(command, *options);
   command.parse_complete_callback([options] {
     const int asked = int{!options->files.empty()} + int{options->catalogue} +
                       int{options->map.map.has_value()} + int{options->map.table.has_value()};
     if (asked == 0) throw CLI::RequiredError("FILE, --catalogue or --map");
     if (asked > 1) throw CLI::ValidationError("FILE, --catalogue, --map and --table go one at a time");
+    if (!options->settings.empty() && options->files.empty())
+      throw CLI::ValidationError("--set changes what a file says; give a FILE");
   });
 }
 

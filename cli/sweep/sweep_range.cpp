@@ -1,5 +1,7 @@
 #include "cli/sweep/sweep_range.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "cli/problem_file/exact_number.hpp"
@@ -11,8 +13,6 @@ namespace {
 
 using convex::Fraction;
 using convex::InvalidInput;
-
-constexpr double most_values = 1e9;
 
 [[noreturn]] void refuse_range(const std::string& text, const std::string& message) {
   throw InvalidInput("--over " + shown(text) + ": " + message);
@@ -38,7 +38,7 @@ Fraction number(const std::string& part, const std::string& text) {
 
 }  // namespace
 
-SweepRange parse_sweep_range(const std::string& text) {
+SweepRange parse_sweep_range(const std::string& text, double most) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
     refuse_range(text, "no key and values; write a=0:0.1:1 or a=1,2,4");
@@ -59,7 +59,8 @@ SweepRange parse_sweep_range(const std::string& text) {
   const Fraction steps = (last - first) / step;
   const double count = std::floor(convex::nearest_double(steps));
   if (convex::sign(steps) < 0) refuse_range(text, "the step leads away from the last value; change its sign");
-  if (count >= most_values) refuse_range(text, "more than 1e9 values; choose a larger step");
+  if (count >= most)
+    refuse_range(text, fmt::format("more than 1e{:.0f} values; choose a larger step", std::log10(most)));
   for (double k = 0; k <= count; ++k)
     range.values.push_back(convex::nearest_double(first + step * Fraction{static_cast<std::int64_t>(k), 1}));
   return range;

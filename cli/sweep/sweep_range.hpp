@@ -12,7 +12,8 @@ struct SweepRange {
   bool is_range = false;       ///< first:step:last
 };
 
-/// Numbers are exact while they are counted: 0:0.1:0.3 ends with 0.3. Throws InvalidInput.
-SweepRange parse_sweep_range(const std::string& text);
+/// Numbers are exact while they are counted: 0:0.1:0.3 ends with 0.3. Throws InvalidInput, also
+/// for more values than `most`.
+SweepRange parse_sweep_range(const std::string& text, double most = 1e9);
 
 }  // namespace cli::inline sweeps

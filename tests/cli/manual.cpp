@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "tests/cli/program.hpp"
 
@@ -84,6 +86,59 @@ TEST_CASE("every command and option of --help is in the manual page and in the c
     }
   }
   CHECK(options > 100);
+}
+
+/// The words of a comma-separated list.
+std::set<std::string> words_of(std::string list) {
+  std::set<std::string> words;
+  for (auto& c : list) c = c == ',' ? ' ' : c;
+  std::istringstream stream(list);
+  for (std::string word; stream >> word;) words.insert(word);
+  return words;
+}
+
+TEST_CASE("the table of options names the commands that have them, and of the shared ones all") {
+  std::map<std::string, std::set<std::string>> has;  // option -> commands
+  std::set<std::string> commands;
+  for (const std::string& command : program_commands()) {
+    commands.insert(command);
+    for (const std::string& option : listed(run({command, "--help"}).out, "Options"))
+      has[option].insert(command);
+  }
+  std::ifstream page(std::string(MOREAU_SOURCE) + "/docs/commands.md");
+  std::map<std::string, std::set<std::string>> told;
+  static const std::regex row(R"(^\| (`--[^|]*) \| ([^|]*) \|.*)"), name("`(--[a-z-]+)");
+  bool in_section = false;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) in_section = line == "## Options";
+    std::smatch cells;
+    if (!in_section || !std::regex_match(line, cells, row)) continue;
+    std::string list = cells[2];
+    std::set<std::string> named = words_of(list);
+    if (list.starts_with("all")) {
+      const std::set<std::string> without =
+          list == "all" ? std::set<std::string>{} : words_of(list.substr(7));
+      named.clear();
+      for (const std::string& command : commands)
+        if (!without.contains(command)) named.insert(command);
+    }
+    const std::string options = cells[1];
+    for (std::sregex_iterator at(options.begin(), options.end(), name), end; at != end; ++at)
+      told[(*at)[1]].insert(named.begin(), named.end());
+  }
+  CHECK(told.size() > 25);
+  for (const auto& [option, named] : told) {
+    CAPTURE(option);
+    for (const std::string& command : named) {
+      CAPTURE(command);
+      CHECK(has[option].contains(command));
+    }
+  }
+  for (const std::string shared : {"--json", "--set", "--quiet", "--method", "--tolerance", "--limit",
+                                   "--metric", "--certify", "--at", "--help"}) {
+    CAPTURE(shared);
+    CHECK(told[shared] == has[shared]);
+  }
 }
 
 TEST_CASE("bash completes commands, options, and the words that an option takes") {
