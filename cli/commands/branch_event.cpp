@@ -2,24 +2,76 @@
 
 #include <algorithm>
 #include <complex>
+#include <functional>
 
 namespace cli::inline commands {
+namespace {
 
-std::string event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free) {
-  if (before.impacts.size() != now.impacts.size() || !before.multipliers || !now.multipliers)
-    return "grazing";
-  const auto outside = [&](const mechanics::Orbit& orbit, auto&& counts) {
-    const auto all = mechanics::multipliers_across(orbit, is_free);
-    return std::count_if(all.begin(), all.end(), [&](const std::complex<double>& m) {
-      return std::abs(m) > 1 + orbit.circle_width && counts(m);
-    });
-  };
-  const auto changed = [&](auto&& counts) { return outside(before, counts) != outside(now, counts); };
-  if (!changed([](const auto&) { return true; })) return "";
-  if (changed([](const auto& m) { return m.imag() != 0; })) return "torus";
-  if (changed([](const auto& m) { return m.imag() == 0 && m.real() < 0; })) return "flip";
-  if (changed([](const auto& m) { return m.imag() == 0 && m.real() > 0; })) return "fold";
+/// How far multipliers that may cross there are outside the unit circle, the outermost first.
+std::vector<double> distances(BranchEvent event, const mechanics::Orbit& orbit, bool is_free) {
+  std::vector<double> found;
+  if (!orbit.multipliers) return found;
+  for (const std::complex<double>& m : mechanics::multipliers_across(orbit, is_free)) {
+    if (event == BranchEvent::torus && m.imag() > 0) found.push_back(std::abs(m) - 1);
+    if (event == BranchEvent::flip && m.imag() == 0) found.push_back(-1 - m.real());
+    if (event == BranchEvent::branching && m.imag() == 0) found.push_back(m.real() - 1);
+  }
+  std::sort(found.begin(), found.end(), std::greater<>());
+  return found;
+}
+
+std::size_t outside(BranchEvent event, const mechanics::Orbit& orbit, bool is_free) {
+  const std::vector<double> all = distances(event, orbit, is_free);
+  return static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [&](double d) { return d > orbit.circle_width; }));
+}
+
+}  // namespace
+
+const char* table_name(BranchEvent event) { return event == BranchEvent::branching ? "" : event_name(event); }
+
+const char* event_name(BranchEvent event) {
+  switch (event) {
+    case BranchEvent::fold:
+      return "fold";
+    case BranchEvent::branching:
+      return "branching";
+    case BranchEvent::flip:
+      return "flip";
+    case BranchEvent::torus:
+      return "torus";
+    case BranchEvent::grazing:
+      return "grazing";
+    case BranchEvent::none:
+      return "";
+  }
   return "";
+}
+
+BranchEvent event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free) {
+  if (before.impacts.size() != now.impacts.size() || !before.multipliers || !now.multipliers)
+    return BranchEvent::grazing;
+  const auto all_outside = [&](const mechanics::Orbit& orbit) {
+    return outside(BranchEvent::flip, orbit, is_free) + outside(BranchEvent::branching, orbit, is_free) +
+           2 * outside(BranchEvent::torus, orbit, is_free);
+  };
+  // Two that meet outside the circle and part as another kind cross nothing.
+  if (all_outside(before) == all_outside(now)) return BranchEvent::none;
+  for (const BranchEvent event : {BranchEvent::torus, BranchEvent::flip, BranchEvent::branching})
+    if (outside(event, before, is_free) != outside(event, now, is_free)) return event;
+  return BranchEvent::none;
+}
+
+Crossing::Crossing(BranchEvent event, const mechanics::Orbit& before, const mechanics::Orbit& now,
+                   bool is_free)
+    : event_(event),
+      is_free_(is_free),
+      which_(std::max(outside(event, before, is_free), outside(event, now, is_free))) {}
+
+std::optional<double> Crossing::operator()(const mechanics::Orbit& orbit) const {
+  const std::vector<double> all = distances(event_, orbit, is_free_);
+  if (which_ == 0 || all.size() < which_) return std::nullopt;
+  return all[which_ - 1];
 }
 
 }  // namespace cli::inline commands

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "cli/commands/branch_event.hpp"
 #include "cli/motion_settings.hpp"
+#include "mechanics/motion/orbit_section.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -22,22 +22,9 @@ Problem with_parameter(Problem problem, const std::string& name, double value) {
   throw InvalidInput("--over: no parameter \"" + name + "\" in the file; name one of [system.parameters]");
 }
 
-/// The state between, or beyond, two orbits of a branch, in proportion to the parameter.
-template <class Station>
-mechanics::State in_proportion(const Station& a, const Station& b, double value) {
-  const double part = (value - a.value) / (b.value - a.value);
-  mechanics::State state = a.orbit.start;
-  state.q += part * (b.orbit.start.q - a.orbit.start.q);
-  state.v += part * (b.orbit.start.v - a.orbit.start.v);
-  return state;
-}
-
 double distance(const mechanics::State& x, const mechanics::State& y) {
   return std::hypot((x.q - y.q).norm(), (x.v - y.v).norm());
 }
-
-/// States of one branch at values that agree to ten digits differ by less than this part.
-constexpr double jump = 1e-2;
 
 /// The first orbit is a fold itself if that is no further from it than this part of a step.
 constexpr double at_fold = 1e-8;
@@ -48,28 +35,35 @@ std::string FollowedBranch::follow() {
   const Problem first = with_parameter(problem_, range_.parameter, range_.first);
   const auto& text = std::get<SystemProblem>(first.content);
   const mechanics::State guess = mechanics::lagrangian_system(text.system)->state(text.state);
+  t_ = guess.t;
   constexpr int most_turns = 16;
   int turns = 0;
   for (long k = 0; k >= 0 && k < range_.count(); k += forward_) {
     const double value = range_.value(k);
-    std::optional<Station> next = stations_.empty() ? attempt(value, guess, 0) : attempt_from_last(value);
-    if (!next && trail_.size() > 1 && ++turns <= most_turns && across_start(value)) {
-      k -= forward_;  // the same value again
-      continue;
-    }
-    if (next && stations_.empty()) {
+    std::optional<Station> next = last_ ? attempt_from_last(value) : attempt(value, guess, 0);
+    if (next && !last_) {
       trail_ = {*next};
       begin(*next);
-    } else if (next) {
+      continue;
+    }
+    if (next) {
       arrive(*next);
       if (is_lost_)
         return fmt::format("the branch ends before {} = {}: the nearest orbit there is of another branch",
                            range_.parameter, value);
-    } else if (turns <= most_turns && trail_.size() > 1 && turn(value)) {
+      continue;
+    }
+    const bool may_turn = trail_.size() > 1 && ++turns <= most_turns;
+    bool is_on = false;
+    if (may_turn && turn(value)) {
       forward_ = -forward_;
       if (!begin_behind_fold(range_.value(k + forward_)))
         return fmt::format("the branch turns at {} = {}; its other side is not found", range_.parameter,
                            fold_->value);
+    } else if (const int before = forward_; may_turn && graze(value, is_on)) {
+      if (!is_on)
+        return fmt::format("the branch ends at {} = {}: {}", range_.parameter, points_.back().value, why_);
+      if (forward_ == before) k -= forward_;  // the same value again
     } else {
       return fmt::format("the branch ends before {} = {}: {}", range_.parameter, value, why_);
     }
@@ -77,16 +71,24 @@ std::string FollowedBranch::follow() {
   return "";
 }
 
+mechanics::OrbitQuestion FollowedBranch::question(const mechanics::LagrangianSystem& system,
+                                                  double value) const {
+  const Problem at = with_parameter(problem_, range_.parameter, value);
+  mechanics::OrbitQuestion asked = asked_;
+  if (asked.is_free)
+    asked.energy = system.energy(system.state(std::get<SystemProblem>(at.content).state));
+  else
+    asked.period = value_of(at, system, *options_.period, "--period") * static_cast<double>(options_.periods);
+  return asked;
+}
+
 std::optional<FollowedBranch::Station> FollowedBranch::attempt(double value, const mechanics::State& guess,
                                                                double period) {
-  const Problem at = with_parameter(problem_, range_.parameter, value);
-  const auto system = mechanics::lagrangian_system(std::get<SystemProblem>(at.content).system);
-  mechanics::OrbitQuestion question = asked_;
-  question.period = question.is_free ? period
-                                     : value_of(at, *system, *options_.period, "--period") *
-                                           static_cast<double>(options_.periods);
   try {
-    Station found{value, mechanics::find_orbit(*system, guess, question)};
+    const auto system = family().system(value);
+    mechanics::OrbitQuestion asked = question(*system, value);
+    if (asked.is_free) asked.period = period;
+    Station found{value, mechanics::find_orbit(*system, guess, asked)};
     if (found.orbit.is_found) return found;
     why_ = found.orbit.why;
   } catch (const InvalidInput& error) {
@@ -95,18 +97,37 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt(double value, con
   return std::nullopt;
 }
 
+std::optional<FollowedBranch::Station> FollowedBranch::attempt_along(const Station& a, const Station& b,
+                                                                     double value) {
+  const double part = (value - a.value) / (b.value - a.value);
+  mechanics::State guess = a.orbit.start;
+  guess.q += part * (b.orbit.start.q - a.orbit.start.q);
+  guess.v += part * (b.orbit.start.v - a.orbit.start.v);
+  return attempt(value, guess, b.orbit.period);
+}
+
 mechanics::OrbitFamily FollowedBranch::family() const {
-  const auto at = [this](double value) { return with_parameter(problem_, range_.parameter, value); };
-  return {[at](double value) {
-            return mechanics::lagrangian_system(std::get<SystemProblem>(at(value).content).system);
-          },
-          [at, this](const mechanics::LagrangianSystem& system, double value) {
-            mechanics::OrbitQuestion question = asked_;
-            if (!question.is_free)
-              question.period = value_of(at(value), system, *options_.period, "--period") *
-                                static_cast<double>(options_.periods);
-            return question;
-          }};
+  return {
+      [this](double value) {
+        const Problem at = with_parameter(problem_, range_.parameter, value);
+        return mechanics::lagrangian_system(std::get<SystemProblem>(at.content).system);
+      },
+      [this](const mechanics::LagrangianSystem& system, double value) { return question(system, value); }};
+}
+
+FollowedBranch::Station FollowedBranch::moved(const Station& from, double t) const {
+  const auto system = family().system(from.value);
+  return {from.value, mechanics::orbit_from(*system, from.orbit, question(*system, from.value), t)};
+}
+
+void FollowedBranch::choose_instant() {
+  constexpr double still_quiet = 0.3;
+  const mechanics::Orbit& orbit = trail_.back().orbit;
+  if (orbit.start_margin >= still_quiet * orbit.quiet_margin) return;
+  double t = orbit.quiet.t;
+  while (t >= t_ + orbit.period) t -= orbit.period;
+  for (Station& station : trail_) station = moved(station, t);
+  if (last_) last_ = moved(*last_, t);
 }
 
 bool FollowedBranch::follows(const Station& next) const {
@@ -130,7 +151,7 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_from_last(double 
   const Station last = trail_.back();
   std::optional<Station> found;
   if (trail_.size() > 1) {
-    found = attempt(value, in_proportion(trail_[trail_.size() - 2], last, value), last.orbit.period);
+    found = attempt_along(trail_[trail_.size() - 2], last, value);
     if (found && !follows(*found)) found.reset();
   }
   if (!found) found = attempt(value, last.orbit.start, last.orbit.period);
@@ -148,74 +169,56 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_from_last(double 
     trail_.push_back(*found);
     constexpr std::size_t enough = 2;
     if (trail_.size() > enough) trail_.erase(trail_.begin());
+    choose_instant();
+    found = trail_.back();
   }
   return found;
 }
 
-void FollowedBranch::row(const Station& at, const std::string& event) {
+void FollowedBranch::row(const Station& at, BranchEvent event) {
   const mechanics::Orbit& orbit = at.orbit;
   table_ += fmt::format("{},{},{},{},{},{}\n", at.value, orbit.period,
                         orbit.multipliers ? (orbit.is_stable ? "1" : "0") : "",
                         orbit.multipliers ? fmt::format("{}", std::abs(orbit.multipliers->front())) : "",
-                        orbit.impacts.size(), event);
-  points_.push_back({at.value, orbit, event});
+                        orbit.impacts.size(), table_name(event));
+  points_.push_back({at.value, moved(at, t_).orbit, event_name(event)});
+  if (event == BranchEvent::branching)
+    remarks_.push_back(fmt::format(
+        "at {} = {} a multiplier passes 1 and the branch does not turn: another branch crosses it "
+        "there, as where a symmetry breaks",
+        range_.parameter, at.value));
 }
 
 void FollowedBranch::begin(const Station& first) {
-  std::string event;
+  BranchEvent event = BranchEvent::none;
   if (!asked_.is_free)
     if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
-      if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = "fold";
+      if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = BranchEvent::fold;
   row(first, event);
-  stations_.push_back(first);
+  last_ = first;
+  ++count_;
+  choose_instant();
 }
 
 void FollowedBranch::arrive(const Station& next) {
-  constexpr int most_events_in_step = 4;
-  std::string event;
-  if (!stations_.empty()) {
-    Station from = stations_.back();
-    for (int i = 0; i < most_events_in_step; ++i) {
-      event = event_between(from.orbit, next.orbit, asked_.is_free);
-      if (event.empty()) break;
-      const std::optional<Station> there = locate(from, next, event);
-      if (is_lost_) return;
-      if (!there) break;  // told in the row after it
-      row(*there, event);
-      from = *there;
-      event.clear();
-    }
+  constexpr int most_events_in_step = 8;
+  BranchEvent event = BranchEvent::none;
+  Station from = *last_;
+  const bool is_on_it = !next.orbit.multipliers;
+  if (is_on_it && from.orbit.multipliers) event = BranchEvent::grazing;
+  for (int i = 0; i < most_events_in_step && !is_on_it && from.orbit.multipliers; ++i) {
+    event = event_between(from.orbit, next.orbit, asked_.is_free);
+    if (event == BranchEvent::none) break;
+    const std::optional<Passage> passage = locate(from, next, event);
+    if (is_lost_) return;
+    if (!passage) break;  // told in the row after it
+    row(passage->at, event);
+    from = passage->behind;
+    event = BranchEvent::none;
   }
   row(next, event);
-  stations_.push_back(next);
-}
-
-std::optional<FollowedBranch::Station> FollowedBranch::locate(Station a, Station b, std::string& event) {
-  constexpr double close = 1e-11;
-  const double step = std::abs(range_.step);
-  bool is_located = false;
-  while (std::abs(b.value - a.value) > close * step) {
-    const double middle = 0.5 * (a.value + b.value);
-    if (middle == a.value || middle == b.value) break;
-    auto found = attempt(middle, in_proportion(a, b, middle), 0.5 * (a.orbit.period + b.orbit.period));
-    if (!found) found = attempt(middle, a.orbit.start, a.orbit.period);
-    if (!found) break;
-    const std::string here = event_between(a.orbit, found->orbit, asked_.is_free);
-    if (here.empty()) {
-      a = std::move(*found);
-    } else {
-      event = here;
-      b = std::move(*found);
-      is_located = true;
-    }
-  }
-  // A branch is one curve: what jumps between two values that are one but for rounding is not an event of it.
-  const double away = distance(a.orbit.start, b.orbit.start);
-  is_lost_ = is_located && away > jump * std::hypot(b.orbit.start.q.norm(), b.orbit.start.v.norm());
-  if (is_lost_) return std::nullopt;
-  constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
-  if (!is_located && std::abs(b.value - a.value) > near * step) return std::nullopt;
-  return b;
+  last_ = next;
+  ++count_;
 }
 
 }  // namespace cli::inline commands

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/commands/branch_event.hpp"
 #include "cli/commands/branch_range.hpp"
 #include "cli/commands/orbit_branch.hpp"
 #include "cli/drawing/branch_drawing.hpp"
@@ -13,6 +14,9 @@
 namespace cli::inline commands {
 
 /// A branch of orbits over a parameter, followed with the values at which something happens on it.
+///
+/// Its orbits are followed by the map from an instant of the period at which nothing happens, which moves on
+/// before an event comes near it; they are told at the time of the file's state.
 class FollowedBranch {
  public:
   FollowedBranch(const Problem& problem, const mechanics::OrbitQuestion& asked, const OrbitOptions& options,
@@ -24,7 +28,9 @@ class FollowedBranch {
   /// Rows of the table, without its head.
   const std::string& table() const { return table_; }
   const std::vector<BranchPoint>& points() const { return points_; }
-  long count() const { return static_cast<long>(stations_.size()); }
+  long count() const { return count_; }
+  /// What the table has no word for.
+  const std::vector<std::string>& remarks() const { return remarks_; }
 
  private:
   /// An orbit of the branch, at a value of the parameter.
@@ -32,9 +38,21 @@ class FollowedBranch {
     double value = 0;
     mechanics::Orbit orbit;
   };
+  /// An orbit at which something happens, and one just behind it.
+  struct Passage {
+    Station at, behind;
+  };
   std::optional<Station> attempt(double value, const mechanics::State& guess, double period);
+  /// Between, or beyond, two orbits.
+  std::optional<Station> attempt_along(const Station& a, const Station& b, double value);
 
   mechanics::OrbitFamily family() const;
+  mechanics::OrbitQuestion question(const mechanics::LagrangianSystem&, double value) const;
+
+  /// The same orbit by the map from another instant.
+  Station moved(const Station&, double t) const;
+  /// Moves the instant of the map where an event has come near it.
+  void choose_instant();
 
   /// Whether an orbit is where the last two lead; if not, Newton's method went to another branch.
   bool follows(const Station& next) const;
@@ -42,7 +60,7 @@ class FollowedBranch {
   /// The orbit at a value from the last ones, with shorter steps between where these lead elsewhere.
   std::optional<Station> attempt_from_last(double value, int depth = 0);
 
-  void row(const Station& at, const std::string& event);
+  void row(const Station& at, BranchEvent event);
 
   /// The first orbit, which may be a fold itself.
   void begin(const Station& first);
@@ -50,19 +68,25 @@ class FollowedBranch {
   /// The next orbit, and before it those at which something happens on the way, each in a row of its own.
   void arrive(const Station& next);
 
-  /// The orbit just past an event between two, by bisection; `event` is the first one.
-  std::optional<Station> locate(Station a, Station b, std::string& event);
+  /// The first event between two orbits.
+  std::optional<Passage> locate(Station a, Station b, BranchEvent& event);
+  /// An orbit a little behind one at which something happens.
+  Passage behind(const Station& at, const Station& before, const Station& after, BranchEvent event);
+  /// The contact of which one of them has more impacts, or -1.
+  static convex::Index grazed(const Station& a, const Station& b);
+  /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`.
+  std::optional<Station> locate_grazing(const Station& a, const Station& b, double beyond, convex::Index);
 
   /// The last orbit that is found before a value, and the next value at which none is.
   std::pair<Station, double> approach(double beyond);
 
-  /// Whether an impact passes the time of the start before a value. If so, the branch goes on from the orbit
-  /// just behind that, whose start is on the other side of the impact.
-  bool across_start(double beyond);
-
   /// Whether the branch turns around before a value at which it has no orbit. If so, the fold is told, and
   /// `fold_` is what finds orbits behind it.
   bool turn(double beyond);
+  /// Whether it ends there as a contact is grazed. If so, that is told, and it goes on with the orbits that
+  /// have the impact, or are without it, where there are any, `is_on`.
+  bool graze(double beyond, bool& is_on);
+  bool begin_behind_grazing(const Station& at);
 
   /// How far `to` is from `from` in the direction of the branch at the fold.
   double along(const mechanics::State& from, const mechanics::State& to) const;
@@ -78,10 +102,13 @@ class FollowedBranch {
   const mechanics::OrbitQuestion& asked_;
   const OrbitOptions& options_;
   BranchRange range_;
-  std::vector<Station> stations_;  // in the table
-  std::vector<Station> trail_;     // the last two, those between values of the range too
+  double t_ = 0;                 // of the file's state
+  std::optional<Station> last_;  // in the table
+  std::vector<Station> trail_;   // the last two, those between values of the range too
+  long count_ = 0;
   std::string table_, why_;
   std::vector<BranchPoint> points_;
+  std::vector<std::string> remarks_;
   bool is_lost_ = false;                         // Newton's method went to another branch
   int forward_ = 1;                              // -1 behind a fold
   std::optional<mechanics::TurningPoint> fold_;  // the last one

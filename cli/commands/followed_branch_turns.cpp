@@ -6,11 +6,14 @@
 namespace cli::inline commands {
 namespace {
 
-/// An impact passes the time of the start if it is no further from it than this part of the period.
-constexpr double near_start = 1e-2;
+using convex::Index;
 
 /// A fold is that of the last orbits if it is no further from them than this part of a step.
 constexpr double near_fold = 1e-2;
+
+/// A graze is that of the last orbits if it is no further behind them than this many times the distance in
+/// which the branch is known to end.
+constexpr double grazing_reach = 1;
 
 }  // namespace
 
@@ -28,29 +31,6 @@ std::pair<FollowedBranch::Station, double> FollowedBranch::approach(double beyon
   return {near, none};
 }
 
-bool FollowedBranch::across_start(double beyond) {
-  const auto [near, none] = approach(beyond);
-  const mechanics::Orbit& orbit = near.orbit;
-  double nearest = near_start * orbit.period;
-  mechanics::State guess = orbit.start;
-  for (const mechanics::MotionEvent& impact : orbit.impacts) {
-    const double since = std::abs(impact.t - orbit.start.t), left = std::abs(since - orbit.period);
-    if (std::min(since, left) >= nearest) continue;
-    nearest = std::min(since, left);
-    const convex::Vector jump = impact.velocity_after - impact.velocity_before;
-    guess.v = orbit.start.v + (since < left ? 1 : -1) * jump;
-  }
-  if (nearest >= near_start * orbit.period) return false;
-  constexpr double short_step = 0.01;
-  const auto one = attempt(none, guess, orbit.period);
-  if (!one) return false;
-  const auto two = attempt(none + short_step * way() * std::abs(range_.step), one->orbit.start, orbit.period);
-  if (!two) return false;
-  trail_ = {*one, *two};
-  stations_.push_back(*two);
-  return true;
-}
-
 bool FollowedBranch::turn(double beyond) {
   if (asked_.is_free) return false;  // one multiplier is 1 anyhow
   const auto [near, none] = approach(beyond);
@@ -59,8 +39,52 @@ bool FollowedBranch::turn(double beyond) {
   if (!fold_ || apart > std::abs(none - near.value) + near_fold * std::abs(range_.step)) return false;
   const Station& last = trail_.front();
   if (along(last.orbit.start, fold_->orbit.start) < 0) fold_->along = -fold_->along;
-  row({fold_->value, fold_->orbit}, "fold");
+  row({fold_->value, fold_->orbit}, BranchEvent::fold);
   return true;
+}
+
+bool FollowedBranch::graze(double beyond, bool& is_on) {
+  const auto go_on = [&](const Station& at) {
+    is_on = begin_behind_grazing(at);
+    if (!is_on) why_ = "its orbit grazes a contact there, and none goes on from it";
+    return true;
+  };
+  if (!trail_.back().orbit.multipliers) return go_on(Station(trail_.back()));  // told already
+  const auto [near, none] = approach(beyond);
+  const double reach = none + grazing_reach * (none - near.value);
+  for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
+    if (const auto at = locate_grazing(trail_.front(), near, reach, contact)) {
+      row(*at, BranchEvent::grazing);
+      return go_on(*at);
+    }
+  return false;
+}
+
+/// Behind a graze orbits with the impact leave it by the root of the distance, on either side of its value.
+bool FollowedBranch::begin_behind_grazing(const Station& at) {
+  const double step = std::abs(range_.step), onward = way();
+  const auto distance = [&](const Station& to) {
+    return std::hypot((to.orbit.start.q - at.orbit.start.q).norm(),
+                      (to.orbit.start.v - at.orbit.start.v).norm());
+  };
+  constexpr double shorter = 1.0 / 16, nearer = 0.6;
+  for (const double part : {1e-3, 1e-2, 1e-1})
+    for (const double side : {onward, -onward}) {
+      const auto two = attempt(at.value + side * part * step, at.orbit.start, at.orbit.period);
+      if (!two || two->orbit.impacts.size() == at.orbit.impacts.size()) continue;
+      const auto one = attempt_along(at, *two, at.value + side * part * shorter * step);
+      if (!one || one->orbit.impacts.size() != two->orbit.impacts.size()) continue;
+      if (!(distance(*one) <= nearer * distance(*two))) continue;
+      if (side != onward) forward_ = -forward_;
+      trail_ = {*one, *two};
+      last_ = *two;
+      choose_instant();
+      last_ = trail_.back();
+      ++count_;
+      row(*last_, BranchEvent::none);
+      return true;
+    }
+  return false;
 }
 
 double FollowedBranch::along(const mechanics::State& from, const mechanics::State& to) const {
@@ -81,8 +105,9 @@ bool FollowedBranch::begin_behind_fold(double value) {
              four = orbit_beside(family(), *fold_, distance);
   if (!one || !four) return false;
   trail_ = {{one->value, one->orbit}, {four->value, four->orbit}};
-  stations_.push_back(trail_.back());
-  row(trail_.back(), "");
+  last_ = trail_.back();
+  ++count_;
+  row(*last_, BranchEvent::none);
   return (four->value - one->value) * way() > 0;
 }
 

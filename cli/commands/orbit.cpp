@@ -70,10 +70,12 @@ std::string orbit_text(const std::string& head, const mechanics::LagrangianSyste
                        const mechanics::Orbit& orbit) {
   std::string text = head;
   if (!orbit.is_found) return text + "No orbit is found: " + orbit.why + ".\n";
-  text += fmt::format("The motion comes back after {}, {}.\n\n", orbit.period,
-                      !orbit.multipliers ? "its stability is not determined"
-                      : orbit.is_stable  ? "and is stable"
-                                         : "and is unstable");
+  text +=
+      fmt::format("The motion comes back after {}, {}.\n\n", orbit.period,
+                  !orbit.multipliers ? "its stability is not determined"
+                  : orbit.is_stable  ? "and is stable"
+                  : orbit.is_neutral ? "and is not attracting: its largest multipliers lie on the unit circle"
+                                     : "and is unstable");
   TextTable state({fmt::format("at t = {}", orbit.start.t), "q", "q'"});
   for (std::size_t i = 0; i < system.coordinates().size(); ++i)
     state.add({system.coordinates()[i], fmt::format("{}", orbit.start.q[static_cast<Index>(i)]),

@@ -46,6 +46,7 @@ Answer orbit_branch(const std::string& file, const Problem& problem, const mecha
     answer.text =
         options.output || options.plot ? fmt::format("{} orbits over {}.\n", found, range.parameter) : table;
   }
+  answer.warnings = branch.remarks();
   if (!why.empty()) answer.warnings.push_back(why);
   return answer;
 }

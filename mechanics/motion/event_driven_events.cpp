@@ -145,8 +145,8 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
     const bool moves = contains(closing, a) || rate > expansion_.rounding_of_rate(a);
-    contacts.push_back(
-        {expansion_.row(a), moves && !is_two_sided(a) ? rate : 0, options.restitution[a], is_two_sided(a)});
+    contacts.push_back({expansion_.row(a), moves && !is_two_sided(a) ? rate : 0, options.restitution[a],
+                        is_two_sided(a), expansion_.rate_scale(a)});
   }
   const convex::Metric& A = expansion_.inertia();
   // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-

@@ -17,6 +17,7 @@ struct ImpactContact {
   double rate = 0;         ///< df/dt before, f'(v-)
   double restitution = 0;  ///< e
   bool two_sided = false;
+  double rate_scale = 0;  ///< what the rate is the sum of, if that is more than itself
 };
 
 /// What an impact does. No v+ exists when the contacts exclude each other: then `excluding` has indices of

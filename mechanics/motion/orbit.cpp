@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
-#include "mechanics/motion/period_map.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/motion/lagrange_equations.hpp"
+#include "mechanics/motion/orbit_section.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -22,6 +25,12 @@ constexpr double met = 1e-10;
 /// the way change.
 constexpr double newton_step = 1e-6, multiplier_step = 1e-3, shortest_step = 1e-7;
 constexpr int multiplier_levels = 4;
+
+/// An event no further from the start than this part of the period may hide the derivative there.
+constexpr double near_start = 1e-2;
+
+/// Error of the derivative by the variational equations, relative to its norm.
+constexpr double derivative_error = 1e-12;
 
 /// Points of an arc that are looked at when a return is searched for.
 constexpr int looks_per_arc = 16;
@@ -78,7 +87,6 @@ std::optional<Matrix> for_multipliers(const PeriodMap& map, const TangentChart& 
 /// The error of eigenvalues of a derivative of that norm: its own, or its root where two are nearly one (a
 /// double eigenvalue moves by the root of a perturbation).
 double circle_width(const std::vector<std::complex<double>>& multipliers, double norm) {
-  constexpr double derivative_error = 1e-12;  // relative, of the variational equations
   const double error = derivative_error * std::max(1.0, norm), root = std::sqrt(error);
   for (std::size_t i = 0; i < multipliers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -86,18 +94,52 @@ double circle_width(const std::vector<std::complex<double>>& multipliers, double
   return error;
 }
 
-}  // namespace
+/// T + V, asked to have a value: the last equation of Newton's method where a motion keeps it, by the text
+/// and at its impacts.
+class KeptEnergy {
+ public:
+  KeptEnergy(const LagrangianSystem& system, const OrbitQuestion& question, const Flight& first,
+             const State& guess)
+      : system_(system) {
+    const expression::LagrangianModel& model = system.model();
+    const auto keeps = [&](Index a) {
+      return question.motion.restitution.size() > 0 && question.motion.restitution[a] == 1;
+    };
+    is_kept_ = question.is_free && !system.equations_of_motion().steps.uses_time &&
+               std::all_of(model.forces.begin(), model.forces.end(),
+                           [](expression::NodeId Q) { return Q == expression::no_node; });
+    for (const MotionEvent& event : first.events())
+      is_kept_ = is_kept_ && (event.kind != EventKind::impact ||
+                              std::all_of(event.constraints.begin(), event.constraints.end(), keeps));
+    if (is_kept_) value_ = question.energy.value_or(system.energy(guess));
+  }
+  bool is_kept() const { return is_kept_; }
+  /// By how much it misses its value.
+  double miss(const State& at) const { return is_kept_ ? system_.energy(at) - value_ : 0; }
+  /// Its derivative by the coordinates of a chart, by differences over a distance.
+  Vector slope(const TangentChart& chart, double distance) const {
+    Vector by(chart.dimension());
+    const double t = chart.origin().t;
+    const Index n = chart.origin().q.size();
+    for (Index k = 0; k < by.size(); ++k) {
+      const double h = distance / chart.direction(k).norm();
+      const auto energy = [&](double along) {
+        const Vector x = chart.state_of(along * Vector::Unit(by.size(), k));
+        return system_.energy({t, x.head(n), x.tail(n)});
+      };
+      by[k] = (energy(h) - energy(-h)) / (2 * h);
+    }
+    return by;
+  }
 
-std::vector<std::complex<double>> multipliers_across(const Orbit& orbit, bool is_free) {
-  std::vector<std::complex<double>> others = *orbit.multipliers;
-  if (is_free && !others.empty())
-    others.erase(std::min_element(others.begin(), others.end(), [](const auto& a, const auto& b) {
-      return std::abs(a - 1.0) < std::abs(b - 1.0);
-    }));
-  return others;
-}
+ private:
+  const LagrangianSystem& system_;
+  bool is_kept_ = false;
+  double value_ = 0;
+};
 
-Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
+/// The orbit by the map from the time of the guess.
+Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
   Orbit orbit;
   std::optional<TangentChart> chart(std::in_place, system, guess);
   orbit.start = chart->origin();
@@ -116,16 +158,28 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
     orbit.why = flight.why;
     return orbit;
   }
+  note_passage(flight, system, orbit);
   Vector miss = map.miss(flight, x);
+  const KeptEnergy energy(system, question, flight, orbit.start);
+  double energy_scale = 1;  // how much the energy changes as far as the motion goes
+  const auto residual_of = [&](const Vector& missed, const Flight& of, const Vector& at) {
+    return std::max(map.relative(missed, of),
+                    std::abs(energy.miss({guess.t, at.head(n), at.tail(n)})) / energy_scale);
+  };
   orbit.residual = map.relative(miss, flight);
   const Vector first = x;
+  // Symmetries make families of orbits: what the derivative's error hides is left as it is.
+  const double undetermined = question.is_free
+                                  ? 10 * derivative_error
+                                  : std::numeric_limits<double>::epsilon() * static_cast<double>(unknowns);
   Vector across = Vector::Zero(2 * n);
   for (int i = 0; i < most_iterations && orbit.residual > 0; ++i) {
     if (i > 0) chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
     const auto D = for_newton(map, *chart, orbit.period, flight);
     if (!D) break;
-    Matrix J = Matrix::Zero(unknowns, unknowns);
-    Vector right = Vector::Zero(unknowns);
+    const Index equations = unknowns + (energy.is_kept() ? 1 : 0);
+    Matrix J = Matrix::Zero(equations, unknowns);
+    Vector right = Vector::Zero(equations);
     J.topLeftCorner(size, size) = *D - Matrix::Identity(size, size);
     right.head(size) = -chart->along(miss);
     if (question.is_free) {
@@ -134,7 +188,15 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
       for (Index k = 0; k < size; ++k) J(size, k) = across.dot(chart->direction(k));
       right[size] = -across.dot(x - first);
     }
-    const Vector step = convex::linear_algebra::CompleteOrthogonal(J).solve(right);
+    if (energy.is_kept()) {
+      const double farthest = flight.largest.maxCoeff();
+      const Vector slope = energy.slope(*chart, newton_step * farthest);
+      energy_scale = std::max(slope.norm() * farthest, std::numeric_limits<double>::min());
+      J.row(size + 1).head(size) = slope.transpose();
+      right[size + 1] = -energy.miss({guess.t, x.head(n), x.tail(n)});
+      orbit.residual = residual_of(miss, flight, x);
+    }
+    const Vector step = convex::linear_algebra::CompleteOrthogonal(J, undetermined).solve(right);
     bool is_better = false;
     for (double part = 1; part > 1e-4 && !is_better; part *= 0.5) {
       const Vector next = chart->state_of(part * step.head(size));
@@ -143,7 +205,7 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
       Flight tried = map.fly(next, period);
       if (!tried.arrives) continue;
       const Vector missed = map.miss(tried, next);
-      const double residual = map.relative(missed, tried);
+      const double residual = residual_of(missed, tried, next);
       if (!(residual < (1 - 0.1 * part) * orbit.residual)) continue;
       is_better = true;
       x = next;
@@ -157,11 +219,11 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   orbit.start.q = x.head(n);
   orbit.start.v = x.tail(n);
   if (!(orbit.residual <= met)) {
-    orbit.why =
-        "Newton's method from the state of the file finds no motion that comes back; give a nearer one";
+    orbit.why = "Newton's method finds no motion near this state that comes back; begin nearer to one";
     return orbit;
   }
   orbit.is_found = true;
+  note_passage(flight, system, orbit);
   for (const MotionEvent& event : flight.events())
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
   chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
@@ -172,7 +234,37 @@ Orbit find_orbit(const LagrangianSystem& system, const State& guess, const Orbit
   const auto others = multipliers_across(orbit, question.is_free);
   orbit.is_stable = std::all_of(others.begin(), others.end(),
                                 [&](const auto& m) { return std::abs(m) < 1 - orbit.circle_width; });
+  orbit.is_neutral = !orbit.is_stable && std::none_of(others.begin(), others.end(), [&](const auto& m) {
+    return std::abs(m) > 1 + orbit.circle_width;
+  });
   return orbit;
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> multipliers_across(const Orbit& orbit, bool is_free) {
+  std::vector<std::complex<double>> others = *orbit.multipliers;
+  if (is_free && !others.empty())
+    others.erase(std::min_element(others.begin(), others.end(), [](const auto& a, const auto& b) {
+      return std::abs(a - 1.0) < std::abs(b - 1.0);
+    }));
+  return others;
+}
+
+Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
+  if (question.is_free && system.equations_of_motion().steps.uses_time)
+    throw convex::InvalidInput(
+        "an orbit of unknown period belongs to a system without t, which here stands in the expressions: the "
+        "same state at another time goes on otherwise; give the period of what drives it, or a multiple");
+  Orbit orbit = find_orbit_there(system, guess, question);
+  const bool is_hidden =
+      !orbit.is_found || (!orbit.multipliers && orbit.start_margin < near_start * orbit.period);
+  if (!is_hidden || orbit.quiet.q.size() == 0 || !(orbit.quiet_margin > orbit.start_margin)) return orbit;
+  OrbitQuestion there = question;
+  if (question.is_free) there.period = orbit.period;
+  const Orbit other = find_orbit_there(system, orbit.quiet, there);
+  if (!other.is_found || (orbit.is_found && !other.multipliers)) return orbit;
+  return orbit_from(system, other, question, guess.t);
 }
 
 }  // namespace mechanics::inline motions

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "mechanics/motion/held_rows.hpp"
@@ -9,12 +10,11 @@ namespace {
 constexpr long most_strokes = 100'000;
 
 /// A contact closes no longer when its rate is what so many roundings leave of all that it was the sum of.
+/// Two contacts close alike when their speeds differ by no more than that, and one does not change the rate
+/// of another by less than so many roundings of the norms in its product.
 constexpr double roundings_of_stroke = 64;
 /// What has not come to rest after all strokes, but to this part, goes to its limit.
 constexpr double nearly_at_rest = 1e-6;
-
-/// Two contacts as bad as each other.
-constexpr double tie = 1e-12;
 
 /// A stroke of one contact, with the two-sided ones held: what it does to every rate, for f' -> f' + 1 of its
 /// own.
@@ -61,34 +61,46 @@ ImpactOutcome sequential_impact(const convex::Metric& A, const std::vector<Impac
     const auto at = static_cast<Index>(a);
     length[at] = A.dual_norm(contacts[a].u);
     outcome.rate[at] = contacts[a].two_sided ? 0 : contacts[a].rate;
-    all[at] = std::abs(outcome.rate[at]);
+    all[at] = std::max(std::abs(outcome.rate[at]), contacts[a].rate_scale);
     if (contacts[a].two_sided) continue;
     strokes[a] = stroke(A, contacts, a);
     largest = std::max(largest, std::abs(outcome.rate[at]) / length[at]);
   }
   const auto by_rounding = [&](Index a) { return roundings_of_stroke * convex::unit_roundoff * all[a]; };
+  // Of what closes by more than rounding: the speed f'/||u||, and what rounding leaves open of it.
+  const auto closes = [&](std::size_t a) {
+    const auto at = static_cast<Index>(a);
+    return !contacts[a].two_sided && -outcome.rate[at] > by_rounding(at);
+  };
+  const auto speed = [&](std::size_t a) {
+    return -outcome.rate[static_cast<Index>(a)] / length[static_cast<Index>(a)];
+  };
+  const auto are_alike = [&](std::size_t a, std::size_t b) {
+    const auto i = static_cast<Index>(a), j = static_cast<Index>(b);
+    return std::abs(speed(a) - speed(b)) <= by_rounding(i) / length[i] + by_rounding(j) / length[j];
+  };
+  const auto changes = [&](std::size_t a, std::size_t b) {
+    return std::abs(strokes[a].rates[static_cast<Index>(b)]) > roundings_of_stroke * convex::unit_roundoff *
+                                                                   length[static_cast<Index>(b)] *
+                                                                   A.norm(strokes[a].change);
+  };
   long count = 0;
   double worst = 0;
   for (; count < most_strokes; ++count) {
     std::size_t striking = m;
-    worst = 0;
     for (std::size_t a = 0; a < m; ++a)
-      if (const double speed = -outcome.rate[static_cast<Index>(a)] / length[static_cast<Index>(a)];
-          !contacts[a].two_sided && speed > worst * (1 + tie) &&
-          -outcome.rate[static_cast<Index>(a)] > by_rounding(static_cast<Index>(a))) {
-        worst = speed;
-        striking = a;
-      }
+      if (closes(a) && (striking == m || speed(a) > speed(striking))) striking = a;
     if (striking == m) break;
-    for (std::size_t b = striking + 1; b < m && outcome.remark.empty(); ++b)
-      if (!contacts[b].two_sided &&
-          -outcome.rate[static_cast<Index>(b)] >= worst * (1 - tie) * length[static_cast<Index>(b)] &&
-          std::abs(strokes[striking].rates[static_cast<Index>(b)]) >
-              tie * length[static_cast<Index>(b)] / length[static_cast<Index>(striking)])
+    worst = speed(striking);
+    const std::size_t fastest = striking;
+    for (std::size_t a = 0; a < m; ++a) {
+      if (a == fastest || !closes(a) || !are_alike(a, fastest)) continue;
+      striking = std::min(striking, a);
+      if (outcome.remark.empty() && (changes(fastest, a) || changes(a, fastest)))
         outcome.remark =
             "contacts that close alike strike one after the other, and the outcome depends on which is "
-            "first: the "
-            "first of the file is taken";
+            "first: the first of the file is taken";
+    }
     const Stroke& by = strokes[striking];
     if (!by.is_possible) {
       for (std::size_t a = 0; a < m; ++a)

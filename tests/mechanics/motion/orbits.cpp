@@ -1,4 +1,4 @@
-#include "mechanics/motion/orbit.hpp"
+#include "mechanics/motion/orbit_section.hpp"
 
 #include <doctest/doctest.h>
 
@@ -108,4 +108,61 @@ TEST_CASE("an orbit on two-sided constraints has the multipliers of the one in c
       CHECK(std::abs((*rod.multipliers)[k] - (*angle.multipliers)[k]) <= 1e-10);
     CHECK(rod.is_stable);
   }
+}
+
+TEST_CASE("of a family of orbits by their energy, the one of the guess is found") {
+  // The pendulum let go at an angle: its period is 4 K(sin(angle/2)), another one for each angle.
+  const auto made = system({{"a"}, "a'^2/2", "-cos(a)", {}, {}, {}, {}});
+  OrbitQuestion question;
+  question.is_free = true;
+  for (const double angle : {0.3, 1.0, 2.5, 3.1}) {
+    const Orbit found = find_orbit(*made, state({angle}, {0}), question);
+    REQUIRE(found.is_found);
+    CHECK(std::abs(found.period / (4 * std::comp_ellint_1(std::sin(angle / 2))) - 1) <= 1e-12);
+    CHECK(std::abs(found.start.q[0] - angle) <= 1e-12);
+    CHECK_FALSE(found.is_stable);
+    CHECK(found.is_neutral);
+  }
+  // Between walls that give all of it back, and a guess that is not on the orbit of the energy asked for.
+  const SystemText walls{{"x"}, "x'^2/2", "x^2/2", {}, {}, {}, {{"left", "x >= -1"}, {"right", "x <= 1"}}};
+  question.motion = restitution(walls, 1);
+  question.energy = 2.0;
+  const Orbit bounces = find_orbit(*system(walls), state({0.1}, {1.9}), question);
+  REQUIRE(bounces.is_found);
+  CHECK(bounces.impacts.size() == 2);
+  CHECK(std::abs(bounces.period - 4 * std::asin(0.5)) <= 1e-12);
+}
+
+TEST_CASE("an orbit told from another instant is the same one; on an impact it is told after it") {
+  const SystemText text = pair("1", "1", "2*pi");
+  const auto made = system(text);
+  OrbitQuestion question;
+  question.motion = restitution(text, 0.7);
+  question.period = 1;
+  const Orbit found = find_orbit(*made, state({0.28334}, {-7.9043}, 0.5), question);
+  REQUIRE(found.is_found);
+  CHECK(found.quiet_margin == doctest::Approx(0.25));
+  for (const double t : {0.9, 0.5 + 1e-3, -3.2, 17.5}) {
+    const Orbit from = orbit_from(*made, found, question, t);
+    CHECK(from.start.t == t);
+    CHECK(from.residual <= 1e-12);
+    REQUIRE(from.impacts.size() == 2);
+    for (const MotionEvent& impact : from.impacts) {
+      CHECK(impact.t > t);
+      CHECK(impact.t <= t + 1);
+    }
+  }
+  const double hit = found.impacts[0].t;
+  const Orbit after = orbit_from(*made, found, question, hit);
+  CHECK((after.start.v - found.impacts[0].velocity_after).norm() <= 1e-12);
+  // With the time of the guess on the impact the map there has no derivative, and the orbit is found all the
+  // same.
+  State guess = after.start;
+  guess.q[0] += 1e-3;
+  const Orbit there = find_orbit(*made, guess, question);
+  REQUIRE(there.is_found);
+  CHECK(there.start.t == hit);
+  CHECK((there.start.v - after.start.v).norm() <= 1e-9);
+  REQUIRE(there.multipliers);
+  CHECK(std::abs((*there.multipliers)[0] - 3.44640644840723306477424) <= 1e-12);
 }

@@ -65,6 +65,18 @@ TEST_CASE("ties that do not commute are said") {
       impact(Metric::identity(2), {{Vector{{s, c}}, -c, 1, false}, {Vector{{-s, c}}, -c, 1, false}},
              ImpactLaw::sequential);
   CHECK_FALSE(found.remark.empty());
+  // What differs by more than rounding is no tie: the faster one strikes first.
+  const ImpactOutcome told_apart = impact(
+      Metric::identity(2), {{Vector{{s, c}}, -c, 1, false}, {Vector{{-s, c}}, -c * (1 + 1e-13), 1, false}},
+      ImpactLaw::sequential);
+  CHECK(told_apart.remark.empty());
+  CHECK(told_apart.change[0] < 0);
+  // Unless the rates are the rest of larger numbers.
+  CHECK_FALSE(
+      impact(Metric::identity(2),
+             {{Vector{{s, c}}, -c, 1, false, 1e3}, {Vector{{-s, c}}, -c * (1 + 1e-13), 1, false, 1e3}},
+             ImpactLaw::sequential)
+          .remark.empty());
 }
 
 TEST_CASE("Poisson's law gives back its part of the impulses of compression, and no contact closes") {

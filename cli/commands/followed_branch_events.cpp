@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cli/commands/followed_branch.hpp"
+
+namespace cli::inline commands {
+namespace {
+
+using convex::Index;
+
+/// Where nothing but counts tells an event, it is known to this part of a step by halving.
+constexpr double halved = 1e-11;
+
+/// States of one branch at values that agree to ten digits differ by less than this part.
+constexpr double jump = 1e-2;
+
+/// A multiplier is on the unit circle, and a value settled, but for rounding.
+constexpr double on_circle = 1e-13, settled = 1e-14;
+
+double apart(const mechanics::State& x, const mechanics::State& y) {
+  return std::hypot((x.q - y.q).norm(), (x.v - y.v).norm());
+}
+
+long impacts_of(const mechanics::Orbit& orbit, Index a) {
+  return std::count_if(orbit.impacts.begin(), orbit.impacts.end(), [a](const mechanics::MotionEvent& impact) {
+    return std::find(impact.constraints.begin(), impact.constraints.end(), a) != impact.constraints.end();
+  });
+}
+
+/// The x at which y is 0 by the polynomial x(y) through the last points (Neville).
+double where_zero(const std::vector<std::pair<double, double>>& points) {
+  constexpr std::size_t most_points = 5;
+  const std::size_t count = std::min(points.size(), most_points), first = points.size() - count;
+  std::vector<double> x;
+  for (std::size_t i = 0; i < count; ++i) x.push_back(points[first + i].first);
+  const auto y = [&](std::size_t i) { return points[first + i].second; };
+  for (std::size_t width = 1; width < count; ++width)
+    for (std::size_t i = 0; i + width < count; ++i)
+      x[i] = (y(i) * x[i + 1] - y(i + width) * x[i]) / (y(i) - y(i + width));
+  return x[0];
+}
+
+}  // namespace
+
+/// A secant of the distance from the unit circle, held between the two orbits (the Illinois rule, Dowell and
+/// Jarratt 1971); halving where there is none.
+std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station b, BranchEvent& event) {
+  if (event == BranchEvent::grazing)
+    if (const Index contact = grazed(a, b); contact >= 0)
+      for (const bool from_a : {true, false}) {
+        // From the side without the impact, and otherwise from the one with it.
+        const Station &here = (impacts_of(a.orbit, contact) < impacts_of(b.orbit, contact)) == from_a ? a : b,
+                      &there = &here == &a ? b : a;
+        const auto second = attempt_along(here, there, 0.9 * here.value + 0.1 * there.value);
+        if (!second || second->orbit.impacts.size() != here.orbit.impacts.size()) continue;
+        if (const auto at = locate_grazing(here, *second, there.value, contact))
+          return behind(*at, a, b, event);
+      }
+  Crossing crossing(event, a.orbit, b.orbit, asked_.is_free);
+  auto left = crossing(a.orbit), right = crossing(b.orbit);
+  const double step = std::abs(range_.step);
+  bool is_located = false;
+  int stays = 0;  // the end that has not moved, by its sign, and how often
+  constexpr int most_halvings = 200;
+  for (int i = 0; i < most_halvings && std::abs(b.value - a.value) > halved * step; ++i) {
+    const bool by_secant = left && right && *left * *right < 0 && i % 4 != 3;
+    const double middle =
+        by_secant ? a.value - *left * (b.value - a.value) / (*right - *left) : 0.5 * (a.value + b.value);
+    if (!((middle - a.value) * (middle - b.value) < 0)) break;
+    auto found = attempt_along(a, b, middle);
+    if (!found) found = attempt(middle, a.orbit.start, a.orbit.period);
+    if (!found) break;
+    const BranchEvent here = event_between(a.orbit, found->orbit, asked_.is_free);
+    if (here != BranchEvent::none && here != event) {
+      event = here;
+      crossing = Crossing(event, a.orbit, found->orbit, asked_.is_free);
+      b = std::move(*found);
+      left = crossing(a.orbit);
+      right = crossing(b.orbit);
+      stays = 0;
+      is_located = true;
+      continue;
+    }
+    const auto distance = crossing(found->orbit);
+    if (distance && std::abs(*distance) <= on_circle * (1 + found->orbit.circle_width / on_circle / 16))
+      return behind(*found, a, b, event);
+    const bool is_before = distance && left && right ? *distance * *left > 0 : here == BranchEvent::none;
+    if (is_before) {
+      a = std::move(*found);
+      left = distance;
+      if (stays > 0 && right) *right *= 0.5;
+      stays = 1;
+    } else {
+      b = std::move(*found);
+      right = distance;
+      if (stays < 0 && left) *left *= 0.5;
+      stays = -1;
+      is_located = true;
+    }
+  }
+  // A branch is one curve: what jumps between two values that are one but for rounding is not an event of it.
+  const double away = apart(a.orbit.start, b.orbit.start);
+  is_lost_ = is_located && away > jump * std::hypot(b.orbit.start.q.norm(), b.orbit.start.v.norm());
+  if (is_lost_) return std::nullopt;
+  constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
+  if (!is_located && std::abs(b.value - a.value) > near * step) return std::nullopt;
+  return Passage{b, b};
+}
+
+FollowedBranch::Passage FollowedBranch::behind(const Station& at, const Station& before, const Station& after,
+                                               BranchEvent event) {
+  for (double part = 1e-9; part < 1; part *= 8) {
+    const auto found = attempt_along(at, after, at.value + part * (after.value - at.value));
+    if (found && event_between(before.orbit, found->orbit, asked_.is_free) == event) return {at, *found};
+  }
+  return {at, after};
+}
+
+Index FollowedBranch::grazed(const Station& a, const Station& b) {
+  for (Index contact = 0; contact < a.orbit.least_gap.size(); ++contact)
+    if (impacts_of(a.orbit, contact) != impacts_of(b.orbit, contact)) return contact;
+  return -1;
+}
+
+std::optional<FollowedBranch::Station> FollowedBranch::locate_grazing(const Station& a, const Station& b,
+                                                                      double beyond, Index contact) {
+  const bool has_impact = a.orbit.least_gap[contact] == std::numeric_limits<double>::infinity();
+  const auto nearness = [&](const mechanics::Orbit& orbit) {
+    return has_impact ? orbit.least_closing[contact] : orbit.least_gap[contact];
+  };
+  const std::size_t impacts = a.orbit.impacts.size();
+  std::vector<std::pair<double, double>> points{{a.value, nearness(a.orbit)}, {b.value, nearness(b.orbit)}};
+  Station last = a, now = b;
+  double before = std::numeric_limits<double>::quiet_NaN();
+  constexpr int most_steps = 24;
+  for (int i = 0; i < most_steps; ++i) {
+    for (const auto& [value, y] : points)
+      if (!std::isfinite(y)) return std::nullopt;
+    const double zero = where_zero(points);
+    const bool is_between = (zero - now.value) * (zero - beyond) < 0;
+    if (is_between && std::abs(zero - before) <= settled * std::max(std::abs(zero), std::abs(range_.step)) &&
+        std::abs(zero - now.value) <= 1e-3 * std::abs(range_.step))
+      return Station{zero, now.orbit};
+    before = is_between ? zero : before;
+    constexpr double short_of = 0.1;
+    const double next = is_between ? zero + short_of * (now.value - zero) : 0.5 * (now.value + beyond);
+    if (next == now.value || next == beyond || points.back().second == 0) {
+      if (!is_between || !(std::abs(zero - now.value) <= halved * std::abs(range_.step))) return std::nullopt;
+      return Station{zero, now.orbit};
+    }
+    auto found = attempt_along(last, now, next);
+    if (!found || found->orbit.impacts.size() != impacts ||
+        !(nearness(found->orbit) < points.back().second)) {
+      beyond = next;
+      continue;
+    }
+    points.emplace_back(found->value, nearness(found->orbit));
+    last = std::move(now);
+    now = std::move(*found);
+  }
+  return std::nullopt;
+}
+
+}  // namespace cli::inline commands
