@@ -5,6 +5,7 @@
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
+#include "convex/prox_formulas/simplex.hpp"
 
 /// With columns P and Q that are exactly orthonormal, and (σ, μ) a pair of φ, the matrices P diag(σ) Qᵀ and
 /// P diag(μ) Qᵀ are a pair of f(X) = φ(σ(X)): both values and the product are those of σ and μ (Lewis 1995).
@@ -46,9 +47,17 @@ MaybeNear of_values(const Call& f, const Vector& x, const Vector& v) {
   const std::string& name = f.name;
   if (name == "psd_cone") return of_entries(Call{"orthant"}, x, v);
   if (name == "neg_log_det") return of_entries(Call{"log_barrier"}, x, v);
-  if (name == "spectraplex") return of_simplex(a.number("total"), x, v);
+  // Values that are 0 are found as roundings of 0: the projection of the sum tells which they are.
+  const Vector both = x + v;
+  if (name == "spectraplex") {
+    const Interval total = a.number("total");
+    const Vector point = prox_formulas::proj_simplex(both, middle(total));
+    return of_simplex(total, point, both - point);
+  }
   if (name == "max_eigenvalue") {
-    MaybeNear dual = of_simplex(a.number("weight"), v, x);
+    const Interval weight = a.number("weight");
+    const Vector slope = prox_formulas::proj_simplex(both, middle(weight));
+    MaybeNear dual = of_simplex(weight, slope, both - slope);
     if (!dual) return dual;
     return turned_round(std::move(*dual));
   }
@@ -75,7 +84,8 @@ MaybeNear of_values(const Call& f, const Vector& x, const Vector& v) {
   } else if (p == 2) {
     norm = of_norm2(size, point, covector);
   } else if (std::isinf(p)) {
-    norm = of_ball1(size, covector, point);
+    const Vector slope = prox_formulas::proj_ball1(both, middle(size));
+    norm = of_ball1(size, slope, both - slope);
     if (norm) norm = turned_round(std::move(*norm));
   } else {
     norm = of_norm_p(p, size, point, covector);

@@ -173,6 +173,29 @@ TEST_CASE("numbers that are written as no double can be have their rounding coun
   CHECK(meet(proof->f_x, outwards(exact.f_x, exact.f_x)));
 }
 
+TEST_CASE("functions of eigenvalues are proved also where these are 0 to rounding, or equal") {
+  std::mt19937_64 generator(9);
+  std::normal_distribution<double> normal;
+  const Index k = 4;
+  for (const char* text : {"max_eigenvalue(0.5)", "indicator(spectraplex(1))", "indicator(psd_cone())",
+                           "nuclear_norm(1, 4)", "schatten(inf, rows=4)", "indicator(spectral_ball(1, 4))"})
+    for (int trial = 0; trial < 6; ++trial) {
+      CAPTURE(text);
+      CAPTURE(trial);
+      Matrix M = Matrix::Zero(k, k);
+      for (Index i = 0; i < k; ++i)
+        for (Index j = 0; j <= i; ++j) M(i, j) = M(j, i) = normal(generator);
+      if (trial % 3 == 0) M = Vector{{1, 1, -1, 0.5}}.asDiagonal();
+      const Vector z = M.reshaped();
+      const Metric W = Metric::identity(k * k);
+      const Call call = cli::parse_call(text, "f");
+      const Decomposition split = decompose(make_function(call, {W}), z, W);
+      const auto proof = proof_in_doubles({call, z, Vector::Zero(k * k), W, 0}, split);
+      REQUIRE(proof);
+      CHECK(proof->error_bound() <= 1e-12 * std::max(1.0, z.norm()));
+    }
+}
+
 TEST_CASE("a proof in doubles of a large decomposition has at least twelve digits") {
   const Index n = 400;
   std::mt19937_64 generator(5);
