@@ -22,6 +22,20 @@ void put_multiple(const Interval& c, const Vector& x, Vector& centre, Vector& ra
   radius = (half * x.cwiseAbs()).array() * (1 + 4 * unit_roundoff) + 1e-320;
 }
 
+/// For p < 2 the slope (|x_i|/|x|_p)^(p-1) is steep at 0, so that a rounding of x_i is much of v_i: there
+/// v_i says which x_i it belongs to.
+void steepen_small_entries(double p, const Interval& weight, const Vector& x, const Vector& v,
+                           Vector& point) {
+  constexpr double small_part = 1e-8, least_part = 1e-200;
+  const double largest = x.cwiseAbs().maxCoeff();
+  const double length = largest * std::pow((x.cwiseAbs() / largest).array().pow(p).sum(), 1 / p);
+  for (Index i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i]) > small_part * largest) continue;
+    const double part = std::pow(std::abs(v[i]) / middle(weight), 1 / (p - 1));
+    point[i] = part > least_part && part < 1 ? std::copysign(length * part, v[i]) : 0;
+  }
+}
+
 }  // namespace
 
 NearGraph of_norm2(const Interval& weight, const Vector& x, const Vector& v) {
@@ -47,13 +61,15 @@ MaybeNear of_norm_p(double p, const Interval& weight, const Vector& x, const Vec
     return made;
   }
   if (!has_ordinary_norm(x)) return std::nullopt;
+  NearGraph made(x, v);
   const double largest = x.cwiseAbs().maxCoeff();
+  if (p < 2) steepen_small_entries(p, weight, x, v, made.x);
   const auto power = [&](double a, double e) {
     const double value = a == 0 ? 0 : std::pow(a, e);
     return outwards(value, value, library_units);
   };
   Interval sum_of_powers;
-  for (const double entry : x) sum_of_powers = sum_of_powers + power(std::abs(entry) / largest, p);
+  for (const double entry : made.x) sum_of_powers = sum_of_powers + power(std::abs(entry) / largest, p);
   // Quotients are rounded once more, which p multiplies.
   const int units = 4 + static_cast<int>(std::ceil(p));
   sum_of_powers = outwards(sum_of_powers.low, sum_of_powers.high, units);
@@ -61,14 +77,13 @@ MaybeNear of_norm_p(double p, const Interval& weight, const Vector& x, const Vec
     const double from = std::pow(a.low, e), to = std::pow(a.high, e);
     return outwards(std::min(from, to), std::max(from, to), library_units + 2);
   };
-  NearGraph made(x, v);
   // (Σ t^p)^(1/p), t = |x|/largest; v_i = weight (t_i)^(p-1) / (Σ t^p)^((p-1)/p).
   made.f_x = weight * interval_at(largest) * power_of(sum_of_powers, 1 / p);
   const Interval scale = weight / power_of(sum_of_powers, (p - 1) / p);
   for (Index i = 0; i < x.size(); ++i) {
-    const Interval t = power(std::abs(x[i]) / largest, p - 1);
+    const Interval t = power(std::abs(made.x[i]) / largest, p - 1);
     const Interval size = scale * outwards(t.low, t.high, units);
-    made.set_v(i, x[i] < 0 ? -size : size);
+    made.set_v(i, made.x[i] < 0 ? -size : size);
   }
   return made;
 }

@@ -83,19 +83,27 @@ MaybeNear of_blocks(const Call& f, const Metric& W, const Vector& x, const Vecto
   return whole;
 }
 
-/// γ ½ ||v||² and x further by γ W⁻¹v, W = 1 or a diagonal (Moreau 1965).
+/// γ ½ ||v||² and x further by γ W⁻¹v, W = 1 or a diagonal (Moreau 1965), whose entries may be rounded.
 MaybeNear of_envelope(const Call& part, const Metric& inside, const Interval& gamma_, const Metric& W,
                       const Vector& x, const Vector& v) {
   if (W.kind() != MetricKind::identity && W.kind() != MetricKind::diagonal) return std::nullopt;
   const Vector& d = W.diagonal();
   MaybeNear found = near_graph(part, inside, x - middle(gamma_) * v.cwiseQuotient(d), v);
-  if (!found || found->v_ball > 0) return std::nullopt;
+  if (!found) return found;
   Interval half;
+  double size = 0;
   for (Index i = 0; i < x.size(); ++i) {
     const Interval slope = found->v_at(i);
-    const Interval step = gamma_ * slope / interval_at(d[i]);
+    const Interval step = gamma_ * slope / outwards(d[i], d[i]);
     found->set_x(i, found->x_at(i) + step);
-    half = half + gamma_ * square(slope) / interval_at(2 * d[i]);
+    half = half + gamma_ * square(slope) / outwards(2 * d[i], 2 * d[i]);
+    size += largest_size(square(slope));
+  }
+  if (found->v_ball > 0) {  // |W⁻¹e| <= |e|/least and |(v + e)² - v²| <= |e| (2|v| + |e|), in all entries
+    const double most_step = above(gamma_.high / d.minCoeff()), off = found->v_ball;
+    found->x_ball = above(found->x_ball + most_step * off);
+    const double more = above(most_step * off * above(std::sqrt(above(size)) + 0.5 * off));
+    half = {moved_down(half.low - more), moved_up(half.high + more)};
   }
   found->f_x = found->f_x + half;
   return found;
@@ -107,13 +115,15 @@ MaybeNear of_conjugate(const Call& part, const Metric& W, const Vector& y, const
   if (W.kind() != MetricKind::diagonal) return std::nullopt;
   const Vector& d = W.diagonal();
   MaybeNear found = near_graph(part, W, v.cwiseQuotient(d), y.cwiseProduct(d));
-  if (!found || found->v_ball > 0 || found->x_ball > 0) return std::nullopt;
+  if (!found) return found;
   NearGraph made = turned_round(std::move(*found));
   for (Index i = 0; i < y.size(); ++i) {
-    const Interval w = interval_at(d[i]);
+    const Interval w = outwards(d[i], d[i]);
     made.set_x(i, made.x_at(i) / w);
     made.set_v(i, made.v_at(i) * w);
   }
+  made.x_ball = above(made.x_ball / d.minCoeff());
+  made.v_ball = above(made.v_ball * d.maxCoeff());
   return made;
 }
 

@@ -47,8 +47,8 @@ Proof judged(NearGraph pair, const RoundedQuestion& question, const MetricBounds
   return {std::move(pair), proved};
 }
 
-/// The pair at x and v themselves, or, where it is not near enough, at their resolvent in the plain product,
-/// p = x + v, (prox p, p - prox p): its formula tells which entries are at a corner.
+/// The pair at x and v themselves, or, where it is not near enough, with one of them 0, or at their resolvent
+/// in the plain product, p = x + v, (prox p, p - prox p): its formula tells which entries are at a corner.
 std::optional<Proof> proof_near(const Vector& x, const Vector& v, const RoundedQuestion& question,
                                 const MetricBounds& W, double enough) {
   std::optional<Proof> best;
@@ -59,6 +59,10 @@ std::optional<Proof> proof_near(const Vector& x, const Vector& v, const RoundedQ
     }
   };
   consider(x, v);
+  if (best && best->radius <= enough) return best;
+  // Where all but roundings belongs to x, or to v, the other is 0.
+  consider(x, Vector::Zero(x.size()));
+  consider(Vector::Zero(x.size()), v);
   if (best && best->radius <= enough) return best;
   try {
     const Vector both = x + v;
@@ -94,7 +98,9 @@ double sum_miss(const RoundedQuestion& question, const Vector& x, const Vector& 
   for (Index i = 0; i < z.size(); ++i) {
     const DoubleDouble first = two_sum(z[i], -x[i]), rest = two_sum(first.hi, -y[i]);
     const double missing = rest.hi + (rest.lo + first.lo);
-    left[i] = moved_up(std::abs(missing), 4) + 4 * unit_roundoff * std::abs(rest.lo + first.lo);
+    const bool is_exact = rest.hi == 0 && rest.lo == 0 && first.lo == 0;
+    left[i] =
+        is_exact ? 0 : moved_up(std::abs(missing), 4) + 4 * unit_roundoff * std::abs(rest.lo + first.lo);
   }
   return W.norm_above(Vector(left + question.z_radius));
 }
