@@ -37,9 +37,9 @@ std::string about_covariance(std::string message) {
 }
 
 /// The distribution of z that was asked for, and what it is in words.
-std::pair<convex::atlas::NormalForce, std::string> distribution(const AtlasOptions& options,
-                                                                const convex::ExactProblem& problem) {
-  convex::atlas::NormalForce force{{convex::IntegerVector(problem.z.size(), 0), 1}};
+std::pair<convex::atlas::NormalLinearTerm, std::string> distribution(const AtlasOptions& options,
+                                                                     const convex::ExactProblem& problem) {
+  convex::atlas::NormalLinearTerm force{{convex::IntegerVector(problem.z.size(), 0), 1}};
   std::string words = "normal force of mean 0";
   if (options.mean) {
     const bool of_file = *options.mean == "file";

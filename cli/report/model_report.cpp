@@ -46,7 +46,7 @@ void write_islands(JsonWriter& json, const SolvedScene& solved, const convex::Mo
     if (island.first_coordinate < static_cast<Index>(solved.scene.coordinates.size()))
       json.key("first_coordinate")
           .value(solved.scene.coordinates[static_cast<std::size_t>(island.first_coordinate)]);
-    json.key("coordinates").value(island.coordinates).key("contacts").value(island.contacts);
+    json.key("coordinates").value(island.coordinates).key("contacts").value(island.rows);
     json.key("flops").value(island.flops).key("factor_nonzeros").value(island.factor_nonzeros);
     if (!island.in_fractions.empty()) json.key("in_fractions").value(island.in_fractions);
     json.end_object();
@@ -96,7 +96,7 @@ std::string islands_text(const convex::Model& model) {
     if (sum.islands == 0) order.push_back(island.method);
     ++sum.islands;
     sum.coordinates += island.coordinates;
-    sum.contacts += island.contacts;
+    sum.contacts += island.rows;
   }
   std::vector<std::string> parts;
   for (const std::string_view method : order) {
@@ -157,9 +157,8 @@ std::string model_text(const SolvedScene& solved) {
   text += "." + left_out_text(solved) + "\n";
   for (const convex::Island& island : model.islands)
     if (!island.in_fractions.empty())
-      text +=
-          fmt::format("Doubles left open {}: decided in fractions ({}).\n", island.in_fractions,
-                      plural(island.coordinates, "coordinate") + ", " + plural(island.contacts, "contact"));
+      text += fmt::format("Doubles left open {}: decided in fractions ({}).\n", island.in_fractions,
+                          plural(island.coordinates, "coordinate") + ", " + plural(island.rows, "contact"));
   const std::string_view open = solved.solution.primal.undecided;
   if (!open.empty() && solved.scene.written)
     text += fmt::format(

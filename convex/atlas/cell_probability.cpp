@@ -86,22 +86,22 @@ NormalVariables normalised(const ExactInverse& V, const Places& places, const In
 
 }  // namespace
 
-CellProbability::CellProbability(const RowSpace& space, const NormalForce& force)
-    : space_(space), levels_(faces(space.cone)), is_kinetic_(!force.covariance) {
-  if (force.mean.size() != space.n)
-    throw InvalidInput("mean: " + std::to_string(force.mean.size()) + " entries; give " +
+CellProbability::CellProbability(const RowSpace& space, const NormalLinearTerm& linear)
+    : space_(space), levels_(faces(space.cone)), has_metric_covariance_(!linear.covariance) {
+  if (linear.mean.size() != space.n)
+    throw InvalidInput("mean: " + std::to_string(linear.mean.size()) + " entries; give " +
                        std::to_string(space.n) + ", one per coordinate");
-  mean_ = {applied(space.free_rows, force.mean.numerators),
-           force.mean.denominator * space.factor.denominator};
+  mean_ = {applied(space.free_rows, linear.mean.numerators),
+           linear.mean.denominator * space.factor.denominator};
   for (Integer& entry : mean_.numerators) entry *= space.factor.numerator;
-  if (is_kinetic_) {
+  if (has_metric_covariance_) {
     precision_ = space.metric;
     precision_scale_ = space.gauge;
   } else {
-    if (static_cast<Index>(force.covariance->size()) != space.n)
-      throw InvalidInput("covariance: " + std::to_string(force.covariance->size()) + " rows; give " +
+    if (static_cast<Index>(linear.covariance->size()) != space.n)
+      throw InvalidInput("covariance: " + std::to_string(linear.covariance->size()) + " rows; give " +
                          std::to_string(space.n) + ", one per coordinate");
-    const ExactMetric covariance = exact_metric(*force.covariance);
+    const ExactMetric covariance = exact_metric(*linear.covariance);
     IntegerRows of_c;
     for (const IntegerVector& row : space.free_rows) {
       const IntegerVector image = applied(covariance.gram, row);
@@ -185,7 +185,7 @@ Probability CellProbability::product_or_sum(const Cell& cell, double tolerance) 
   const std::vector<SignedCone> cones = signed_cones(space_.cone, levels_, cell.face);
   const std::vector<IntegerRows> pieces = normal_pieces(cell);
   const double share = tolerance / static_cast<double>(2 * pieces.size());
-  if (!is_kinetic_) {
+  if (!has_metric_covariance_) {
     Probability sum;
     for (const IntegerRows& piece : pieces) add(sum, 1, of(cones, piece, lines_, share));
     return sum;

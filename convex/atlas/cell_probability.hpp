@@ -7,7 +7,7 @@ namespace convex::atlas {
 
 /// A normal distribution of z. No covariance means A: z then has no preferred direction in the metric A⁻¹,
 /// and for the mean 0 the probability of a cone is its solid angle there.
-struct NormalForce {
+struct NormalLinearTerm {
   ExactVector mean;                          ///< n
   std::optional<ExactRows> covariance = {};  ///< n×n, symmetric positive definite
 };
@@ -17,7 +17,7 @@ struct NormalForce {
 class CellProbability {
  public:
   /// Throws InvalidInput when sizes do not fit or the covariance is not positive definite.
-  CellProbability(const RowSpace&, const NormalForce&);
+  CellProbability(const RowSpace&, const NormalLinearTerm&);
 
   /// To the tolerance where the quadrature gets there; its error tells. Where the covariance is A, the cell
   /// is a product at right angles, and so is its probability. What comes out negative, within its error, is
@@ -38,7 +38,7 @@ class CellProbability {
 
   const RowSpace& space_;
   std::vector<std::vector<ConeFace>> levels_;
-  bool is_kinetic_ = true;
+  bool has_metric_covariance_ = true;
   IntegerRows precision_;  ///< of c: precision_scale_ times this
   Fraction precision_scale_;
   ExactVector mean_;   ///< of c

@@ -175,11 +175,11 @@ struct Kernels : TriangleKernels<W, Fused> {
                               double* into) {
     const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
     for (Index i = 0; i < n; i += 8) {
-      Pack force = P::load(z + i), inertia{};
+      Pack applied = P::load(z + i), product{};
       for (Index k = 0; k < count; ++k)
-        P::add_product(force, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
-      for (Index j = 0; j < n; ++j) P::add_product(inertia, P::load_before(A + j * n + i, end_of_A), q[j]);
-      P::store(into + i, P::minus(force, inertia));
+        P::add_product(applied, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
+      for (Index j = 0; j < n; ++j) P::add_product(product, P::load_before(A + j * n + i, end_of_A), q[j]);
+      P::store(into + i, P::minus(applied, product));
     }
     for (Index i = n; i < padded(n); ++i) into[i] = 0;
   }

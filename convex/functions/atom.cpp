@@ -49,15 +49,15 @@ double distance_in_gap(const Facts& facts, double gap, double size_of_x, double 
 Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
   Prox result;
   result.x = f.prox_diagonal(z, d);
-  const Vector force = d.cwiseProduct(z - result.x);
+  const Vector covector = d.cwiseProduct(z - result.x);
   const std::optional<Vector> v = f.prox_covector(result.x, z, d);
-  result.v = v ? *v : force;
+  result.v = v ? *v : covector;
   const Vector root = d.cwiseSqrt();
   result.values = {f.evaluate(result.x), f.conjugate().evaluate(result.v), 0};
   result.duality_gap = result.values->f_x.value + result.values->f_v.value - result.x.dot(result.v);
   const double size_of_x = root.cwiseProduct(result.x).stableNorm();
   result.error_bound =
-      (result.v - force).cwiseQuotient(root).stableNorm() + f.subgradient_miss(result.x, result.v, d) +
+      (result.v - covector).cwiseQuotient(root).stableNorm() + f.subgradient_miss(result.x, result.v, d) +
       distance_in_gap(f.facts(), result.duality_gap, size_of_x, result.v.cwiseQuotient(root).stableNorm()) +
       roundings_of_a_formula * unit_roundoff * (root.cwiseProduct(z).stableNorm() + size_of_x);
   result.method = "closed form";

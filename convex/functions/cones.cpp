@@ -118,9 +118,9 @@ Set monotone_cone() {
                },
            .project_polar =
                [](const Vector& z, const Vector& d) {
-                 const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
-                 const prox_formulas::Blocks runs = prox_formulas::proj_monotone(force, inverse);
-                 return prox_formulas::blocks_covector(runs, force, inverse, Vector::Zero(z.size()));
+                 const Vector covector = d.cwiseProduct(z), inverse = d.cwiseInverse();
+                 const prox_formulas::Blocks runs = prox_formulas::proj_monotone(covector, inverse);
+                 return prox_formulas::blocks_covector(runs, covector, inverse, Vector::Zero(z.size()));
                },
            .form = linear_quadratic::monotone_cone,
            .any_diagonal = true,

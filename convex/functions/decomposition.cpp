@@ -138,15 +138,15 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
       if (!ended()) consider_all(pair);
   });
   attempt(part_of_a_way, [&] { consider(into(of.f, moreau_partner(y, z, W)), y); });
-  const Vector force = metric_difference(W, z, Vector::Zero(z.size()));
+  const Vector covector = metric_difference(W, z, Vector::Zero(z.size()));
   const Metric V = inverse(W);
   std::optional<Prox> dual;
   attempt(part_of_a_prox, [&] {
-    dual = prox_of(of.plain, force, V);
+    dual = prox_of(of.plain, covector, V);
     consider_all(turned(dual, z, W));
   });
   attempt(part_of_a_way, [&] {
-    for (const Prox& pair : balanced(of.plain, dual, force, V))
+    for (const Prox& pair : balanced(of.plain, dual, covector, V))
       if (!ended()) consider_all(turned(pair, z, W));
   });
   Decomposition& split = best.split;

@@ -166,10 +166,10 @@ class DualQuadratic : public Atom {
     Vector t = sum.solve(W_L.transpose() * (z - c_));
     t -= sum.solve(L_.transpose() * metric_difference(W, c_ + L_ * t, z) + t);
     const Vector x = c_ + L_ * t;
-    // u with Qu = x - c; along the null space any part will do, and the force there is the normal's.
-    const Vector force = metric_difference(W, z, x);
+    // u with Qu = x - c; along the null space any part will do, and the covector there is the normal's.
+    const Vector covector = metric_difference(W, z, x);
     const Vector v = of_Q_.basis * (of_Q_.values.cwiseSqrt().cwiseInverse().asDiagonal() * t) +
-                     of_Q_.null * (of_Q_.null.transpose() * force);
+                     of_Q_.null * (of_Q_.null.transpose() * covector);
     Prox along_range = closed_form(z, W, x, v);
     if (of_Q_.null.cols() > 0) return along_range;
     // Where c and Lt cancel, the difference to z may not.

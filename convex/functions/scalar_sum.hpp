@@ -97,15 +97,15 @@ class ScalarSum : public Atom {
     return slope.asDiagonal();
   }
 
-  /// The slope nearest to the force among those within the rounding of x, which the bound counts by itself:
-  /// near the ends of a domain the slope at the rounded x may be far from that at x.
+  /// The slope nearest to the covector among those within the rounding of x, which the bound counts by
+  /// itself: near the ends of a domain the slope at the rounded x may be far from that at x.
   std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
     Vector v(x.size());
     for (Index i = 0; i < x.size(); ++i) {
       const double rounding =
           std::max(roundings_of_x * unit_roundoff * std::abs(x[i]), std::numeric_limits<double>::min());
-      const double force = d[i] * (z[i] - x[i]);
-      v[i] = std::max(law_.slope(x[i] - rounding, i), std::min(force, law_.slope(x[i] + rounding, i)));
+      const double covector = d[i] * (z[i] - x[i]);
+      v[i] = std::max(law_.slope(x[i] - rounding, i), std::min(covector, law_.slope(x[i] + rounding, i)));
     }
     return v;
   }

@@ -60,8 +60,8 @@ class BoundedPartialSums : public DualBall {
   }
   /// D(z - u) for u the prox of the support function; each run of it passes the bound on to its neighbours.
   Vector project(const Vector& z, const Vector& d) const override {
-    const Vector force = d.cwiseProduct(z), inverse = d.cwiseInverse();
-    prox_formulas::Blocks runs = prox_formulas::prox_total_variation(force, bound_, inverse);
+    const Vector covector = d.cwiseProduct(z), inverse = d.cwiseInverse();
+    prox_formulas::Blocks runs = prox_formulas::prox_total_variation(covector, bound_, inverse);
     std::erase_if(runs.first, [&](Index i) { return i > 0 && runs.x[i] == runs.x[i - 1]; });
     Vector sums = Vector::Zero(z.size());
     for (std::size_t k = 1; k < runs.first.size(); ++k) {
@@ -70,7 +70,7 @@ class BoundedPartialSums : public DualBall {
       sums[run - 1] -= passed;
       sums[run] += passed;
     }
-    return prox_formulas::blocks_covector(runs, force, inverse, sums);
+    return prox_formulas::blocks_covector(runs, covector, inverse, sums);
   }
   Vector support_prox(const Vector& z, const Vector& d) const override {
     return prox_formulas::prox_total_variation(z, bound_, d).x;

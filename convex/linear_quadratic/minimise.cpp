@@ -155,16 +155,16 @@ class ProximalPoint {
     const double scale = z_norm_ + W_.norm(point_.xi.head(f_.n));
     point_.defect_ratio = 0;
     double motion_ratio = 0, transfer = 0;
-    forces_ = W_.dual_norm(terms.head(f_.n));
+    terms_norm_ = W_.dual_norm(terms.head(f_.n));
     for (Index j = f_.n; j < f_.variables(); ++j) {
       const double off = std::abs(defect[j]), stiffness = std::sqrt(soft_.curvature[j]);
       if (off > 0) point_.defect_ratio = std::max(point_.defect_ratio, off / terms[j]);
       if (!(stiffness > 0)) continue;
       // What a defect may do to x, and that relative to x, or to the costs when there is no x.
       transfer += off / stiffness;
-      forces_ = std::max(forces_, terms[j] / stiffness);
+      terms_norm_ = std::max(terms_norm_, terms[j] / stiffness);
       const double natural =
-          f_.n > 0 ? stiffness * (scale + forces_) : f_.c.norm() + soft_.curvature[j] * bounds_;
+          f_.n > 0 ? stiffness * (scale + terms_norm_) : f_.c.norm() + soft_.curvature[j] * bounds_;
       motion_ratio = std::max(motion_ratio, off / natural);
     }
     const bool second = point_.rounds > 1;
@@ -180,7 +180,8 @@ class ProximalPoint {
       return true;
     }
     if (!second) return false;
-    const bool at_rest = move_ <= still * (scale + forces_), stuck = gain > 0.5 && move_ <= accurate * scale;
+    const bool at_rest = move_ <= still * (scale + terms_norm_),
+               stuck = gain > 0.5 && move_ <= accurate * scale;
     const bool slow = point_.defect_ratio > softness_step * last_ratio;
     const bool stagnant = point_.defect_ratio <= stagnant_defect && point_.defect_ratio >= 0.5 * last_ratio;
     idle_ = (at_rest || (stuck && softness_ <= least_)) && slow && motion_ratio <= still;
@@ -209,14 +210,14 @@ class ProximalPoint {
   ProgramPoint finished(const Solution& solution) {
     point_.v = subgradient_of_multipliers(f_, point_.xi, point_.lambda);
     if ((soft_.any || !f_.polyhedral()) && !rough_) {
-      const double scale = f_.n > 0 ? z_norm_ + W_.norm(point_.xi.head(f_.n)) + less * forces_
+      const double scale = f_.n > 0 ? z_norm_ + W_.norm(point_.xi.head(f_.n)) + less * terms_norm_
                                     : problem_.A.norm(point_.xi) + less * round_scale_;
       const PolishedPoint better =
           polish(f_, W_, z_, problem_, solution.basis, point_.xi, point_.lambda, scale);
       const double moved = better.converged ? W_.norm((better.xi - point_.xi).head(f_.n)) : infinity;
       // A polished point far from the settled one rests on other rows than the best.
       const double near =
-          4 * point_.error_bound + still * (z_norm_ + W_.norm(point_.xi.head(f_.n)) + forces_);
+          4 * point_.error_bound + still * (z_norm_ + W_.norm(point_.xi.head(f_.n)) + terms_norm_);
       if (better.converged && moved <= near) {
         point_.xi = better.xi;
         point_.lambda = better.lambda;
@@ -230,7 +231,7 @@ class ProximalPoint {
 
   ProgramPoint judged() {
     const double scale = z_norm_ + W_.norm(point_.xi.head(f_.n));
-    const bool exact = point_.error_bound <= std::max(accurate * scale, silence * forces_);
+    const bool exact = point_.error_bound <= std::max(accurate * scale, silence * terms_norm_);
     // Without x only the value counts, which its own duality gap judges.
     const bool balanced = point_.defect_ratio <= stagnant_defect || idle_;
     point_.status = (exact || f_.n == 0) && balanced && !rough_ ? Status::solved : Status::inaccurate;
@@ -245,7 +246,8 @@ class ProximalPoint {
   NearestPointProblem problem_;
   double z_norm_, move_ = 0;
   double bounds_ = 0;  // the size of the variables that the rows ask for, when there is no x
-  double forces_ = 0;  // the terms of stationarity in the units of x: its rounding is relative to them too
+  double terms_norm_ =
+      0;  // the terms of stationarity in the units of x: its rounding is relative to them too
   double round_scale_ = 0;
   bool rough_ = false, idle_ = false;
   ProgramPoint point_;

@@ -7,7 +7,7 @@ namespace convex {
 
 /// The default: no more work than the problem needs (docs/methods/auto.md). Rows that provably cannot
 /// matter are left out, the rest falls into islands, and each is solved by the smallest method that fits: a
-/// formula for none or one contact, a kernel for chains and obstacles, the dense active set for what is
+/// formula for none or one row, a kernel for chains and obstacles, the dense active set for what is
 /// small, the sparse one for what is not. The residuals are those of the whole. `model` says what was done.
 ///
 /// guess: rows thought to be active, for a warm start; empty when nothing is known. accuracy.reduce = false:

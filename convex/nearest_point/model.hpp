@@ -7,10 +7,10 @@
 
 namespace convex {
 
-/// Coordinates and contacts that were solved together, apart from all others.
+/// Coordinates and rows that were solved together, apart from all others.
 struct Island {
   std::string_view method;
-  Index coordinates = 0, contacts = 0;
+  Index coordinates = 0, rows = 0;
   Index first_coordinate = 0;  ///< the least of its coordinates, which names it
   double flops = 0;            ///< an estimate, the same for the same data
   double factor_nonzeros = 0;  ///< numbers in the factors kept

@@ -52,8 +52,8 @@ class InProduct : public Operation {
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
     const auto factor = ratio(M_, W);
     const Metric C = factor ? times(*factor * *factor, W) : congruence(M_, W);
-    const auto into_point = [&](const Vector& force) -> Vector {  // M W⁻¹ force
-      return factor ? Vector(*factor * force) : image(refined_solve(W, force));
+    const auto into_point = [&](const Vector& covector) -> Vector {  // M W⁻¹ covector
+      return factor ? Vector(*factor * covector) : image(refined_solve(W, covector));
     };
     if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C, and to points C⁻¹u
       const auto from = [&](const Vector& point) {
@@ -65,8 +65,9 @@ class InProduct : public Operation {
         if (values) whole.values = turned_round(*values);
         return whole;
       };
-      const Vector force = factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));
-      return reduced(force, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
+      const Vector covector =
+          factor ? Vector(z / *factor) : refined_solve(M_, metric_difference(W, z, zero()));
+      return reduced(covector, z, W, from, [&](const Vector& r) { return C.solve(into_point(r)); });
     }
     const Metric S = inverse(C);
     if (facts().piecewise_quadratic && !factor && !is_diagonal_kind(S)) return std::nullopt;

@@ -32,7 +32,7 @@ class Intersection : public Sum {
 
 /// The point where a Euclidean ball touches the intersection of the other sets, polyhedra: what that has
 /// nearest to the centre is, in fractions, as far from it as the radius.
-std::optional<Vector> point_of_contact(std::span<const Set> sets, const std::vector<Function>& all, Index n) {
+std::optional<Vector> touching_point(std::span<const Set> sets, const std::vector<Function>& all, Index n) {
   constexpr double doubtful = 1e-6;  // beyond, doubles tell the distance from the radius
   for (std::size_t k = 0; k < sets.size(); ++k) {
     const Call& ball = sets[k].call;
@@ -85,7 +85,7 @@ Function intersection(std::span<const Set> sets, Index n) {
   if (n == 0) return made;
   require_proper(made, n, "intersection");
   if (made.facts().piecewise_quadratic) return made;
-  if (const auto point = point_of_contact(sets, indicators(sets), n))
+  if (const auto point = touching_point(sets, indicators(sets), n))
     return Function(std::make_shared<Intersection>(sets, std::vector{indicator_of_point(*point)}));
   return made;
 }

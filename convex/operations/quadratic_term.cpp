@@ -31,7 +31,7 @@ std::optional<double> multiple_of_identity(const SparseMatrix& Q) {
   return mu;
 }
 
-Vector force_of(const QuadraticTerm& q, const Vector& x, const Vector& v) {
+Vector slope_at(const QuadraticTerm& q, const Vector& x, const Vector& v) {
   DoubleDoubleVector sum(q.c);
   for (Index j = 0; j < x.size(); ++j)
     for (SparseMatrix::InnerIterator entry(q.Q, j); entry; ++entry)
@@ -64,16 +64,16 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   if (part.x.size() != x.size())
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
   const Vector b = x - part.x;
-  const Vector force = q.Q.multiply(b);
-  const double square = 0.5 * b.dot(force), linear = q.c.dot(b);
+  const Vector slope = q.Q.multiply(b);
+  const double square = 0.5 * b.dot(slope), linear = q.c.dot(b);
   const double size = square + q.c.cwiseAbs().dot(b.cwiseAbs()) + std::abs(q.constant);
-  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is force·e where f is smooth
+  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is slope·e where f is smooth
   // there.
   const Value rest{square + linear + q.constant,
                    8 * unit_roundoff * size + part.error_bound * part.error_bound};
   // The prox's own covector is the slope too, and right where x - w is nothing beside x.
   const bool own = part.v.size() == x.size() && part.v.allFinite();
-  return {part.x, own ? part.v : Vector(force + q.c), sum_of(f.evaluate(part.x), rest)};
+  return {part.x, own ? part.v : Vector(slope + q.c), sum_of(f.evaluate(part.x), rest)};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {

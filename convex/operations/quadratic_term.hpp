@@ -21,7 +21,7 @@ std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n);
 std::optional<double> multiple_of_identity(const SparseMatrix& Q);
 
 /// Qx + c + v, rounded once.
-Vector force_of(const QuadraticTerm& q, const Vector& x, const Vector& v);
+Vector slope_at(const QuadraticTerm& q, const Vector& x, const Vector& v);
 
 /// The quadratic term as a function of the catalogue.
 Function function_of(const QuadraticTerm& q);

@@ -108,8 +108,8 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   const Vector y = V.solve(W.multiply(z) - c);
   if (sorted.rest.empty()) {
     const Vector none = Vector::Zero(z.size());
-    const Vector x = y - V.solve(stationarity(z, W, y, force_of(*sorted.quadratic, y, none)));
-    const Vector v = force_of(*sorted.quadratic, x, none);
+    const Vector x = y - V.solve(stationarity(z, W, y, slope_at(*sorted.quadratic, y, none)));
+    const Vector v = slope_at(*sorted.quadratic, x, none);
     return moved({.x = x, .v = {}, .method = "linear equations"}, x, v, 0, z, W, V);
   }
   // A program takes the quadratic as it is, without a rounded point in a rounded metric.
@@ -121,7 +121,7 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
     // The quadratic q takes its own slope Qx + c, where q*(Qx + c) = ½ x·Qx - q(0).
     const Value square = multiple_of(0.5, product(part.x, Q * part.x));
     return with_values(
-        moved(part, part.x, force_of(*sorted.quadratic, part.x, part.v), part.error_bound, z, W, V),
+        moved(part, part.x, slope_at(*sorted.quadratic, part.x, part.v), part.error_bound, z, W, V),
         part.values, sum_of(sum_of(square, product(c, part.x)), {constant, 0}),
         sum_of(square, {-constant, 0}));
   };

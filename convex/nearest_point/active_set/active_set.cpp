@@ -150,7 +150,7 @@ class DualActiveSet {
     std::stable_sort(rows.begin(), rows.end(), [&](Index a, Index b) { return depth(a) < depth(b); });
   }
 
-  /// Tries the hypothesis that all touched contacts persist; true when their multipliers allow it.
+  /// Tries the hypothesis that all touched rows hold; true when their multipliers allow it.
   bool start_by_touched(const std::vector<Index>& rows) {
     Matrix whitened = whitened_rows(problem_, rows);
     set_.append_block(rows, whitened, block_dependence);

@@ -61,16 +61,17 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   for (Index a : problem.two_sided)
     if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
   solution.rounding = rounding_norm(problem, refined.q.lo);
-  double forces = 0, taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
+  double multipliers = 0,
+         taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
   for (Index k = 0; k < set.size(); ++k) {
-    const double force = refined.lambda.hi[k] * set.factor().length(k);
-    forces += std::abs(force);
-    if (set.one_sided(k)) taken_for_zero += std::max(0.0, -force);
+    const double multiplier = refined.lambda.hi[k] * set.factor().length(k);
+    multipliers += std::abs(multiplier);
+    if (set.one_sided(k)) taken_for_zero += std::max(0.0, -multiplier);
   }
   solution.error_bound =
       2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
       worst * set.factor().inverse_norm() +
-      (left_outside > 0 ? left_outside * std::max(forces, std::numeric_limits<double>::min()) : 0);
+      (left_outside > 0 ? left_outside * std::max(multipliers, std::numeric_limits<double>::min()) : 0);
   const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   solution.status = close ? Status::solved : Status::inaccurate;
   return solution;
@@ -91,7 +92,7 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
     solution.status = Status::gave_up;
     solution.undecided = open_question::contradiction;
   }
-  // The smallest weight is 1: combinations of whole contacts read as whole numbers.
+  // The smallest weight is 1: combinations of whole rows read as whole numbers.
   solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
   return solution;
 }

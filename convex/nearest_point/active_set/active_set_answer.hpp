@@ -9,7 +9,8 @@ namespace convex::inline dual_active_set {
 /// what refinement left, the rounding of q to doubles, and what rows that contradict W by rounding leave
 /// undecided. slack: Uq - s over all rows; row_scale: ||u_a||_(D⁻¹) of all rows, D the diagonal of A;
 /// left_outside: Σ |d_p|/|v_p| over rows passed over as dependent, d_p being what W does not span of them, by
-/// which a force on them would differ from one on W; infinite when the method did not end by its own test.
+/// which a multiplier on them would act otherwise than on W; infinite when the method did not end by its own
+/// test.
 Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
                        const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps);
 

@@ -16,8 +16,8 @@ GalleryInstance scaled(Index n, double unit, std::uint32_t seed);
 GalleryInstance ill_conditioned(Index n, double condition, std::uint32_t seed);
 GalleryInstance near_parallel(Index n, double angle, std::uint32_t seed);
 GalleryInstance near_opposite(Index n, double angle, std::uint32_t seed);
-GalleryInstance heavy_on_light(Index bodies, double mass_ratio, std::uint32_t seed);
-GalleryInstance chain(Index bodies, double mass_ratio, std::uint32_t seed);
+GalleryInstance heavy_on_light(Index bodies, double weight_ratio, std::uint32_t seed);
+GalleryInstance chain(Index bodies, double weight_ratio, std::uint32_t seed);
 GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_t seed);
 GalleryInstance obstacle(Index side, double part_touching, std::uint32_t seed);
 

@@ -17,13 +17,13 @@ struct Pile {
   Index rows() const { return row(discs - 1) + 1; }
 };
 
-struct Contact {
+struct TouchingPair {
   Index low, high;  ///< discs; low = -1 is the floor
   double nx, ny;    ///< the normal from low to high
 };
 
-std::vector<Contact> contacts(const Pile& pile) {
-  std::vector<Contact> all;
+std::vector<TouchingPair> touching_pairs(const Pile& pile) {
+  std::vector<TouchingPair> all;
   for (Index i = 0; i < pile.discs; ++i) {
     const Index column = i % pile.width;
     if (pile.row(i) == 0) all.push_back({-1, i, 0, 1});
@@ -40,16 +40,16 @@ GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_
   Draw draw(seed);
   const Pile pile{discs, static_cast<Index>(std::ceil(std::sqrt(static_cast<double>(discs))))};
   const auto resting = static_cast<Index>(std::lround(part_at_rest * static_cast<double>(pile.rows())));
-  Vector masses(2 * discs), q = Vector::Zero(2 * discs), z(2 * discs);
+  Vector weights(2 * discs), q = Vector::Zero(2 * discs), z(2 * discs);
   for (Index i = 0; i < discs; ++i) {
-    masses[2 * i] = masses[2 * i + 1] = draw.integer(1, 4);
+    weights[2 * i] = weights[2 * i + 1] = draw.integer(1, 4);
     q[2 * i + 1] = 2 * static_cast<double>(std::max<Index>(0, pile.row(i) - resting + 1));
   }
-  const std::vector<Contact> all = contacts(pile);
+  const std::vector<TouchingPair> all = touching_pairs(pile);
   const auto m = static_cast<Index>(all.size());
   std::vector<Eigen::Triplet<double>> entries;
   Vector lambda = Vector::Zero(m);
-  z = masses.cwiseProduct(q);
+  z = weights.cwiseProduct(q);
   for (Index a = 0; a < m; ++a) {
     const auto [low, high, nx, ny] = all[static_cast<std::size_t>(a)];
     const double apart = ny * (q[2 * high + 1] - (low < 0 ? 0 : q[2 * low + 1]));
@@ -68,7 +68,7 @@ GalleryInstance hexagonal_packing(Index discs, double part_at_rest, std::uint32_
   }
   SparseRows U(m, 2 * discs);
   U.setFromTriplets(entries.begin(), entries.end());
-  return {{Metric::diagonal(masses), z, ConstraintRows(U), Vector::Zero(m), {}},
+  return {{Metric::diagonal(weights), z, ConstraintRows(U), Vector::Zero(m), {}},
           true,
           DoubleDoubleVector(q),
           lambda,

@@ -34,10 +34,10 @@ GalleryInstance pair(Index n, double angle, std::uint32_t seed, bool opposite) {
   const double tilt = std::ldexp(1.0, static_cast<int>(std::lround(std::log2(angle))));
   Vector twin = opposite ? Vector(-u) : u;
   twin[apart] = tilt;
-  // The forces of a flat wedge cancel but for their tilted part, which is to count.
-  const double force = opposite ? draw.integer(1, 8) / tilt : draw.integer(1, 8);
-  rows.add(u, opposite ? force : draw.integer(1, 8), 0);
-  rows.add(twin, force, 0);
+  // The multipliers of a flat wedge cancel but for their tilted part, which is to count.
+  const double multiplier = opposite ? draw.integer(1, 8) / tilt : draw.integer(1, 8);
+  rows.add(u, opposite ? multiplier : draw.integer(1, 8), 0);
+  rows.add(twin, multiplier, 0);
   const auto add_rows = [&](Index count, bool loaded) {
     for (Index a = 0; a < count; ++a) {
       Vector v = integer_row(n, draw);

@@ -41,9 +41,9 @@ GalleryInstance PlantedRows::instance(Draw& draw) const {
   const Vector s = U * q_ - slack;
   GalleryInstance instance{
       {Metric::dense(A_), {}, ConstraintRows(U), s, {}}, true, DoubleDoubleVector(q_), lambda, Vector(0)};
-  DoubleDoubleVector force(A_ * q_);  // large forces of opposite rows cancel without a rounding
-  for (Index a = 0; a < m; ++a) instance.problem.U.add_multiple(a, {-lambda[a], 0}, force);
-  instance.problem.z = force.value();
+  DoubleDoubleVector linear(A_ * q_);  // large multipliers of opposite rows cancel without a rounding
+  for (Index a = 0; a < m; ++a) instance.problem.U.add_multiple(a, {-lambda[a], 0}, linear);
+  instance.problem.z = linear.value();
   return instance;
 }
 

@@ -47,7 +47,7 @@ class Judge {
         row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())),
         two_sided_(static_cast<std::size_t>(problem.rows()), false) {
     for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
-    force_norm_ = problem.A.dual_norm(problem.z);
+    z_norm_ = problem.A.dual_norm(problem.z);
   }
 
   Solution verdict() {
@@ -104,7 +104,7 @@ class Judge {
   std::optional<Solution> infeasible(const Vector& weights) {
     if (weights.size() != problem_.rows() || problem_.rows() == 0 || !weights.allFinite())
       return std::nullopt;
-    double reach = farthest_motion * force_norm_;  // or the size that the rows speak of
+    double reach = farthest_motion * z_norm_;  // or the size that the rows speak of
     for (Index a = 0; a < problem_.rows(); ++a)
       if (row_scale_[a] > 0)
         reach = std::max(reach, farthest_motion * std::abs(problem_.s[a]) / row_scale_[a]);
@@ -123,7 +123,7 @@ class Judge {
     solution.method = candidate_.method;
     solution.steps = candidate_.steps;
     solution.status = Status::infeasible;
-    solution.force_norm = force_norm_;
+    solution.force_norm = z_norm_;
     if (!problem_.radii) {
       std::optional<InfeasibilityProof> exact = infeasibility_proof(problem_, proof);
       if (exact) {
@@ -160,13 +160,13 @@ class Judge {
     solution.lambda = lambda;
     solution.slack = slack;
     solution.acceleration_norm = problem_.A.norm(q);
-    solution.force_norm = force_norm_;
+    solution.force_norm = z_norm_;
     // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
     KnownParts known{is_dense_size(problem_) ? Vector(Vector::Zero(problem_.rows())) : row_scale_,
                      problem_.U.times(q) - problem_.s,
                      {},
                      solution.acceleration_norm,
-                     force_norm_};
+                     z_norm_};
     solution.residuals = residuals(problem_, q, lambda, std::move(known));
     return solution;
   }
@@ -212,7 +212,7 @@ class Judge {
   const Accuracy& accuracy_;
   Vector row_scale_;
   std::vector<bool> two_sided_;
-  double force_norm_ = 0;
+  double z_norm_ = 0;
 };
 
 }  // namespace

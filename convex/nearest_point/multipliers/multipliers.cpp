@@ -98,12 +98,12 @@ class MultiplierPolyhedron {
       : names_(rows.basic), length_(length), tableau_(made(rows, lambda, length, is_free, names_)) {}
 
   /// Of the multiplier times the length of its row.
-  Interval range_of_force(Index a) {
+  Interval range_of_multiplier(Index a) {
     return tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
   }
   Interval range(Index a) {
-    const Interval force = range_of_force(a);
-    return {force.low / length_[a], force.high / length_[a]};
+    const Interval range = range_of_multiplier(a);
+    return {range.low / length_[a], range.high / length_[a]};
   }
 
  private:
@@ -145,8 +145,8 @@ Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
   // Where z is rounded, its rounding moves slacks; its size moves none.
-  constexpr double rounding_of_forces = 0x1p-40;
-  const double moved = problem.radii ? std::min(tolerance, rounding_of_forces) * solution.force_norm : 0;
+  constexpr double rounding_of_z = 0x1p-40;
+  const double moved = problem.radii ? std::min(tolerance, rounding_of_z) * solution.force_norm : 0;
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const std::vector<bool> basis = marked(problem.rows(), solution.basis);
   std::vector<Index> candidates;
@@ -201,8 +201,8 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& solu
     const auto start = std::chrono::steady_clock::now();
     MultiplierPolyhedron directions(rows, signs, length, is_free);
     const bool unique = std::none_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) {
-      const Interval force = directions.range_of_force(p);
-      return force.high - force.low > tolerance;
+      const Interval range = directions.range_of_multiplier(p);
+      return range.high - range.low > tolerance;
     });
     if (unique) continue;
     found.unique = false;

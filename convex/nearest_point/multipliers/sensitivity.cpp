@@ -34,8 +34,9 @@ std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipli
 
 /// Of the rows of `face`, those with a positive multiplier where lambda·s is largest, lambda over all >= 0 on
 /// one-sided rows with Uᵀlambda = R, and the two-sided ones. By duality these lambda are complementary to the
-/// motions d with the least R·d; and such a motion is that of the quadratic problem with a force -t R, t
-/// large enough. Whether t is: R is then a sum of pushes of the rows that d touches. None when no t will do.
+/// motions d with the least R·d; and such a motion is that of the quadratic problem with the linear term -t
+/// R, t large enough. Whether t is: R is then a sum of pushes of the rows that d touches. None when no t will
+/// do.
 std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& face, const Vector& R) {
   const double push = face.A.dual_norm(R);
   const std::vector<bool> two_sided = marks_of(face.rows(), face.two_sided);

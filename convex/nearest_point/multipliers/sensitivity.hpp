@@ -23,9 +23,9 @@ struct Derivative {
 std::optional<Derivative> directional_derivative(const NearestPointProblem&, const Solution&,
                                                  const Multipliers&, const Vector& dz, const Vector& ds);
 
-/// How far the active rows are from changing: the least ||dz||_(A⁻¹) of a change of forces that makes row a
+/// How far the active rows are from changing: the least ||dz||_(A⁻¹) of a change of z that makes row a
 /// open (lambda_a becomes 0) or close (u_a·q - s_a becomes 0), as long as nothing else changes. 0 for a weak
-/// row, infinite for two-sided rows and for those that no force reaches. None when multipliers are not
+/// row, infinite for two-sided rows and for those that no change reaches. None when multipliers are not
 /// unique.
 std::optional<Vector> margins(const NearestPointProblem&, const Solution&, const Multipliers&);
 

@@ -99,7 +99,7 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
     const double violation =
         two_sided[static_cast<std::size_t>(a)] ? std::abs(rest[a]) : std::max(0.0, -rest[a]);
     gap += lambda[a] * rest[a];
-    // A violation on a row of scale 0 (at rest, s = 0) is relative to what the forces could do to it instead.
+    // A violation on a row of scale 0 (at rest, s = 0) is relative to what z could do to it instead.
     const double over = row_scale > 0 ? row_scale : length[a] * scale;
     if (over > 0) {
       found.feasibility = std::max(found.feasibility, violation / over);

@@ -77,7 +77,7 @@ Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, 
                            const Vector& slack, const KnownNorms& known, Index first, Index end) {
   const SparseRows& U = problem.U.sparse();
   const Vector& d = problem.A.diagonal();
-  const double stationarity = known.unbalanced, q_norm = known.q, scale = std::max(q_norm, known.force);
+  const double stationarity = known.unbalanced, q_norm = known.q, scale = std::max(q_norm, known.z);
   const double largest = end > first ? lambda.cwiseAbs().maxCoeff() : 0;
   Residuals found;
   double gap = 0.5 * stationarity * stationarity;
@@ -98,7 +98,7 @@ Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, 
     const double row_scale = size + length * q_norm;
     const double violation = two_sided ? std::abs(rest) : std::max(0.0, -rest);
     gap += lambda[a] * rest;
-    // A violation on a row of scale 0 (at rest, s = 0) is relative to what the forces could do to it instead.
+    // A violation on a row of scale 0 (at rest, s = 0) is relative to what z could do to it instead.
     const double over = row_scale > 0 ? row_scale : length * scale;
     if (!(over > 0)) continue;
     found.feasibility = std::max(found.feasibility, violation / over);

@@ -11,7 +11,7 @@ Residuals sparse_residuals(const NearestPointProblem&, const Vector& q, const Ve
 
 /// ||q||_A, ||z||_(A⁻¹) and ||Aq - z - Uᵀlambda||_(A⁻¹).
 struct KnownNorms {
-  double q = 0, force = 0, unbalanced = 0;
+  double q = 0, z = 0, unbalanced = 0;
 };
 
 /// The same where these are known; only the rows first … end - 1 may leave anything.

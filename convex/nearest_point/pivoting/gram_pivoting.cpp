@@ -161,7 +161,7 @@ Index GramPivoting::block_of(Index violated) const {
 void GramPivoting::start_pivoting() {
   contradiction_.reset();
   by_single_steps_ = false;
-  force_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
+  z_norm_ = std::sqrt(kernels_.dot(A_.ld, w_free_, w_free_));
 }
 
 bool GramPivoting::pivot() {
@@ -191,7 +191,7 @@ bool GramPivoting::pivot_at_once() {
 }
 
 double GramPivoting::counted_violation() const {
-  return least_violation * (force_norm_ + std::sqrt(std::abs(energy_)));
+  return least_violation * (z_norm_ + std::sqrt(std::abs(energy_)));
 }
 
 /// Lists the rows in that state that the point found violates.

@@ -125,7 +125,7 @@ class GramPivoting {
   Index *state_, *list_, *entering_;
   Index steps_ = 0;
   Index firm_ = -1;  // where others are held too: the first firm_ rows are held, whatever these are
-  double energy_ = 0, force_norm_ = 0;
+  double energy_ = 0, z_norm_ = 0;
   bool by_single_steps_ = false, any_close_ = false;
   const double* target_;  // the loads that are solved for, at places
   std::optional<Vector> contradiction_;

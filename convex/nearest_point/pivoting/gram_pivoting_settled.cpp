@@ -23,7 +23,7 @@ void GramPivoting::clear_rows(double zero, const double* multipliers, const doub
 
 bool GramPivoting::settle_rest(const double* load, double norm) {
   target_ = load;
-  force_norm_ = norm;
+  z_norm_ = norm;
   const bool settled = any_close_ ? descend_known() : find_multipliers();
   target_ = rows_.load();
   any_close_ = false;

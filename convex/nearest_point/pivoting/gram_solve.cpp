@@ -59,20 +59,20 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
   set_.emplace(problem, arena, w_free_, row_scale_);
 }
 
-void GramSolve::whiten_force() {
+void GramSolve::whiten_z() {
   for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
   copy_packs(ld_, z_, w_free_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
-  known_.scale = force_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
+  known_.scale = z_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
 }
 
 bool GramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
-  whiten_force();
+  whiten_z();
   return set_->settle(guess) && finish_settled(accuracy, solution);
 }
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
-  whiten_force();
+  whiten_z();
   return set_->settle_again() && finish_settled(accuracy, solution);
 }
 
@@ -93,7 +93,7 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
 }
 
 /// Whether as many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
-/// forces are, so far as their signs are told, the point is that one.
+/// multipliers are, so far as their signs are told, the point is that one.
 bool GramSolve::is_exact_vertex() const {
   return set_->size() == n_ && !problem_.radii &&
          keeps_rows(problem_, Eigen::Map<const Vector>(q_, n_), {rows_, rows_ + n_}, {}, nullptr);
@@ -106,7 +106,7 @@ void GramSolve::take_point() {
   copy_packs(set_->rows().count(), set_->lambda(), total_);
   list_rows_held();
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  known_.scale = std::max(acceleration_norm_, force_norm_);
+  known_.scale = std::max(acceleration_norm_, z_norm_);
 }
 
 void GramSolve::list_rows_held() {
@@ -162,7 +162,7 @@ void GramSolve::write_point(Solution& solution) const {
   solution.slack = Eigen::Map<const Vector>(slack_, m_);
   solution.basis.assign(rows_, rows_ + set_->size());
   solution.acceleration_norm = acceleration_norm_;
-  solution.force_norm = force_norm_;
+  solution.force_norm = z_norm_;
   solution.rounding = known_.rounding;
   solution.error_bound = known_.bound;
 }

@@ -29,7 +29,7 @@ class GramSolve {
   template <class Engine>
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
-  void whiten_force();
+  void whiten_z();
   bool finish_settled(const Accuracy& accuracy, Solution& solution);
   Corrections& corrections() { return known_; }
   bool is_exact_vertex() const;
@@ -70,7 +70,7 @@ class GramSolve {
   Index *rows_, *touched_, *close_, *fresh_;
   std::optional<SlackOnEdge> edge_;
   Corrections known_;
-  double force_norm_ = 0, acceleration_norm_ = 0, inverse_norm_ = 0, gram_condition_ = 0, magnitude_ = 0;
+  double z_norm_ = 0, acceleration_norm_ = 0, inverse_norm_ = 0, gram_condition_ = 0, magnitude_ = 0;
   double moved_ = 0;  ///< how far rows that the point touches may move the answer
   Index touched_count_ = 0;
 };

@@ -38,8 +38,7 @@ bool GramSolve::correct(bool is_first, double small) {
   for (Index j = 0; j < set_->size(); ++j) change_[j] = y_[set_->place(j)];
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed,
-                   problem_.A.factor_condition(), gram_condition_, 0,
-                   std::max(acceleration_norm_, force_norm_)))
+                   problem_.A.factor_condition(), gram_condition_, 0, std::max(acceleration_norm_, z_norm_)))
     return false;
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);

@@ -60,7 +60,7 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
   for (Index a = 0; a < rows; ++a) row_scale_[a] *= at_most_longer * inverse_scale_[a];
 }
 
-void SmallGramSolve::take_force() {
+void SmallGramSolve::take_linear_term() {
   for (Index i = 0; i < tableau_.n; ++i) tableau_.z[i] = problem_.z[i];
   for (Index i = tableau_.n; i < tableau_.ld; ++i) tableau_.z[i] = 0;
   for (Index p = 0; p < tableau_.stride; ++p)
@@ -96,7 +96,7 @@ void SmallGramSolve::begin(const std::vector<Index>& guess) {
     t.row[p] = -1;
     t.held[p] = false;
   }
-  take_force();
+  take_linear_term();
 }
 
 bool SmallGramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
@@ -111,7 +111,7 @@ bool SmallGramSolve::solve(const std::vector<Index>& guess, const Accuracy& accu
 
 bool SmallGramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   if (sweeps_ > sweeps_kept * tableau_.m) return solve(solution.basis, accuracy, solution);
-  take_force();
+  take_linear_term();
   tableau_.steps = 0;
   const bool settled = small_kernels().begin_again(tableau_) && settle();
   sweeps_ += tableau_.steps;
@@ -136,7 +136,7 @@ Index SmallGramSolve::fresh_violated_rows(Index* rows) {
   dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
   alignas(64) double depth[8], row[8];
   small_kernels().deepest(t.all, slack_, inverse_scale_, depth, row);
-  const double least = GramPivoting::least_violation * (t.force_norm + t.acceleration_norm);
+  const double least = GramPivoting::least_violation * (t.z_norm + t.acceleration_norm);
   Index count = 0;
   for (int k = 0; k < 8; ++k)
     if (const Index a = static_cast<Index>(row[k]); depth[k] < -least && place(a) < 0) rows[count++] = a;
@@ -226,7 +226,7 @@ bool SmallGramSolve::correct(bool is_first, double small) {
   // An inverse loses as much again as a factor: where it is small, it is the difference of large entries.
   const double grown = std::max(t.gram_condition, t.growth), inverse_error = unit_roundoff * grown * grown;
   if (!known_.note(t.first + zeroed_, is_first || small > 0 || t.steps > steps, t.factor_condition,
-                   t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.force_norm)))
+                   t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.z_norm)))
     return false;
   for (Index i = 0; i < t.n; ++i) {
     const DoubleDouble sum = two_sum(t.q[i], t.q_low[i] + t.dq[i]);
@@ -251,7 +251,7 @@ bool SmallGramSolve::doubles_do(double close) {
   known_ = Corrections();
   touched_violation_ = 0;
   measure();
-  known_.scale = std::max(t.acceleration_norm, t.force_norm);
+  known_.scale = std::max(t.acceleration_norm, t.z_norm);
   Index weak = 0;
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
@@ -296,7 +296,7 @@ bool SmallGramSolve::write(const Accuracy& accuracy, Solution& solution) {
   }
   solution.basis.assign(t.rows, t.rows + t.size);
   solution.acceleration_norm = t.acceleration_norm;
-  solution.force_norm = t.force_norm;
+  solution.force_norm = t.z_norm;
   solution.rounding = known_.rounding;
   solution.error_bound = known_.bound;
   solution.status = known_.bound <= close ? Status::solved : Status::inaccurate;

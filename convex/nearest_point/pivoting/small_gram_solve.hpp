@@ -34,14 +34,14 @@ class SmallGramSolve {
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be
   /// proved.
   std::optional<Vector> contradiction() const;
-  double scale() const { return tableau_.force_norm; }
+  double scale() const { return tableau_.z_norm; }
   Index steps() const { return tableau_.steps; }
 
  private:
   template <class Engine>
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
-  void take_force();
+  void take_linear_term();
   bool look_at(const Index* rows, Index count);
   bool settle();
   Index fresh_violated_rows(Index* rows);

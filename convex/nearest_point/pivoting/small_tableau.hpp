@@ -48,7 +48,7 @@ struct SmallTableau {
   bool held[most], two_sided[most];
 
   Index steps = 0;
-  double force_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
+  double z_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
   Index dependent = -1;  ///< the violated row that is nearly dependent on those held, if pivoting met one
   bool is_first = true;  ///< the next correction is; q_low is 0 then
   bool any_weak = false;

@@ -33,11 +33,11 @@ struct SmallTableauRows : Kernels<W, Fused> {
     t.enter[a] = held ? 0 : t.inverse_scale[a];
   }
 
-  MOREAU_INLINE void whiten_force(SmallTableau& t) {
+  MOREAU_INLINE void whiten_z(SmallTableau& t) {
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
     K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
-    t.force_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
+    t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
     for (Index r = 0; r < stride(t); r += 8) load_block(t, r);
   }
 

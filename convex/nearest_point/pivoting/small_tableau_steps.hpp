@@ -24,7 +24,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
   using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::set_state, Rows::stride,
-      Rows::whiten_block, Rows::whiten_force;
+      Rows::whiten_block, Rows::whiten_z;
   static constexpr double infinite = __builtin_inf();
 
   /// Whether row k, outside, lies in the span of those held, as far as doubles tell; or nearly so.
@@ -77,7 +77,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
       whiten_block(t, r);
       mirror_block(t, r);
     }
-    whiten_force(t);
+    whiten_z(t);
     t.growth = 1;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallTableau::most];
@@ -94,7 +94,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
   }
 
   MOREAU_INLINE bool begin_again(SmallTableau& t) {
-    whiten_force(t);
+    whiten_z(t);
     sweep_load(t, t.load);
     return true;
   }
@@ -129,7 +129,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
 
   MOREAU_INLINE bool settle(SmallTableau& t) {
     t.dependent = -1;
-    if (t.m > 0 && !pivot(t, t.load, t.force_norm)) return false;
+    if (t.m > 0 && !pivot(t, t.load, t.z_norm)) return false;
     find_point(t);
     return true;
   }
@@ -137,7 +137,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
   /// The dual method of Goldfarb and Idnani (1983) on the swept tableau: rows whose multiplier b is negative
   /// go, the most negative first; then the row violated most has its multiplier raised until it holds. Its
   /// column tells by how much all others change with it; those held whose multiplier comes down to 0 on the
-  /// way go. norm: ||·|| of the whitened force that the load is of.
+  /// way go. norm: ||·|| of the whitened linear term that the load is of.
   MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
     const Index patience = t.steps + 4 * t.m + 8;
     alignas(64) double wrong[SmallTableau::most];

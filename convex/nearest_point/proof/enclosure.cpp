@@ -142,8 +142,8 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
             tight * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, solution.q.cwiseAbs())) &&
         !std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
       rows.push_back(a);
-  const Vector force = problem.A.multiply(solution.q) - problem.z;
-  const ConeProjection push = cone_projection(whitened(rows), problem.A.whiten(force), free);
+  const Vector residual = problem.A.multiply(solution.q) - problem.z;
+  const ConeProjection push = cone_projection(whitened(rows), problem.A.whiten(residual), free);
   if (!push.finished) return std::nullopt;
   Held held{{}, Vector::Zero(problem.rows())};
   for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -36,7 +36,7 @@ void least_norm(const std::vector<Index>& basic, const std::vector<Index>& depen
   std::vector<Index> names = basic;
   names.insert(names.end(), dependent.begin(), dependent.end());
   ExactRows N, gram, signed_rows;
-  std::vector<Fraction> force(d), bound;
+  std::vector<Fraction> linear(d), bound;
   std::vector<Fraction> start(k + d);
   for (std::size_t j = 0; j < k + d; ++j) {
     N.push_back(null_row(T, k, j));
@@ -49,9 +49,10 @@ void least_norm(const std::vector<Index>& basic, const std::vector<Index>& depen
     std::vector<Fraction> row(d);
     for (std::size_t q = 0; q < d; ++q) row[q] = dot(T[p], T[q]) + Fraction{p == q ? 1 : 0, 1};
     gram.push_back(exact_vector(row));
-    for (std::size_t j = 0; j < k; ++j) force[p] = force[p] + entry(T[p], j) * start[j];
+    for (std::size_t j = 0; j < k; ++j) linear[p] = linear[p] + entry(T[p], j) * start[j];
   }
-  const ExactProblem problem = exact_problem(gram, exact_vector(force), signed_rows, exact_vector(bound), {});
+  const ExactProblem problem =
+      exact_problem(gram, exact_vector(linear), signed_rows, exact_vector(bound), {});
   const ExactSolution best = exact_active_set(problem, guess(problem));
   std::vector<Fraction> all(lambda.numerators.size());
   for (std::size_t j = 0; j < k + d; ++j) all[at(names[j])] = start[j] + lowest_terms(dot(N[j], best.q));

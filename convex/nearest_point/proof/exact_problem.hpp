@@ -10,9 +10,9 @@ namespace convex::inline proof {
 /// The place of row a in a std::vector.
 inline std::size_t at(Index a) { return static_cast<std::size_t>(a); }
 
-/// The nearest-point problem over the rationals, as integers: its inertia is A / unit, its force z / unit,
-/// its row a U_a / row_unit_a with the bound s_a / row_unit_a; units are positive. Multipliers of the integer
-/// rows, lambda^, stand for lambda_a = lambda^_a row_unit_a / unit.
+/// The nearest-point problem over the rationals, as integers: its metric is A / unit, its linear term z /
+/// unit, its row a U_a / row_unit_a with the bound s_a / row_unit_a; units are positive. Multipliers of the
+/// integer rows, lambda^, stand for lambda_a = lambda^_a row_unit_a / unit.
 struct ExactProblem {
   IntegerRows A;
   IntegerVector z;

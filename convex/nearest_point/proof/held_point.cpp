@@ -218,8 +218,9 @@ void correct(const Preconditioned& P, const Active& active, const KktResidual& r
 /// Bounds on the error of the held point from its residual.
 void enclose(const Preconditioned& P, const Active& active, const KktResidual& residual, HeldPoint& point) {
   const Index n = P.dimension(), k = active.U.rows();
-  const double force = above(norm_above(P.times_X(residual.r1)) +
-                             norm_above(P.spread(gamma(n) * residual.r1.cwiseAbs() + residual.r1_radius)));
+  const double imbalance =
+      above(norm_above(P.times_X(residual.r1)) +
+            norm_above(P.spread(gamma(n) * residual.r1.cwiseAbs() + residual.r1_radius)));
   double gap = 0;
   if (k > 0) {
     const Matrix T = active.T.cwiseAbs();
@@ -227,8 +228,8 @@ void enclose(const Preconditioned& P, const Active& active, const KktResidual& r
                 norm_above(T.transpose() * (gamma(k) * residual.r2.cwiseAbs() + residual.r2_radius)));
   }
   const double low_A = below(1 - P.delta), low_Z = below(1 - active.delta);
-  point.radius = above(force / std::sqrt(low_A) + gap * std::sqrt((1 + P.delta) / low_Z));
-  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + active.delta) / low_A * force));
+  point.radius = above(imbalance / std::sqrt(low_A) + gap * std::sqrt((1 + P.delta) / low_Z));
+  const double y = above((1 + P.delta) / low_Z * (gap + std::sqrt(1 + active.delta) / low_A * imbalance));
   point.multiplier_radius.resize(k);
   for (Index r = 0; r < k; ++r) point.multiplier_radius[r] = above(norm_above(active.T.row(r)) * y);
 }

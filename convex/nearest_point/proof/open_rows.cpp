@@ -112,8 +112,9 @@ std::optional<OpenBound> bound_with_open_rows(const NearestPointProblem& problem
   double step = 0, off_held = 0;
   for (const OpenRow& o : open) {
     problem.U.copy_row(o.row, row);
-    const double force = dual_length_above(P, row, radii.rows_transposed_times({o.row}, Vector::Ones(1), n));
-    const double opens = along(row, radii, o.row, *d, above(force * mend)).low;
+    const double imbalance =
+        dual_length_above(P, row, radii.rows_transposed_times({o.row}, Vector::Ones(1), n));
+    const double opens = along(row, radii, o.row, *d, above(imbalance * mend)).low;
     if (!(opens > 0)) return std::nullopt;
     step = std::max(step, above(o.below_zero / opens));
     off_held = std::max(off_held, above(distance_from_held(row, radii, o.row, P, active, held) / opens));

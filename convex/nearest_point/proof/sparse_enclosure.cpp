@@ -218,11 +218,11 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   const double beta = above(row_sum_above(scaled.A) + loose);
 
   const ResidualBounds rest = residuals_above(problem, radii, solution, held);
-  const double force = above(norm_above(scaled.d.cwiseProduct(rest.r1)) / std::sqrt(*alpha));
+  const double imbalance = above(norm_above(scaled.d.cwiseProduct(rest.r1)) / std::sqrt(*alpha));
   const double gap = held.empty() ? 0 : norm_above(scaled.r.cwiseProduct(rest.r2)),
                weak = above(beta / *sigma);
-  const double radius = above(force + std::sqrt(weak) * gap);
-  const double change = above(weak * gap + std::sqrt(weak) * force);
+  const double radius = above(imbalance + std::sqrt(weak) * gap);
+  const double change = above(weak * gap + std::sqrt(weak) * imbalance);
   if (!std::isfinite(radius) || !std::isfinite(change)) return std::nullopt;
 
   std::vector<bool> is_held(static_cast<std::size_t>(problem.rows()), false), two_sided = is_held;

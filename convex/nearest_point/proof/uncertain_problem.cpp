@@ -181,13 +181,13 @@ class Enclosing {
     }
     // ||z + Uᵀlambda - A x||_(A⁻¹) with the middle's being 0, and ||c||_A.
     const Vector balance = problem_.z + problem_.U.transpose() * lambda + problem_.A * size;
-    const double force = above(norm_above(balance.cwiseQuotient(metric.D.cwiseSqrt())) /
-                               std::sqrt(below((1 - metric.change) * metric.floor)));
+    const double imbalance = above(norm_above(balance.cwiseQuotient(metric.D.cwiseSqrt())) /
+                                   std::sqrt(below((1 - metric.change) * metric.floor)));
     EnclosedSolution found;
     found.q = solution.q;
     found.stretch = above(std::sqrt(1 + metric.change));
     const double move = above(found.stretch * above(reach.move.dot(metric.D.cwiseSqrt())));
-    found.radius = above(move + std::hypot(above(force + move), std::sqrt(above(gap))));
+    found.radius = above(move + std::hypot(above(imbalance + move), std::sqrt(above(gap))));
     if (!std::isfinite(found.radius)) return std::nullopt;
     return found;
   }

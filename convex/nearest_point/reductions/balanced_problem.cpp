@@ -43,7 +43,7 @@ BalancedProblem balanced_problem(const NearestPointProblem& problem) {
   scaled.z /= unit;
   scaled.s /= unit;
   scaled.coordinate = unit * root.cwiseInverse();
-  scaled.force = unit * root;
+  scaled.linear = unit * root;
   scaled.bound = unit * length;
   scaled.multiplier = unit * length.cwiseInverse();
   scaled.two_sided.assign(static_cast<std::size_t>(problem.rows()), false);

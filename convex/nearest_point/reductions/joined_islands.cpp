@@ -27,7 +27,7 @@ void JoinedIslands::add(Solution part, const std::vector<Index>& coordinates,
   error_ += part.error_bound * part.error_bound;
   rounding_ += part.rounding * part.rounding;
   acceleration_ += part.acceleration_norm * part.acceleration_norm;
-  force_ += part.force_norm * part.force_norm;
+  linear_ += part.force_norm * part.force_norm;
   solution_.steps += part.steps;
   for (Island island : part.model.islands) {
     if (!coordinates.empty())
@@ -78,7 +78,7 @@ Solution JoinedIslands::finish(const Accuracy& accuracy) {
   solution_.error_bound = std::sqrt(error_);
   solution_.rounding = std::sqrt(rounding_);
   solution_.acceleration_norm = std::sqrt(acceleration_);
-  solution_.force_norm = std::sqrt(force_);
+  solution_.force_norm = std::sqrt(linear_);
   solution_.residuals = residuals(whole_, solution_.q, solution_.lambda,
                                   KnownParts{Vector::Zero(whole_.rows()),
                                              solution_.slack,

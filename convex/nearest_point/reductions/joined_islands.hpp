@@ -25,7 +25,7 @@ class JoinedIslands {
  private:
   const NearestPointProblem& whole_;
   Solution solution_;
-  double error_ = 0, rounding_ = 0, acceleration_ = 0, force_ = 0;  // squares of norms
+  double error_ = 0, rounding_ = 0, acceleration_ = 0, linear_ = 0;  // squares of norms
   double most_flops_ = -1;
   std::vector<Index> unsolved_;  // rows whose slack is to be computed
   bool failed_ = false;

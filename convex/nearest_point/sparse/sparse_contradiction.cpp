@@ -27,7 +27,7 @@ Solution sparse_contradiction(const NearestPointProblem& problem, const Balanced
   for (int k = 0; k < most_projections; ++k) {
     DoubleDoubleVector sum(problem.dimension());
     for (Index a : rows) problem.U.add_multiple(a, {w[a], 0}, sum);
-    const Vector rest = sum.value().cwiseQuotient(scaled.force);
+    const Vector rest = sum.value().cwiseQuotient(scaled.linear);
     const Vector along = scaled.U * system.solve(rest);
     for (Index a : rows) w[a] -= weight[a] * along[a] * scaled.multiplier[a];
   }

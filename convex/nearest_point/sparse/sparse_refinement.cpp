@@ -92,7 +92,7 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   point.last_lambda = Vector::Zero(problem.rows());
   for (int k = 0; k < most_corrections; ++k) {
     const Vector magnitude = silence > 0 ? Vector(point.q.hi.cwiseAbs()) : Vector();
-    const Vector r1 = stationarity_residual(problem, point.q, rows, lambda).cwiseQuotient(scaled.force);
+    const Vector r1 = stationarity_residual(problem, point.q, rows, lambda).cwiseQuotient(scaled.linear);
     for (Index j = 0; j < count; ++j) {
       const Index a = rows[static_cast<std::size_t>(j)];
       r2[j] = -slack(problem, a, point.q).value() / scaled.bound[a];

@@ -37,10 +37,10 @@ Vector difference_of(const Vector& a, const Vector& b, Vector& radius) {
 /// ½||x' - x*||² + ½||y' - y*||² <= gap + ½||W(z - x') - v'||²_(W⁻¹) (docs/theory.md, C.9).
 Proof judged(NearGraph pair, const RoundedQuestion& question, const MetricBounds& W) {
   Vector radius = question.z_radius + pair.x_radius;
-  Vector force = difference_of(question.z, pair.x, radius);
-  W.multiply(force, radius);
+  Vector covector = difference_of(question.z, pair.x, radius);
+  W.multiply(covector, radius);
   radius += pair.v_radius;
-  const Vector miss = difference_of(force, pair.v, radius);
+  const Vector miss = difference_of(covector, pair.v, radius);
   const double off =
       W.dual_norm_above(miss, radius) + W.norm_above(pair.x_ball) + W.dual_norm_above(pair.v_ball);
   const double proved = above(std::hypot(above(off), std::sqrt(2 * above(pair.gap))));
@@ -127,10 +127,10 @@ std::optional<ProvedSplit> proof_in_doubles(const RoundedQuestion& question, con
   Vector radius = first.pair.x_radius;
   const Vector away = difference_of(x, first.pair.x, radius);
   made.x_bound = above(W.norm_above(away, radius) + W.norm_above(first.pair.x_ball) + first.radius);
-  Vector force = y, dual_radius = Vector::Zero(y.size());
-  W.multiply(force, dual_radius);
+  Vector covector = y, dual_radius = Vector::Zero(y.size());
+  W.multiply(covector, dual_radius);
   dual_radius += second.pair.v_radius;
-  const Vector dual_away = difference_of(force, second.pair.v, dual_radius);
+  const Vector dual_away = difference_of(covector, second.pair.v, dual_radius);
   made.y_bound = above(W.dual_norm_above(dual_away, dual_radius) + W.dual_norm_above(second.pair.v_ball) +
                        second.radius);
   made.sum_miss = sum_miss(question, x, y, W);

@@ -12,7 +12,7 @@ using namespace convex::atlas;
 
 namespace {
 
-Probability sum_of_cells(const Atlas& whole, const NormalForce& force, double tolerance) {
+Probability sum_of_cells(const Atlas& whole, const NormalLinearTerm& force, double tolerance) {
   const CellProbability probability(whole.space, force);
   Probability sum;
   for (const Cell& cell : whole.cells) {
@@ -29,10 +29,10 @@ ExactVector point(const std::vector<int>& numerators, int denominator) {
 }
 
 /// Any, but the same.
-NormalForce oblique_force(Index n, bool with_covariance) {
+NormalLinearTerm oblique_force(Index n, bool with_covariance) {
   std::vector<int> mean;
   for (Index i = 0; i < n; ++i) mean.push_back(static_cast<int>(2 - i));
-  NormalForce force{point(mean, 3)};
+  NormalLinearTerm force{point(mean, 3)};
   if (!with_covariance) return force;
   std::vector<std::vector<int>> rows(static_cast<std::size_t>(n),
                                      std::vector<int>(static_cast<std::size_t>(n), 1));
@@ -47,8 +47,9 @@ TEST_CASE("the cells of any atlas have the whole probability together, within th
   for (const ExactProblem& problem : tests::atlas_problems()) {
     const Atlas whole = convex::atlas::atlas(problem);
     const Index n = problem.dimension();
-    for (const NormalForce& force : {NormalForce{{IntegerVector(static_cast<std::size_t>(n), 0), 1}},
-                                     oblique_force(n, false), oblique_force(n, true)}) {
+    for (const NormalLinearTerm& force :
+         {NormalLinearTerm{{IntegerVector(static_cast<std::size_t>(n), 0), 1}}, oblique_force(n, false),
+          oblique_force(n, true)}) {
       const Probability sum = sum_of_cells(whole, force, 1e-6);
       CHECK(std::abs(sum.value - 1) <= sum.error);
     }
@@ -58,7 +59,7 @@ TEST_CASE("the cells of any atlas have the whole probability together, within th
 TEST_CASE("a covariance written out as A gives the probabilities that the product of two factors gives") {
   for (const ExactProblem& problem : tests::atlas_problems()) {
     const Atlas whole = convex::atlas::atlas(problem);
-    NormalForce product = oblique_force(problem.dimension(), false), joint = product;
+    NormalLinearTerm product = oblique_force(problem.dimension(), false), joint = product;
     ExactRows A;
     for (const IntegerVector& row : problem.A) A.push_back({row, problem.unit});
     joint.covariance = A;
@@ -138,7 +139,7 @@ TEST_CASE("cells are met as often as their probabilities say, within five standa
   for (const ExactProblem& problem : tests::atlas_problems()) {
     const Atlas whole = convex::atlas::atlas(problem);
     const Index n = problem.dimension();
-    const NormalForce force = oblique_force(n, true);
+    const NormalLinearTerm force = oblique_force(n, true);
     // Covariance 11ᵀ + diag(2, 3, …): one normal number for all, one more for each.
     std::mt19937 random(23);
     std::normal_distribution<double> normal;

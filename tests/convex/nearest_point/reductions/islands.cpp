@@ -113,13 +113,13 @@ TEST_CASE("the answer of the whole is put together from its islands, and is that
         CHECK(sea.problem.A.norm(parts.q - whole.q) <= few_roundings * unit);
         CHECK(parts.residuals.stationarity <= few_roundings);
         CHECK(parts.residuals.feasibility <= few_roundings);
-        Index coordinates = 0, contacts = 0;
+        Index coordinates = 0, rows = 0;
         for (const convex::Island& island : parts.model.islands) {
           coordinates += island.coordinates;
-          contacts += island.contacts;
+          rows += island.rows;
         }
         CHECK(coordinates == sea.problem.dimension());
-        CHECK(contacts <= sea.problem.rows());
+        CHECK(rows <= sea.problem.rows());
         CHECK(whole.model.islands.size() == 1);
       }
 }
