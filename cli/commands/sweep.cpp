@@ -166,7 +166,7 @@ class Sweep {
     for (SweepPoint& point : points) all.push_back(std::move(point));
     std::vector<std::size_t> pairs;
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
-      if (all[k].has_answer() && all[k + 1].has_answer() && all[k].active != all[k + 1].active)
+      if (all[k].has_answer() != all[k + 1].has_answer() || all[k].active != all[k + 1].active)
         pairs.push_back(k);
     std::vector<std::vector<SweepPoint>> found(all.size());
     const std::vector<double>& values = ranges_.front().values;

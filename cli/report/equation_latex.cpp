@@ -2,12 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <cmath>
+
 #include "cli/report/greek_letters.hpp"
+#include "mechanics/expression/collected_sum.hpp"
 
 namespace cli::inline reports {
 namespace {
 
+using convex::Fraction;
 using mechanics::SymbolicEquations;
+using mechanics::expression::CollectedAtom;
+using mechanics::expression::CollectedSum;
+using mechanics::expression::Collection;
 using mechanics::expression::NodeId;
 using mechanics::expression::Operation;
 using mechanics::expression::Tape;
@@ -24,139 +32,224 @@ std::string stem_symbol(const std::string& stem) {
   return stem.size() == 1 ? stem : "\\mathit{" + escaped(stem) + "}";
 }
 
-enum class Tightness { sum, product, power, atom };
-
-struct LatexFormula {
+/// A formula as terms to be joined by + and -, each with its sign in front.
+struct LatexTerm {
+  bool is_negative = false;
   std::string text;
-  Tightness tightness = Tightness::atom;
 };
 
-/// Formulas of the nodes of a tape.
+/// Formulas of collected sums.
 class LatexFormulas {
  public:
   explicit LatexFormulas(const SymbolicEquations& equations)
-      : tape_(equations.tape), equations_(equations), known_(equations.tape.size()) {}
+      : equations_(equations), collection_(equations.tape) {}
 
-  std::string operator()(NodeId root) { return at(root).text; }
+  std::vector<LatexTerm> terms(NodeId root) { return terms(collection_(root)); }
 
  private:
-  const LatexFormula& at(NodeId node) {
-    if (known_[node].text.empty()) known_[node] = made(node);
-    return known_[node];
+  std::vector<LatexTerm> terms(const CollectedSum& sum) const {
+    std::vector<LatexTerm> made;
+    for (const auto& [powers, factor] : sum)
+      made.push_back({convex::sign(factor) < 0, term(powers, convex::sign(factor) < 0 ? -factor : factor)});
+    if (made.empty()) made.push_back({false, "0"});
+    return made;
   }
-  std::string within(NodeId node, Tightness least) {
-    const LatexFormula& part = at(node);
-    return part.tightness < least ? "\\left(" + part.text + "\\right)" : part.text;
-  }
-  bool is_literal(NodeId node, double value) const {
-    return tape_.operation(node) == Operation::literal && tape_.constant(node) == value;
-  }
-  bool begins_with_digit(const std::string& text) const { return text[0] >= '0' && text[0] <= '9'; }
 
-  LatexFormula number(double x) const {
-    std::string digits = fmt::format("{}", x);
+  std::string text(const CollectedSum& sum) const {
+    std::string made;
+    for (const LatexTerm& part : terms(sum))
+      made += (part.is_negative ? (made.empty() ? "-" : " - ") : made.empty() ? "" : " + ") + part.text;
+    return made;
+  }
+
+  /// A symbol or a number that stands for all of the sum.
+  bool is_plain(const CollectedSum& sum) const {
+    if (sum.size() != 1 || sum.begin()->first.size() > 1) return false;
+    const auto& [powers, factor] = *sum.begin();
+    if (powers.empty())
+      return convex::sign(factor) > 0 && convex::text(factor).find('/') == std::string::npos;
+    return powers[0].second == 1 && factor == Fraction{1} &&
+           collection_.atom(powers[0].first).leaf != mechanics::expression::no_node;
+  }
+
+  std::string in_parentheses(const CollectedSum& sum) const { return "\\left(" + text(sum) + "\\right)"; }
+  std::string argument(const CollectedSum& sum) const {
+    return is_plain(sum) ? text(sum) : in_parentheses(sum);
+  }
+
+  /// p/q with numbers, parameters and pi in one fraction, then functions and variables.
+  std::string term(const mechanics::expression::Powers& powers, const Fraction& factor) const {
+    std::vector<std::string> over, under, behind;
+    const auto [p, q] = fraction_digits(factor);
+    if (p != "1") over.push_back(p);
+    if (q != "1") under.push_back(q);
+    for (const bool constants : {true, false})
+      for (const auto& [number, exponent] : powers) {
+        const CollectedAtom& atom = collection_.atom(number);
+        const bool is_constant = atom.operation == Operation::parameter || atom.operation == Operation::pi;
+        if (is_constant != constants) continue;
+        (exponent < 0 ? under : is_constant ? over : behind).push_back(power(atom, std::abs(exponent)));
+      }
+    if (under.empty()) {
+      over.insert(over.end(), behind.begin(), behind.end());
+      return over.empty() ? "1" : joined(over);
+    }
+    if (over.empty() && p == "1" && q == "1") std::swap(over, behind);
+    const std::string front = "\\frac{" + (over.empty() ? "1" : joined(over)) + "}{" + joined(under) + "}";
+    return behind.empty() ? front : front + " \\, " + joined(behind);
+  }
+
+  static std::string joined(const std::vector<std::string>& factors) {
+    std::string made;
+    for (const std::string& factor : factors) {
+      const bool is_number = factor[0] >= '0' && factor[0] <= '9';
+      made += (made.empty() ? "" : is_number ? " \\cdot " : " \\, ") + factor;
+    }
+    return made;
+  }
+
+  /// Numerator and denominator; a decimal number when that is what the fraction is, and 1.
+  static std::pair<std::string, std::string> fraction_digits(const Fraction& factor) {
+    const double q = convex::nearest_double(Fraction{factor.denominator, 1});
+    const double p = convex::nearest_double(Fraction{factor.numerator, 1});
+    double without = q;
+    for (const double prime : {2.0, 5.0})
+      while (std::fmod(without, prime) == 0 && without > 1) without /= prime;
+    constexpr double longest = 1e6, simplest = 8;
+    if (p < longest && q < longest && (without > 1 || q <= simplest)) {
+      const std::string digits = convex::text(factor);
+      const std::size_t line = digits.find('/');
+      return {digits.substr(0, line), line == std::string::npos ? "1" : digits.substr(line + 1)};
+    }
+    const std::string digits = fmt::format("{}", convex::nearest_double(factor));
     const std::size_t e = digits.find('e');
-    if (e == std::string::npos) return {digits, Tightness::atom};
-    const int exponent = std::stoi(digits.substr(e + 1));
-    return {fmt::format("{} \\cdot 10^{{{}}}", digits.substr(0, e), exponent), Tightness::product};
+    if (e == std::string::npos) return {digits, "1"};
+    return {fmt::format("{} \\cdot 10^{{{}}}", digits.substr(0, e), std::stoi(digits.substr(e + 1))), "1"};
   }
 
-  LatexFormula power(NodeId node) {
-    const NodeId a = tape_.a(node), b = tape_.b(node);
-    if (is_literal(b, 0.5)) return {"\\sqrt{" + at(a).text + "}", Tightness::atom};
-    static constexpr std::array trigonometric{Operation::sin, Operation::cos, Operation::tan};
-    for (const Operation function : trigonometric)
-      if (tape_.operation(a) == function)
-        return {fmt::format("\\{}^{{{}}} {}", symbol(function), at(b).text, argument(tape_.a(a))),
-                Tightness::product};
-    return {within(a, Tightness::atom) + "^{" + at(b).text + "}", Tightness::power};
-  }
-
-  /// sin θ, sin(θ + φ).
-  std::string argument(NodeId node) {
-    const LatexFormula& part = at(node);
-    const bool is_plain = tape_.operation(node) == Operation::coordinate ||
-                          tape_.operation(node) == Operation::parameter ||
-                          tape_.operation(node) == Operation::time;
-    return is_plain ? part.text : "\\left(" + part.text + "\\right)";
-  }
-
-  LatexFormula function(const std::string& name, NodeId node) {
-    return {name + " " + argument(tape_.a(node)), Tightness::product};
-  }
-
-  LatexFormula cases(const std::string& then, const std::string& condition) const {
-    return {"\\begin{cases}" + then + " & " + condition + " \\\\ 0 & \\text{else}\\end{cases}",
-            Tightness::product};
-  }
-
-  LatexFormula made(NodeId node) {
-    const Operation operation = tape_.operation(node);
-    const NodeId a = tape_.a(node), b = tape_.b(node);
-    switch (operation) {
-      case Operation::literal:
-        return number(tape_.constant(node));
+  std::string power(const CollectedAtom& atom, int exponent) const {
+    if (exponent == 1) return of(atom);
+    const std::string raised = fmt::format("^{{{}}}", exponent);
+    switch (atom.operation) {
+      case Operation::sin:
+      case Operation::cos:
+      case Operation::tan:
+        return fmt::format("\\{}{} {}", symbol(atom.operation), raised, argument(atom.arguments[0]));
       case Operation::pi:
-        return {"\\pi", Tightness::atom};
       case Operation::parameter:
-        return {latex_symbol(tape_.text(node)), Tightness::atom};
       case Operation::coordinate:
-        return {latex_symbol(equations_.coordinates[a]), Tightness::atom};
-      case Operation::velocity: {
-        const std::string symbol = latex_symbol(equations_.coordinates[a]);
-        const std::size_t index = symbol.find("_{");
-        return {"\\dot{" + symbol.substr(0, index) + "}" +
-                    (index == std::string::npos ? "" : symbol.substr(index)),
-                Tightness::atom};
-      }
+      case Operation::velocity:
       case Operation::time:
-        return {"t", Tightness::atom};
-      case Operation::negate:
-        return {"-" + within(a, Tightness::product), Tightness::sum};
       case Operation::add:
-        return {at(a).text + " + " + at(b).text, Tightness::sum};
-      case Operation::subtract:
-        return {at(a).text + " - " + within(b, Tightness::product), Tightness::sum};
-      case Operation::multiply: {
-        const std::string left = within(a, Tightness::product), right = within(b, Tightness::product);
-        return {left + (begins_with_digit(right) ? " \\cdot " : " \\, ") + right, Tightness::product};
-      }
-      case Operation::divide:
-        return {"\\frac{" + at(a).text + "}{" + at(b).text + "}", Tightness::product};
-      case Operation::power:
-        return power(node);
-      case Operation::sqrt:
-        return {"\\sqrt{" + at(a).text + "}", Tightness::atom};
-      case Operation::abs:
-        return {"\\left|" + at(a).text + "\\right|", Tightness::atom};
-      case Operation::exp:
-        return {"e^{" + at(a).text + "}", Tightness::power};
-      case Operation::asin:
-      case Operation::acos:
-      case Operation::atan:
-        return function("\\arc" + std::string(symbol(operation)).substr(1), node);
-      case Operation::sign:
-        return function("\\operatorname{sign}", node);
-      case Operation::atan2:
-        return {"\\operatorname{atan2}\\left(" + at(a).text + ", " + at(b).text + "\\right)",
-                Tightness::atom};
-      case Operation::min:
-      case Operation::max:
-        return {fmt::format("\\{}\\left({}, {}\\right)", symbol(operation), at(a).text, at(b).text),
-                Tightness::atom};
-      case Operation::where_not_negative:
-        return cases(at(b).text, at(a).text + " \\ge 0");
-      case Operation::where_negative:
-        return cases(at(b).text, at(a).text + " < 0");
+        return of(atom) + raised;
       default:
-        return function("\\" + std::string(symbol(operation)), node);
+        return "\\left(" + of(atom) + "\\right)" + raised;
     }
   }
 
-  const Tape& tape_;
+  std::string cases(const CollectedAtom& atom, const char* condition) const {
+    return "\\begin{cases}" + text(atom.arguments[1]) + " & " + text(atom.arguments[0]) + condition +
+           " \\\\ 0 & \\text{else}\\end{cases}";
+  }
+
+  std::string of(const CollectedAtom& atom) const {
+    const Tape& tape = equations_.tape;
+    const auto first = [&] { return text(atom.arguments[0]); };
+    switch (atom.operation) {
+      case Operation::pi:
+        return "\\pi";
+      case Operation::parameter:
+        return latex_symbol(tape.text(atom.leaf));
+      case Operation::coordinate:
+        return latex_symbol(equations_.coordinates[tape.a(atom.leaf)]);
+      case Operation::velocity: {
+        const std::string name = latex_symbol(equations_.coordinates[tape.a(atom.leaf)]);
+        const std::size_t index = name.find("_{");
+        return "\\dot{" + name.substr(0, index) + "}" +
+               (index == std::string::npos ? "" : name.substr(index));
+      }
+      case Operation::time:
+        return "t";
+      case Operation::add:
+        return in_parentheses(atom.arguments[0]);
+      case Operation::divide:
+        return "\\frac{" + first() + "}{" + text(atom.arguments[1]) + "}";
+      case Operation::power:
+        if (is_half(atom.arguments[1])) return "\\sqrt{" + first() + "}";
+        return argument(atom.arguments[0]) + "^{" + text(atom.arguments[1]) + "}";
+      case Operation::sqrt:
+        return "\\sqrt{" + first() + "}";
+      case Operation::abs:
+        return "\\left|" + first() + "\\right|";
+      case Operation::exp:
+        return "e^{" + first() + "}";
+      case Operation::asin:
+      case Operation::acos:
+      case Operation::atan:
+        return "\\arc" + std::string(symbol(atom.operation)).substr(1) + " " + argument(atom.arguments[0]);
+      case Operation::sign:
+        return "\\operatorname{sign} " + argument(atom.arguments[0]);
+      case Operation::atan2:
+        return "\\operatorname{atan2}\\left(" + first() + ", " + text(atom.arguments[1]) + "\\right)";
+      case Operation::min:
+      case Operation::max:
+        return fmt::format("\\{}\\left({}, {}\\right)", symbol(atom.operation), first(),
+                           text(atom.arguments[1]));
+      case Operation::where_not_negative:
+        return cases(atom, " \\ge 0");
+      case Operation::where_negative:
+        return cases(atom, " < 0");
+      default:
+        return "\\" + std::string(symbol(atom.operation)) + " " + argument(atom.arguments[0]);
+    }
+  }
+
+  static bool is_half(const CollectedSum& sum) {
+    return sum.size() == 1 && sum.begin()->first.empty() && sum.begin()->second == Fraction{1, 2};
+  }
+
   const SymbolicEquations& equations_;
-  std::vector<LatexFormula> known_;
+  Collection collection_;
 };
+
+/// About how many letters wide a formula is set.
+std::size_t width(const std::string& formula) {
+  std::size_t letters = 0;
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    if (formula[i] == '\\') {
+      const std::size_t first = ++i;
+      while (i < formula.size() && std::isalpha(static_cast<unsigned char>(formula[i])) != 0) ++i;
+      letters += formula.compare(first, i - first, "left") == 0 || i == first ? 0 : 1;
+      --i;
+    } else if (std::isalnum(static_cast<unsigned char>(formula[i])) != 0 || formula[i] == '(' ||
+               formula[i] == ')') {
+      ++letters;
+    }
+  }
+  return letters;
+}
+
+/// A sum, continued on another line of the align* where it gets wide.
+std::string broken(const std::vector<LatexTerm>& terms) {
+  constexpr std::size_t widest = 56;
+  std::string made;
+  std::size_t line = 0;
+  for (const LatexTerm& term : terms) {
+    const std::size_t more = width(term.text) + 3;
+    const bool breaks = line > 0 && line + more > widest;
+    if (breaks) {
+      made += " \\\\\n  &\\quad ";
+      line = 0;
+    }
+    line += more;
+    if (made.empty())
+      made += term.is_negative ? "-" : "";
+    else
+      made += breaks ? (term.is_negative ? "{} - " : "{} + ") : term.is_negative ? " - " : " + ";
+    made += term.text;
+  }
+  return made;
+}
 
 }  // namespace
 
@@ -187,9 +280,9 @@ std::string equations_in_latex(const SymbolicEquations& equations, const Equatio
   std::vector<std::string> lines, names;
   for (const std::string& name : equations.coordinates) names.push_back(latex_symbol(name));
   const auto add = [&](const std::string& left, NodeId node) {
-    const Tape& tape = equations.tape;
-    if (tape.operation(node) == Operation::literal && tape.constant(node) == 0) return;
-    lines.push_back(left + " &= " + formula(node));
+    const std::vector<LatexTerm> terms = formula.terms(node);
+    if (terms.size() == 1 && terms[0].text == "0") return;
+    lines.push_back(left + " &= " + broken(terms));
   };
   const std::size_t n = names.size();
   for (std::size_t i = 0; i < n; ++i)

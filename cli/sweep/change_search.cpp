@@ -19,25 +19,61 @@ bool has(const std::vector<Index>& sorted, Index a) {
 }  // namespace
 
 std::vector<double> ChangeSearch::between(const SweepPoint& from, const SweepPoint& to) {
+  if (!from.has_answer() && !to.has_answer()) return {};
+  if (!from.has_answer()) return between_answers(last_answer(to, from), to);
+  if (!to.has_answer()) return between_answers(from, last_answer(from, to));
+  return between_answers(from, to);
+}
+
+SweepPoint ChangeSearch::last_answer(SweepPoint with, const SweepPoint& without) {
+  double end = without.at[0];
+  while (std::abs(end - with.at[0]) > change_part / 4 * range_) {
+    const double middle = with.at[0] + (end - with.at[0]) / 2;
+    if (middle == with.at[0] || middle == end) break;
+    SweepPoint point = scene_.solve({middle}, watched_);
+    if (point.has_answer())
+      with = std::move(point);
+    else
+      end = middle;
+  }
+  return with;
+}
+
+std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const SweepPoint& to) {
   std::vector<double> found;
   SweepPoint low = from;
   while (low.active != to.active && static_cast<int>(found.size()) < most_changes) {
     SweepPoint high = to;
+    std::optional<SweepPoint> gap;  // without an answer, between the two
     const auto halve = [&](double width) {
       for (int k = 0; k < most_bisections && std::abs(high.at[0] - low.at[0]) > width; ++k) {
         const double middle = low.at[0] + (high.at[0] - low.at[0]) / 2;
         if (middle == low.at[0] || middle == high.at[0]) return true;
         SweepPoint point = scene_.solve({middle}, watched_);
-        if (!point.has_answer()) return false;
+        if (!point.has_answer()) {
+          gap = std::move(point);
+          return false;
+        }
         (point.active == low.active ? low : high) = std::move(point);
       }
       return true;
     };
-    if (!halve(bracket_part * range_)) return found;
+    const auto over_gap = [&] {
+      const std::vector<double> before = between_answers(low, last_answer(low, *gap));
+      found.insert(found.end(), before.begin(), before.end());
+      low = last_answer(high, *gap);
+    };
+    if (!halve(bracket_part * range_)) {
+      over_gap();
+      continue;
+    }
     const double width = std::max(std::abs(high.at[0] - low.at[0]), bracket_part * range_);
     std::optional<double> change = root(low, high, 100 * width);
     if (!change) {
-      if (!halve(change_part / 4 * range_)) return found;
+      if (!halve(change_part / 4 * range_)) {
+        over_gap();
+        continue;
+      }
       change = low.at[0] + (high.at[0] - low.at[0]) / 2;
     }
     found.push_back(*change);

@@ -11,13 +11,16 @@ class ChangeSearch {
   ChangeSearch(SweepScene& scene, const std::vector<Watched>& watched, double first, double last)
       : scene_(scene), watched_(watched), range_(std::abs(last - first)) {}
 
-  /// In the order from `from` to `to`, both with an answer.
+  /// In the order from `from` to `to`, wherever there is an answer on both sides of a change.
   std::vector<double> between(const SweepPoint& from, const SweepPoint& to);
 
   /// Values nearer to each other than this part of the range are one.
   static constexpr double change_part = 1e-12;
 
  private:
+  std::vector<double> between_answers(const SweepPoint& from, const SweepPoint& to);
+  /// The point with an answer that is nearest to where there is none.
+  SweepPoint last_answer(SweepPoint with, const SweepPoint& without);
   std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width);
   std::optional<double> secant(double a, double b, double width,
                                const std::function<double(double)>& of) const;

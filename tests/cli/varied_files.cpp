@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -100,6 +101,28 @@ TEST_CASE(
   CHECK(rows[1][4] == "0");
   CHECK(rows[2][2] == "error");
   CHECK(std::stod(rows[3][4]) == doctest::Approx(40 - 9.81));
+}
+
+TEST_CASE("a sweep finds the changes between a point with an answer and one without") {
+  // Between a floor that rises with P and a lid at rest x'' is in [P, 0]: none for P > 0. Free it is 1 + 4P,
+  // so that the floor persists up to P = -1/3 and the lid from P = -1/4 on.
+  const Folder folder;
+  const std::string file = folder.write(
+      "a.toml",
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.parameters]\nP = "
+      "-1.0\n[system.forces]\n"
+      "x = \"1 + 4*P\"\n[system.constraints]\nfloor = \"x >= P/2*t^2\"\nlid = \"-x >= 0\"\n[state]\nposition "
+      "= { x = 0.0 }\n");
+  for (const char* over : {"P=-0.9:0.5:0.6", "P=0.6:-0.5:-0.9"}) {
+    CAPTURE(over);
+    const Json swept = Json::parse(run({"sweep", "--json", file, "--over", over}).out);
+    std::vector<double> changes;
+    for (const auto& change : swept.at("changes")) changes.push_back(change.at("value"));
+    std::sort(changes.begin(), changes.end());
+    REQUIRE(changes.size() == 2);
+    CHECK(std::abs(changes[0] + 1.0 / 3) <= 1.5e-12);
+    CHECK(std::abs(changes[1] + 0.25) <= 1.5e-12);
+  }
 }
 
 TEST_CASE("a sweep that was cut off goes on to the same table") {
