@@ -21,8 +21,11 @@ int lowest_bit(double x) {
   return exponent + std::countr_zero(bits | (std::uint64_t{1} << 52));
 }
 
-/// The power of 2 no less than x > 0.
-double power_above(double x) { return std::ldexp(1, std::ilogb(x) + 1); }
+/// The power of 2 above x > 0; 0 for subnormal x.
+double power_above(double x) {
+  const auto exponent = std::bit_cast<std::uint64_t>(x) >> 52;
+  return exponent > 0 ? std::bit_cast<double>((exponent + 1) << 52) : 0;
+}
 
 bool is_multiple(double x, double step) {
   const double shift = 1.5 * whole * step;
@@ -52,9 +55,16 @@ GridSum::GridSum(const Eigen::Ref<const Vector>& q) : q_(q.data()), n_(q.size())
 std::optional<double> GridSum::value(const double* u, double s) const {
   if (is_zero_) return -s;
   if (step_ == 0) return std::nullopt;
-  const Index n = n_;
-  double largest = 0;
-  for (Index i = 0; i < n; ++i) largest = std::max(largest, std::abs(u[i]));
+  // Four sums at a time: where they are exact, their order does not matter.
+  const Index n = n_, whole_fours = n / 4 * 4;
+  double most[4] = {}, sums[4] = {}, off[4] = {};
+  const auto over_entries = [&](auto work) {
+    for (Index i = 0; i < whole_fours; i += 4)
+      for (Index k = 0; k < 4; ++k) work(i + k, k);
+    for (Index i = whole_fours; i < n; ++i) work(i, i - whole_fours);
+  };
+  over_entries([&](Index i, Index k) { most[k] = std::max(most[k], std::abs(u[i])); });
+  const double largest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   if (largest == 0) return -s;
   // The finest grid on which the sum has no more than `whole` steps.
   const double step = power_above(largest * steps_ / whole);
@@ -62,12 +72,12 @@ std::optional<double> GridSum::value(const double* u, double s) const {
   if (!std::isnormal(step) || !std::isnormal(step * step_) || !std::isfinite(shift) ||
       !is_multiple(s, step * step_))
     return std::nullopt;
-  double sum = 0, off = 0;
-  for (Index i = 0; i < n; ++i) {
-    off += std::abs((u[i] + shift) - shift - u[i]);
-    sum += u[i] * q_[i];
-  }
-  return off == 0 ? std::optional(sum - s) : std::nullopt;
+  over_entries([&](Index i, Index k) {
+    off[k] += std::abs((u[i] + shift) - shift - u[i]);
+    sums[k] += u[i] * q_[i];
+  });
+  if (!((off[0] + off[1]) + (off[2] + off[3]) == 0)) return std::nullopt;
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) - s;
 }
 
 }  // namespace convex::inline exact_arithmetic

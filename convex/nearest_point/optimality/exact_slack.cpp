@@ -123,22 +123,25 @@ double SlackOnEdge::slack_of_loads(Index p, double whole) const {
 std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count,
                                          const double* coefficients) {
   const double least = zero_coefficient * row_scale_[p];
-  double whole = 1;
-  count_ = 0;
+  double whole = 1, *const c = coefficients_.data();
+  Index* const rows = rows_.data();
+  Index terms = 0;
   for (Index k = 0; k < count; ++k) {  // without a branch, for which terms there are cannot be foreseen
-    rows_[count_] = held[k];
-    coefficients_[count_] = coefficients[k];
-    count_ += std::abs(coefficients[k]) * row_scale_[held[k]] > least;
+    rows[terms] = held[k];
+    c[terms] = coefficients[k];
+    terms += std::abs(coefficients[k]) * row_scale_[held[k]] > least;
   }
-  for (std::size_t k = 0; k < count_; ++k) {
-    whole *= denominator(coefficients_[k] * whole);
+  for (Index k = 0; k < terms; ++k) {
+    whole *= denominator(c[k] * whole);
     if (!(whole > 0 && whole <= largest_denominator)) return std::nullopt;
   }
-  sum_ = whole;
-  for (std::size_t k = 0; k < count_; ++k) {
-    coefficients_[k] = nearest_whole(coefficients_[k] * whole);
-    sum_ += std::abs(coefficients_[k]);
+  double sum = whole;
+  for (Index k = 0; k < terms; ++k) {
+    c[k] = nearest_whole(c[k] * whole);
+    sum += std::abs(c[k]);
   }
+  count_ = static_cast<std::size_t>(terms);
+  sum_ = sum;
   if (!cancels(p, whole)) return std::nullopt;
   return slack_of_loads(p, whole);
 }

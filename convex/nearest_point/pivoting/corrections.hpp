@@ -54,22 +54,28 @@ class Corrections {
   bool is_fresh_ = true;
 };
 
+/// Rows whose signs the first correction tells have this part of their squared length outside the span of
+/// those held, so that they may come in.
+inline constexpr double least_independent = 1e-6;
+
 /// What slacks at a corrected point say of it; violated: beyond rounding, by `Corrections::wrong`.
 enum class Slacks { kept, violated, doubtful };
 
 /// Corrects the point of the rows held by an engine until all is told. What multipliers and slacks are wrong
 /// then, by rounding, is the scale of a problem of the same kind, for those that are that small: pivoting
-/// goes on there, on the same Gram matrix, until nothing is wrong. False when something is in doubt.
+/// goes on there, on the same Gram matrix, until nothing is wrong. Those that doubles leave open at once have
+/// a part in the first correction (`near_scale`). False when something is in doubt.
 template <class Engine>
 bool finish(Engine& engine, const Accuracy& accuracy, Solution& solution) {
-  constexpr double room_for_change =
-      256;                            // wrong numbers and those up to so many times them may change sides
+  constexpr double room_for_change = 256;  // wrong numbers and those up to so many times them change sides
+  constexpr double small_in_doubles =
+      0x1p-36;                        // of the scale: violations that do not count in doubles are less
   constexpr double plenty = 0x1p-76;  // corrections are cheap here: so little of the scale is to be left
   constexpr int most_more = 3;        // corrections beyond what is enough, for entries that are close to 0
   constexpr int most_passes = 12;     // before pivoting has lost its way
   Corrections& known = engine.corrections();
   known.begin();
-  double small = 0;
+  double small = engine.near_scale(small_in_doubles);
   int more = most_more;
   for (int pass = 0; pass < most_passes; ++pass) {
     if (!engine.correct(pass == 0, small)) return false;

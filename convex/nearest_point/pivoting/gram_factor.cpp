@@ -60,6 +60,18 @@ double GramFactor::distance(Index place, double* x) const {
   return rows_.square(place) - kernels_.dot(padded(size_), x, x);
 }
 
+void GramFactor::distances(const Index* places, Index count, double* X, double* squared) const {
+  fill_packs(8 * padded(size_), 0, X);
+  for (Index l = 0; l < count; ++l) {
+    const double* const gram = rows_.gram(places[l]);
+    for (Index j = 0; j < size_; ++j) X[8 * j + l] = gram[at_[j]];
+    squared[l] = rows_.square(places[l]);
+  }
+  kernels_.forward_pack(size_, ld_, L_, inverse_, X);
+  for (Index j = 0; j < size_; ++j)
+    for (Index l = 0; l < count; ++l) squared[l] -= X[8 * j + l] * X[8 * j + l];
+}
+
 void GramFactor::append(Index place, const double* x, double distance) {
   const Index k = size_++;
   at_[k] = place;
@@ -68,6 +80,15 @@ void GramFactor::append(Index place, const double* x, double distance) {
   L_[k * (ld_ + 1)] = std::sqrt(distance);
   const Index first = k / 8 * 8;
   kernels_.invert_blocks(size_ - first, ld_, L_ + first * (ld_ + 1), inverse_ + 16 * first);
+}
+
+/// y := (from + sine x) inverse, x := cosine x - sine y.
+static void rotate(Index count, const double* __restrict from, double sine, double inverse, double cosine,
+                   double* __restrict y, double* __restrict x) {
+  for (Index i = 0; i < count; ++i) {
+    y[i] = (from[i] + sine * x[i]) * inverse;
+    x[i] = cosine * x[i] - sine * y[i];
+  }
 }
 
 /// Without row j, L₃₃ of the rows behind it becomes L' with L'L'ᵀ = L₃₃L₃₃ᵀ + x xᵀ, x what they had in its
@@ -89,10 +110,7 @@ void GramFactor::remove(Index j) {
     const double d = from[c], r = std::sqrt(d * d + x[c] * x[c]), inverse = d / r, cosine = r / d,
                  sine = x[c] / d;
     to[c] = r;
-    for (Index i = c + 1; i < k; ++i) {
-      to[i] = (from[i] + sine * x[i]) * inverse;
-      x[i] = cosine * x[i] - sine * to[i];
-    }
+    rotate(k - c - 1, from + c + 1, sine, inverse, cosine, to + c + 1, x + c + 1);
     for (Index i = c + 1; i < k; ++i) L_[(i - 1) * ld_ + c - 1] = to[i];
   }
   pad(size_);

@@ -50,6 +50,8 @@ class GramFactor {
   /// x: the products of a row with those held, padded; becomes its row of L. Its squared distance to their
   /// span.
   double distance(Index place, double* x) const;
+  /// The same of up to eight rows, whose rows of L are not wanted.
+  void distances(const Index* places, Index count, double* X, double* squared) const;
   /// Takes in a row with its row of L and squared distance.
   void append(Index place, const double* x, double distance);
   void remove(Index j);

@@ -226,14 +226,13 @@ Index GramPivoting::choose_deepest(Index count, Index room) {
   const auto deeper = [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; };
   // Whether rows are repeated is seen when a large block comes in first.
   const bool is_first = set_.size() == 0 && count >= few_rows && !all_known();
-  const bool some_repeat = by_single_steps_ || is_first;
-  const Index among = std::min(count, some_repeat ? 2 * room : room);
+  const Index among = std::min(count, room);
   if (count > among) std::nth_element(list_, list_ + among, list_ + count, deeper);
-  if (!some_repeat) return among;
+  if (!by_single_steps_ && !is_first) return among;
   const Index kept = skip_parallel_rows(among);
-  if (kept == among) return std::min(kept, room);
+  if (kept == among) return among;
   by_single_steps_ = true;
-  return std::min(kept, std::max<Index>(2, room * kept / among));
+  return std::max<Index>(std::min<Index>(2, kept), kept / 2);  // others depend on each other less plainly
 }
 
 /// Holds the first `count` rows of the list, and lets go of those that count as held no more.

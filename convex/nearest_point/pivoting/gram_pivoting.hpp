@@ -70,6 +70,8 @@ class GramPivoting {
   /// x := (VᵀV)⁻¹x over the rows held; padded.
   void solve(double* x) const { set_.solve(x); }
   void solve_pack(double* X) const { set_.solve_pack(X); }
+  /// Squared distances of up to eight rows looked at to the span of those held; X: room for as many packs.
+  void distances(const Index* rows, Index count, double* X, double* squared) const;
   /// w = w_free + V lambda and q = L⁻ᵀw of the rows that it settled on, padded.
   void point(double* w, double* q) const;
   /// No less than the largest 1/R_jj, V = Q R over the rows held, whose entries are not small.
@@ -104,7 +106,8 @@ class GramPivoting {
   bool settle_known();
   bool descend_known();
   bool drop_most_negative();
-  Index deepest(Index count) const;
+  bool raise_in_turn(Index count);
+  double slack_at_place(Index place) const;
   bool raise(Index a);
   void find_point(double* w, double* q) const;
   void collect();

@@ -56,6 +56,12 @@ void GramPivoting::hold_no_more() {
   firm_ = -1;
 }
 
+void GramPivoting::distances(const Index* rows, Index count, double* X, double* squared) const {
+  Index places[8];
+  for (Index l = 0; l < count; ++l) places[l] = rows_.place(rows[l]);
+  set_.distances(places, count, X, squared);
+}
+
 double GramPivoting::inverse_norm() const {
   double square = 0;
   for (Index j = 0; j < set_.size(); ++j) {

@@ -12,6 +12,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Steps in which multipliers are brought up to date before they are solved for anew, as at the end.
 constexpr Index most_steps_since = 16;
 
+/// So many violated rows come in, the deepest first, before the slacks of all are found anew.
+constexpr Index most_in_turn = 4;
+
 }  // namespace
 
 /// The dual method of Goldfarb and Idnani (1983) among the rows looked at, for what blocks do not settle:
@@ -31,9 +34,10 @@ bool GramPivoting::descend_known() {
     find_slacks_of_known();
     const Index count = list_violated_known(outside);
     if (count == 0 && steps_since == 0) return true;
-    if (count > 0 && !raise(deepest(count))) return false;
+    if (!raise_in_turn(count)) return false;
     find_energy();
-    steps_since = count == 0 || steps_since == most_steps_since ? 0 : steps_since + 1;
+    steps_since =
+        count == 0 || steps_since >= most_steps_since ? 0 : steps_since + std::min(count, most_in_turn);
     if (steps_since == 0 && !find_multipliers()) return false;
   }
   return false;
@@ -57,10 +61,25 @@ bool GramPivoting::drop_most_negative() {
   return true;
 }
 
-Index GramPivoting::deepest(Index count) const {
-  return *std::min_element(list_, list_ + count, [&](Index a, Index b) {
-    return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a];
-  });
+/// Takes in the deepest rows of the list, as far as they are violated still when it is their turn.
+bool GramPivoting::raise_in_turn(Index count) {
+  const double scale = counted_violation();
+  const Index turns = std::min(count, most_in_turn);
+  std::partial_sort(list_, list_ + turns, list_ + count,
+                    [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
+  for (Index k = 0; k < turns; ++k) {
+    const Index a = list_[k];
+    if (k > 0) slack_[a] = slack_at_place(rows_.place(a));
+    if (slack_[a] < -row_scale_[a] * scale && !raise(a)) return false;
+  }
+  return true;
+}
+
+double GramPivoting::slack_at_place(Index place) const {
+  const double* const gram = rows_.gram(place);
+  double slack = -target_[place];
+  for (Index j = 0; j < set_.size(); ++j) slack += gram[set_.place(j)] * lambda_[set_.place(j)];
+  return slack;
 }
 
 /// Raises the multiplier of a violated row until the row holds; rows whose multiplier comes down to 0 on the

@@ -35,6 +35,7 @@ class GramSolve {
   bool is_exact_vertex() const;
   void take_point();
   void list_rows_held();
+  double near_scale(double part);
   bool correct(bool is_first, double small);
   bool take_noise_for_zero(bool more);
   void residual(bool is_first);
@@ -51,7 +52,7 @@ class GramSolve {
   double slack_noise(Index a) const;
   double rise(Index a) const;
   std::optional<double> slack_by_parallel_row(Index a) const;
-  bool is_independent(Index a);
+  bool are_independent(const Index* rows, Index count, double part);
   void find_dual_rows();
   Index leave_sums_of_rows_held(Index count);
   bool find_way_up(Index count);

@@ -7,6 +7,29 @@
 
 namespace convex::inline pivoting {
 
+/// As `SmallGramSolve::near_scale`; rows that have not been looked at are then, a few of them first.
+double GramSolve::near_scale(double part) {
+  constexpr Index few = 8;
+  const double small = part * known_.scale;
+  Index near = 0;
+  bool any = false;
+  for (Index j = 0; j < set_->size(); ++j)
+    any = any || (!set_->is_two_sided(rows_[j]) && lambda_[j] * length_[j] <= small);
+  for (Index a = 0; a < m_; ++a) {
+    slack_[a] = set_->slacks()[a];
+    if (!set_->holds(a) && slack_[a] <= row_scale_[a] * small) close_[near++] = a;
+  }
+  if (near > 0 && set_->size() == n_) return 0;
+  for (Index first = 0, end = std::min(few, near); first < near; first = end, end = near) {
+    Index fresh = 0;
+    for (Index k = first; k < end; ++k)
+      if (set_->rows().place(close_[k]) < 0) fresh_[fresh++] = close_[k];
+    if (fresh > 0 && !set_->look_at(fresh_, fresh)) return 0;
+    if (!are_independent(close_ + first, end - first, least_independent)) return 0;
+  }
+  return any || near > 0 ? small : 0;
+}
+
 /// One correction of q and lambda with residuals in twice the working precision, in which rows change sides
 /// whose multipliers (times lengths) and slacks (over them) are `small`. False when it does not settle or
 /// does not shrink what is missing.

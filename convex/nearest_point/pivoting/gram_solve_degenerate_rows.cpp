@@ -83,7 +83,7 @@ Slacks GramSolve::decide_degenerate_rows() {
     if (!(slack_[touched_[k]] > 0)) close_[open++] = touched_[k];
   open = leave_sums_of_rows_held(open);
   if (open < 0) return Slacks::doubtful;
-  Index count = 0, fresh = 0, independent = 0;
+  Index count = 0, fresh = 0;
   for (Index k = 0; k < open; ++k) {
     const Index a = close_[k];
     if (const std::optional<double> on_edge = slack_by_parallel_row(a)) {
@@ -96,12 +96,8 @@ Slacks GramSolve::decide_degenerate_rows() {
   }
   if (count == 0) return Slacks::kept;
   if (fresh > 0 && !set_->look_at(fresh_, fresh)) return Slacks::doubtful;
-  for (Index k = 0; k < count; ++k) {
-    if (!is_independent(close_[k])) return Slacks::doubtful;
-    close_[independent++] = close_[k];
-  }
-  const bool holds_also = set_->hold_also(close_, independent),
-             rises = holds_also && find_way_up(independent);
+  if (!are_independent(close_, count, GramPivoting::near_dependence)) return Slacks::doubtful;
+  const bool rises = set_->hold_also(close_, count) && find_way_up(count);
   set_->hold_no_more();
   return rises ? Slacks::kept : Slacks::doubtful;
 }
@@ -161,15 +157,17 @@ std::optional<double> GramSolve::slack_by_parallel_row(Index a) const {
   return std::nullopt;
 }
 
-/// Whether a row that has been looked at is independent of those held.
-bool GramSolve::is_independent(Index a) {
-  const Index place = set_->rows().place(a), k = set_->size();
-  const double* const gram = set_->rows().gram(place);
-  for (Index j = 0; j < padded(k); ++j) load_[j] = j < k ? gram[set_->place(j)] : 0;
-  set_->solve(load_);
-  double rest = set_->rows().square(place);
-  for (Index j = 0; j < k; ++j) rest -= load_[j] * gram[set_->place(j)];
-  return rest > GramPivoting::near_dependence * set_->rows().square(place);
+/// Whether rows that have been looked at each have more than this part, squared, outside the span of those
+/// held.
+bool GramSolve::are_independent(const Index* rows, Index count, double part) {
+  double distance[8];
+  for (Index first = 0; first < count; first += 8) {
+    const Index some = std::min<Index>(8, count - first);
+    set_->distances(rows + first, some, products_, distance);
+    for (Index k = 0; k < some; ++k)
+      if (!(distance[k] > part * set_->rows().square(set_->rows().place(rows[first + k])))) return false;
+  }
+  return true;
 }
 
 /// dual_ := A⁻¹u_j of the rows held, by eights side by side.

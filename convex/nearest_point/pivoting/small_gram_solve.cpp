@@ -194,6 +194,27 @@ std::vector<Index> SmallGramSolve::one_sided_rows_held() const {
   return rows;
 }
 
+double SmallGramSolve::near_scale(double part) {
+  SmallTableau& t = tableau_;
+  const double small = part * std::max(t.acceleration_norm, t.z_norm);
+  if (t.size == t.n) return 0;
+  if (!looks_at_all()) {
+    Index count = 0;
+    for (Index a = 0; a < t.all && count <= few_touched; ++a)
+      if (slack_[a] <= row_scale_[a] * small && place(a) < 0) close_[count++] = a;
+    if (count > few_touched || !look_at_fresh({close_, close_ + count}, count)) return 0;
+  }
+  bool any = false;
+  for (Index a = 0; a < t.m; ++a) {
+    if (!t.held[a]) t.slack[a] = -t.b[a];
+    const double size = t.held[a] ? t.lambda[a] * t.row_scale[a] : t.slack[a] * t.inverse_scale[a];
+    if (t.two_sided[a] || t.row[a] < 0 || size > small) continue;
+    if (!t.held[a] && !(t.swept[a * (t.stride + 1)] > least_independent * t.square[a])) return 0;
+    any = true;
+  }
+  return any ? small : 0;
+}
+
 /// Weak are multipliers (times lengths) and slacks (over them) that are `small`.
 void SmallGramSolve::mark_weak(double small) {
   SmallTableau& t = tableau_;

@@ -38,6 +38,9 @@ class SmallGramSolve {
   Index steps() const { return tableau_.steps; }
 
  private:
+  /// So few rows touched are looked at at once.
+  static constexpr Index few_touched = 16;
+
   template <class Engine>
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
@@ -50,6 +53,10 @@ class SmallGramSolve {
   void measure();
   bool answer(const Accuracy& accuracy, Solution& solution);
   Corrections& corrections() { return known_; }
+  /// This part of the scale where multipliers (times lengths) or slacks (over them) are smaller at the point
+  /// settled on: the first correction tells their signs already. 0 where there are none, or where one of
+  /// these rows, which are looked at for it, depends on those held.
+  double near_scale(double part);
   bool correct(bool is_first, double small);
   void mark_weak(double small);
   bool take_noise_for_zero(bool more);

@@ -8,9 +8,9 @@
 namespace convex::inline pivoting {
 namespace {
 
-/// Rows touched that are looked at before it is known whether they are sums of rows held; where some must be,
-/// for all are more than there are coordinates, and otherwise.
-constexpr Index few_where_sums = 8, few_touched = 16;
+/// Rows touched that are looked at before it is known whether they are sums of rows held, where some must be,
+/// for all are more than there are coordinates; `few_touched` otherwise.
+constexpr Index few_where_sums = 8;
 
 }  // namespace
 
