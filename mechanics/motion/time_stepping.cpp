@@ -14,6 +14,8 @@ namespace {
 /// The velocity of a step is found by iteration until it would change by less than this part: far below the
 /// error of the scheme.
 constexpr double settled_part = 1e-10;
+/// The same where very many rows change and each is found to about this part.
+constexpr double settled_part_of_crowd = 1e-7;
 constexpr int most_iterations = 100;
 
 /// A step whose iteration comes to no end but for changes below this part is taken, and it is told.
@@ -151,7 +153,7 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
     const Vector z = A_->multiply(state.v) + h * z_;
     const Vector s = -(now_.drift + now_.restitution.cwiseProduct(now_.before));
     const convex::Solution& solution = solve(velocities_, now_.constraints, now_.two_sided, now_.U, z, s,
-                                             i > 0 ? Effort::warm : Effort::exact);
+                                             i > 0 ? Effort::warm : Effort::first);
     if (solution.status == convex::Status::infeasible) {
       status = MotionStatus::infeasible;
       for (std::size_t k = 0; k < constraints.size(); ++k)
@@ -169,9 +171,11 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
     impulse_ = solution.lambda;
     // The next change would be smaller by the same factor again.
     const double next = i > 0 && change < last ? change * (change / last) : change;
-    const double known = solution.error_bound + error;  // no change below what is known of them tells more
+    // No change below what is known of them tells more; the first is found for its rows alone.
+    const double known = solution.error_bound + (i > 1 ? error : 0),
+                 settled = is_crowded_ ? settled_part_of_crowd : settled_part;
     error = solution.error_bound;
-    if (std::min(change, next) <= settled_part * size || change <= known) {
+    if ((i > 0 || !is_crowded_) && (std::min(change, next) <= settled * size || change <= known)) {
       tell_error(error, size);
       return true;
     }

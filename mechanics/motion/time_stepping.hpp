@@ -52,9 +52,10 @@ class Motion::TimeStepping final : public Motion::Course {
   /// From here on the dense active set, to which the default turns where the sparse one gives up, is too slow
   /// for a step.
   static constexpr Index fewest_for_sparse_method = 300;
-  /// How well a problem is solved where very many rows change in every step: exactly; by gradients to what
-  /// the scheme makes of it, from multipliers that are nearly right; or as far as a few steps of them lead.
-  enum class Effort { exact, warm, rough };
+  /// How well a problem is solved where very many rows change in every step: exactly; so far as rows that
+  /// are to be found anew deserve; to what the scheme makes of it, from multipliers that are nearly right; or
+  /// roughly.
+  enum class Effort { exact, first, warm, rough };
   const convex::Solution& solve(Repeated&, const std::vector<Index>& constraints,
                                 const std::vector<Index>& two_sided, const convex::ConstraintRows& U,
                                 const Vector& z, const Vector& s, Effort effort);

@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <limits>
 
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/sparse/proportioned_gradients.hpp"
@@ -14,9 +18,14 @@ namespace {
 constexpr double roundings_of_step_rows = 16;
 
 /// Where very many rows change, velocities are found to this part of their size, far below the error of the
-/// scheme; by gradients if so many steps of them are enough.
-constexpr double velocity_part = 1e-7;
+/// scheme, after a first one with rows that are not those of the middle of the step yet; by gradients if so
+/// many steps of them are enough.
+constexpr double first_velocity_part = 1e-4, velocity_part = 1e-7;
 constexpr Index most_warm_steps = 60;
+
+/// They are taken, and their error is told, where the method ends within the first part, or within the second
+/// where the active set does not settle either.
+constexpr double usual_part = 1e-5, far_part = 1e-3;
 
 /// A rough correction of positions, of its own size; the next ones see to the rest.
 constexpr double correction_part = 1e-3;
@@ -26,9 +35,17 @@ constexpr double correction_part = 1e-3;
 constexpr Index few_exchanges_of_step = 4;
 constexpr int first_pause = 8, longest_pause = 512;
 
-/// By the interior-point method to this part of its size, in units in which that is about 1. gave_up: it is
-/// not found so well.
-convex::Solution nearly_nearest(const convex::NearestPointProblem& problem, double part) {
+/// Whether the active set is tried for the next problems.
+template <class Repeated>
+void pause(Repeated& repeated, bool is_slow) {
+  repeated.pause = is_slow ? std::clamp(4 * repeated.pause, first_pause, longest_pause) : 0;
+  repeated.waited = 0;
+}
+
+/// By the interior-point method to this part of its size, in units in which that is about 1. near: what
+/// solved a problem like it.
+convex::Solution nearly_nearest(const convex::NearestPointProblem& problem, double part, const Vector& q,
+                                const Vector& lambda) {
   const double size = std::max(problem.s.maxCoeff(), problem.A.solve(problem.z).cwiseAbs().maxCoeff());
   convex::Solution found;
   if (!(size > 0)) return found;
@@ -38,8 +55,10 @@ convex::Solution nearly_nearest(const convex::NearestPointProblem& problem, doub
   scaled.radii.reset();
   convex::Accuracy accuracy;
   accuracy.tolerance = part;
-  found = convex::sparse_interior_point(scaled, accuracy);
-  if (found.status != convex::Status::solved) found.status = convex::Status::gave_up;
+  convex::Solution near;
+  near.q = q / size;
+  near.lambda = lambda / size;
+  found = convex::sparse_interior_point(scaled, accuracy, near);
   for (Vector* x : {&found.q, &found.lambda, &found.slack}) *x *= size;
   for (double* x : {&found.error_bound, &found.acceleration_norm, &found.force_norm}) *x *= size;
   return found;
@@ -64,35 +83,59 @@ convex::Solution Motion::TimeStepping::solution_of(Repeated& repeated,
   accuracy.limit = 0;  // a step is not worth fractions
   const bool large =
       problem.dimension() >= fewest_for_sparse_method && problem.rows() > 0 && problem.U.is_sparse();
+  Vector before(problem.rows());
+  for (std::size_t k = 0; k < constraints.size(); ++k)
+    before[static_cast<Index>(k)] = repeated.lambda[constraints[k]];
   if (large && effort == Effort::warm && is_crowded_) {
     convex::Accuracy few;
     few.tolerance = velocity_part;
     few.step_limit = most_warm_steps;
-    Vector guess(problem.rows());
-    for (std::size_t k = 0; k < constraints.size(); ++k)
-      guess[static_cast<Index>(k)] = repeated.lambda[constraints[k]];
-    convex::Solution found = convex::proportioned_gradients(problem, few, guess);
+    convex::Solution found = convex::proportioned_gradients(problem, few, before);
     if (found.status == convex::Status::solved) return found;
   }
-  const bool pauses = repeated.waited < repeated.pause;
-  if (large && is_crowded_ && (effort == Effort::rough || pauses)) {
-    ++repeated.waited;
-    convex::Solution found =
-        nearly_nearest(problem, effort == Effort::rough ? correction_part : velocity_part);
-    const bool is_enough = effort == Effort::rough && found.q.size() == problem.dimension();
-    if (is_enough || found.status == convex::Status::solved) return found;
-  }
-  std::vector<Index> guess;
+  const auto is_found = [&](const convex::Solution& found) {
+    return found.q.size() == problem.dimension() || found.status == convex::Status::infeasible;
+  };
+  std::vector<Index> pushing;
   for (std::size_t k = 0; k < constraints.size(); ++k)
     if (std::binary_search(repeated.pushing.begin(), repeated.pushing.end(), constraints[k]))
-      guess.push_back(static_cast<Index>(k));
-  convex::Solution found = large ? convex::sparse_active_set(problem, accuracy, guess)
-                                 : convex::automatic(problem, accuracy, guess);
-  const bool is_slow = found.steps > few_exchanges_of_step || found.q.size() != problem.dimension();
-  repeated.pause = is_slow ? std::clamp(4 * repeated.pause, first_pause, longest_pause) : 0;
-  repeated.waited = 0;
-  if (large && found.q.size() != problem.dimension() && found.status != convex::Status::infeasible)
-    found = convex::sparse_interior_point(problem, accuracy);
+      pushing.push_back(static_cast<Index>(k));
+  convex::Solution near;
+  if (large && is_crowded_) {
+    const bool is_start = effort == Effort::rough || effort == Effort::first;
+    const bool tries = effort == Effort::exact || effort == Effort::first;
+    const double part = effort == Effort::rough   ? correction_part
+                        : effort == Effort::first ? first_velocity_part
+                                                  : velocity_part;
+    const auto within = [&](double bearable) {
+      return is_found(near) &&
+             near.error_bound <= bearable * std::max(near.acceleration_norm, near.force_norm);
+    };
+    if (!tries || repeated.waited < repeated.pause) {
+      ++repeated.waited;
+      near = nearly_nearest(problem, part, repeated.solution.q, before);
+      if (is_start ? is_found(near) : within(usual_part)) return near;
+    }
+    if (is_found(near)) {
+      pushing.clear();
+      for (Index k = 0; k < near.lambda.size(); ++k)
+        if (near.lambda[k] > 0) pushing.push_back(k);
+    }
+    if (!pushing.empty()) {
+      accuracy.step_limit = few_exchanges_of_step;
+      const convex::Solution found = convex::sparse_active_set(problem, accuracy, pushing);
+      if (tries) pause(repeated, !is_found(found));
+      if (is_found(found)) return found;
+      if (!is_found(near)) near = nearly_nearest(problem, part, repeated.solution.q, before);
+      if (is_start ? is_found(near) : within(far_part)) return near;
+      accuracy.step_limit = 0;
+    }
+  }
+  convex::Solution found = large ? convex::sparse_active_set(problem, accuracy, pushing)
+                                 : convex::automatic(problem, accuracy, pushing);
+  pause(repeated, found.steps > few_exchanges_of_step || !is_found(found));
+  if (large && !is_found(found))
+    found = is_found(near) ? near : convex::sparse_interior_point(problem, accuracy);
   return found;
 }
 
@@ -107,7 +150,17 @@ const convex::Solution& Motion::TimeStepping::solve(Repeated& repeated, const st
   problem.radii = convex::rounding_radii(problem, roundings_of_step_rows);
   if (repeated.lambda.size() == 0)
     repeated.lambda = Vector::Zero(static_cast<Index>(system.constraints().size()));
+  const std::clock_t from_ = std::clock();
   repeated.solution = solution_of(repeated, problem, constraints, effort);
+  if (std::getenv("TRACE"))
+    std::fprintf(stderr,
+                 "DBG %s effort %d rows %ld two %zu method %s steps %ld pause %d  %.1f ms bound %.2e\n",
+                 &repeated == &velocities_  ? "vel"
+                 : &repeated == &positions_ ? "pos"
+                                            : "tan",
+                 int(effort), long(problem.rows()), two_sided.size(),
+                 std::string(repeated.solution.method).c_str(), long(repeated.solution.steps), repeated.pause,
+                 1e3 * double(std::clock() - from_) / CLOCKS_PER_SEC, repeated.solution.error_bound);
   repeated.pushing.clear();
   repeated.lambda.setZero();
   if (repeated.solution.lambda.size() == problem.rows())

@@ -18,6 +18,15 @@ constexpr double first_weight = 100;
 /// begins below the other, in the scaled units.
 constexpr double part_of_free = 0.1, smallest = 1e-3;
 
+/// Where rows as springs are the start, nothing begins below so many times its usual size: near the boundary
+/// the first steps would be short.
+constexpr double well_inside = 10;
+
+/// Of rows held as they were in a problem like this one: one over the weight; no more exchanges than these;
+/// the part of the multipliers' size that products begin with where some rows stay wrong.
+constexpr double held_delta = 1e-6, part_of_size = 1e-5;
+constexpr int most_exchanges = 6;
+
 /// The equations are met well enough for a look at the rows when this part of the first residual is left.
 constexpr double part_left = 0.1;
 
@@ -56,6 +65,7 @@ InteriorPointStart::InteriorPointStart(const BalancedProblem& problem, RowSystem
 /// nothing starts below its usual size.
 void InteriorPointStart::start() {
   started_ = true;
+  held_ = false;
   weight_.setConstant(first_weight);
   if (!system_.factor(weight_)) return;
   at_.q = system_.solve(problem_.z + problem_.U.transpose() * weight_.cwiseProduct(problem_.s));
@@ -64,13 +74,14 @@ void InteriorPointStart::start() {
   const double push = std::max(smallest, root_mean_square(at_.lambda.cwiseMax(0)));
   const double open = std::max(usual_slack_, root_mean_square(at_.slack.cwiseMax(0)));
   for (Index a = 0; a < at_.slack.size(); ++a) {
-    if (one_sided(a)) at_.lambda[a] = std::max(0.0, at_.lambda[a]) + push;
-    at_.slack[a] = one_sided(a) ? std::max(0.0, at_.slack[a]) + open : 0;
+    if (one_sided(a)) at_.lambda[a] = std::max(0.0, at_.lambda[a]) + well_inside * push;
+    at_.slack[a] = one_sided(a) ? std::max(0.0, at_.slack[a]) + well_inside * open : 0;
   }
 }
 
 void InteriorPointStart::start_from_free_motion() {
   started_ = true;
+  held_ = false;
   weight_.setConstant(regularisation);
   if (!system_.factor(weight_)) return;
   at_.q = system_.solve(problem_.z);
@@ -79,6 +90,66 @@ void InteriorPointStart::start_from_free_motion() {
     if (!one_sided(a)) at_.slack[a] = 0;
   at_.lambda = Vector::Zero(problem_.s.size());
   make_interior();
+}
+
+/// A step towards U q = s on the rows that look active, and multipliers of 0 on the others; how far it still
+/// is from there.
+double InteriorPointStart::hold_active_rows() {
+  bool is_factored = held_;
+  for (Index a = 0; a < weight_.size(); ++a) {
+    const double weight = looks_active(a) ? 1 / held_delta : 0;
+    is_factored = is_factored && weight == weight_[a];
+    weight_[a] = weight;
+    if (weight == 0) at_.lambda[a] = 0;
+  }
+  held_ = is_factored || system_.factor(weight_);
+  if (!held_) return infinity;
+  const Vector rest = problem_.z - problem_.A * at_.q + problem_.U.transpose() * at_.lambda;
+  const Vector miss = problem_.s - problem_.U * at_.q;
+  at_.q += system_.solve(rest + problem_.U.transpose() * weight_.cwiseProduct(miss));
+  at_.slack = problem_.U * at_.q - problem_.s;
+  at_.lambda -= weight_.cwiseProduct(at_.slack);
+  return held_delta * at_.slack.cwiseProduct(weight_).cwiseAbs().maxCoeff();
+}
+
+/// Pairs of multiplier and slack with the same difference and this product (Chen and Harker 1993).
+void InteriorPointStart::centre(double product) {
+  for (Index a = 0; a < at_.lambda.size(); ++a) {
+    if (!one_sided(a)) {
+      at_.slack[a] = 0;
+      continue;
+    }
+    const double half = 0.5 * (at_.lambda[a] - at_.slack[a]), root = std::sqrt(half * half + product);
+    at_.lambda[a] = half >= 0 ? root + half : product / (root - half);
+    at_.slack[a] = half >= 0 ? product / (root + half) : root - half;
+  }
+}
+
+void InteriorPointStart::start_near(const Vector& q, const Vector& lambda, double mean) {
+  at_ = {q, problem_.U * q - problem_.s, lambda};
+  const InteriorPointState given = at_;
+  const double size = root_mean_square(lambda);
+  Index fewest = lambda.size() + 1;
+  for (int k = 0; k < most_exchanges; ++k) {
+    const double left = hold_active_rows();
+    Index wrong = 0;
+    double square = 0;
+    for (Index a = 0; a < lambda.size(); ++a) {
+      const double miss = weight_[a] > 0 ? at_.lambda[a] : at_.slack[a];
+      if (!one_sided(a) || miss >= 0) continue;
+      ++wrong;
+      square += miss * miss;
+    }
+    if (!(std::sqrt(square / step_.count()) <= size)) return;  // as far away as any start
+    started_ = true;
+    if (wrong == 0 && left <= std::sqrt(mean)) return centre(mean);
+    if (wrong > 0 && wrong >= fewest) break;
+    fewest = wrong;
+  }
+  at_ = given;
+  const Vector rest = problem_.z - problem_.A * q + problem_.U.transpose() * lambda;
+  const double miss = std::max(root_mean_square(rest), root_mean_square(lambda.cwiseMin(at_.slack)));
+  centre(std::max(miss * miss, part_of_size * size));
 }
 
 /// Mehrotra's shift: far enough inside, and not badly centred.
@@ -150,6 +221,7 @@ InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_stea
       return End::steady;
     if (at_.lambda.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap)
       return End::unbounded;
+    held_ = false;
     for (Index a = 0; a < m; ++a)
       weight_[a] = 1 / ((one_sided(a) ? at_.slack[a] / at_.lambda[a] : 0) + regularisation);
     if (!system_.factor(weight_)) return End::stalled;

@@ -21,6 +21,10 @@ class InteriorPointStart {
   /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
   /// problems in which rows held together are far from the answer.
   void start_from_free_motion();
+  /// Begins from a point with multipliers that solve a problem like this one, where that helps: the rows that
+  /// look active there are held, and exchanged as long as fewer are wrong each time; products of multiplier
+  /// and slack begin with `mean` when none is, else with what is then missing.
+  void start_near(const Vector& q, const Vector& lambda, double mean);
 
   const Vector& q() const { return at_.q; }
   const Vector& lambda() const { return at_.lambda; }
@@ -33,6 +37,8 @@ class InteriorPointStart {
  private:
   void start();
   void make_interior();
+  double hold_active_rows();
+  void centre(double product);
   void solve(const Vector& dual_rest, const Vector& primal_rest, const Vector& target,
              InteriorPointState& to) const;
   Index changes_of_sides();
@@ -46,7 +52,7 @@ class InteriorPointStart {
   std::vector<bool> side_;  ///< of each row, as it looked before the last step
   double usual_slack_, first_rest_ = 0;
   Index steps_ = 0;
-  bool started_ = false;
+  bool started_ = false, held_ = false;  ///< held: factored with the weights of hold_active_rows
 };
 
 }  // namespace convex::inline sparse

@@ -57,7 +57,7 @@ class SparseActiveSet {
     }
     InteriorPointStart start(scaled_, system_,
                              problem_.A.solve(problem_.z).cwiseQuotient(scaled_.coordinate));
-    for (std::size_t k = 0; k < gaps.size(); ++k) {
+    for (std::size_t k = 0; k < gaps.size() && may_go_on(); ++k) {
       const Index before = start.steps();
       InteriorPointStart::End end = start.approach(gaps[k], k == 0);
       if (end == InteriorPointStart::End::stalled && k == 0) {
@@ -116,13 +116,15 @@ class SparseActiveSet {
     return true;
   }
 
+  bool may_go_on() const { return accuracy_.step_limit == 0 || steps_ < accuracy_.step_limit; }
+
   /// Refines on the active rows and exchanges those of the wrong sign until none is left; false when that
   /// does not lead anywhere, or when more than this part of the rows has the wrong sign.
   bool exchange(int most, double part) {
     const auto bearable = static_cast<Index>(part * static_cast<double>(problem_.rows()));
     Index fewest = problem_.rows() + 1;
     int idle = 0;
-    for (int k = 0; k < most; ++k) {
+    for (int k = 0; k < most && may_go_on(); ++k) {
       rows_.clear();
       for (Index a = 0; a < problem_.rows(); ++a)
         if (active_[static_cast<std::size_t>(a)] || !one_sided(a)) rows_.push_back(a);

@@ -12,8 +12,8 @@ namespace convex::inline sparse {
 ///
 /// Rows with a wrong sign are exchanged, all at once, as long as fewer are wrong each time; then the start is
 /// taken closer, at most a fixed number of times. It ends with a point that has no wrong sign, with a Farkas
-/// witness, or with `gave_up`. guess: rows thought to be active; the start is left out when it proves right.
-/// Throws InvalidInput as `validate` does.
+/// witness, or with `gave_up`; steps are those of the start and exchanges. guess: rows thought to be active;
+/// the start is left out when it proves right. Throws InvalidInput as `validate` does.
 Solution sparse_active_set(const NearestPointProblem&, const Accuracy& = {},
                            const std::vector<Index>& guess = {});
 

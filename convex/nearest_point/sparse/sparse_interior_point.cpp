@@ -10,25 +10,35 @@ namespace {
 
 constexpr std::string_view method_name = "sparse-interior-point";
 
-/// Means of multiplier times slack, scaled, one after the other as long as they are reached. Where little is
-/// asked for they begin with the square of that.
-constexpr double first_mean = 1e-8, last_mean = 1e-18, ever_smaller = 1e-2;
+/// Means of multiplier times slack, scaled, one after the other as long as they are reached.
+constexpr double first_mean = 1e-6, last_mean = 1e-18, ever_smaller = 1e-1;
+
+/// Below this, a mean that makes the bound no smaller is the last.
+constexpr double trusted_mean = 1e-9;
+
+/// Of rows held as in a problem before this one, products begin with this part of the square of what is
+/// asked.
+constexpr double below_asked = 1e-3;
 
 }  // namespace
 
-Solution sparse_interior_point(const NearestPointProblem& problem, const Accuracy& accuracy) {
+Solution sparse_interior_point(const NearestPointProblem& problem, const Accuracy& accuracy,
+                               const Solution& guess) {
   validate(problem);
   const BalancedProblem scaled = balanced_problem(problem);
   RowSystem system(scaled);
   InteriorPointStart start(scaled, system, problem.A.solve(problem.z).cwiseQuotient(scaled.coordinate));
+  if (guess.q.size() == problem.dimension() && guess.lambda.size() == problem.rows())
+    start.start_near(guess.q.cwiseQuotient(scaled.coordinate), guess.lambda.cwiseQuotient(scaled.multiplier),
+                     std::max(last_mean, below_asked * accuracy.tolerance * accuracy.tolerance));
   Solution best;
   best.method = method_name;
   best.farkas = Vector::Zero(problem.rows());
-  for (double mean = std::max(first_mean, accuracy.tolerance * accuracy.tolerance); mean >= last_mean;
-       mean *= ever_smaller) {
+  for (double mean = first_mean; mean >= last_mean; mean *= ever_smaller) {
     const InteriorPointStart::End end = start.approach(mean);
     if (end == InteriorPointStart::End::unbounded || start.q().size() != problem.dimension()) break;
     if (!start.q().allFinite() || !start.lambda().allFinite()) break;
+    if (best.q.size() > 0 && start.steps() == best.steps && end == InteriorPointStart::End::close) continue;
     Solution now;
     now.method = method_name;
     now.steps = start.steps();
@@ -47,7 +57,7 @@ Solution sparse_interior_point(const NearestPointProblem& problem, const Accurac
     now.error_bound = (r.duality_gap + r.stationarity) * std::max(now.acceleration_norm, now.force_norm) +
                       r.feasibility * now.acceleration_norm;
     const bool is_better = best.q.size() == 0 || now.error_bound < best.error_bound;
-    if (!is_better) break;
+    if (!is_better && mean < trusted_mean) break;
     const bool is_close = now.error_bound <= accuracy.tolerance * std::max(1.0, now.acceleration_norm);
     now.status = is_close ? Status::solved : Status::inaccurate;
     now.farkas = best.farkas;

@@ -9,6 +9,8 @@ namespace convex::inline sparse {
 /// an answer to some ten digits where the active rows do not settle, as in a large packing in which most
 /// contacts depend on each other. Its bound is an estimate by the residuals. gave_up: the equations cannot
 /// be met, or multipliers grow beyond all bounds. Throws InvalidInput as `validate` does.
-Solution sparse_interior_point(const NearestPointProblem&, const Accuracy& = {});
+///
+/// guess: where to begin, its q and lambda, if that has any: what solved a problem like this one.
+Solution sparse_interior_point(const NearestPointProblem&, const Accuracy& = {}, const Solution& guess = {});
 
 }  // namespace convex::inline sparse
