@@ -276,12 +276,15 @@ Exit sweep(const SweepOptions& options) {
     throw InvalidInput("--resume goes with --output F.csv; add the file to go on with");
   TomlValue document = read_document(options.file);
   apply_settings(document, parsed_settings(options.settings));
+  const TomlValue* told = document.find("title");
+  const std::string title = told != nullptr ? told->text : options.file;
   Sweep sweep(options, std::move(document));
   if (options.plot && sweep.ranges().size() > 2)
     throw InvalidInput("--plot takes one or two --over; a table holds any number");
   const SweepSummary summary = sweep.run();
   if (options.plot)
-    draw(*options.plot, sweep_drawing(sweep.record(), sweep.ranges(), sweep.watched(), sweep.constraints()));
+    draw(*options.plot,
+         sweep_drawing(sweep.record(), sweep.ranges(), sweep.watched(), sweep.constraints(), title));
   if (options.json)
     fmt::print("{}", summary_json(summary, options));
   else if (options.output && !options.quiet)

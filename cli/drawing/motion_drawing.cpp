@@ -27,24 +27,26 @@ constexpr int panel_height = 190;
 constexpr std::array line_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                   "#e69f00", "#56b4e9", "#882255", "#222222"};
 
-const char* colour(mechanics::EventKind kind) {
+/// Events are told apart by their dashes, not by the colours of the curves.
+std::string style(mechanics::EventKind kind) {
+  const char* dashes = "5";
   switch (kind) {
     case mechanics::EventKind::impact:
-      return "#d55e00";
+      dashes = "1";
+      break;
     case mechanics::EventKind::contact:
-      return "#e69f00";
+      dashes = "2";
+      break;
     case mechanics::EventKind::release:
-      return "#009e73";
+      dashes = "3";
+      break;
     case mechanics::EventKind::accumulation:
-      return "#882255";
+      dashes = "4";
+      break;
     case mechanics::EventKind::branch:
-      return "#888888";
+      break;
   }
-  return "#888888";
-}
-
-std::string style(mechanics::EventKind kind) {
-  return fmt::format("lc rgb \"{}\" lw 0.5 dt 3", colour(kind));
+  return fmt::format("lc rgb \"#666666\" lw 0.7 dt {}", dashes);
 }
 
 /// Pixels; the key is beside them.
@@ -57,28 +59,38 @@ struct Panel {
   Index first_column;
 };
 
-std::string panel_script(const Panel& panel, bool is_last, const std::string& key_of_events) {
+/// What begins at 0 is drawn at 0 where rounding is below it.
+std::string panel_script(const Panel& panel, bool is_last, bool from_zero, const std::string& key_of_events) {
   // A label of its own: one beside tics of many digits would leave the picture.
   std::string text = fmt::format(
       "set label 1 {} at screen 0.015, graph 0.5 center rotate by 90 font \",10\"\n", quoted(panel.label));
   text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
   text += "plot ";
-  for (std::size_t k = 0; k < panel.names.size(); ++k)
-    text += fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}",
-                        k > 0 ? ", \\\n  " : "", panel.first_column + static_cast<Index>(k),
-                        line_colours[k % line_colours.size()], quoted(panel.names[k]));
+  for (std::size_t k = 0; k < panel.names.size(); ++k) {
+    const Index column = panel.first_column + static_cast<Index>(k);
+    text +=
+        fmt::format("{}$points using 1:{} with lines lc rgb \"{}\" lw 1.4 title {}", k > 0 ? ", \\\n  " : "",
+                    from_zero ? fmt::format("(${0}<0?0:${0})", column) : std::to_string(column),
+                    line_colours[k % line_colours.size()], quoted(panel.names[k]));
+  }
   return text + key_of_events + "\n";
 }
 
 /// What is constant but for rounding is a line, and not its noise; f and lambda, which are not below 0, begin
 /// there.
+constexpr double drawn_rounding = 1e-9;
+
+bool begins_at_zero(const std::pair<double, double>& range) {
+  return range.first >= -drawn_rounding * range.second;
+}
+
 std::string range_script(const std::pair<double, double>& range, bool from_zero) {
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = drawn_rounding;
   const auto [low, high] = range;
   const double size = std::max(std::abs(low), std::abs(high));
   constexpr double short_part = 1e-4;  // below it the usual six digits are the same at each tick
   if (!(high - low <= rounding * std::max(size, rounding)))
-    return (from_zero && low >= -rounding * high ? "set yrange [0:*]\n" : "set autoscale y\n") +
+    return (from_zero && begins_at_zero(range) ? "set yrange [0:*]\n" : "set autoscale y\n") +
            std::string(high - low < short_part * size ? "set format y \"%.10g\"\n" : "set format y\n");
   const double half = size > rounding ? 0.1 * size : 1;
   return fmt::format("set yrange [{}:{}]\nset format y\n", low - half, high + half);
@@ -156,8 +168,7 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
     fmt::format_to(std::back_inserter(made.script),
                    "set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
-    kinds[kind] =
-        fmt::format(", \\\n  NaN with lines lc rgb \"{}\" lw 1 title {}", colour(kind), quoted(name(kind)));
+    kinds[kind] = fmt::format(", \\\n  NaN with lines {} title {}", style(kind), quoted(name(kind)));
   }
   for (std::size_t k = 0; k < panels.size(); ++k) {
     const std::string& label = panels[k].label;
@@ -165,7 +176,8 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
     made.script += label == "q" ? "set autoscale y\nset format y\n" : range_script(range, label != "energy");
     std::string key;  // of events, once, below the names of coordinates
     for (const auto& [kind, line] : kinds) key += k == 0 ? line : "";
-    made.script += panel_script(panels[k], k + 1 == panels.size(), key);
+    const bool from_zero = (label == "f" || label == "lambda") && begins_at_zero(range);
+    made.script += panel_script(panels[k], k + 1 == panels.size(), from_zero, key);
   }
   made.script += "unset multiplot\n";
   return made;

@@ -21,6 +21,9 @@ constexpr std::size_t most_points = 20000, most_drawn = 8;
 /// Pixels, of the diagrams; the key is beside them.
 constexpr double sweep_left = 84, sweep_right = 500, sweep_key = 512;
 
+/// And above the diagrams.
+double above(const std::string& title) { return title.empty() ? 12 : 30; }
+
 /// The sets that occur, in the order of their first point.
 class ContactSets {
  public:
@@ -82,7 +85,7 @@ std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched) {
 std::string number_text(double x) { return std::isfinite(x) ? fmt::format("{}", x) : std::string("NaN"); }
 
 Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
-              const std::vector<Watched>& watched, ContactSets& sets) {
+              const std::vector<Watched>& watched, ContactSets& sets, const std::string& title) {
   std::vector<const SweepPoint*> sorted;
   for (const SweepPoint& point : points) sorted.push_back(&point);
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -118,11 +121,11 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
     for (const std::size_t column : panel.columns) words.push_back(watched[column].name);
   made.width = width_with_key(sweep_right, words);
   made.script += fmt::format(
-      "set multiplot layout {},1 margins {},{},{},0.96 spacing 0.04\nset xrange [{}:{}]\n"
+      "set multiplot layout {},1 title {} font \",11\" margins {},{},{},{} spacing 0.04\nset xrange [{}:{}]\n"
       "set border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror font \",9\"\n"
       "set key at screen {}, graph 1 left top Left reverse font \",9\" samplen 1.5\n",
-      panels.size(), sweep_left / made.width, sweep_right / made.width, 50.0 / made.height, first,
-      last > first ? last : first + 1, sweep_key / made.width);
+      panels.size(), quoted(title), sweep_left / made.width, sweep_right / made.width, 50.0 / made.height,
+      1 - above(title) / made.height, first, last > first ? last : first + 1, sweep_key / made.width);
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const bool is_last = p + 1 == panels.size();
     made.script += fmt::format("set ylabel {} font \",10\"\n", quoted(panels[p].label));
@@ -154,7 +157,8 @@ std::vector<double> borders_of(std::vector<double> values) {
   return borders;
 }
 
-Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges, ContactSets& sets) {
+Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>& ranges, ContactSets& sets,
+            const std::string& title) {
   const std::vector<double> x = borders_of(ranges[0].values), y = borders_of(ranges[1].values);
   const auto cell = [](const std::vector<double>& borders, double value) {
     const auto above = std::upper_bound(borders.begin(), borders.end(), value);
@@ -174,13 +178,15 @@ Drawing map(const std::vector<SweepPoint>& points, const std::vector<SweepRange>
   for (std::size_t k = 0; k < data.size(); ++k)
     made.script += fmt::format("$set{} << EOD\n{}EOD\n", k, data[k]);
   made.script += fmt::format(
-      "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen 0.96\n"
+      "set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset title {} font "
+      "\",11\"\n"
       "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
       "set tics nomirror out font \",9\"\nset key at screen {}, graph 1 left top Left reverse font \",9\" "
       "samplen 1.5\nplot ",
-      sweep_left / made.width, sweep_right / made.width, x.front(), x.back(), y.front(), y.back(),
-      quoted(ranges[0].key), quoted(ranges[1].key), sweep_key / made.width);
+      sweep_left / made.width, sweep_right / made.width, 1 - above(title) / made.height, quoted(title),
+      x.front(), x.back(), y.front(), y.back(), quoted(ranges[0].key), quoted(ranges[1].key),
+      sweep_key / made.width);
   constexpr std::size_t with_borders = 2500;
   const std::string border = points.size() <= with_borders ? "border lc rgb \"#bbbbbb\"" : "noborder";
   for (std::size_t k = 0; k < data.size(); ++k)
@@ -208,10 +214,11 @@ void SweepRecord::add(const SweepPoint& point) {
 }
 
 Drawing sweep_drawing(const SweepRecord& record, const std::vector<SweepRange>& ranges,
-                      const std::vector<Watched>& watched, const std::vector<std::string>& constraints) {
+                      const std::vector<Watched>& watched, const std::vector<std::string>& constraints,
+                      const std::string& title) {
   ContactSets sets(record.points(), constraints);
-  return ranges.size() == 1 ? bands(record.points(), ranges[0], watched, sets)
-                            : map(record.points(), ranges, sets);
+  return ranges.size() == 1 ? bands(record.points(), ranges[0], watched, sets, title)
+                            : map(record.points(), ranges, sets, title);
 }
 
 }  // namespace cli::inline drawings

@@ -19,6 +19,6 @@ class SweepRecord {
 /// Over one range: what is watched as curves, the sets of contacts that persist as bands behind them. Over
 /// two: a map of these sets.
 Drawing sweep_drawing(const SweepRecord&, const std::vector<SweepRange>&, const std::vector<Watched>&,
-                      const std::vector<std::string>& constraints);
+                      const std::vector<std::string>& constraints, const std::string& title);
 
 }  // namespace cli::inline drawings

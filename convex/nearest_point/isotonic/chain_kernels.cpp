@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/processor.hpp"
 
-namespace convex::chain_kernels {
+namespace convex::inline isotonic::chain_kernels {
 
 MOREAU_CLONES
 Index count_links(Index count, const double* values, Index& ones) {
@@ -139,4 +139,4 @@ void divide_links(Index count, const double* s, const double* length, double q_n
   }
 }
 
-}  // namespace convex::chain_kernels
+}  // namespace convex::inline isotonic::chain_kernels

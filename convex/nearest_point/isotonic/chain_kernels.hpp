@@ -6,7 +6,7 @@
 
 /// What members of a chain do alone, a block of them at a time, by loops that are compiled for several
 /// processors.
-namespace convex::chain_kernels {
+namespace convex::inline isotonic::chain_kernels {
 
 /// Members of a block, and sums kept side by side.
 inline constexpr Index width = 128, lanes = 4;
@@ -53,4 +53,4 @@ void measure_links(Index count, const double* mass, const double* q, const doubl
 /// The last two over |s_k| + ||u_k|| q_norm, or over ||u_k|| scale where that is 0.
 void divide_links(Index count, const double* s, const double* length, double q_norm, double scale, Links&);
 
-}  // namespace convex::chain_kernels
+}  // namespace convex::inline isotonic::chain_kernels

@@ -5,7 +5,7 @@
 #include "convex/double_double.hpp"
 #include "convex/processor.hpp"
 
-namespace convex::grid_kernels {
+namespace convex::inline obstacle::grid_kernels {
 namespace {
 
 /// Independent sums along a row, added up in doubles.
@@ -144,4 +144,4 @@ void turn(Index n, float part, const float* z, float* __restrict p) {
   for (Index i = 0; i < n; ++i) p[i] = z[i] + part * p[i];
 }
 
-}  // namespace convex::grid_kernels
+}  // namespace convex::inline obstacle::grid_kernels
