@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cli/motion_files.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/json_writer.hpp"
@@ -79,6 +81,32 @@ std::string motion_json(const FollowedMotion& followed) {
   return json.end_object().text();
 }
 
+/// Remarks that differ in their time alone are one line.
+std::string remarks_text(const std::vector<mechanics::MotionRemark>& remarks) {
+  struct Said {
+    std::string what;
+    double first, last;
+    int count;
+  };
+  std::vector<Said> all;
+  for (const mechanics::MotionRemark& remark : remarks) {
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const Said& s) { return s.what == remark.what; });
+    if (same == all.end()) {
+      all.push_back({remark.what, remark.t, remark.t, 1});
+    } else {
+      same->last = remark.t;
+      ++same->count;
+    }
+  }
+  std::string text;
+  for (const Said& said : all)
+    text += said.count == 1 ? fmt::format("At t = {}: {}.\n", number_text(said.first), said.what)
+                            : fmt::format("{} times from t = {} to {}: {}.\n", said.count,
+                                          number_text(said.first), number_text(said.last), said.what);
+  return text;
+}
+
 std::string motion_text(const FollowedMotion& followed) {
   const mechanics::Motion& motion = followed.motion;
   const mechanics::MotionRecord& record = motion.record();
@@ -128,9 +156,7 @@ std::string motion_text(const FollowedMotion& followed) {
         "most; "
         "T + V changed by {} with it.\n",
         number_text(record.corrected_penetration), number_text(record.correction_energy));
-  for (const mechanics::MotionRemark& remark : record.remarks)
-    text += fmt::format("At t = {}: {}.\n", number_text(remark.t), remark.what);
-  return text;
+  return text + remarks_text(record.remarks);
 }
 
 }  // namespace cli::inline reports

@@ -19,9 +19,6 @@ constexpr double roundings_of_time = 64;
 /// f counts as 0 in an event of other contacts within so many roundings of what it is the sum of.
 constexpr double roundings_of_f = 16;
 
-/// A step that misses the equations at its end by more than this many times its tolerance is taken again.
-constexpr double allowed_defect = 1e3;
-
 /// So many events at one instant, for each constraint, have no end.
 constexpr long most_events_at_once = 50;
 
@@ -32,7 +29,9 @@ bool is_in(const std::vector<Index>& all, Index a) {
 }  // namespace
 
 Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, MotionOptions chosen)
-    : Course(of, std::move(chosen)), expansion_(of, taylor_order(tolerance_of_step(options.tolerance))) {
+    : Course(of, std::move(chosen)),
+      expansion_(of, taylor_order(tolerance_of_step(options.tolerance))),
+      reach_(reach_of_argument(expansion_.order(), tolerance_of_step(options.tolerance))) {
   const auto m = system.constraints().size();
   zeros_of_f_.assign(m, 0);
   zeros_of_lambda_.assign(m, 0);
@@ -82,6 +81,11 @@ void Motion::EventDriven::begin(const State& at) {
 
 bool Motion::EventDriven::advance(double until) {
   if (!may_advance(until)) return false;
+  if (!ends_here_.empty()) {
+    stop(ends_here_);
+    return false;
+  }
+  until_ = until;
   const double before = state.t;
   try {
     take_step(until);
@@ -89,9 +93,11 @@ bool Motion::EventDriven::advance(double until) {
     stop("at t = " + number_text(state.t) + ": " + error.what());
   }
   events_at_once_ = state.t > before ? 0 : events_at_once_ + 1;
+  kinks_at_once_ = state.t > before ? 0 : kinks_at_once_;
   const auto m = static_cast<long>(system.constraints().size());
   if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
-    stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant");
+    stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
+         advice_on_kinks());
   return status == MotionStatus::done || !events.empty() || state.t > before;
 }
 
@@ -158,27 +164,6 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
     if (std::abs(correction) <= 2 * epsilon * tau) break;
   }
   return tau;
-}
-
-/// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
-/// does not converge, and an expression that is not analytic.
-bool Motion::EventDriven::fits(double tau) {
-  next.state(tau, there_);
-  Vector q2;
-  try {
-    expansion_.set(there_);
-    q2 = expansion_.acceleration(persist_).x;
-  } catch (const convex::InvalidInput& error) {
-    obstacle_ = error.what();
-    return false;
-  }
-  double moved = 0, power = tau;
-  for (std::size_t k = 1; k < sizes_.size(); ++k, power *= tau) moved = std::max(moved, sizes_[k] * power);
-  const double size = expansion_.norm(q2);
-  const double defect = expansion_.norm(Vector(q2 - next.acceleration(tau))) * tau * tau;
-  const double rounding = 1e4 * epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
-  const double orders = static_cast<double>(next.q.cols());
-  return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
 }
 
 void Motion::EventDriven::move_time(double by) {
@@ -288,63 +273,6 @@ void Motion::EventDriven::continue_arc() {
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   expansion_.expand({persist_, {}});
   fill_next();
-}
-
-/// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
-void Motion::EventDriven::project() {
-  if (persist_.empty()) return;
-  constexpr int most_corrections = 12;
-  constexpr double smallest = 4 * epsilon, largest = 1e-6;
-  const auto rows = static_cast<Index>(persist_.size());
-  double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_corrections; ++i) {
-    const HeldRows held = expansion_.held_rows(persist_);
-    Vector f(rows), rate(rows);
-    for (Index a = 0; a < rows; ++a) {
-      f[a] = expansion_.f(persist_[static_cast<std::size_t>(a)]);
-      rate[a] = expansion_.rate(persist_[static_cast<std::size_t>(a)]);
-    }
-    const Vector dq = held.least_change(-f), dv = held.least_change(-rate);
-    const convex::Metric& A = expansion_.inertia();
-    const double by_q = A.norm(dq), by_v = A.norm(dv);
-    const double q = A.norm(state.q), v = A.norm(state.v);
-    const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
-    const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
-    if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;
-    last = size;
-    state.q += dq;
-    state.v += dv;
-    expansion_.set(state);
-  }
-  if (last < largest) return;
-  stop("at t = " + number_text(state.t) +
-       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state");
-}
-
-void Motion::EventDriven::fill_next() {
-  const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
-  next.t = state.t;
-  next.q.resize(n, last + 1);
-  next.lambda.resize(m, last - 1);
-  next.f.resize(m, last + 1);
-  const auto copy = [](convex::RowMatrix& to, Index row, std::span<const double> c) {
-    std::copy(c.begin(), c.end(), to.data() + row * to.cols());
-  };
-  for (Index i = 0; i < n; ++i) copy(next.q, i, expansion_.position(i));
-  for (Index a = 0; a < m; ++a) {
-    copy(next.lambda, a, expansion_.multiplier(a));
-    copy(next.f, a, expansion_.constraint(a));
-  }
-  next.persist = persist_;
-  acceleration = 2 * next.q.col(2);
-  multipliers = next.lambda.col(0);
-  const double tolerance = tolerance_of_step(options.tolerance);
-  expansion_.sizes(sizes_);
-  step_ahead_ = step_length(sizes_, tolerance);
-  watch();
-  for (const Watched& one : watched_)
-    if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
-      step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
 }
 
 }  // namespace mechanics::inline motions

@@ -28,6 +28,8 @@ class Motion::EventDriven final : public Motion::Course {
   void watch();
   double polished(const Zero& zero, double tau);
   bool fits(double tau);
+  bool is_met(double at, double tau);
+  bool is_passed(double tau);
   void move_time(double by);
   void handle(const std::vector<Zero>& zeros);
   void tell_blur(const std::vector<Index>& closing);
@@ -45,6 +47,12 @@ class Motion::EventDriven final : public Motion::Course {
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
                                                   const std::vector<Index>& switches);
   bool is_consistent(const std::vector<Index>& switches);
+  /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
+  /// is an impact, a separation, or the end, and nothing is left to do.
+  bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  std::string advice_on_kinks() const;
+  /// Why nothing is found that goes on.
+  std::string obstacle_ahead() const;
   std::optional<ContactAnswer> answer_where_zero_stays(const ContactQuestion& question,
                                                        const std::vector<Index>& switches,
                                                        ContactAnswer beside);
@@ -71,8 +79,13 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
   std::vector<bool> is_held_;     // on the next arc
   State there_;                   // the end of the step
+  double reach_;                  // of arguments in a step
+  bool is_blind_ = false;         // the step ahead is not the one that its series tell
   double step_ahead_ = 0;
-  long events_at_once_ = 0;
+  long events_at_once_ = 0, kinks_at_once_ = 0;
+  double until_ = 0;
+  std::optional<double> lagrangian_behind_;  // before the event, the velocity unchanged
+  std::string ends_here_;                    // at its last instant: why it does not go on from there
 };
 
 }  // namespace mechanics::inline motions

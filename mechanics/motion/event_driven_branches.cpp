@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "mechanics/motion/event_driven.hpp"
+#include "mechanics/number_text.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -85,6 +86,85 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const 
   beside = expansion_.expand(question);
   if (!is_consistent(switches)) return std::nullopt;
   return beside;
+}
+
+bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
+  if (switches.empty()) return false;
+  if (lagrangian_behind_) {
+    constexpr double jump_of_energy = 1e-8;  // what rounding of the time leaves is a thousandth of it
+    const double change = expansion_.lagrangian() - *lagrangian_behind_, T = system.kinetic_energy(state),
+                 scale = T + std::abs(T - expansion_.lagrangian()) + std::abs(T - *lagrangian_behind_);
+    lagrangian_behind_.reset();
+    if (std::abs(change) > jump_of_energy * scale) {
+      stop("at t = " + number_text(state.t) +
+           ": the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
+           "force does that; write a step of potential as a steep slope, one of mass as an impact");
+      return true;
+    }
+  }
+  const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
+  const double length = record.steps == 0 ? 0 : done.length;
+  std::vector<Index> closing, opening, others;
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    const bool is_contact = is_among(contacts, a);
+    if (is_two_sided(a) && !is_contact) continue;
+    const double f = expansion_.f(a), rate = expansion_.rate(a), tolerance = options.contact_tolerance[a];
+    const double rate_scale = expansion_.rate_scale(a);
+    const double f_left = tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length});
+    if (f < -f_left) {
+      stop("at t = " + number_text(state.t) + ": " + constraint_name(a) +
+           " jumps below 0 where one of its expressions changes its branch; a step is written as a wall, a "
+           "contact of its own");
+      return true;
+    }
+    if (!is_contact) continue;
+    const double rate_left = tolerance * std::max(least, rate_scale) + expansion_.rounding_of_rate(a);
+    if (f > f_left || rate > rate_left)
+      opening.push_back(a);
+    else
+      (rate < -rate_left ? closing : others).push_back(a);
+    if (f > f_left) continue;
+    zeros_of_f_[static_cast<std::size_t>(a)] = rate > rate_left ? 1 : 0;
+  }
+  if (closing.empty() && opening.empty()) return false;
+  const auto m = static_cast<long>(system.constraints().size());
+  constexpr long most_kinks_at_once = 50;
+  if (++kinks_at_once_ > most_kinks_at_once * (m + 1)) {
+    stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
+         advice_on_kinks());
+    return true;
+  }
+  if (closing.empty()) {
+    if (record.steps > 0) event(EventKind::release, opening, state.v);
+    begin_arc(others, switches);
+    return true;
+  }
+  for (const Index a : opening)
+    if (zeros_of_f_[static_cast<std::size_t>(a)] > 0) others.push_back(a);
+  collide(closing, others, switches);
+  return true;
+}
+
+std::string Motion::EventDriven::advice_on_kinks() const {
+  if (expansion_.switches() == 0) return "";
+  return "; a contact with a kink is written as two, y >= x and y >= -x for y >= abs(x)";
+}
+
+std::string Motion::EventDriven::obstacle_ahead() const {
+  constexpr double shortly = 1e-9;
+  State ahead = state;
+  const double step = shortly * (1 + std::abs(state.t));
+  ahead.t += step;
+  ahead.q += step * state.v;
+  try {
+    system.inertia(ahead);
+    system.constraint_rates(ahead);
+  } catch (const convex::InvalidInput& error) {
+    return error.what();
+  }
+  return "no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along the "
+         "place where it changes, as with dry friction" +
+         advice_on_kinks();
 }
 
 /// The right limit on the branches that it itself takes: those across first, then all others.

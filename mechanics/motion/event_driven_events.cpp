@@ -68,6 +68,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   }
   const Vector before = state.v;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) branches_behind_[k] = expansion_.branch(k);
+  lagrangian_behind_ = expansion_.lagrangian();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
     if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
@@ -150,6 +151,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   }
   const convex::Metric& A = expansion_.inertia();
   // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
+  lagrangian_behind_.reset();
   const Vector before = state.v;
   const Vector b = expansion_.momentum() - A.multiply(before);
   if (!record.first_impact)
@@ -252,11 +254,16 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   std::fill(zeros_of_switch_.begin(), zeros_of_switch_.end(), 0);
   std::fill(is_weak_.begin(), is_weak_.end(), false);
   const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
-  if (!answer)
-    return stop(
-        "at t = " + number_text(state.t) +
-        ": no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along "
-        "the place where it changes, as with dry friction");
+  if (answer && meet_kinks(contacts, switches)) return;
+  if (!answer) {
+    const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead();
+    if (state.t < until_ - roundings_of_closed * epsilon * std::abs(until_)) return stop(obstacle);
+    ends_here_ = obstacle;  // asked for no more
+    state.t = until_;
+    acceleration = done.acceleration(done.length);
+    multipliers = done.multipliers(done.length);
+    return;
+  }
   for (const Index a : answer->excluding)
     if (expansion_.is_singular(a))
       return stop(

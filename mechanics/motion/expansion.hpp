@@ -76,6 +76,10 @@ class Expansion {
   double force_norm() const;
   /// ∂T/∂q'.
   Vector momentum() const;
+  /// T - V where it takes branches, else 0.
+  double lagrangian() const {
+    return equations_.branching_lagrangian ? series_[*equations_.branching_lagrangian][0] : 0;
+  }
   /// Rows held with equality at this state.
   HeldRows held_rows(const std::vector<Index>& constraints) const;
 
@@ -101,6 +105,9 @@ class Expansion {
   std::span<const double> switch_argument(std::size_t k) const {
     return series_[steps_.switches[k].argument].first(static_cast<std::size_t>(order_ - 1));
   }
+  /// What functions such as exp and sin are taken of, coefficients 0 to `order`.
+  const std::vector<FunctionArgument>& arguments() const { return steps_.arguments; }
+  std::span<const double> argument(const FunctionArgument& one) const { return series_[one.argument]; }
   /// Up to here rounding may have made df_a/dt, and the multipliers of contacts held.
   double rounding_of_rate(Index a);
   Vector rounding_of_multipliers(const std::vector<Index>& held);

@@ -1,6 +1,7 @@
 #include "mechanics/motion/lagrange_equations.hpp"
 
 #include <cstdint>
+#include <set>
 
 #include "mechanics/expression/gradient_nodes.hpp"
 #include "mechanics/expression/total_derivative.hpp"
@@ -23,6 +24,22 @@ std::vector<NodeId> forces(Tape& tape, const LagrangianModel& model, const ByVar
     found[k] = found[k] == no_node ? Q : tape.apply(Operation::add, found[k], Q, tape.origin(Q));
   }
   return found;
+}
+
+/// Whether a value of it is chosen by the sign of another.
+bool takes_branches(const Tape& tape, NodeId of) {
+  std::vector<NodeId> left{of};
+  std::set<NodeId> seen{of};
+  while (!left.empty()) {
+    const NodeId node = left.back();
+    left.pop_back();
+    const Operation operation = tape.operation(node);
+    if (is_branch(operation) || operation == Operation::abs || operation == Operation::sign) return true;
+    const int count = arity(operation);
+    if (count > 0 && seen.insert(tape.a(node)).second) left.push_back(tape.a(node));
+    if (count > 1 && seen.insert(tape.b(node)).second) left.push_back(tape.b(node));
+  }
+  return false;
 }
 
 }  // namespace
@@ -49,6 +66,12 @@ LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.
     for (const auto& [i, u] : gradients.back()) following.push_back(u);
   }
 
+  // Jumps of T, V or f have no derivative, and are met where what decides them comes to 0.
+  for (const NodeId f : model.f)
+    if (takes_branches(tape, f)) following.push_back(f);
+  const bool has_steps = takes_branches(tape, lagrangian);
+  if (has_steps) following.push_back(lagrangian);
+
   program = Program(tape, model.coordinates.size(), {leading, following, last});
   const auto& of_leading = program.roots(0);
   momentum.assign(of_leading.begin(), of_leading.begin() + static_cast<std::ptrdiff_t>(p.size()));
@@ -61,6 +84,7 @@ LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.
     for (const auto& [i, u] : gradient) row.back().emplace_back(static_cast<Index>(i), *next++);
   }
   constraint = program.roots(2);
+  if (has_steps) branching_lagrangian = program.roots(1).back();
 }
 
 }  // namespace mechanics::inline motions

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,13 +21,15 @@ struct LagrangeEquations {
   Index constraints() const { return static_cast<Index>(constraint.size()); }
 
   expression::Tape tape;
-  /// Group 0: p and df/dt, both of degree 1 in q'; group 1, in addition: F and u; group 2: f.
+  /// Group 0: p and df/dt, both of degree 1 in q'; group 1, in addition: F, u, and f
+  /// and T - V where they take branches; group 2: f.
   expression::Program program;
   std::vector<Slot> momentum;                            ///< p_i
   std::vector<std::pair<Index, Slot>> force;             ///< F_i where it is not 0 by its structure
   std::vector<Slot> rate;                                ///< df_a/dt
   std::vector<std::vector<std::pair<Index, Slot>>> row;  ///< u_a, zeros by structure left out
   std::vector<Slot> constraint;                          ///< f_a
+  std::optional<Slot> branching_lagrangian;              ///< T - V where it takes branches
 };
 
 /// The same with the recurrences for its Taylor series.

@@ -49,7 +49,58 @@ double length(std::size_t count, Size size, std::size_t first, double tolerance)
   return std::exp(shortest);
 }
 
+/// Σ of |c_k| h^k from k = 1, of the coefficients of one sign or of both.
+template <class Part>
+double majorant(std::span<const double> c, double h, Part part) {
+  double sum = 0;
+  for (std::size_t k = c.size(); k-- > 1;) sum = (sum + part(c[k])) * h;
+  return sum;
+}
+
+/// The h at which that comes to a bound > 0.
+template <class Part>
+double length_of_majorant(std::span<const double> c, double bound, Part part) {
+  double longest = std::numeric_limits<double>::infinity();  // each term is within the bound
+  for (std::size_t k = 1; k < c.size(); ++k)
+    if (const double size = part(c[k]); size > 0)
+      longest = std::min(longest, std::pow(bound / size, 1 / static_cast<double>(k)));
+  if (!std::isfinite(longest)) return longest;
+  double low = 0.5 * longest, high = longest;  // at half of it they are a geometric series
+  constexpr int halvings = 20;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (majorant(c, middle, part) <= bound ? low : high) = middle;
+  }
+  return low;
+}
+
 }  // namespace
+
+double reach_of_argument(int order, double tolerance) {
+  constexpr double room = 1.25;
+  return room * std::exp((std::lgamma(order + 1.0) + std::log(tolerance)) / order);
+}
+
+double seen_length(std::span<const double> u, TaylorStep::Kind of, double step, double reach) {
+  const auto size = [](double c) { return std::abs(c); };
+  const auto up = [](double c) { return std::max(c, 0.0); };
+  const auto down = [](double c) { return std::max(-c, 0.0); };
+  const bool has_poles = of == TaylorStep::Kind::tangent || of == TaylorStep::Kind::tanh;
+  const double most = has_poles ? 1 : reach;
+  if (std::isfinite(step) && majorant(u, step, size) <= most) return step;
+  double longest = length_of_majorant(u, most, size);
+  // exp(-746) is 0, and 1 - tanh² at 40 is e^-80.
+  constexpr double least_logarithm = 746, end_of_tanh = 40;
+  const auto stays_below = [&](double bound) {
+    if (u[0] < bound) longest = std::max(longest, length_of_majorant(u, bound - u[0], up));
+  };
+  if (of == TaylorStep::Kind::exponential) stays_below(-least_logarithm);
+  if (of == TaylorStep::Kind::tanh) {
+    stays_below(-end_of_tanh);
+    if (u[0] > end_of_tanh) longest = std::max(longest, length_of_majorant(u, u[0] - end_of_tanh, down));
+  }
+  return std::min(step, longest);
+}
 
 double step_length(std::span<const double> sizes, double tolerance) {
   return length(

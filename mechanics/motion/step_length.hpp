@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "mechanics/motion/taylor_steps.hpp"
+
 namespace mechanics::inline motions {
 
 /// Errors of steps add up and are carried on, so that a step aims at so much less than the tolerance: the
@@ -25,5 +27,15 @@ double step_length(std::span<const double> sizes, double tolerance);
 
 /// The same for one function: as far as its series can be trusted in a search for zeros.
 double trusted_length(std::span<const double> c, double tolerance);
+
+/// How far the argument u of exp, sin, sinh may move in a step. The series of such a function beyond order N
+/// is less than tol where |δu|^N/N! <= tol; with a little room, since series themselves tell that too.
+double reach_of_argument(int order, double tolerance);
+
+/// The largest h <= step in which the argument Σ u_k τ^k moves by at most its reach, or the function is
+/// constant to the last digit (exp of what stays below the logarithm of the least double). Coefficients at
+/// the beginning do not tell what lies further: all those of exp(-(t - 2)²/w²) are 0 there. The reach of tan
+/// and tanh, which have poles, is 1.
+double seen_length(std::span<const double> u, TaylorStep::Kind of, double step, double reach);
 
 }  // namespace mechanics::inline motions

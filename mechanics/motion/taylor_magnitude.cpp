@@ -7,6 +7,18 @@ namespace mechanics::inline motions {
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
+namespace {
+
+/// Of a product ab, whose factors are sums of a' and b': rounding moves it by about so many roundings of
+/// |a| b' + a' |b|, and where a factor is nothing but rounding by those of a part of a' b'. The product a' b'
+/// itself would grow with powers of a difference as those of its terms.
+double of_product(double a, double of_a, double b, double of_b) {
+  constexpr double part_of_rounding = 0x1p-40;
+  return a * of_b + of_a * b - a * b + part_of_rounding * of_a * of_b;
+}
+
+}  // namespace
+
 /// Orders above 0 of what never varies stay 0.
 TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
     : of_(series), m_(series.rows_.series * width()), slopes_(series.rows_.terms.size()) {}
@@ -46,10 +58,10 @@ void TaylorMagnitude::begin_step(const TaylorStep& step, std::uint32_t row) {
       out = a / std::abs(step.number);
       return;
     case Kind::product:
-      out = a * b;
+      out = of_product(std::abs(of_[step.a][0]), a, std::abs(of_[step.b][0]), b);
       return;
     case Kind::square:
-      out = a * a;
+      out = of_product(std::abs(of_[step.a][0]), a, std::abs(of_[step.a][0]), a);
       return;
     case Kind::sign:
       out = f;

@@ -1,5 +1,6 @@
 #include "mechanics/motion/taylor_steps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -196,6 +197,11 @@ class Translation {
   std::set<Slot> is_written_;                         // as the partner of another
 };
 
+bool is_function(Kind kind) {
+  return kind == Kind::exponential || kind == Kind::sine || kind == Kind::sinh || kind == Kind::tangent ||
+         kind == Kind::tanh;
+}
+
 /// Whether the highest coefficient of the result is linear in those of what depends on velocities, given the
 /// lower ones. The text of T is checked for degree 2, so that p and df/dt have degree 1.
 bool is_affine(Kind kind) {
@@ -221,6 +227,14 @@ TaylorSteps::TaylorSteps(const Tape& tape, const Program& program)
       convex::invariant(is_affine(steps[k].kind), "momenta are of degree 1 in the velocities");
   }
   while (!by_velocity.empty() && by_velocity.back() >= ends[0]) by_velocity.pop_back();
+  for (std::size_t k = 0; k < (ends.size() > 1 ? ends[1] : ends[0]); ++k) {
+    const FunctionArgument one{steps[k].kind, steps[k].a};
+    const auto is_same = [&](const FunctionArgument& other) {
+      return other.of == one.of && other.argument == one.argument;
+    };
+    if (is_function(one.of) && std::none_of(arguments.begin(), arguments.end(), is_same))
+      arguments.push_back(one);
+  }
 }
 
 }  // namespace mechanics::inline motions

@@ -45,6 +45,12 @@ struct Switch {
   expression::NodeId node;  ///< the |x|, max(x, y), …, for messages
 };
 
+/// What exp, sin, cos, sinh, cosh, tan or tanh is taken of.
+struct FunctionArgument {
+  TaylorStep::Kind of;
+  expression::Slot argument;
+};
+
 /// A program translated into recurrences. Its slots are series 0, 1, …; what the recurrences need in
 /// addition comes after them.
 struct TaylorSteps {
@@ -53,7 +59,8 @@ struct TaylorSteps {
   std::vector<TaylorStep> steps;
   std::vector<std::size_t> ends;  ///< by group of the program, in `steps`
   std::vector<Switch> switches;
-  std::size_t series = 0, variables = 0;  ///< the variables come first: q, v, t
+  std::vector<FunctionArgument> arguments;  ///< in the groups 0 and 1, each once
+  std::size_t series = 0, variables = 0;    ///< the variables come first: q, v, t
   bool uses_time = false;
   std::vector<std::pair<expression::Slot, double>> constants;  ///< series that do not vary
   /// The steps of group 0 whose result depends on velocities: they are linear in those of highest order.

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mechanics/motion/event_driven.hpp"
+#include "mechanics/motion/step_length.hpp"
+#include "mechanics/number_text.hpp"
+
+namespace mechanics::inline motions {
+namespace {
+
+constexpr double arc_epsilon = std::numeric_limits<double>::epsilon();
+
+/// A step that misses the equations at its end by more than this many times its tolerance is taken again.
+constexpr double allowed_defect = 1;
+
+/// Where a step is looked at besides its end: parts that no period of an expression is a multiple of.
+constexpr double parts_looked_at[] = {0.191, 0.433, 0.719};
+
+/// A contact is through when f is below 0 by more than so many roundings of its summands.
+constexpr double roundings_of_passing = 1e3;
+
+/// What the constants of f and df/dt leave of a contact that is held.
+constexpr double roundings_of_constants = 16;
+
+}  // namespace
+
+/// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
+/// does not converge, and an expression that is not analytic. Where the series was not what limits the step,
+/// they are looked at within it too.
+bool Motion::EventDriven::fits(double tau) {
+  if (is_blind_)
+    for (const double part : parts_looked_at)
+      if (!is_met(part * tau, tau)) return false;
+  return is_met(tau, tau);
+}
+
+/// The same at one of its times.
+bool Motion::EventDriven::is_met(double at, double tau) {
+  next.state(at, there_);
+  Vector q2;
+  try {
+    expansion_.set(there_);
+    q2 = expansion_.acceleration(persist_).x;
+  } catch (const convex::InvalidInput& error) {
+    obstacle_ = error.what();
+    return false;
+  }
+  if (is_passed(tau)) return false;
+  double moved = 0, power = tau;
+  for (std::size_t k = 1; k < sizes_.size(); ++k, power *= tau) moved = std::max(moved, sizes_[k] * power);
+  const double size = expansion_.norm(q2);
+  const double defect = expansion_.norm(Vector(q2 - next.acceleration(at))) * tau * tau;
+  const double rounding = 1e4 * arc_epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);
+  const double orders = static_cast<double>(next.q.cols());
+  return defect <= allowed_defect * orders * orders * options.tolerance * moved + rounding;
+}
+
+/// A contact that is free at the beginning, and through there, was met on the way.
+bool Motion::EventDriven::is_passed(double tau) {
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
+    const double beyond = std::min(0.0, next.f(a, 0)) - expansion_.f(a);
+    if (!(beyond >
+          options.tolerance * std::max(expansion_.position_scale(a), expansion_.rate_scale(a) * tau)))
+      continue;
+    // f may have constants whose rounding is more than what it is now.
+    if (beyond <= roundings_of_passing * arc_epsilon * system.constraint_rates(there_).f_scale[a]) continue;
+    obstacle_ = constraint_name(a) + " is passed, and its series does not tell when";
+    return true;
+  }
+  return false;
+}
+
+/// Back to f = 0 and df/dt = 0 of the contacts held, by the least change in the kinetic metric.
+void Motion::EventDriven::project() {
+  if (persist_.empty()) return;
+  constexpr int most_corrections = 12;
+  constexpr double smallest = 4 * arc_epsilon, largest = 1e-6;
+  const auto rows = static_cast<Index>(persist_.size());
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_corrections; ++i) {
+    const HeldRows held = expansion_.held_rows(persist_);
+    Vector f(rows), rate(rows);
+    for (Index a = 0; a < rows; ++a) {
+      f[a] = expansion_.f(persist_[static_cast<std::size_t>(a)]);
+      rate[a] = expansion_.rate(persist_[static_cast<std::size_t>(a)]);
+    }
+    const Vector dq = held.least_change(-f), dv = held.least_change(-rate);
+    const convex::Metric& A = expansion_.inertia();
+    const double by_q = A.norm(dq), by_v = A.norm(dv);
+    const double q = A.norm(state.q), v = A.norm(state.v);
+    const bool is_small = by_q <= smallest * q && by_v <= smallest * v;
+    const double size = std::max(by_q / std::max(q, by_q + 1e-300), by_v / std::max(v, by_v + 1e-300));
+    if (is_small || (i > 1 && size > 0.5 * last && size < largest)) return;
+    last = size;
+    state.q += dq;
+    state.v += dv;
+    expansion_.set(state);
+  }
+  if (last < largest) return;
+  // Constants in f and in df/dt have roundings that the coordinates do not tell of.
+  const ConstraintRates rates = system.constraint_rates(state);
+  if (std::all_of(persist_.begin(), persist_.end(), [&](Index a) {
+        return std::abs(expansion_.f(a)) <= roundings_of_constants * arc_epsilon * rates.f_scale[a] &&
+               std::abs(expansion_.rate(a)) <= roundings_of_constants * arc_epsilon * rates.df_scale[a];
+      }))
+    return;
+  stop("at t = " + number_text(state.t) +
+       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state");
+}
+
+void Motion::EventDriven::fill_next() {
+  const Index n = expansion_.coordinates(), m = expansion_.constraints(), last = expansion_.order();
+  next.t = state.t;
+  next.q.resize(n, last + 1);
+  next.lambda.resize(m, last - 1);
+  next.f.resize(m, last + 1);
+  const auto copy = [](convex::RowMatrix& to, Index row, std::span<const double> c) {
+    std::copy(c.begin(), c.end(), to.data() + row * to.cols());
+  };
+  for (Index i = 0; i < n; ++i) copy(next.q, i, expansion_.position(i));
+  for (Index a = 0; a < m; ++a) {
+    copy(next.lambda, a, expansion_.multiplier(a));
+    copy(next.f, a, expansion_.constraint(a));
+  }
+  next.persist = persist_;
+  acceleration = 2 * next.q.col(2);
+  multipliers = next.lambda.col(0);
+  const double tolerance = tolerance_of_step(options.tolerance);
+  expansion_.sizes(sizes_);
+  step_ahead_ = step_length(sizes_, tolerance);
+  const double told = step_ahead_;
+  for (const FunctionArgument& one : expansion_.arguments())
+    step_ahead_ = seen_length(expansion_.argument(one), one.of, step_ahead_, reach_);
+  is_blind_ = !expansion_.arguments().empty() && (step_ahead_ < told || std::isinf(told));
+  watch();
+  for (const Watched& one : watched_)
+    if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])
+      step_ahead_ = std::min(step_ahead_, trusted_length(one.c, tolerance));
+}
+
+}  // namespace mechanics::inline motions

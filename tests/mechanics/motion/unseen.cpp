@@ -1,0 +1,172 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+
+namespace {
+
+/// A particle of mass 1 in a plane without weight, above f >= 0.
+SystemText particle(const std::string& f, const std::string& potential = "") {
+  return {{"x", "y"}, "(x'^2 + y'^2)/2", potential, {}, {}, {}, {{"c", f}}};
+}
+
+Followed pushed(const std::string& force, double until) {
+  return followed({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, state({0}, {2.5}), until);
+}
+
+}  // namespace
+
+TEST_CASE("a pulse far ahead, of which the series at the beginning has nothing, gives its impulse") {
+  const double root = std::sqrt(std::acos(-1.0));
+  for (const auto& [width, w] : {std::pair("0.05", 0.05), std::pair("0.001", 0.001)}) {
+    const Followed motion = pushed("-100*exp(-((t - 2)/" + std::string(width) + ")^2)", 4);
+    CHECK(std::abs(motion.end().v[0] - (2.5 - 100 * w * root)) <= 1e-11);
+  }
+  // A hill of 5 J turns a body of 4.5 J back.
+  const Followed back =
+      followed({{"x"}, "x'^2/2", "5*exp(-((x - 5)/0.25)^2)", {}, {}, {}, {}}, state({0}, {3}), 4);
+  CHECK(std::abs(back.end().v[0] + 3) <= 1e-10);
+}
+
+TEST_CASE("a fast force with forty zeros at the beginning is not taken as none") {
+  double binomial = 1, integral = 0;  // of sin^40 u = 2^-40 (C(40, 20) + 2 Σ (-1)^k C(40, 20 - k) cos 2ku)
+  for (int k = 20; k >= 0; --k) {     // binomial: C(40, 20 - k)
+    const double sign = k % 2 == 0 ? 1 : -1;
+    integral += k == 0 ? 4000 * binomial : sign * binomial * std::sin(2 * k * 4000.0) / k;
+    binomial *= static_cast<double>(20 + k) / (21 - k);
+  }
+  const Followed motion = pushed("100*sin(1000*t)^40", 4);
+  CHECK(std::abs(motion.end().v[0] - (2.5 + 0.1 * integral / std::pow(2.0, 40))) <= 1e-7);
+}
+
+TEST_CASE("a bound that only min sees keeps a growing force") {
+  // exp(300 (t - 2)) reaches 1000 at 2 + log(1000)/300.
+  const Followed motion = pushed("min(1e3, exp((t - 2)*300))", 4);
+  const double reached = 2 + std::log(1000.0) / 300;
+  CHECK(std::abs(motion.end().v[0] / (2.5 + 1000.0 / 300 + 1000 * (4 - reached)) - 1) <= 1e-11);
+  REQUIRE(motion.of(EventKind::branch).size() == 1);
+  CHECK(std::abs(motion.of(EventKind::branch)[0].t - reached) <= 1e-12);
+}
+
+TEST_CASE("narrow bumps and steep walls are met where they are") {
+  const auto first_impact = [](const std::string& f) {
+    const Followed motion = followed(particle(f), state({0, 0.5}, {1, 0}), 10);
+    return motion.events.empty() ? 0.0 : motion.events[0].t;
+  };
+  for (const auto& [width, w] : {std::pair("0.01", 0.01), std::pair("0.1", 0.1), std::pair("0.5", 0.5)})
+    CHECK(std::abs(first_impact("y >= exp(-((x - 5)/" + std::string(width) + ")^2)") -
+                   (5 - w * std::sqrt(std::log(2.0)))) <= 1e-11);
+  CHECK(std::abs(first_impact("y >= tanh((x - 5)/0.01)") - (5 + 0.01 * std::atanh(0.5))) <= 1e-11);
+  CHECK(std::abs(first_impact("y >= 1/(1 + exp(-(x - 5.1)/0.01))") - 5.1) <= 1e-11);
+  CHECK(std::abs(first_impact("y >= 1/cosh((x - 5)/0.01)") - (5 - 0.01 * std::acosh(2.0))) <= 1e-11);
+}
+
+TEST_CASE("a slider on a road with a bump flies off behind its top") {
+  const Followed motion =
+      followed(particle("y >= 0.3*exp(-((x - 5)/0.25)^2)", "9.81*y"), state({0, 0}, {3, 0}), 2.5);
+  REQUIRE(!motion.events.empty());
+  CHECK(motion.events[0].kind == EventKind::release);
+  CHECK(motion.events[0].t > 1.5);
+  // The energy of the start, but for what the landing takes.
+  CHECK(motion.of(EventKind::impact).size() == 1);
+  CHECK(std::abs(motion.motion.energy() - 4.5 - motion.motion.record().impact_energy) <= 1e-11);
+}
+
+TEST_CASE("beyond an edge downwards a slider flies off; at one upwards it strikes") {
+  for (const char* f : {"y >= if(x > 1, 1 - x, 0)", "y >= min(0, 1 - x)"}) {
+    const Followed off = followed(particle(f, "y"), state({0, 0}, {1, 0}), 1.5);
+    CHECK(off.motion.status() == MotionStatus::done);
+    CHECK((off.end().q - Vector{{1.5, -0.125}}).norm() <= 1e-12);
+    CHECK(off.of(EventKind::release).size() == 1);
+  }
+  for (const double e : {0.0, 0.5, 1.0}) {
+    const SystemText ramp = particle("y >= max(0, x - 1)");
+    const Followed up = followed(ramp, state({0, 0}, {1, 0}), 1.5, restitution(ramp, e));
+    // Of the velocity the part across the ramp turns around, e times as large.
+    CHECK((up.end().v - Vector{{0.5 * (1 - e), 0.5 * (1 + e)}}).norm() <= 1e-12);
+    CHECK(up.of(EventKind::impact).size() == 1);
+    const SystemText corner = particle("min(x, y) >= 0");
+    const Followed wall = followed(corner, state({1, 0}, {-1, 0}), 1.5, restitution(corner, e));
+    CHECK((wall.end().v - Vector{{e, 0}}).norm() <= 1e-12);
+    CHECK(wall.of(EventKind::impact).size() == 1);
+  }
+}
+
+TEST_CASE("a motion ends where f jumps below 0, and where f jumps up a contact is left") {
+  for (const char* f : {"y >= if(x > 5, 1, 0)", "y >= step(x - 5)", "y >= sign(x - 5)/1.5"}) {
+    const Followed motion = followed(particle(f), state({0, 0.6}, {1, 0}), 10);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(std::abs(motion.end().t - 5) <= 1e-12);
+    CHECK(motion.motion.why().find("jumps below 0") != std::string::npos);
+  }
+  const Followed falls = followed(particle("y >= if(x > 1, -1, 0)", "y"), state({0, 0}, {1, 0}), 2);
+  CHECK((falls.end().q - Vector{{2, -0.5}}).norm() <= 1e-12);
+}
+
+TEST_CASE("a table holds to its last point, and beyond it the motion ends there, with the reason") {
+  const std::string force = "table(t, [0, 1, 2, 3, 4], [0, 0, 1, 0, 0])";
+  const Followed whole = pushed(force, 4);
+  CHECK(whole.motion.status() == MotionStatus::done);
+  CHECK(whole.end().t == 4);
+  const Followed beyond = pushed(force, 5);
+  CHECK(beyond.motion.status() == MotionStatus::stopped);
+  CHECK(std::abs(beyond.end().t - 4) <= 1e-12);
+  CHECK(beyond.motion.why().find("dry friction") == std::string::npos);
+}
+
+TEST_CASE("walls of high powers are met, and are impacts") {
+  // (x - 5)^N = 1/2 on the way to 5.
+  for (const int N : {12, 14, 20, 40, 60}) {
+    const SystemText bump = particle("y >= 1 - (x - 5)^" + std::to_string(N));
+    const double t = 5 - std::pow(0.5, 1.0 / N);
+    const Followed motion = followed(bump, state({0, 0.5}, {1, 0}), t + 0.01, restitution(bump, 1));
+    REQUIRE(motion.events.size() == 1);
+    CHECK(motion.events[0].kind == EventKind::impact);
+    CHECK(std::abs(motion.events[0].t - t) <= 1e-9);
+    CHECK(std::abs(motion.motion.energy() - 0.5) <= 1e-12);
+  }
+  for (const auto& [f, t] : {std::pair("y >= x^40", std::pow(0.5, 1.0 / 40)),
+                             std::pair("y >= (x/5)^60", 5 * std::pow(0.5, 1.0 / 60)),
+                             std::pair("y >= exp(20*(x - 8))", 8 + std::log(0.5) / 20)}) {
+    const Followed motion = followed(particle(f), state({0, 0.5}, {1, 0}), t + 0.1);
+    REQUIRE(!motion.events.empty());
+    CHECK(motion.events[0].kind == EventKind::impact);
+    CHECK(std::abs(motion.events[0].t - t) <= 1e-9);
+  }
+}
+
+TEST_CASE("a jump of the kinetic or the potential energy ends the motion; a kink does not") {
+  for (const auto& [T, V] :
+       {std::pair("x'^2/2", "if(x > 1, 1, 0)"), std::pair("if(x > 1, 2, 1)/2*x'^2", "")}) {
+    const Followed motion = followed({{"x"}, T, V, {}, {}, {}, {}}, state({0}, {1}), 3);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(std::abs(motion.end().t - 1) <= 1e-12);
+    CHECK(motion.motion.why().find("energy jumps") != std::string::npos);
+  }
+  const Followed spring =
+      followed({{"x"}, "x'^2/2", "max(0, x - 1)^2/2 + max(0, x - 1)", {}, {}, {}, {}}, state({0}, {1}), 4);
+  CHECK(spring.motion.status() == MotionStatus::done);
+  CHECK(std::abs(spring.motion.energy() - 0.5) <= 1e-12);
+  CHECK(std::abs(spring.end().v[0] + 1) <= 1e-12);
+  const Followed steep =
+      followed({{"x"}, "x'^2/2", "0.2*tanh((x - 1)/1e-4)", {}, {}, {}, {}}, state({0}, {1.2}), 3);
+  CHECK(std::abs(steep.motion.energy() - 0.52) <= 1e-10);
+}
+
+TEST_CASE("a block comes to rest on two feet whose expressions have constants that cancel") {
+  SystemText block{
+      {"x", "y", "a"},
+      "(x'^2 + y'^2 + a'^2)/2",
+      "9.81*y + 2*x",
+      {},
+      {},
+      {},
+      {{"l", "y + 1 - 1 - 0.5*sin(a) >= 0"}, {"r", "y + 0.5*sin(a) >= 0"}, {"rail", "x = 0.3*y"}}};
+  const Followed motion = followed(block, state({0.3, 1, 0.3}, {0, 0, 0}), 10, restitution(block, 0.3));
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.end().q.norm() <= 1e-12);
+}
