@@ -38,7 +38,12 @@ class Starts {
   std::uniform_real_distribution<double> even_{-1, 1};
 };
 
-/// A place where all holds; else the one nearest to that.
+/// Of two places the one that misses less; where both miss nothing, the one nearer to the end of its search.
+bool is_better(const TriedPosition& a, const TriedPosition& b) {
+  return a.missing <= not_found && b.missing <= not_found ? a.step < b.step : a.missing < b.missing;
+}
+
+/// A place where all holds, locally the nearest one to the guess; else the one nearest to that.
 TriedPosition feasible(const PositionSearch& search, const State& guess, int starts) {
   std::optional<TriedPosition> best;
   Starts from(guess, search.free());
@@ -47,8 +52,8 @@ TriedPosition feasible(const PositionSearch& search, const State& guess, int sta
       const TriedPosition start = search.at(from.next());
       TriedPosition found = k == 0 ? search.nearest(start) : search.restored(start, most_restorations);
       if (k > 0 && found.missing <= not_found) found = search.nearest(found);
-      if (!best || found.missing < best->missing) best = std::move(found);
-      if (best->missing <= rounding_part) return *best;
+      if (!best || is_better(found, *best)) best = std::move(found);
+      if (best->missing <= rounding_part && best->step <= not_found) return *best;
     } catch (const convex::InvalidInput&) {
       if (k == 0 && starts == 1) throw;
     }

@@ -13,6 +13,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/scene.hpp"
+#include "mechanics/position_search.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -98,6 +99,10 @@ std::string assembly_text(const LagrangianSystem& system, const Assembly& found,
     return "A position was found, but the gradient of " + fighting_text(system, found.singular) +
            " vanishes there, and the velocity leaves it to second order. Give position and velocity in the "
            "file.\n";
+  if (found.status == AssemblyStatus::gave_up && found.residual <= mechanics::not_found)
+    return "A state that satisfies all was found, but no search came to an end at the nearest one. Give a "
+           "closer "
+           "guess.\n";
   if (found.status == AssemblyStatus::gave_up)
     return "No state was found: what should be 0 is still " + number_text(found.residual) +
            ". Give a closer guess, or hold fewer coordinates.\n";

@@ -105,6 +105,15 @@ TEST_CASE("constraints that exclude each other are named, and no other") {
   CHECK(found.fighting == std::vector<mechanics::Index>{1, 3});
 }
 
+TEST_CASE("a nearest position is found where the first step from the guess leaves the nearest valley") {
+  // -0.08 >= sin x, from x = 1.46 where sin is nearly 1: the ends of the intervals are locally nearest, and
+  // of these -asin(0.08) or pi + asin(0.08) lie beside the guess.
+  const auto s = system({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, {}, {{"c", "y - sin(x) >= 0"}}});
+  const Assembly found = mechanics::assemble(*s, state({1.46, -0.08}, {0, 0}), {{}, {1}});
+  CHECK(found.status == AssemblyStatus::solved);
+  CHECK(std::sin(found.state.q[0]) == doctest::Approx(-0.08).epsilon(1e-12));
+}
+
 TEST_CASE("a four-bar closes from a guess that is a tenth off") {
   const auto s = system({{"a", "b", "c"},
                          "(0.4*a'^2 + 1.1*b'^2 + 0.7*c'^2)/2",
