@@ -186,7 +186,7 @@ void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
   made.error_bound = mechanics::liquid::error_by_differences(scene, differences, across) +
                      largest_of_all(mechanics::liquid::error_by_bends(
                          scene, cells, across, [&](Index k) { return p[index_of(k)]; })) +
-                     digits * made.largest;
+                     largest_of_all(cells.hidden) + digits * made.largest;
 }
 
 void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, DistributedPressure& made) {

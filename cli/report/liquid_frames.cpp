@@ -51,7 +51,8 @@ void LiquidFrames::write(const std::string& title) const {
     }
     progress.step();
   }
-  if (const auto onset = mechanics::liquid::find_onset(text_, range_.key, {})) animation.mark_onset(*onset);
+  if (const auto onset = mechanics::liquid::find_onset(text_, range_.key, {}).onset)
+    animation.mark_onset(*onset);
   std::ofstream out(file_, std::ios::binary);
   out << animation.page(title);
   out.flush();

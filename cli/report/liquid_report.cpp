@@ -65,7 +65,8 @@ void write_point(JsonWriter& json, const std::vector<std::string>& names, const 
 
 void write_files(const SolvedLiquid& solved, const LiquidRequest& request) {
   if (solved.solution.status == Status::infeasible) return;
-  if (request.plot) draw(*request.plot, liquid_drawing(solved.scene, solved.solution, request.velocity));
+  if (request.plot)
+    draw(*request.plot, liquid_drawing(solved.scene, solved.solution, request.velocity));
   if (!request.data && !request.vtk) return;
   const auto sample =
       mechanics::liquid::sample(solved.scene, solved.solution, mechanics::liquid::sample_cells(solved.scene));
@@ -88,6 +89,22 @@ std::string cavity_text(const SolvedLiquid& solved) {
   if (!found.parted_walls.empty())
     text += fmt::format("The liquid parts from {}.\n", listed(found.parted_walls));
   return text.empty() ? "No cavitation: the liquid keeps together and follows its walls.\n" : text;
+}
+
+std::string onset_text(const std::string& parameter, const mechanics::liquid::OnsetSearch& search) {
+  std::string text = search.onset
+                         ? fmt::format("Cavitation begins at {} = {:.10g} (to {:.1e}).\n", parameter,
+                                       search.onset->value, search.onset->error)
+                         : fmt::format("No value of {} was found at which cavitation begins.\n", parameter);
+  if (search.is_sampled)
+    text += fmt::format(
+        "It was searched for by samples: what begins and ends between two values of {} tried is not seen.\n",
+        parameter);
+  else if (search.unshown)
+    text += fmt::format(
+        "Beyond {} = {:.10g} that is known by samples alone: p comes close to 0 there, or is not bounded.\n",
+        parameter, *search.unshown);
+  return text;
 }
 
 }  // namespace
@@ -182,15 +199,23 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
   json.end_object().key("parted_walls").begin_array();
   for (const std::string& wall : found.parted_walls) json.value(wall);
   json.end_array().key("onset");
-  if (solved.onset)
+  if (solved.onset.onset)
     json.begin_object()
         .key(*solved.onset_of)
-        .value(solved.onset->value)
+        .value(solved.onset.onset->value)
         .end_object()
         .key("onset_error")
-        .value(solved.onset->error);
+        .value(solved.onset.onset->error);
   else
     json.null();
+  if (solved.onset_of) {
+    json.key("onset_nearest")
+        .begin_object()
+        .key("level")
+        .value(solved.onset.unshown ? "samples" : "intervals");
+    if (solved.onset.unshown) json.key("from").value(*solved.onset.unshown);
+    json.end_object();
+  }
   json.key("certificate").begin_object().key("level").value(solved.level);
   json.key("error_bound").value(found.error_bound);
   if (found.grid_bound)
@@ -222,11 +247,7 @@ std::string liquid_text(const SolvedLiquid& solved) {
   std::string text = cavity_text(solved);
   text += fmt::format("Largest pressure {} at {}.\n", number_text(found.largest),
                       mechanics::liquid::point_text(names, found.largest_at));
-  if (solved.onset_of && solved.onset)
-    text += fmt::format("Cavitation begins at {} = {:.10g} (to {:.1e}).\n", *solved.onset_of,
-                        solved.onset->value, solved.onset->error);
-  else if (solved.onset_of)
-    text += fmt::format("No value of {} was found at which cavitation begins.\n", *solved.onset_of);
+  if (solved.onset_of) text += onset_text(*solved.onset_of, solved.onset);
   if (!solved.probes.empty()) {
     std::vector<std::string> head = names;
     head.insert(head.end(), {"p", "d(div u)/dt"});
@@ -252,6 +273,10 @@ std::string liquid_text(const SolvedLiquid& solved) {
       text += "; give more cells, a larger --tolerance (of the largest p), or leave cells out";
     text += ".\n";
   }
+  if (solved.level == "enclosure")
+    return text + fmt::format(
+                      "Method {}, {} unknowns. Proved: p is within {:.1e} of that of the scene as written.\n",
+                      found.method, found.unknowns, found.error_bound);
   return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,
                             found.error_bound);
 }

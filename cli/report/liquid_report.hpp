@@ -29,7 +29,7 @@ struct SolvedLiquid {
   mechanics::liquid::LiquidSolution solution;
   std::vector<mechanics::liquid::LiquidProbe> probes;
   std::optional<std::string> onset_of;
-  std::optional<mechanics::liquid::LiquidOnset> onset;
+  mechanics::liquid::OnsetSearch onset;
   std::string level = "estimate";  ///< of the certificate
   double seconds = 0;
 

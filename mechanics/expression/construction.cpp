@@ -23,7 +23,7 @@ class Builder {
 
   /// The one where d >= 0, the other where d < 0.
   NodeId branches(NodeId d, NodeId not_negative, NodeId negative) {
-    if (tape_->is_constant(d)) return tape_->constant(d) < 0 ? negative : not_negative;
+    if (tape_->is_chosen(d)) return tape_->constant(d) < 0 ? negative : not_negative;
     if (is_zero(not_negative)) return binary(Operation::where_negative, d, negative);
     if (is_zero(negative)) return binary(Operation::where_not_negative, d, not_negative);
     return sum(binary(Operation::where_not_negative, d, not_negative),

@@ -37,6 +37,11 @@ NodeId Expansion::parameter(std::uint32_t p) {
   return parameters_[p];
 }
 
+void Expansion::give_parameter(std::uint32_t p, NodeId node) {
+  parameters_.resize(meanings_->parameters.size(), no_node);
+  parameters_[p] = node;
+}
+
 NodeId Expansion::definition(std::uint32_t member) {
   definitions_.resize(meanings_->entry_of.size(), no_node);
   if (definitions_[member] == no_node) {

@@ -33,6 +33,8 @@ class Expansion {
   /// The number of numeric code; it may use t.
   double number(const Code& code, Tuple indices, double t = 0);
   NodeId parameter(std::uint32_t p);
+  /// What the parameter is, instead of its code; before it is first used.
+  void give_parameter(std::uint32_t p, NodeId node);
   NodeId definition(std::uint32_t member);
 
  private:

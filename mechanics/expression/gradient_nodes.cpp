@@ -80,6 +80,7 @@ class Sweep {
   NodeId turned(NodeId adjoint) {
     return behind_conditions(adjoint, [&](NodeId mine) { return negative(mine); });
   }
+  NodeId without_sign(NodeId mine, NodeId a, NodeId absolute);
   NodeId slope(NodeId node);
   void give_power(NodeId node, NodeId mine);
 
@@ -102,6 +103,28 @@ void Sweep::give_power(NodeId node, NodeId mine) {
   }
   if (!tape_->is_constant(b))
     give(b, times(mine, binary(Operation::multiply, node, unary(Operation::log, a))));
+}
+
+/// mine × sign(a) without the sign, which a = 0 has none of, where mine has a as a factor: a sign(a) = |a|.
+/// no_node where it is not seen.
+NodeId Sweep::without_sign(NodeId mine, NodeId a, NodeId absolute) {
+  using enum Operation;
+  if (mine == a) return absolute;
+  const Operation operation = tape_->operation(mine);
+  if (tape_->is_constant(mine) || arity(operation) == 0) return no_node;
+  const NodeId left = tape_->a(mine), right = tape_->b(mine);
+  if (operation == Operation::power && left == a && tape_->is_constant(right) &&
+      tape_->constant(right) >= 2) {
+    const NodeId rest = is_number(right, 2) ? a : binary(power, a, binary(subtract, right, one()));
+    return binary(multiply, rest, absolute);
+  }
+  if (operation != multiply && operation != divide && operation != negate) return no_node;
+  const NodeId found = without_sign(left, a, absolute);
+  if (operation == negate) return found == no_node ? no_node : negative(found);
+  if (found != no_node) return binary(operation, found, right);
+  if (operation == divide) return no_node;
+  const NodeId other = without_sign(right, a, absolute);
+  return other == no_node ? no_node : binary(operation, left, other);
 }
 
 /// f' of a function of one argument; no_node where it is 0 everywhere.
@@ -133,8 +156,6 @@ NodeId Sweep::slope(NodeId node) {
       return binary(divide, one(), a);
     case sqrt:
       return binary(divide, number("0.5", 0.5, at_), node);
-    case abs:
-      return unary(sign, a);
     case sign:
       return no_node;
     default:
@@ -188,6 +209,11 @@ void Sweep::pass_down(NodeId node) {
     case where_not_negative:
     case where_negative:
       return give(b, binary(tape_->operation(node), a, mine));
+    case abs:
+      return give(a, behind_conditions(mine, [&](NodeId m) {
+                    const NodeId found = without_sign(m, a, node);
+                    return found == no_node ? product(m, unary(sign, a)) : found;
+                  }));
     default:
       if (const NodeId rate = slope(node); rate != no_node) give(a, times(mine, rate));
   }

@@ -49,6 +49,9 @@ class Tape {
   void note_edge(NodeId node) { edges_.insert(node); }
   bool is_edge(NodeId node) const { return edges_.count(node) > 0; }
   bool has_branches() const { return has_branches_; }
+  /// Constants have radii that count: choices by the sign of one are kept, as nodes.
+  void keep_choices() { keeps_choices_ = true; }
+  bool is_chosen(NodeId sign) const { return is_constant(sign) && !keeps_choices_; }
   /// The text of a literal or the name of a parameter.
   const std::string& text(NodeId node) const;
 
@@ -66,7 +69,7 @@ class Tape {
   std::unordered_map<std::string, std::uint32_t> text_numbers_;
   std::vector<std::string> texts_;
   std::unordered_set<NodeId> edges_;
-  bool has_branches_ = false;
+  bool has_branches_ = false, keeps_choices_ = false;
 };
 
 /// The expression of a node as text, cut to about 60 characters.

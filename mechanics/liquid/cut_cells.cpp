@@ -52,10 +52,11 @@ class Cutting {
       if (grid().is_unknown(k)) join(k);
     });
     hang_walls(made_, side_, normals_);
-    const CellMean source(scene_.h, domain_, made_);
+    CellMean source(scene_.h, domain_, made_, scene_.pressure_scale());
     for_points([&](Index k) {
       if (grid().is_unknown(k)) load(k, source);
     });
+    made_.hidden = source.hidden();
     return std::move(made_);
   }
 
@@ -288,7 +289,7 @@ class Cutting {
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
   }
 
-  void load(Index k, const CellMean& source) {
+  void load(Index k, CellMean& source) {
     Point x = made_.at(k);
     if (side_[at(k)] == Side::outside) x = domain_.foot(x);
     const double h = source(k, x);

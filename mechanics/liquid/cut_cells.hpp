@@ -37,6 +37,7 @@ struct CutCells {
   std::vector<GivenPressure> pressures;  ///< at cut links and fixed points
   std::vector<WallPiece> walls;
   std::vector<double> h;  ///< at unknowns
+  double hidden = 0;      ///< what of h may hide between nodes, in p (CellMean)
 
   Point at(convex::Index k) const;
   /// Of a whole cell across an axis; the volume for any other number.

@@ -4,28 +4,58 @@
 #include <cmath>
 #include <cstdio>
 
+#include "convex/infinity.hpp"
 #include "convex/interval_arithmetic.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
 
 namespace mechanics::liquid {
 
-namespace {
-
-expression::Range around(expression::Rounded number) {
+expression::Range range_of(expression::Rounded number) {
   if (number.is_exact()) return {number.value, number.value};
   return {convex::moved_down(number.value - number.radius), convex::moved_up(number.value + number.radius)};
 }
+
+namespace {
 
 /// An operation by which a derivative of what is continuous may jump.
 bool is_choice(expression::Operation operation) {
   return expression::is_where(operation) || operation == expression::Operation::sign;
 }
 
+/// Of the constants of a tape all that they may be. (Balls follow the branches of their centres.)
+std::vector<expression::Range> constant_ranges(const expression::Tape& tape,
+                                               const std::vector<expression::Rounded>& numbers) {
+  using expression::Operation;
+  std::vector<expression::Range> ranges(tape.size());
+  for (expression::NodeId node = 0; node < tape.size(); ++node) {
+    if (!tape.is_constant(node)) continue;
+    const Operation operation = tape.operation(node);
+    if (operation == Operation::literal || operation == Operation::pi)
+      ranges[node] = range_of(numbers[node]);
+    else if (operation == Operation::parameter)
+      ranges[node] = ranges[tape.a(node)];
+    else
+      ranges[node] = expression::value(operation, ranges[tape.a(node)], ranges[tape.b(node)]);
+  }
+  return ranges;
+}
+
 }  // namespace
 
+double end_of(expression::Range range, Bound bound) {
+  if (range.is_empty()) return std::numeric_limits<double>::quiet_NaN();
+  return bound == Bound::lower ? range.low : range.high;
+}
+
+Field Field::bounded(Bound bound) const {
+  Field made = *this;
+  made.bound_ = bound;
+  return made;
+}
+
 Region region(const Ray& from, expression::Range r) {
-  return {expression::value(expression::Operation::add, around(from[0]), r), around(from[1]),
-          around(from[2])};
+  return {expression::value(expression::Operation::add, range_of(from[0]), r), range_of(from[1]),
+          range_of(from[2])};
 }
 
 std::string point_text(const std::vector<std::string>& names, const Point& x) {
@@ -49,13 +79,17 @@ Field::Field(const expression::Tape& tape, expression::NodeId node, std::vector<
   for (expression::NodeId k = 0; k <= node && !is_constant_; ++k)
     may_jump_ = may_jump_ || expression::is_where(tape.operation(k));
   const std::vector<expression::Rounded> numbers = expression::rounded_nodes(tape);
+  const std::vector<expression::Range> ranges = constant_ranges(tape, numbers);
   if (is_constant_) {
     constant_ = numbers[node];
+    constant_range_ = ranges[node];
     return;
   }
   program_ = expression::Program(tape, coordinates_.size(), {{node}});
-  for (expression::Slot slot = program_.time() + 1; slot < program_.begin(); ++slot)
+  for (expression::Slot slot = program_.time() + 1; slot < program_.begin(); ++slot) {
     constants_.push_back(numbers[program_.node(slot)]);
+    ranges_.push_back(ranges[program_.node(slot)]);
+  }
   for (expression::Slot slot = program_.begin(); slot < program_.end(0); ++slot)
     has_branches_ = has_branches_ || is_choice(program_[slot].operation);
 }
@@ -93,19 +127,31 @@ expression::TimeSeries Field::along(const Ray& from, expression::Rounded r, int 
   return x[program_.roots(0).front()];
 }
 
+double Field::departure(const Ray& from, double low, double high) const {
+  if (is_constant_) return 0;
+  constexpr int order = 12;
+  const double half = 0.5 * (high - low);
+  const expression::Rounded last = along(from, {0.5 * (low + high), half}, order).c[order];
+  const double remainder = (std::abs(last.value) + last.radius) * std::pow(half, order);
+  const expression::Range values = range(region(from, {low, high}));
+  const double width = values.is_empty() ? convex::infinity : 0.5 * (values.high - values.low);
+  return std::isfinite(remainder) ? std::min(remainder, width) : width;
+}
+
 expression::Range Field::range(const Region& at) const {
   using expression::Range, expression::Slot;
-  if (is_constant_) return around(constant_);
+  if (is_constant_) return constant_range_;
   std::vector<Range> x(program_.size());
   std::copy_n(at.begin(), coordinates_.size(), x.begin());
   const Slot first = program_.time() + 1;
-  for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = around(constants_[slot - first]);
+  for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = ranges_[slot - first];
   for (Slot slot = program_.begin(); slot < program_.end(0); ++slot)
     x[slot] = expression::value(program_[slot].operation, x[program_[slot].a], x[program_[slot].b]);
   return x[program_.roots(0).front()];
 }
 
 double Field::raw(const Point& x) const {
+  if (is_bound()) return bound_in({{{x[0], x[0]}, {x[1], x[1]}, {x[2], x[2]}}});
   if (is_constant_) return constant_.value;
   const auto n = static_cast<Index>(coordinates_.size());
   State state{0, Vector::Map(x.data(), n), Vector::Zero(n)};

@@ -29,6 +29,14 @@ using Region = std::array<expression::Range, 3>;
 /// What of a ray lies at these distances.
 Region region(const Ray&, expression::Range r);
 
+/// Which end of what a field may be, as long as a parameter has a range (ParameterRange).
+enum class Bound : std::uint8_t { none, lower, upper };
+
+/// All that a number may be.
+expression::Range range_of(expression::Rounded);
+/// The end of a range; NaN where it is empty.
+double end_of(expression::Range, Bound);
+
 /// An expression in the coordinates, ready to be evaluated.
 class Field {
  public:
@@ -41,12 +49,20 @@ class Field {
   /// The same, NaN or infinite where it is not finite.
   double raw(const Point&) const;
   bool is_constant() const { return is_constant_; }
+  /// The same field, whose values are these ends from now on.
+  Field bounded(Bound) const;
+  bool is_bound() const { return bound_ != Bound::none; }
+  /// The end of all values in a region.
+  double bound_in(const Region& at) const { return end_of(range(at), bound_); }
   /// Of a constant one, the value with what rounding may have done to it.
   expression::Rounded constant() const { return constant_; }
 
   /// Taylor coefficients in t at the distance r + t on a ray; of a ball of distances, such as hold at each.
   /// Not finite where they are not known.
   expression::TimeSeries along(const Ray&, expression::Rounded r, int order) const;
+  /// At most how far it is on a piece of a ray from a polynomial of degree 11 in the distance: by a Taylor
+  /// series about the middle, or by its range. Infinite where neither is known.
+  double departure(const Ray&, double from, double to) const;
   /// All values in a region.
   expression::Range range(const Region&) const;
 
@@ -66,7 +82,10 @@ class Field {
   std::string what_;
   convex::Place place_;
   bool is_constant_ = true, may_jump_ = false, has_branches_ = false;
+  Bound bound_ = Bound::none;
   expression::Rounded constant_;
+  expression::Range constant_range_{0, 0};
+  std::vector<expression::Range> ranges_;       // of the program's constants
   std::vector<expression::Rounded> constants_;  // of the program, as they are written
 };
 

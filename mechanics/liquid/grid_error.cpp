@@ -206,7 +206,7 @@ double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
     return finest.grid.is_unknown(k) ? found[0].q[entry_of(k)] : finest.given[entry_of(k)];
   };
   return error_by_differences(scene, differences, levels.cells()) +
-         error_by_bends(scene, finest, levels.cells(), value) + digits * largest;
+         error_by_bends(scene, finest, levels.cells(), value) + finest.hidden + digits * largest;
 }
 
 }  // namespace mechanics::liquid

@@ -190,6 +190,11 @@ std::optional<LineScene> as_line(const LiquidScene& scene) {
     return std::nullopt;
   }
   line.problem.h = [&scene, line](double r) { return scene.h(line.at(r)); };
+  if (scene.bound == Bound::none && !scene.h.is_constant()) {
+    Ray from{};
+    if (line.radial) std::copy(line.centre.begin(), line.centre.end(), from.begin());
+    line.problem.departure = [&scene, from](double a, double b) { return scene.h.departure(from, a, b); };
+  }
   return line;
 }
 
@@ -228,9 +233,9 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
   return found;
 }
 
-double least_line_pressure(const LineScene& line) {
-  const LineSolution solution = convex::solve_line(line.problem, false);
-  if (line.problem.at_low.kind != LineEnd::Kind::value && line.problem.at_high.kind != LineEnd::Kind::value)
+double least_line_pressure(const convex::LineObstacle& line) {
+  const LineSolution solution = convex::solve_line(line, false);
+  if (line.at_low.kind != LineEnd::Kind::value && line.at_high.kind != LineEnd::Kind::value)
     return solution.surplus;
   return solution.least().value;
 }

@@ -28,6 +28,6 @@ LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&, const Liqu
 
 /// The least value of the pressure without the obstacle, below 0 if and only if cavitation has begun; where
 /// no pressure is given, minus what the walls lack.
-double least_line_pressure(const LineScene&);
+double least_line_pressure(const convex::LineObstacle&);
 
 }  // namespace mechanics::liquid

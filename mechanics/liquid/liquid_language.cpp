@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/interval_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_name.hpp"
 #include "mechanics/expression/gradient_nodes.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
+#include "mechanics/expression/simplification.hpp"
 
 namespace mechanics::liquid {
 
@@ -23,7 +25,8 @@ void LiquidLanguage::declare(const Text& text, const char* what, Name meaning) {
   names_.declare(name.name, meaning, key, 0);
 }
 
-LiquidLanguage::LiquidLanguage(const std::vector<Text>& coordinates, const std::vector<NamedText>& parameters)
+LiquidLanguage::LiquidLanguage(const std::vector<Text>& coordinates, const std::vector<NamedText>& parameters,
+                               const std::optional<ParameterRange>& range)
     : expansion_(meanings_, tape_) {
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     declare(parameters[p].name, "parameters", {Name::Kind::parameter, static_cast<std::uint32_t>(p), 0});
@@ -38,10 +41,26 @@ LiquidLanguage::LiquidLanguage(const std::vector<Text>& coordinates, const std::
   for (const NamedText& p : parameters)
     meanings_.parameters.push_back(expression::parse_expression(
         sources_.add(p.value, "parameter " + p.name.text), {&names_, Vocabulary::parameters, {}}));
+  if (range) give_range(*range);
   for (std::uint32_t p = 0; p < parameters.size(); ++p)
     if (const NodeId node = expansion_.parameter(p); !std::isfinite(tape_.constant(node)))
       throw convex::InvalidInput("parameter " + parameters[p].name.text + ": not a finite number",
                                  parameters[p].value.begin);
+}
+
+/// A number beside the middle, so that it is none at which an expression has another form (0, 1, 2).
+void LiquidLanguage::give_range(const ParameterRange& range) {
+  constexpr double beside = 0.49993;
+  const double centre = range.low + beside * (range.high - range.low),
+               radius = convex::moved_up(std::max(range.high - centre, centre - range.low));
+  const auto& names = meanings_.parameter_names;
+  for (std::uint32_t p = 0; p < names.size(); ++p) {
+    if (names[p] != range.name) continue;
+    const NodeId all =
+        tape_.literal(expression::text_with_radius(expression::shortest_digits(centre), radius), centre, {});
+    tape_.keep_choices();
+    expansion_.give_parameter(p, tape_.parameter(range.name, all, {}));
+  }
 }
 
 NodeId LiquidLanguage::node(const Text& text, const std::string& what) {

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mechanics/expression/expansion.hpp"
 #include "mechanics/liquid/field.hpp"
+#include "mechanics/liquid/liquid_text.hpp"
 
 namespace mechanics::liquid {
 
 /// The expressions of a liquid: in its coordinates and parameters, on one tape.
 class LiquidLanguage {
  public:
-  LiquidLanguage(const std::vector<Text>& coordinates, const std::vector<NamedText>& parameters);
+  LiquidLanguage(const std::vector<Text>& coordinates, const std::vector<NamedText>& parameters,
+                 const std::optional<ParameterRange>& range = {});
   LiquidLanguage(const LiquidLanguage&) = delete;
   LiquidLanguage& operator=(const LiquidLanguage&) = delete;
 
@@ -37,6 +40,7 @@ class LiquidLanguage {
 
  private:
   void declare(const Text&, const char* what, expression::Name);
+  void give_range(const ParameterRange&);
   expression::Sources sources_;
   expression::Names names_;
   expression::Vocabularies meanings_;

@@ -55,11 +55,58 @@ double LiquidScene::free_pressure(const BoundaryPart& part, const Point& x) cons
   return pressure;
 }
 
+expression::Range LiquidScene::wall_flux_range(const BoundaryPart& part, const Region& x,
+                                               const Point& n) const {
+  using expression::Operation, expression::Range;
+  Range along = expression::value(Operation::negate, part.value.range(x), {});
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (n[i] != 0)
+      along = expression::value(Operation::add, along,
+                                expression::value(Operation::multiply, Range{n[i], n[i]}, force[i].range(x)));
+  return expression::value(Operation::multiply, range_of(written_density), along);
+}
+
+LiquidScene LiquidScene::bounded(Bound side) const {
+  LiquidScene made = *this;
+  made.bound = side;
+  made.h = h.bounded(side);
+  for (BoundaryPart& part : made.parts)
+    if (part.is_free) part.value = part.value.bounded(side);
+  return made;
+}
+
 double LiquidScene::wall_flux(const BoundaryPart& part, const Point& x, const Point& n) const {
+  if (bound != Bound::none)
+    return end_of(wall_flux_range(part, {{{x[0], x[0]}, {x[1], x[1]}, {x[2], x[2]}}}, n), bound);
   double along = 0;
   for (std::size_t i = 0; i < force.size(); ++i)
     if (n[i] != 0) along += n[i] * force[i](x);
   return density * (along - part.value(x));
+}
+
+double LiquidScene::pressure_scale() const {
+  constexpr int points = 9;
+  const double side = domain.longest();
+  double scale = 0;
+  const auto offer = [&](double value) {
+    if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
+  };
+  for (int code = 0; code < points * points * points; ++code) {
+    const std::array<int, 3> place{code % points, code / points % points, code / points / points};
+    Point x{};
+    bool is_new = true;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      is_new = is_new && (i < dimension() || place[i] == 0);
+      if (i < dimension())
+        x[i] = domain.low[i] + (domain.high[i] - domain.low[i]) * (place[i] + 0.5) / points;
+    }
+    if (!is_new || domain.level(x) > 0) continue;
+    offer(h.raw(x) * side * side / 8);
+    for (const BoundaryPart& part : parts) offer(part.value.raw(x) * (part.is_free ? 1 : density * side));
+    if (has_wall())
+      for (const Field& along : force) offer(along.raw(x) * density * side);
+  }
+  return scale;
 }
 
 bool LiquidScene::has_free_part() const {
@@ -88,7 +135,7 @@ void LiquidScene::require_no_divergence(const Point& x) const {
 }
 
 LiquidScene read_scene(const LiquidText& text) {
-  LiquidLanguage language(text.coordinates, text.parameters);
+  LiquidLanguage language(text.coordinates, text.parameters, text.range);
   LiquidScene scene;
   const std::size_t d = text.coordinates.size();
   scene.coordinates = language.coordinates();

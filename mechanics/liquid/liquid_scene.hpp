@@ -33,6 +33,7 @@ struct LiquidScene {
   std::vector<BoundaryPart> parts;  ///< free parts, then walls, each in the order of the file
   std::optional<long> cells;
   bool radial = false;  ///< said to be
+  Bound bound = Bound::none;
 
   std::size_t dimension() const { return coordinates.size(); }
   /// The first part that the point fits.
@@ -43,8 +44,16 @@ struct LiquidScene {
   double free_pressure(const BoundaryPart&, const Point&) const;
   /// ρ (F·n - a), which ∂p/∂n is at least.
   double wall_flux(const BoundaryPart&, const Point&, const Point& n) const;
+  /// About how large p is: the largest, at some points of the domain, of what free parts give, of |h| L²/8
+  /// and of what walls ask for times L, the longest side.
+  double pressure_scale() const;
   bool has_free_part() const;
   bool has_wall() const;
+  /// The same as an enclosure.
+  expression::Range wall_flux_range(const BoundaryPart&, const Region&, const Point& n) const;
+  /// Of a text with a range: the scene whose loads and pressures are below, or above, those of all its
+  /// values, so that its pressure is (the equations have an M-matrix). The domain is that of one value.
+  LiquidScene bounded(Bound) const;
   /// Throws InvalidInput where div u is not 0 beyond rounding.
   void require_no_divergence(const Point&) const;
   /// What d(div u)/dt is where p = 0: -h/ρ.

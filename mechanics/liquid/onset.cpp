@@ -4,43 +4,20 @@
 #include <cmath>
 #include <functional>
 
-#include "convex/invalid_input.hpp"
-#include "mechanics/liquid/grid_scene.hpp"
+#include "mechanics/liquid/first_change.hpp"
 #include "mechanics/liquid/line_scene.hpp"
+#include "mechanics/liquid/parameter_family.hpp"
 
 namespace mechanics::liquid {
 namespace {
 
 using Sign = std::function<std::optional<double>(double)>;
 
-/// Two values of the parameter, at most a step apart, between which the function passes 0.
-std::optional<std::pair<double, double>> bracket(const Sign& f, double start) {
-  constexpr double growth = 1.15;
-  const double size = start == 0 ? 1 : std::abs(start);
-  const std::optional<double> first = f(start);
-  if (!first) return std::nullopt;
-  double before = 0, sides[2]{-1, 1};
-  bool is_open[2]{true, true};
-  for (double distance = 1e-6 * size; distance < 1e6 * size; distance *= growth) {
-    for (int side = 0; side < 2; ++side) {
-      if (!is_open[side]) continue;
-      const double value = start + sides[side] * distance;
-      const std::optional<double> there = f(value);
-      if (!there)
-        is_open[side] = false;
-      else if ((*there < 0) != (*first < 0))
-        return std::pair{start + sides[side] * before, value};
-    }
-    before = distance;
-  }
-  return std::nullopt;
-}
-
 /// Halving with the secant where it does better; f(a) and f(b) differ in sign.
-LiquidOnset root(const Sign& f, double a, double b, double accuracy) {
+LiquidOnset root(const Sign& f, double a, double b, double accuracy, double least_size) {
   double fa = *f(a), fb = *f(b);
   int stuck = 0;
-  while (std::abs(b - a) > accuracy * std::max(std::abs(a), std::abs(b))) {
+  while (std::abs(b - a) > accuracy * std::max({std::abs(a), std::abs(b), least_size})) {
     double x = stuck < 2 ? (a * fb - b * fa) / (fb - fa) : 0.5 * (a + b);
     // A step towards the far end makes the interval short once the root is nearly known.
     if (!(std::min(a, b) < x && x < std::max(a, b))) x = 0.5 * (a + b);
@@ -60,6 +37,18 @@ LiquidOnset root(const Sign& f, double a, double b, double accuracy) {
   return {0.5 * (a + b), std::abs(b - a)};
 }
 
+/// How far from its root the least pressure leaves what rounding may have done to it.
+double rounding_error(const ParameterFamily& family, double root, double size) {
+  const double rounding = family.rounding(root);
+  double reach = 1e-13 * size;
+  const auto is_near = [&](double value) {
+    const std::optional<double> least = family.least(value, 0);
+    return least && std::abs(*least) <= rounding;
+  };
+  while (reach < size && (is_near(root - reach) || is_near(root + reach))) reach *= 2;
+  return reach;
+}
+
 /// A change of sign around a value, searched for in steps that double.
 std::optional<std::pair<double, double>> near_bracket(const Sign& f, double value, double step) {
   for (int doubling = 0; doubling < 30; ++doubling, step *= 2) {
@@ -72,52 +61,55 @@ std::optional<std::pair<double, double>> near_bracket(const Sign& f, double valu
 
 }  // namespace
 
-std::optional<LiquidOnset> find_onset(const LiquidText& text, const std::string& parameter,
-                                      const LiquidAccuracy& accuracy) {
+OnsetSearch find_onset(const LiquidText& text, const std::string& parameter, const LiquidAccuracy& accuracy) {
   const double start = parameter_value(text, parameter);
+  const ParameterFamily family(text, parameter);
   const auto least_on = [&](long cells) -> Sign {
-    return [&text, &parameter, cells](double value) -> std::optional<double> {
-      try {
-        const LiquidScene scene = read_scene(with_parameter(text, parameter, value));
-        if (const std::optional<LineScene> line = as_line(scene)) return least_line_pressure(*line);
-        return least_grid_pressure(scene, cells);
-      } catch (const convex::InvalidInput&) {
-        return std::nullopt;
-      }
-    };
+    return [&family, cells](double value) { return family.least(value, cells); };
   };
   const LiquidScene scene = read_scene(text);
   const std::array<long, 3> first_cells{64, 32, 8}, most_cells{1024, 512, 64};
   const std::size_t axis = scene.dimension() - 1;
-  const auto found = bracket(least_on(first_cells[axis]), start);
-  if (!found) return std::nullopt;
+  const bool is_line = as_line(scene).has_value();
+  SignedFamily searched{least_on(first_cells[axis]), {}};
+  if (family.has_bounds())
+    searched.keeps_sign = [&](double low, double high, bool negative) {
+      return family.keeps_sign(low, high, negative, first_cells[axis]);
+    };
+  constexpr double finest_on_grids = 0x1p-12;
+  if (!is_line) searched.finest = finest_on_grids;
+  const FirstChange found = find_first_change(searched, start);
+  OnsetSearch made{std::nullopt, found.unshown, !family.has_bounds()};
+  if (!found.between) return made;
   constexpr double rounding = 1e-15;
-  if (as_line(scene)) {
-    LiquidOnset onset = root(least_on(0), found->first, found->second, rounding);
-    // What rounding in the least pressure moves the root by is far below this.
-    onset.error += 1e-12 * std::max(std::abs(onset.value), std::abs(start));
-    return onset;
+  const double least_size = 1e-6 * std::abs(start);  // of a root beside 0
+  if (is_line) {
+    made.onset = root(least_on(0), found.between->first, found.between->second, rounding, least_size);
+    made.onset->error +=
+        rounding_error(family, made.onset->value, std::max(std::abs(made.onset->value), least_size));
+    return made;
   }
   // On finer grids the root is near that of the one before; two of them tell how near.
   constexpr double solve_accuracy = 1e-8;
   const std::array<long, 3> second_cells{128, 64, 16};
-  LiquidOnset before = root(least_on(first_cells[axis]), found->first, found->second, solve_accuracy),
-              onset = before;
-  double step = 0.05 * std::max(std::abs(before.value), 1e-3 * std::abs(start));
+  LiquidOnset before = root(least_on(first_cells[axis]), found.between->first, found.between->second,
+                            solve_accuracy, least_size);
+  double step = 1e-4 * std::max(std::abs(before.value), 1e-3 * std::abs(start));
   for (long cells = second_cells[axis]; cells <= most_cells[axis]; cells *= 2) {
     const Sign least = least_on(cells);
     const auto near = near_bracket(least, before.value, step);
-    if (!near) return std::nullopt;
-    const LiquidOnset here = root(least, near->first, near->second, solve_accuracy);
+    if (!near) return {std::nullopt, before.value, made.is_sampled};
+    const LiquidOnset here = root(least, near->first, near->second, solve_accuracy, least_size);
     const double change = here.value - before.value;
     // As far as the error is of second order a third of the change is left.
-    onset = {here.value + change / 3, std::abs(change) + solve_accuracy * std::abs(here.value)};
+    made.onset = {here.value + change / 3,
+                  std::abs(change) + solve_accuracy * std::max(std::abs(here.value), least_size)};
     before = here;
     step = std::max(2 * std::abs(change), 1e-6 * std::abs(here.value));
-    const double asked = accuracy.part() * std::abs(onset.value);
-    if (cells > second_cells[axis] && 4 * onset.error <= asked) break;
+    const double asked = accuracy.part() * std::abs(made.onset->value);
+    if (cells > second_cells[axis] && 4 * made.onset->error <= asked) break;
   }
-  return onset;
+  return made;
 }
 
 }  // namespace mechanics::liquid

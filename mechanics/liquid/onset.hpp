@@ -13,9 +13,20 @@ struct LiquidOnset {
   double value = 0, error = 0;
 };
 
-/// None when it passes 0 nowhere: values are tried at distances from the file's that grow from a millionth to
-/// a million times its size. A value at which the scene is none (a density of 0, say) ends the search on its
-/// side.
-std::optional<LiquidOnset> find_onset(const LiquidText&, const std::string& parameter, const LiquidAccuracy&);
+struct OnsetSearch {
+  std::optional<LiquidOnset> onset;
+  /// None: intervals show that no nearer value was passed, or, without an onset, that there is none in the
+  /// range. Else from this value on that is known of the values tried alone: p comes close to 0, or touches
+  /// it without a change of sign, or nothing bounds it.
+  std::optional<double> unshown;
+  /// It is the file's value, and values alone were tried.
+  bool is_sampled = false;
+};
+
+/// From a millionth to a million times the size of the file's value away from it. Between values tried the
+/// data have bounds, and so has the pressure, which grows with them; intervals are halved until they show
+/// that it passes 0 nowhere, or hold the value (for what depends on a grid, of the equations of one). A value
+/// at which the scene is none (a density of 0, say) ends the search on its side.
+OnsetSearch find_onset(const LiquidText&, const std::string& parameter, const LiquidAccuracy&);
 
 }  // namespace mechanics::liquid

@@ -170,6 +170,17 @@ class ProvedLine {
   Ray from_;
 };
 
+/// The largest of the pressure that is proved, where the one found is farther from it than the bound.
+void find_largest(const convex::LineSolution& solution, const LineScene& line,
+                  const convex::LineEnclosure& enclosure, LiquidSolution& found) {
+  double at = line.variable(found.largest_at), largest = enclosure.p(at);
+  for (const double r : solution.places())
+    if (enclosure.p(r) > largest) largest = enclosure.p(at = r);
+  if (std::abs(largest - found.largest) <= enclosure.error_bound) return;
+  found.largest = largest;
+  found.largest_at = line.at(at);
+}
+
 }  // namespace
 
 void prove_line(const LiquidScene& scene, const LineScene& line, const LiquidAccuracy& accuracy,
@@ -177,11 +188,12 @@ void prove_line(const LiquidScene& scene, const LineScene& line, const LiquidAcc
   const ProvedLine proved(scene, line);
   const std::optional<convex::EnclosedLineObstacle> problem = proved.problem();
   if (!problem) return;
-  const std::optional<convex::LineEnclosure> enclosure =
-      convex::enclose_line(*problem, convex::solve_line(line.problem));
+  const convex::LineSolution solution = convex::solve_line(line.problem);
+  const std::optional<convex::LineEnclosure> enclosure = convex::enclose_line(*problem, solution);
   if (!enclosure) return;
   found.is_proved = true;
   found.error_bound = enclosure->error_bound;
+  find_largest(solution, line, *enclosure, found);
   found.status = found.error_bound <= accuracy.part() * found.largest ? LiquidSolution::Status::solved
                                                                       : LiquidSolution::Status::inaccurate;
   found.p = [line, p = enclosure->p](const Point& x) { return p(line.variable(x)); };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/obstacle/line_quadrature.hpp"
 
 namespace convex::inline obstacle {
@@ -36,6 +37,9 @@ class LineCells {
       absolute += coarse.back().absolute_moment;
     }
     resolved_ = 0x1p-50 * absolute / first_cells;
+    for (const LineEnd& side : {problem.at_low, problem.at_high})
+      ends_ += std::abs(side.value) * (side.kind == Kind::flux ? problem.high - problem.low : 1);
+    has_departures_ = problem.departure && hidden(problem.low, problem.high) > seen();
     for (Index k = 0; k < first_cells; ++k) add(end(k), end(k + 1), coarse[static_cast<std::size_t>(k)]);
     zero.assign(r.size(), false);
     flux.assign(r.size(), 0);
@@ -233,19 +237,33 @@ class LineCells {
     cells.push_back(cell_load(problem_.h, w_, a, b));
     r.push_back(b);
   }
+  /// What the quadrature may miss in [a, b], in p: of a mass m Green's function makes at most m times the
+  /// length of the line, wherever it is, since the weight grows.
+  double hidden(double a, double b) const {
+    const double departs = problem_.departure(a, b);
+    return std::isnan(departs) ? infinity : departs * (b - a) * (problem_.high - problem_.low);
+  }
+  double seen() const { return resolved_ + 0x1p-50 * ends_ / first_cells; }
   /// [a, b], in parts on which the rule is exact to rounding.
   void add(double a, double b, const CellLoad& whole) {
     const double middle = 0.5 * (a + b);
     const CellLoad low = cell_load(problem_.h, w_, a, middle), high = cell_load(problem_.h, w_, middle, b);
     const double R = high.resistance;
     const double load = low.load + high.load, moment = low.load * R + low.moment + high.moment;
+    // Of h at points that are rounded themselves.
+    const double noise = rounding * whole.variation * std::max(std::abs(a), std::abs(b));
+    const double noise_of_moment = whole.absolute > 0 ? noise * (whole.absolute_moment / whole.absolute) : 0;
     const bool is_exact =
-        std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment &&
-        std::abs(whole.load - load) * (b - a) <= (resolved_ + rounding * whole.absolute * (b - a)) * w_(b);
-    if (is_exact || b - a <= shortest_ || cells.size() > most_cells) {
+        std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment + noise_of_moment &&
+        std::abs(whole.load - load) * (b - a) <=
+            (resolved_ + rounding * whole.absolute * (b - a)) * w_(b) + noise * (b - a);
+    const double missed = has_departures_ ? hidden(a, b) : 0;
+    if ((is_exact && missed <= seen()) || b - a <= shortest_ || cells.size() > most_cells) {
       cells.push_back(whole);
       r.push_back(b);
       unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);
+      unresolved_ += noise / w_(b) * (problem_.high - problem_.low);
+      unresolved_ += missed <= seen() ? 0 : missed;
       return;
     }
     add(a, middle, low);
@@ -255,6 +273,8 @@ class LineCells {
   const LineObstacle& problem_;
   LineWeight w_;
   bool one_sided_;
+  bool has_departures_ = false;
+  double ends_ = 0;  // the size of what is given there, in p
   double shortest_ = 0, resolved_ = 0, rounding_ = 0, unresolved_ = 0;
   std::vector<double> slack_;
 };

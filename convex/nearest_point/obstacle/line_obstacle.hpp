@@ -23,6 +23,9 @@ struct LineObstacle {
   double low = 0, high = 1;
   LineEnd at_low, at_high;
   std::function<double(double)> h;
+  /// At most how far h is from a polynomial of degree 11 between two points, so that nothing hides between
+  /// those at which h is evaluated; empty: not known.
+  std::function<double(double, double)> departure;
 };
 
 /// A maximal interval where p > 0 (liquid) or p = 0 (not).

@@ -42,11 +42,14 @@ CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double 
   CellLoad sum;
   sum.resistance = w.resistance(a, b);
   const GaussLegendre& rule = gauss_legendre();
+  double before = 0;
   for (std::size_t k = 0; k < rule.point.size(); ++k) {
     const double r = a + (b - a) * (0.5 + 0.5 * rule.point[k]);
     const double source = w(r) * h(r), load = rule.weight[k] * source * (0.5 * (b - a)),
                  moment = load * w.resistance(r, b);
     sum.largest_source = std::max(sum.largest_source, source);
+    if (k > 0) sum.variation += std::abs(source - before);
+    before = source;
     sum.load += load;
     sum.moment += moment;
     sum.absolute += std::abs(load);

@@ -20,9 +20,10 @@ struct LineWeight {
 };
 
 /// Over a cell [a, b]: the load ∫ w h and its moment ∫ w h R(τ, b), R the resistance; of absolute values too;
-/// R(a, b); and the largest w h > 0 at the points of the rule, else 0.
+/// R(a, b); the largest w h > 0 at the points of the rule, else 0; and how much w h goes up and down on them.
 struct CellLoad {
-  double load = 0, moment = 0, absolute = 0, absolute_moment = 0, resistance = 0, largest_source = 0;
+  double load = 0, moment = 0, absolute = 0, absolute_moment = 0, resistance = 0, largest_source = 0,
+         variation = 0;
 };
 CellLoad cell_load(const std::function<double(double)>& h, LineWeight, double a, double b);
 

@@ -1,0 +1,95 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using OnsetJson = nlohmann::json;
+
+namespace {
+
+/// A liquid on (-1, 1), or another domain, pulled by F from both ends, or a rim, where p is given.
+std::string pulled(const std::string& force, const std::string& pressure, const std::string& w,
+                   const std::string& domain = "interval(low=-1, high=1)") {
+  return "[liquid]\ncoordinates = [\"x\"]\ndomain = \"" + domain + "\"\ndensity = 1\nforce = [\"" + force +
+         "\"]\nfree = { ends = { where = \"true\", pressure = \"" + pressure +
+         "\" } }\n[liquid.parameters]\nw = " + w + "\n";
+}
+
+OnsetJson onset_of_w(const std::string& text) {
+  const Folder folder;
+  const Outcome outcome = run({"solve", "--json", "--onset", "w", folder.write("liquid.toml", text)});
+  CAPTURE(text);
+  CAPTURE(outcome.err);
+  REQUIRE((outcome.code == 0 || outcome.code == 3));
+  return OnsetJson::parse(outcome.out);
+}
+
+}  // namespace
+
+TEST_CASE("the onset is the nearest value at which p passes 0, however near to the next it is") {
+  // F = w x takes w/2 from the pressure at the ends; the pressure dips as a bell does, and rises again.
+  struct Onset {
+    std::string text;
+    double value;
+  };
+  const double dip = std::sqrt(std::log(0.51 / 0.5));
+  for (const Onset& one : {
+           Onset{pulled("x", "1 - 0.51*exp(-((w - 2.3)/0.05)^2)", "2"), 2.3 - 0.05 * dip},
+           Onset{pulled("x", "1 - 0.51*exp(-((w - 2.3)/0.05)^2)", "2.6"), 2.3 + 0.05 * dip},
+           Onset{pulled("x", "1/2 - (w - 2)*(w + 3)", "-0.2"), 2},
+           Onset{pulled("x", "1/2 - (w - 2)*(w + 3)", "-0.8"), -3},
+           Onset{pulled("sin(w)*x", "0.4999", "0.1"), std::asin(0.9998)},
+           Onset{pulled("0.1*x", "w", "1"), 0.05},  // below 0 it is no pressure
+           Onset{pulled("if(w > 2, 2, 0.1)*x", "1/2", "1"), 2},
+           Onset{pulled("x", "2", "0.3", "interval(low=-w, high=w)"), 2},
+           Onset{pulled("x", "2", "0.3", "ball(center=w, radius=1.5 + w/10)"), 5},
+       }) {
+    const OnsetJson found = onset_of_w(one.text);
+    CAPTURE(one.text);
+    CHECK(found["onset_nearest"]["level"] == "intervals");
+    const double error = std::abs(found["onset"]["w"].get<double>() - one.value);
+    CHECK(error <= found["onset_error"].get<double>() + 1e-15);
+    CHECK(error <= 1e-8);
+  }
+}
+
+TEST_CASE("that a parameter has no onset is shown by intervals, or said to be known of samples") {
+  const OnsetJson none = onset_of_w(pulled("sin(w)*x", "0.5001", "0.1")),
+                  touches = onset_of_w(pulled("x", "1/2 + (w - 3)^2", "1"));
+  CHECK(none["onset"].is_null());
+  CHECK(none["onset_nearest"]["level"] == "intervals");
+  CHECK(touches["onset"].is_null());
+  CHECK(touches["onset_nearest"]["level"] == "samples");
+  CHECK(touches["onset_nearest"]["from"].get<double>() == doctest::Approx(3).epsilon(1e-6));
+}
+
+TEST_CASE("on grids too a cavity that comes and goes between two values is found") {
+  // The largest of the torsion function of the square (-1, 1)²: 0.294685413126 (Timoshenko and Goodier 1951).
+  const auto square = [](const std::string& pressure) {
+    return "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"box(low=[-1, -1], high=[1, 1])\"\ndensity = "
+           "1\nforce = [\"x\", \"0\"]\nfree = { rim = { where = \"true\", pressure = \"" +
+           pressure + "\" } }\ncells = 64\n[liquid.parameters]\nw = 1\n";
+  };
+  const OnsetJson found = onset_of_w(square("1 - 0.75*exp(-((w - 3.3)/0.02)^2)")),
+                  none = onset_of_w(square("1 + w^2"));
+  const double value = 3.3 - 0.02 * std::sqrt(std::log(0.75 / (1 - 0.294685413126)));
+  CHECK(std::abs(found["onset"]["w"].get<double>() - value) <= found["onset_error"].get<double>());
+  CHECK(none["onset"].is_null());
+  CHECK(none["onset_nearest"]["level"] == "intervals");
+}
+
+TEST_CASE("x |x| has the derivative 2 |x|, also where |x| has none") {
+  // p'' = 2 |x| and p = 1 at the ends.
+  for (const std::string force : {"x*abs(x)", "-abs(x)*(-x)", "abs(x)*x + 3"}) {
+    CAPTURE(force);
+    const Folder folder;
+    const Outcome outcome = run({"solve", "--json", "--probe", "x=0", "--probe", "x=1/2",
+                                 folder.write("liquid.toml", pulled(force, "1", "1"))});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const OnsetJson found = OnsetJson::parse(outcome.out);
+    CHECK(std::abs(found["probes"][0]["p"].get<double>() - 2.0 / 3) <= 1e-12);
+    CHECK(std::abs(found["probes"][1]["p"].get<double>() - (2.0 / 3 + 1.0 / 24)) <= 1e-12);
+  }
+}
