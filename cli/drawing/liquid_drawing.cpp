@@ -18,14 +18,15 @@ using mechanics::liquid::BoundaryPart;
 using mechanics::liquid::LiquidScene;
 using mechanics::liquid::LiquidSolution;
 
-std::string liquid_title(const LiquidSolution& found) {
-  std::string text = "pressure, at most " + fmt::format("{:.4g}", found.largest);
+std::string liquid_title(const LiquidSolution& found, const std::string& title) {
+  std::string text =
+      (title.empty() ? "" : title + "\n") + "pressure, at most " + fmt::format("{:.4g}", found.largest);
   if (found.cavity_measure > 0) text += "; hatched: the cavity";
   if (!found.parted_walls.empty()) text += "; red: walls that part";
   return text;
 }
 
-Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& found) {
+Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& found, const std::string& title) {
   constexpr int points = 1000;
   std::string curve, cavity;
   for (int k = 0; k <= points; ++k) {
@@ -49,7 +50,7 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
               fmt::format(
                   "set title {}\nset xlabel {}\nset ylabel 'p'\nset xrange [{}:{}]\nset yrange [0:*]\nunset "
                   "key\nplot {}$p with lines lw 2 lc rgb '#0060a0'{}\n",
-                  cli::quoted(liquid_title(found)), cli::quoted(scene.coordinates[0]),
+                  cli::quoted(liquid_title(found, title)), cli::quoted(scene.coordinates[0]),
                   scene.domain.low[0] - room, scene.domain.high[0] + room,
                   hatched ? "$cavity with filledcurves y1=0 fs transparent pattern 5 lc rgb '#808080', " : "",
                   parted.empty() ? "" : ", $parted with points pt 7 ps 1.2 lc rgb '#d00000'"),
@@ -58,28 +59,30 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
 
 }  // namespace
 
-Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, bool with_velocity) {
+Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, const std::string& title,
+                       bool with_velocity) {
   if (scene.dimension() == 1) {
     if (with_velocity)
       throw convex::InvalidInput(
           "--velocity: arrows are drawn in two or three dimensions; leave it out of a picture of one");
-    return liquid_line_drawing(scene, found);
+    return liquid_line_drawing(scene, found, title);
   }
   const LiquidSection section(scene, found);
   std::string script = "$p << END\n" + section.field() + "END\n";
-  const std::string hatching = section.hatching();
+  const std::string hatching = section.hatching(), outline = section.outline();
   std::string parted;
   for (const mechanics::liquid::Point& x : section.parted())
     fmt::format_to(std::back_inserter(parted), "{} {}\n", x[0], x[1]);
   const LiquidSection::Arrows arrows = with_velocity ? section.velocity() : LiquidSection::Arrows{};
   if (!arrows.vectors.empty()) script += "$velocity << END\n" + arrows.vectors + "END\n";
-  if (!hatching.empty()) script += "$hatching << END\n" + hatching + "END\n";
+  if (!hatching.empty())
+    script += "$hatching << END\n" + hatching + "END\n$outline << END\n" + outline + "END\n";
   if (!parted.empty()) script += "$parted << END\n" + parted + "END\n";
   script +=
       "set contour base\nset cntrparam levels auto 12\nunset surface\nset table $contours\nsplot $p using "
       "1:2:3 with lines "
       "nosurface\nunset table\nset surface\nunset contour\n";
-  std::string heading = liquid_title(found);
+  std::string heading = liquid_title(found, title);
   if (scene.dimension() == 3)
     heading += fmt::format("; section {} = {:.4g}", scene.coordinates[2], section.height());
   if (arrows.fastest > 0) heading += fmt::format("\narrows: the velocity, at most {:.4g}", arrows.fastest);
@@ -95,6 +98,8 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, bo
       section.low(1) + section.side(1) + room, std::max(found.largest, 1e-300));
   script += "plot $p using 1:2:3 with image, $contours using 1:2 with lines lc rgb '#505050' lw 0.7";
   if (!hatching.empty()) script += ", $hatching using 1:2:3:4 with vectors nohead lc rgb '#303030' lw 0.8";
+  if (!hatching.empty() && !outline.empty())
+    script += ", $outline using 1:2:3:4 with vectors nohead lc rgb '#303030' lw 1.5";
   if (!parted.empty()) script += ", $parted using 1:2 with points pt 7 ps 0.35 lc rgb '#d00000'";
   if (!arrows.vectors.empty())
     script += ", $velocity using 1:2:3:4 with vectors head size screen 0.008,25 filled lc rgb '#b05000' lw 1";

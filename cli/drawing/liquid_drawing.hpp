@@ -5,10 +5,10 @@
 
 namespace cli::inline drawings {
 
-/// The pressure with contours, the cavity hatched, walls that part in red; of one coordinate p over it, of
-/// three the section through the middle of the domain. With u as arrows, if asked for; throws InvalidInput
-/// where there is one coordinate.
+/// The pressure with contours, the cavity hatched and outlined, below the title; walls that part in red; of
+/// one coordinate p over it, of three the section through the middle of the domain. With u as arrows, if
+/// asked for; throws InvalidInput where there is one coordinate.
 Drawing liquid_drawing(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&,
-                       bool with_velocity = false);
+                       const std::string& title, bool with_velocity = false);
 
 }  // namespace cli::inline drawings

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -15,7 +16,7 @@ using SectionPoint = mechanics::liquid::Point;
 
 namespace {
 
-constexpr int pixels_of_field = 480, hatches = 40, arrows_along_side = 20;
+constexpr int pixels_of_field = 480, hatches = 80, arrows_along_side = 20;
 
 }  // namespace
 
@@ -75,6 +76,44 @@ std::string LiquidSection::hatching() const {
     }
     end_at(low(0) + side(0));
   }
+  return text;
+}
+
+SectionPoint LiquidSection::edge_between(SectionPoint in, SectionPoint out) const {
+  constexpr int halvings = 8;
+  for (int k = 0; k < halvings; ++k) {
+    const SectionPoint middle = at(0.5 * (in[0] + out[0]), 0.5 * (in[1] + out[1]));
+    (found_.in_cavity(middle) ? in : out) = middle;
+  }
+  return at(0.5 * (in[0] + out[0]), 0.5 * (in[1] + out[1]));
+}
+
+std::string LiquidSection::outline() const {
+  std::string text;
+  const int nx = count(0) / 2 + 1, ny = count(1) / 2 + 1;
+  const auto node = [&](int i, int j) { return at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny); };
+  std::vector<int> state;  // 0: outside of the domain, 1: liquid, 2: cavity
+  for (int j = 0; j <= ny; ++j)
+    for (int i = 0; i <= nx; ++i) {
+      const SectionPoint x = node(i, j);
+      state.push_back(!is_inside(x) ? 0 : found_.in_cavity(x) ? 2 : 1);
+    }
+  const auto state_at = [&](int i, int j) { return state[static_cast<std::size_t>(j * (nx + 1) + i)]; };
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) {
+      constexpr std::array<std::array<int, 2>, 5> around{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}};
+      std::vector<SectionPoint> crossed;
+      for (std::size_t side = 0; side < 4; ++side) {
+        const auto &a = around[side], &b = around[side + 1];
+        const int here = state_at(i + a[0], j + a[1]), there = state_at(i + b[0], j + b[1]);
+        if (here == 0 || there == 0 || here == there) continue;
+        const SectionPoint x = node(i + a[0], j + a[1]), y = node(i + b[0], j + b[1]);
+        crossed.push_back(here == 2 ? edge_between(x, y) : edge_between(y, x));
+      }
+      for (std::size_t k = 0; k + 1 < crossed.size(); k += 2)
+        fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", crossed[k][0], crossed[k][1],
+                       crossed[k + 1][0] - crossed[k][0], crossed[k + 1][1] - crossed[k][1]);
+    }
   return text;
 }
 

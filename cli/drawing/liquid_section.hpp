@@ -21,6 +21,9 @@ class LiquidSection {
   std::string field() const;
   /// The parts of lines x - y = c that lie in the cavity, as vectors.
   std::string hatching() const;
+  /// The cavity's edge inside the domain, as vectors: a segment a cell of half the field's step that it
+  /// passes.
+  std::string outline() const;
   /// Points of the walls that part, where p = 0.
   std::vector<mechanics::liquid::Point> parted() const;
 
@@ -35,6 +38,7 @@ class LiquidSection {
   mechanics::liquid::Point at(double x, double y) const { return {x, y, height_}; }
   bool is_inside(const mechanics::liquid::Point&) const;
   int count(std::size_t i) const;
+  mechanics::liquid::Point edge_between(mechanics::liquid::Point in, mechanics::liquid::Point out) const;
   const mechanics::liquid::LiquidScene& scene_;
   const mechanics::liquid::LiquidSolution& found_;
   double height_ = 0, step_ = 1;
