@@ -14,6 +14,8 @@ constexpr Index most_steps_since = 16;
 
 /// So many violated rows come in, the deepest first, before the slacks of all are found anew.
 constexpr Index most_in_turn = 4;
+/// The part of its violation that a row has to keep meanwhile.
+constexpr double still_deep = 0.5;
 
 }  // namespace
 
@@ -61,7 +63,7 @@ bool GramPivoting::drop_most_negative() {
   return true;
 }
 
-/// Takes in the deepest rows of the list, as far as they are violated still when it is their turn.
+/// Takes in the deepest row of the list, then those next that stay deep while it comes in.
 bool GramPivoting::raise_in_turn(Index count) {
   const double scale = counted_violation();
   const Index turns = std::min(count, most_in_turn);
@@ -69,8 +71,9 @@ bool GramPivoting::raise_in_turn(Index count) {
                     [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
   for (Index k = 0; k < turns; ++k) {
     const Index a = list_[k];
+    const double before = slack_[a];
     if (k > 0) slack_[a] = slack_at_place(rows_.place(a));
-    if (slack_[a] < -row_scale_[a] * scale && !raise(a)) return false;
+    if (slack_[a] <= still_deep * before && slack_[a] < -row_scale_[a] * scale && !raise(a)) return false;
   }
   return true;
 }
