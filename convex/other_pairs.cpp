@@ -18,10 +18,11 @@ constexpr double roundings_of_a_move = 16;
 
 }  // namespace
 
-std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W) {
+std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W,
+                                      const Look& look) {
   const double weight = f.facts().indicator ? 1 : nearest_point_weight / (scale * scale);
   if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
-  const Prox nearest = f.prox(found.x, W.scaled(weight));
+  const Prox nearest = f.prox(found.x, W.scaled(weight), look);
   if (nearest.x.size() != found.x.size()) return std::nullopt;
   const double move = W.norm(nearest.x - found.x);
   if (!(move <= membership_tolerance * scale)) return std::nullopt;
@@ -59,7 +60,7 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 }
 
 std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                           const Metric& W) {
+                           const Metric& W, const Look& look) {
   // Nearer to W the passes converge faster, and in V the result is the most accurate.
   constexpr double towards_W[] = {0x1p-24, 0x1p-18, 0x1p-12, 0x1p-6, 1};
   constexpr double slow = 0.5;
@@ -70,7 +71,7 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
   const double X = std::max(W.norm(near->x), near->error_bound),
                V = std::max(W.dual_norm(near->v), near->error_bound);
   const double ratio = std::exp2(std::round(std::log2(V / X)));
-  constexpr double farthest = 0x1p400;  // times and over weights it is a double still
+  constexpr double farthest = 0x1p200;  // times and over weights it is a double still
   if (!(ratio > 1 / farthest && ratio < farthest)) return found;
   Vector x = near->x, v = near->v;
   double last = 0;
@@ -84,7 +85,7 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
         v = metric_difference(W, z, x);
       else
         x = z - refined_solve(W, v);
-      Prox made = f.prox(x + W.solve(v) / s, W.scaled(s));
+      Prox made = f.prox(x + W.solve(v) / s, W.scaled(s), look);
       if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) return found;
       x = made.x;
       v = made.v;

@@ -12,7 +12,8 @@ namespace convex {
 
 /// Where rounding left the point outside the domain, or on the far side of the membership tolerance, the
 /// nearest point of the domain; the move is part of the bound.
-std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W);
+std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W,
+                                      const Look& look);
 
 /// The prox of the conjugate from a prox x of f and its covector v: W⁻¹v is that at x + W⁻¹v, and the proxes
 /// of two points are no farther apart than the points.
@@ -27,7 +28,7 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 /// of the two is kept from pass to pass, the larger follows from z. Passes in a V far from W converge slowly
 /// where f is much flatter or steeper than s: one comes for each of some metrics between the two, V's first.
 std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                           const Metric& W);
+                           const Metric& W, const Look& look);
 
 /// The same point with the covector that the function itself has there, where it has only one.
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,

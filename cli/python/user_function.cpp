@@ -41,7 +41,7 @@ class UserFunction : public convex::FunctionNode {
     const py::gil_scoped_acquire lock;
     return option<double>((*value_)(array_of(x)), name_ + ": its value");
   }
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const convex::Look&) const override {
     Vector x;
     {
       const py::gil_scoped_acquire lock;

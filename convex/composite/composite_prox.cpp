@@ -20,9 +20,10 @@ Vector own_covectors(const SaddleProblem& problem, const SaddlePoint& point) {
   Vector y = point.y;
   for (const SaddleTerm& term : problem.terms) {
     const Vector d = point.D.segment(term.first, term.rows) / term.scale;
-    if (const auto own = term.f->prox_covector(point.u.segment(term.first, term.rows),
-                                               point.t.segment(term.first, term.rows), d))
-      y.segment(term.first, term.rows) = term.scale * *own;
+    const Vector u = point.u.segment(term.first, term.rows), t = point.t.segment(term.first, term.rows);
+    const auto own =
+        problem.look.by_steep_terms ? term.f->steep_covector(u, t, d) : term.f->prox_covector(u, t, d);
+    if (own) y.segment(term.first, term.rows) = term.scale * *own;
   }
   return y;
 }
@@ -115,10 +116,10 @@ std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& p
 
 }  // namespace
 
-Prox prox(const GraphForm& f, const Vector& z, const Metric& W) {
+Prox prox(const GraphForm& f, const Vector& z, const Metric& W, const Look& look) {
   check_sizes(f, z.size());
   check_sizes(f, W.dimension());
-  const SaddleProblem problem = saddle_problem(f, z, W);
+  const SaddleProblem problem = saddle_problem(f, z, W, look);
   const SaddleSolution solution = solve(problem);
   const SaddlePoint& point = solution.point;
   Prox found;

@@ -20,7 +20,7 @@ namespace convex::inline composite {
 /// atoms' own proxes are right to a few roundings. Otherwise M ξ + b misses u by some r, and
 ///   ||x - x*||_W² <= ||rho||_(W⁻¹) ||x - x*||_W + |r·(y - y*)| + |rho_w·(w - w*)|
 /// is used with y - y*, w - w* *estimated* by a Newton step: an estimate, with a safety factor.
-Prox prox(const GraphForm& f, const Vector& z, const Metric& W);
+Prox prox(const GraphForm& f, const Vector& z, const Metric& W, const Look& look = {});
 
 /// f(x) = constant + min over w, with what proves it.
 struct GraphValue {

@@ -107,7 +107,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     throw InvalidInput("graph form: a function of " + std::to_string(f.n) + " entries at a point of " +
                        std::to_string(x.size()) + "; give one of the same size");
   if (f.k == 0) return direct_value(f, x);
-  const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0));
+  const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0), look_of_values);
   const SaddleSolution solution = solve(problem);
   const SaddlePoint& point = solution.point;
   GraphValue found;
@@ -147,6 +147,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
         argument + (term.M.nonZeros() > 0 ? term.M.coeffs().abs().maxCoeff() * around_w : 0);
     if (around > 0) outside = std::max(outside, r.norm() / around);
   }
+  outside = std::max(outside, largest_miss_of_rows(problem, point, around_w));
   if (solution.infeasible || outside > membership_tolerance) {
     found.value = infinity;
     // Only a functional that separates the domains proves it: a miss may be slow convergence.

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "convex/composite/conjugate_atom.hpp"
-#include "convex/composite/look.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/perspective.hpp"
 #include "convex/composite/work_limit.hpp"
@@ -55,8 +54,8 @@ class EpigraphAtom final : public Atom {
     return inside(z) ? z : project(z).point;
   }
   /// A multiple of (v, -1), v the slope of f at x by its own formula.
-  std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
-    if (!Look::by_steep_terms() || !f_->facts().smooth || inside(z)) return std::nullopt;
+  std::optional<Vector> steep_covector(const Vector& x, const Vector& z, const Vector& d) const override {
+    if (!f_->facts().smooth || inside(z)) return std::nullopt;
     const double mu = side_ * (x[n_] - z[n_]);
     const std::optional<Vector> v = f_->subgradient(x.head(n_));
     if (!(mu > 0) || !v || !v->allFinite()) return std::nullopt;

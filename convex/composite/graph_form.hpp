@@ -23,6 +23,7 @@ struct GraphForm {
   Index k = 0;
   std::vector<GraphTerm> terms;
   double constant = 0;
+  bool by_slope = false;  ///< heights in it are measured in units of a slope
 };
 
 }  // namespace convex::inline composite

@@ -5,7 +5,6 @@
 
 #include "convex/composite/conjugate_atom.hpp"
 #include "convex/composite/epigraph.hpp"
-#include "convex/composite/look.hpp"
 #include "convex/composite/monotone_root.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/infinity.hpp"
@@ -74,12 +73,12 @@ class PerspectiveAtom final : public Atom {
   }
   /// (v, f(p) - p·v) at p = x/s, v the slope of f there: its product with (x, s) is the value, however much
   /// larger one of the two is than the other.
-  std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const override {
+  std::optional<Vector> steep_covector(const Vector& x, const Vector& z, const Vector& d) const override {
     const double s = side_ * x[n_];
-    if (!Look::by_steep_terms() || !(s > 0)) return std::nullopt;
+    if (!(s > 0)) return std::nullopt;
     const Vector p = x.head(n_) / s;
     const double mu = d[0] * s;
-    std::optional<Vector> v = f_->prox_covector(p, d[0] * z.head(n_) / mu, Vector::Constant(n_, mu));
+    std::optional<Vector> v = f_->steep_covector(p, d[0] * z.head(n_) / mu, Vector::Constant(n_, mu));
     if (!v && f_->facts().smooth) v = f_->subgradient(p);
     if (!v || !v->allFinite()) return std::nullopt;
     Vector whole(n_ + 1);

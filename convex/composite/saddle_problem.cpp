@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "convex/composite/look.hpp"
-
 namespace convex::inline composite {
 namespace {
 
@@ -66,9 +64,9 @@ void set_scales(SaddleProblem& problem) {
 /// Which terms give x first. A point that misses a set by rounding has the value +inf, and no other function
 /// cares as much; but that of a term that is steep at an open end of its domain, as log x near 0, feels the
 /// rounding of a much larger z, and an interval has room for such a point.
-int rank_of(const SaddleTerm& term) {
+int rank_of(const SaddleTerm& term, const Look& look) {
   const Facts facts = term.f->facts();
-  if (!Look::by_steep_terms()) return facts.indicator ? 0 : 1;
+  if (!look.by_steep_terms) return facts.indicator ? 0 : 1;
   if (facts.indicator) return term.separable ? 2 : 0;
   return facts.smooth && !facts.finite ? 1 : 3;
 }
@@ -79,7 +77,7 @@ void set_pins(SaddleProblem& problem) {
   Index pinned = 0;
   for (int rank = 0; rank <= 3; ++rank)
     for (const SaddleTerm& term : problem.terms) {
-      if (rank_of(term) != rank) continue;
+      if (rank_of(term, problem.look) != rank) continue;
       for (Index r = term.first; r < term.first + term.rows; ++r) {
         SparseRows::InnerIterator entry(rows, r);
         if (!entry || entry.value() != 1 || entry.col() >= problem.n) continue;
@@ -96,9 +94,10 @@ void set_pins(SaddleProblem& problem) {
 
 }  // namespace
 
-SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W) {
+SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look) {
   const Index size = f.n + f.k;
   SaddleProblem problem;
+  problem.look = look;
   problem.n = f.n;
   problem.k = f.k;
   problem.W = W;
@@ -137,6 +136,24 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
   set_scales(problem);
   set_pins(problem);
   return problem;
+}
+
+double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& point, double around) {
+  const SparseRows rows = problem.M;
+  double worst = 0;
+  for (const SaddleTerm& term : problem.terms) {
+    if (!term.separable || !term.f->facts().indicator) continue;
+    for (Index i = term.first; i < term.first + term.rows; ++i) {
+      double size = std::abs(problem.b[i]), largest = 0;
+      for (SparseRows::InnerIterator entry(rows, i); entry; ++entry) {
+        size += std::abs(entry.value() * point.xi[entry.col()]);
+        largest = std::max(largest, std::abs(entry.value()));
+      }
+      size += largest * around;
+      if (size > 0) worst = std::max(worst, std::abs(point.r[i]) / size);
+    }
+  }
+  return worst;
 }
 
 Vector prox_of_terms(const SaddleProblem& problem, const Vector& t, const Vector& D) {

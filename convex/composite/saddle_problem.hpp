@@ -38,9 +38,11 @@ struct SaddleProblem {
 
   /// M is made of such rows alone, so that v = Mᵀy is a subgradient of f at x.
   bool all_pinned = false;
+
+  Look look;
 };
 
-SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W);
+SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look = {});
 
 /// A point of the graphs of the terms' subdifferentials beside a ξ, after Minty: t gives u = prox_D t and
 /// y = D(t - u), a subgradient of the term at u. Solved when r and rho are 0.
@@ -57,6 +59,10 @@ SaddlePoint saddle_point(const SaddleProblem&, Vector xi, Vector t, const Vector
 
 /// What `residual` is relative to: ||x||_W + ||z||_W, ||u||_D and ||y||_(D⁻¹).
 double solution_size(const SaddleProblem&, const SaddlePoint&);
+
+/// How far M ξ + b is from u in a row, as a part of the sizes of that row: of rows that hold each by itself,
+/// equations and bounds, whose units may be far apart. `around`: the size of ξ.
+double largest_miss_of_rows(const SaddleProblem&, const SaddlePoint&, double around);
 
 /// prox_D of every term at its part of t.
 Vector prox_of_terms(const SaddleProblem&, const Vector& t, const Vector& D);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/composite/look.hpp"
 #include "convex/composite/multiplier_step.hpp"
 #include "convex/composite/newton_polish.hpp"
 #include "convex/composite/saddle_error.hpp"
@@ -35,6 +34,8 @@ constexpr double unbalanced = 16;
 /// Exponents of 2 by which D is off where the steps do not come to an end, as none of its own data tells
 /// them.
 constexpr int other_scales[] = {-12, 12, -24, 24, -6, 6, -18, 18, -36, 36};
+/// The error is not halved by so many of them, one after the other: the others will not do it.
+constexpr int most_idle_scales = 4;
 
 /// Do the terms' domains lie apart along the gap of a step? Its normal q = D·gap has Mᵀq = 0 then, and
 /// q·b > sum of sup {q·u : u in a domain}, which the nearest point of a point far out along q
@@ -225,15 +226,23 @@ bool is_settled(const SaddleProblem& problem, const SaddleSolution& solution) {
 
 SaddleSolution solve(const SaddleProblem& problem) {
   SaddleSolution best = solve_balanced(problem);
-  if (!Look::at_other_scales()) return best;
+  if (!problem.look.at_other_scales) return best;
+  int idle = 0;
   for (const int exponent : other_scales) {
-    if (is_settled(problem, best) || WorkLimit::passed()) break;
+    if (idle >= most_idle_scales || is_settled(problem, best) || WorkLimit::passed()) break;
     SaddleProblem other = problem;
     other.D *= std::exp2(exponent);
     other.R *= std::exp2(exponent);
     SaddleSolution next = solve_balanced(std::move(other));
+    ++idle;
     if (next.infeasible) continue;
+    // The error is estimated by the point's own multipliers, which see nothing of a row that is given up.
+    const auto miss_of = [&](const SaddlePoint& at) {
+      return largest_miss_of_rows(problem, at, at.xi.norm());
+    };
+    if (miss_of(next.point) > std::max(near_rounding, miss_of(best.point))) continue;
     const double error = error_of(problem, next.point), least = error_of(problem, best.point);
+    if (error < 0.5 * least || (std::isfinite(error) && !std::isfinite(least))) idle = 0;
     if (error < least || !std::isfinite(least)) best = std::move(next);
   }
   return best;

@@ -46,11 +46,12 @@ double distance_in_gap(const Facts& facts, double gap, double size_of_x, double 
   return facts.indicator ? along(size_of_v) : 0;
 }
 
-Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d) {
+Prox in_diagonal_metric(const Atom& f, const Vector& z, const Vector& d, const Look& look) {
   Prox result;
   result.x = f.prox_diagonal(z, d);
   const Vector covector = d.cwiseProduct(z - result.x);
-  const std::optional<Vector> v = f.prox_covector(result.x, z, d);
+  const std::optional<Vector> v =
+      look.by_steep_terms ? f.steep_covector(result.x, z, d) : f.prox_covector(result.x, z, d);
   result.v = v ? *v : covector;
   const Vector root = d.cwiseSqrt();
   result.values = {f.evaluate(result.x), f.conjugate().evaluate(result.v), 0};
@@ -71,19 +72,23 @@ std::optional<Vector> Atom::prox_covector(const Vector&, const Vector&, const Ve
   return std::nullopt;
 }
 
-std::optional<Prox> Atom::prox_general(const Vector&, const Metric&) const { return std::nullopt; }
-
-Prox Atom::prox(const Vector& z, const Metric& W) const {
-  const Vector d = diagonal_of(W);
-  if (d.size() > 0 && (takes_any_diagonal() || d.maxCoeff() == d.minCoeff()))
-    return in_diagonal_metric(*this, z, d);
-  if (std::optional<Prox> own = prox_general(z, W)) return *own;
-  const std::optional<LinearQuadratic> form = linear_quadratic(z.size());
-  return without_rounding_at_zero(form ? convex::prox(*form, z, W) : convex::prox(*graph(z.size()), z, W),
-                                  facts(), z, W);
+std::optional<Vector> Atom::steep_covector(const Vector& x, const Vector& z, const Vector& d) const {
+  return prox_covector(x, z, d);
 }
 
-std::optional<GraphForm> Atom::graph(Index n) const {
+std::optional<Prox> Atom::prox_general(const Vector&, const Metric&) const { return std::nullopt; }
+
+Prox Atom::prox(const Vector& z, const Metric& W, const Look& look) const {
+  const Vector d = diagonal_of(W);
+  if (d.size() > 0 && (takes_any_diagonal() || d.maxCoeff() == d.minCoeff()))
+    return in_diagonal_metric(*this, z, d, look);
+  if (std::optional<Prox> own = prox_general(z, W)) return *own;
+  const std::optional<LinearQuadratic> form = linear_quadratic(z.size());
+  return without_rounding_at_zero(
+      form ? convex::prox(*form, z, W) : convex::prox(*graph(z.size()), z, W, look), facts(), z, W);
+}
+
+std::optional<GraphForm> Atom::graph(Index n, double) const {
   SparseMatrix identity(n, n);
   identity.setIdentity();
   return GraphForm{

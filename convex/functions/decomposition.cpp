@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/composite/look.hpp"
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/split_candidate.hpp"
@@ -26,11 +25,11 @@ constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3
 
 /// How a question is looked at until an answer is borne out, and what each look may take of the work.
 struct LookWithWork {
-  Look::Kind kind;
+  Look look;
   double work;
 };
 constexpr LookWithWork looks[] = {
-    {Look::Kind::plain, 1}, {Look::Kind::at_other_scales, 0.75}, {Look::Kind::by_steep_terms, 0.5}};
+    {{}, 1}, {{.at_other_scales = true}, 0.75}, {{.at_other_scales = true, .by_steep_terms = true}, 0.5}};
 
 /// `found`, or a point of which nothing is known.
 Prox made_up(const std::optional<Prox>& found, const Vector& point) {
@@ -58,10 +57,11 @@ std::optional<Prox> without_small_entries(const Prox& found, const Metric& W) {
 /// What the two proxes gave, held against the values. Where these do not bear it out, other pairs are tried:
 /// the points moved into their domains, one of the two by Moreau's identity from the other, the covectors in
 /// place of y, and x and v balanced.
-Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance) {
+Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance,
+                      const Look& look) {
   const auto prox_of = [&](const Function& h, const Vector& point, const Metric& V) {
     const WorkLimit part(part_of_a_prox);
-    return h.prox(point, V);
+    return h.prox(point, V, look);
   };
   Prox x = prox_of(of.f, z, W), y = prox_of(of.g, z, W);
   // What gave up without a point is found from the other, or not at all.
@@ -78,7 +78,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   const auto near = [&](const std::optional<Prox>& found) { return found && found->error_bound <= enough; };
   const auto into = [&](const Function& h, const std::optional<Prox>& found) {
     const WorkLimit part(part_of_a_move);
-    return near(found) ? moved_into_domain(h, *found, size + W.norm(y.x), W) : std::nullopt;
+    return near(found) ? moved_into_domain(h, *found, size + W.norm(y.x), W, look) : std::nullopt;
   };
   const auto consider = [&](const std::optional<Prox>& of_x, const std::optional<Prox>& of_y) {
     if (is_found() || !near(of_x) || !near(of_y)) return;
@@ -128,13 +128,13 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   attempt(part_of_a_prox, [&] {
     const auto* made = dynamic_cast<const Operation*>(&of.f.node());
     if (!made) return;
-    const std::optional<Prox> other = made->other_prox(z, W);
+    const std::optional<Prox> other = made->other_prox(z, W, look);
     consider(other, y);
     consider_covector(other);
   });
   attempt(part_of_a_way, [&] { consider_all(x); });
   attempt(part_of_a_way, [&] {
-    for (const Prox& pair : balanced(of.f, x, z, W))
+    for (const Prox& pair : balanced(of.f, x, z, W, look))
       if (!ended()) consider_all(pair);
   });
   attempt(part_of_a_way, [&] { consider(into(of.f, moreau_partner(y, z, W)), y); });
@@ -146,7 +146,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     consider_all(turned(dual, z, W));
   });
   attempt(part_of_a_way, [&] {
-    for (const Prox& pair : balanced(of.plain, dual, covector, V))
+    for (const Prox& pair : balanced(of.plain, dual, covector, V, look))
       if (!ended()) consider_all(turned(pair, z, W));
   });
   Decomposition& split = best.split;
@@ -166,8 +166,9 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
 }
 
 /// One look at f, its status by the tolerance.
-Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance) {
-  Decomposition split = guarded(of, z, W, tolerance);
+Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance,
+                        const Look& look) {
+  Decomposition split = guarded(of, z, W, tolerance, look);
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
   const bool accurate = split.x.error_bound <= enough && split.y.error_bound <= enough &&
                         split.error_bound <= enough;  // each by itself: a maximum may hide a NaN
@@ -180,24 +181,36 @@ Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric&
   return split;
 }
 
-}  // namespace
+/// Squares and products of numbers of this size, or of its inverse, leave the range of doubles.
+constexpr double largest_size = 0x1p500;
 
-Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+/// Looks at f until one bears an answer out.
+Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric& W, double tolerance) {
   const SplitFunctions of{f, f.conjugate(W), f.conjugate()};
   std::optional<Decomposition> best;
-  for (const auto& [kind, work] : looks) {
-    const Look look(kind);
+  for (const auto& [look, work] : looks) {
     const WorkLimit question(work);
-    try {
-      Decomposition split = looked_at(of, z, W, tolerance);
-      if (split.status == Status::solved) return split;
-      if (!best || split.error_bound < best->error_bound) best = std::move(split);
-    } catch (const InvalidInput&) {
-      if (!best) throw;  // a metric far from W left the range of doubles on the way; the look before stands
-    }
+    Decomposition split = looked_at(of, z, W, tolerance, look);
+    if (split.status == Status::solved) return split;
+    if (!best || split.error_bound < best->error_bound) best = std::move(split);
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
   }
   return *std::move(best);
+}
+
+}  // namespace
+
+Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+  const double size = norm_at_any_scale(W, z);
+  if (!(size <= largest_size))
+    throw InvalidInput("z: its square leaves the range of doubles; measure x in units nearer to its size");
+  Decomposition split = looked_at_in_turn(f, z, W, tolerance);
+  // Squares of what is smaller are 0, and a bound made of them tells nothing.
+  const double most = std::max({size, norm_at_any_scale(W, split.x.x), norm_at_any_scale(W, split.y.x)});
+  if (most > 0 && most < 1 / largest_size)
+    for (double* bound : {&split.error_bound, &split.x.error_bound, &split.y.error_bound})
+      *bound = std::max(*bound, 1 / largest_size);
+  return split;
 }
 
 }  // namespace convex::inline named_functions

@@ -62,13 +62,13 @@ Value Function::evaluate(const Vector& x) const {
   return node_->evaluate(x);
 }
 
-Prox Function::prox(const Vector& z, const Metric& W) const {
+Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {
   check(*this, z, "z");
   if (W.dimension() != z.size())
     throw InvalidInput(call().name + ": z has " + std::to_string(z.size()) + " entries, the metric " +
                        std::to_string(W.dimension()) + " rows; give one of the other's size");
   const WorkLimit question;
-  Prox found = node_->prox(z, W);
+  Prox found = node_->prox(z, W, look);
   if (found.x.size() == z.size()) settle_at_zero(*node_, z, W, found);
   if (found.status == Status::solved && !std::isfinite(found.error_bound)) found.status = Status::inaccurate;
   return found;
@@ -88,7 +88,7 @@ bool Function::is_subgradient(const Vector& v, const Vector& x) const {
   check(*this, v, "v");
   if (v.size() != x.size())
     throw InvalidInput(call().name + ": v and x differ in size; give one of the other's size");
-  const Prox back = node_->prox(x + v, Metric::identity(x.size()));
+  const Prox back = node_->prox(x + v, Metric::identity(x.size()), {});
   if (back.x.size() != x.size()) return false;
   return (back.x - x).norm() <= membership_tolerance * (x.norm() + v.norm());
 }

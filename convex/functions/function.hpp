@@ -6,6 +6,7 @@
 
 #include "convex/gamma0/call.hpp"
 #include "convex/gamma0/facts.hpp"
+#include "convex/gamma0/look.hpp"
 #include "convex/gamma0/prox.hpp"
 #include "convex/metric.hpp"
 
@@ -42,7 +43,8 @@ class Function {
   Value evaluate(const Vector& x) const;
 
   /// argmin ½||u - z||_W² + f(u) (Moreau 1965); a step is a metric: W/gamma gives the prox of gamma f.
-  Prox prox(const Vector& z, const Metric& W) const;
+  /// `look` says how programs are gone about, where there is no formula.
+  Prox prox(const Vector& z, const Metric& W, const Look& look = {}) const;
 
   /// f*(v) = sup_x v·x - f(x) (Fenchel 1949), as an expression by rule where a rule exists, else as a
   /// function whose value and prox are computed.

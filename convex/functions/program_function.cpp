@@ -26,7 +26,7 @@ class ProgramNode : public FunctionNode {
   }
   Call call() const override { return swapped_ ? parts_->conjugate_call : parts_->call; }
   double value(const Vector& x) const override { return convex::value(form(), x); }
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
   }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
@@ -36,7 +36,7 @@ class ProgramNode : public FunctionNode {
     return known_or_infinite(swapped_ ? parts_->form : parts_->conjugate_form, v);
   }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(); }
-  std::optional<GraphForm> graph(Index) const override {
+  std::optional<GraphForm> graph(Index, double) const override {
     return swapped_ ? convex::conjugate(parts_->graph) : parts_->graph;
   }
 

@@ -81,7 +81,7 @@ class Quadratic : public Atom {
                                                           : std::numeric_limits<double>::infinity();
   }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
-    return prox(z, Metric::diagonal(d)).x;
+    return prox(z, Metric::diagonal(d), {}).x;
   }
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
     const Matrix D = d.asDiagonal();
@@ -91,7 +91,7 @@ class Quadratic : public Atom {
     return QuadraticForm{Q_.sparseView(), c_, constant_};
   }
   /// 0 = W(x - z) + Qx + c, refined once.
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     const linear_algebra::Cholesky sum(gram(W) + Q_);
     Vector x = sum.solve(W.multiply(z) - c_);
     for (int pass = 0; pass < 2; ++pass) x -= sum.solve(stationarity(z, W, x, slope(x)));
@@ -151,7 +151,7 @@ class DualQuadratic : public Atom {
   /// The recession function of the quadratic.
   double domain_support(const Vector& d) const override { return Quadratic(Q_, c_, constant_).recession(d); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
-    return prox(z, Metric::diagonal(d)).x;
+    return prox(z, Metric::diagonal(d), {}).x;
   }
   Matrix prox_jacobian(const Vector&, const Vector& d) const override {
     const Index r = L_.cols();
@@ -159,7 +159,7 @@ class DualQuadratic : public Atom {
     return L_ * linear_algebra::Cholesky(weighted * L_ + Matrix::Identity(r, r)).solve_columns(weighted);
   }
   /// (LᵀWL + I) t = LᵀW(z - c); x = c + Lt, refined once.
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     const Index r = L_.cols();
     const Matrix W_L = gram(W) * L_;
     const linear_algebra::Cholesky sum(L_.transpose() * W_L + Matrix::Identity(r, r));

@@ -36,6 +36,6 @@ double FunctionNode::domain_support(const Vector& v) const {
 
 std::optional<LinearQuadratic> FunctionNode::linear_quadratic(Index) const { return std::nullopt; }
 
-std::optional<GraphForm> FunctionNode::graph(Index) const { return std::nullopt; }
+std::optional<GraphForm> FunctionNode::graph(Index, double) const { return std::nullopt; }
 
 }  // namespace convex::inline gamma0

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "convex/functions/function.hpp"
+#include "convex/gamma0/look.hpp"
 
 namespace convex {
 struct LinearQuadratic;
@@ -24,7 +25,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual double value(const Vector& x) const = 0;
   /// The value with its error; some roundings of it unless the function knows better.
   virtual Value evaluate(const Vector& x) const;
-  virtual Prox prox(const Vector& z, const Metric& W) const = 0;
+  /// `look`: how the programs in it are gone about.
+  virtual Prox prox(const Vector& z, const Metric& W, const Look& look) const = 0;
   virtual Function conjugate() const = 0;
   virtual std::optional<Vector> subgradient(const Vector& x) const = 0;
 
@@ -43,7 +45,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual std::optional<LinearQuadratic> linear_quadratic(Index n) const;
   /// f on Rⁿ as a sum of atoms of affine maps, minimised over auxiliary variables: what the iterative prox
   /// and every operation without a formula work on. None for a function known by value and prox alone.
-  virtual std::optional<GraphForm> graph(Index n) const;
+  /// slope: of the size of a subgradient where the form is used, a power of 2; heights are measured in it.
+  virtual std::optional<GraphForm> graph(Index n, double slope = 1) const;
 };
 
 /// ½ u·Qu + c·u + constant on Rⁿ. Q: n×n, symmetric positive semidefinite.
@@ -66,6 +69,8 @@ class Atom : public FunctionNode {
   /// A subgradient of f at x = prox_diagonal(z, d) by a formula of its own: the one nearest to D(z - x),
   /// which is D(z - x) itself up to rounding. None where there is no such formula.
   virtual std::optional<Vector> prox_covector(const Vector& x, const Vector& z, const Vector& d) const;
+  /// The same, made of the slopes of the functions that f is made of, where f is steep.
+  virtual std::optional<Vector> steep_covector(const Vector& x, const Vector& z, const Vector& d) const;
   /// What x and v miss of "v is a subgradient at x", as a part of ||x - x*||_D, for formulas of which one is
   /// made from the other: their residual alone would compare a number with itself.
   virtual double subgradient_miss(const Vector& /*x*/, const Vector& /*v*/, const Vector& /*d*/) const {
@@ -86,8 +91,8 @@ class Atom : public FunctionNode {
   /// f on Rⁿ where it is quadratic or linear: sums of atoms then need no prox of it.
   virtual std::optional<QuadraticForm> quadratic_form(Index) const { return std::nullopt; }
 
-  Prox prox(const Vector& z, const Metric& W) const override;
-  std::optional<GraphForm> graph(Index n) const override;
+  Prox prox(const Vector& z, const Metric& W, const Look& look) const override;
+  std::optional<GraphForm> graph(Index n, double slope = 1) const override;
 };
 
 }  // namespace convex::inline gamma0

@@ -76,13 +76,14 @@ std::optional<Composition> composition(std::span<const Function> parts) {
 
 }  // namespace
 
-std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W) {
+std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                  const Look& look) {
   if (parts.size() < 2 || !is_multiple_of_identity(W)) return std::nullopt;
   const auto order = composition(parts);
   if (!order) return std::nullopt;
-  const Prox u = order->first.prox(z, W);
+  const Prox u = order->first.prox(z, W, look);
   if (u.x.size() == 0) return std::nullopt;
-  const Prox x = order->last.prox(u.x, W);
+  const Prox x = order->last.prox(u.x, W, look);
   if (x.x.size() == 0) return std::nullopt;
   Prox made = x;
   take_weaker_evidence(made, u);
@@ -94,14 +95,15 @@ std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector&
   return whole;
 }
 
-std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W) {
+std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W,
+                                    const Look& look) {
   if (z.size() < 2 || !is_diagonal_kind(W) || !f.facts().separable) return std::nullopt;
   std::vector<Prox> entries;
   std::optional<Function> one;
   for (Index i = 0; i < z.size(); ++i) {
     if (i == 0 || f.dimension() != 0) one = f.entry(i);
     if (!one) return std::nullopt;
-    entries.push_back(one->prox(z.segment(i, 1), block(W, i, 1)));
+    entries.push_back(one->prox(z.segment(i, 1), block(W, i, 1), look));
   }
   Prox whole = joined(entries);
   whole.values.reset();  // those of the entries are without the constant

@@ -14,11 +14,13 @@ namespace convex::inline operations {
 /// same function of each entry, which keeps their order, and g `by_order` (Bach 2013, section 8.2; for
 /// total_variation and norm1 Friedman, Hastie, Höfling and Tibshirani 2007). None where no order of the parts
 /// is such a case.
-std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W);
+std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                  const Look& look);
 
 /// prox^W z of f(x) = Σ_i f_i(x_i), n > 1, from those of the f_i, W diagonal; none where the f_i are not
 /// known.
-std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W);
+std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W,
+                                    const Look& look);
 
 /// The prox of f_1(x_1) + f_2(x_2) + … over consecutive blocks, from those of the blocks, not empty. No x
 /// where a block has none.

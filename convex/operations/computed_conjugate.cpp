@@ -38,7 +38,7 @@ class ComputedConjugate : public Operation {
   }
   double recession(const Vector& d) const override { return f_.node().domain_support(d); }
   double domain_support(const Vector& v) const override { return f_.node().recession(v); }
-  std::optional<GraphForm> graph(Index n) const override {
+  std::optional<GraphForm> graph(Index n, double) const override {
     const auto form = f_.node().graph(n);
     if (!form) return std::nullopt;
     return convex::conjugate(*form);
@@ -46,9 +46,9 @@ class ComputedConjugate : public Operation {
 
  protected:
   /// The covector of f at its point is the point of f*, and the other way round.
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    return by_moreau([&](const Vector& point, const Metric& V) { return std::optional(f_.prox(point, V)); },
-                     z, W);
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
+    return by_moreau(
+        [&](const Vector& point, const Metric& V) { return std::optional(f_.prox(point, V, look)); }, z, W);
   }
 
  private:
@@ -59,7 +59,7 @@ class ComputedConjugate : public Operation {
         return {*found, {}};
     if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return by_program(v);
     const double slope = parts->slope_of(v);
-    const auto form = parts->graph_at_slope(v.size(), slope);
+    const auto form = parts->graph(v.size(), unit_of_slope(slope));
     if (!form) return by_program(v);
     const GraphValue found = convex::evaluate(convex::conjugate(*form), v);
     return {value_of(found), found.v};

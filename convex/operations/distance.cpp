@@ -41,7 +41,7 @@ class Distance : public Operation {
         .node()
         .linear_quadratic(n);
   }
-  std::optional<GraphForm> graph(Index n) const override {
+  std::optional<GraphForm> graph(Index n, double) const override {
     const auto norm = named("norm2", {argument("weight", weight_)}, n).node().graph(n);
     const auto set = set_.indicator.node().graph(n);
     if (!norm || !set) return std::nullopt;
@@ -50,7 +50,7 @@ class Distance : public Operation {
 
  protected:
   /// In the metric k I the point goes weight/k towards the set, and stops there (Beck 2017, Lemma 6.43).
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look&) const override {
     const bool diagonal = W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
     const double k = W.diagonal()[0];
     if (!diagonal || !(W.diagonal().array() == k).all()) return std::nullopt;

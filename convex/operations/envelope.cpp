@@ -48,20 +48,20 @@ class Envelope : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::envelope(*form, gamma_, M_ ? *M_ : Metric::identity(n));
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = f_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = f_.node().graph(n, slope);
     if (!form) return std::nullopt;
     return convex::envelope(*form, kernel(n).Q);
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const Kernel q = kernel(z.size());
     const auto diagonal = [](const Metric& V) {
       return V.kind() == MetricKind::identity || V.kind() == MetricKind::diagonal;
     };
     if (facts().piecewise_quadratic && !(diagonal(W) && diagonal(q.Q)) && !ratio(W, q.Q)) return std::nullopt;
-    return smoothed_prox(f_, q, z, W);
+    return smoothed_prox(f_, q, z, W, look);
   }
 
  private:

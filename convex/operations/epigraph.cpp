@@ -77,7 +77,7 @@ class Lifted : public Operation {
     if (!polyhedral_) return std::nullopt;
     return lifted(*f_.node().linear_quadratic(n - 1), perspective);
   }
-  std::optional<GraphForm> part_graph(Index n) const { return f_.node().graph(n - 1); }
+  std::optional<GraphForm> part_graph(Index n, double slope) const { return f_.node().graph(n - 1, slope); }
   const Function f_;
   bool polyhedral_ = false;
 };
@@ -107,7 +107,7 @@ class Epigraph : public Lifted {
     if (height == infinity) return {infinity, 0};
     if (height - x[n] <= membership_tolerance * scale) return {};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
-    const Prox nearest = prox(x, Metric::identity(x.size()));
+    const Prox nearest = prox(x, Metric::identity(x.size()), look_of_values);
     const bool near =
         nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm();
     return {near ? 0 : infinity, 0};
@@ -128,25 +128,24 @@ class Epigraph : public Lifted {
     return perspective(f_.conjugate()).evaluate(last_reversed(v));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, false); }
-  std::optional<GraphForm> graph(Index n) const override { return graph_at_slope(n, 1); }
   /// A normal is (λ∇f, -λ).
   double slope_of(const Vector& v) const override {
     const Index n = v.size() - 1;
     return v.head(n).norm() / std::abs(v[n]);
   }
-  std::optional<GraphForm> graph_at_slope(Index n, double slope) const override {
-    if (f_.facts().indicator) return with_last_not_negative(f_, n).node().graph(n);
-    const auto form = part_graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    if (f_.facts().indicator) return with_last_not_negative(f_, n).node().graph(n, slope);
+    const auto form = part_graph(n, slope);
     if (!form) return std::nullopt;
-    return convex::epigraph(*form, unit_of_slope(slope));
+    return convex::epigraph(*form, slope);
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     if (polyhedral_) return std::nullopt;
-    if (f_.facts().indicator) return with_last_not_negative(f_, z.size()).prox(z, W);
+    if (f_.facts().indicator) return with_last_not_negative(f_, z.size()).prox(z, W, look);
     // With the unit 1 x and t come from the set itself, and v is proved to be normal to it.
-    return prox_in_slopes(*this, 1, z, W);
+    return prox_in_slopes(*this, 1, z, W, look);
   }
 };
 
@@ -184,9 +183,9 @@ class Perspective : public Lifted {
     return epigraph(f_.conjugate()).evaluate(last_reversed(v));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override { return lifted_program(n, true); }
-  std::optional<GraphForm> graph(Index n) const override {
-    if (const auto simple = simpler(n)) return simple->node().graph(n);
-    const auto form = part_graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    if (const auto simple = simpler(n)) return simple->node().graph(n, slope);
+    const auto form = part_graph(n, slope);
     if (!form) return std::nullopt;
     return convex::perspective(*form);
   }
@@ -202,9 +201,9 @@ class Perspective : public Lifted {
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     if (polyhedral_) return std::nullopt;
-    if (const auto simple = simpler(z.size())) return simple->prox(z, W);
+    if (const auto simple = simpler(z.size())) return simple->prox(z, W, look);
     return std::nullopt;
   }
 

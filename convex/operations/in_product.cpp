@@ -40,8 +40,8 @@ class InProduct : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = h_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = h_.node().graph(n, slope);
     if (!form) return std::nullopt;
     return convex::precompose(*form, gram(M_).sparseView(), Vector::Zero(n));
   }
@@ -49,7 +49,7 @@ class InProduct : public Operation {
  protected:
   /// With u = Mx the metric is M⁻¹WM⁻¹, the inverse of C = M W⁻¹M. As matrices both are rounded; the
   /// residual sees W and M as given, and corrects the point Mz by it.
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const auto factor = ratio(M_, W);
     const Metric C = factor ? times(*factor * *factor, W) : congruence(M_, W);
     const auto into_point = [&](const Vector& covector) -> Vector {  // M W⁻¹ covector
@@ -57,7 +57,7 @@ class InProduct : public Operation {
     };
     if (const auto f = primal_of(h_)) {  // Moreau's identity leads back to C, and to points C⁻¹u
       const auto from = [&](const Vector& point) {
-        Prox part = f->prox(point, C);
+        Prox part = f->prox(point, C, look);
         if (part.x.size() == 0) return part;
         part.by_conjugate = true;
         const auto values = part.values;  // those of f, of which h is the conjugate
@@ -72,7 +72,7 @@ class InProduct : public Operation {
     const Metric S = inverse(C);
     if (facts().piecewise_quadratic && !factor && !is_diagonal_kind(S)) return std::nullopt;
     const auto from = [&](const Vector& point) {
-      Prox part = h_.prox(point, S);
+      Prox part = h_.prox(point, S, look);
       if (part.x.size() == 0) return part;
       return with_values(moved(part, refined_solve(M_, part.x), image(part.v), part.error_bound, z, W),
                          part.values);

@@ -61,17 +61,17 @@ class InfConvolution : public Operation {
     if (!forms) return std::nullopt;
     return linear_quadratic::inf_convolution((*forms)[0], (*forms)[1]);
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto f = f_.node().graph(n), g = g_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto f = f_.node().graph(n, slope), g = g_.node().graph(n, slope);
     if (!f || !g) return std::nullopt;
     return convex::inf_convolution(*f, *g);
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const bool diagonal = W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
     if (facts().piecewise_quadratic && !diagonal) return std::nullopt;
-    if (const auto split = smoothing(z.size())) return smoothed_prox(split->first, split->second, z, W);
+    if (const auto split = smoothing(z.size())) return smoothed_prox(split->first, split->second, z, W, look);
     return std::nullopt;
   }
 

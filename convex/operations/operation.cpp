@@ -72,15 +72,16 @@ double unit_of_slope(double slope) {
   return slope > 0 && std::isfinite(slope) ? std::exp2(std::floor(std::log2(slope))) : 1;
 }
 
-std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W) {
+std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W,
+                                   const Look& look) {
   constexpr int most_slopes = 3;
   constexpr double far_above = 1024;
   std::optional<Prox> best;
   double slope = unit_of_slope(first);
   for (int pass = 0; pass < most_slopes; ++pass) {
-    const auto form = f.graph_at_slope(z.size(), slope);
+    const auto form = f.graph(z.size(), slope);
     if (!form) return std::nullopt;
-    Prox found = convex::prox(*form, z, W);
+    Prox found = convex::prox(*form, z, W, look);
     const double actual = f.slope_of(found.v);
     const bool hidden = slope > far_above * std::max(actual, 1.0);
     const bool better = !best || found.error_bound < best->error_bound;
@@ -89,15 +90,16 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
     const double next = unit_of_slope(actual);
     if (next == slope) break;
     slope = next;
+    if (!form->by_slope) break;
     if (hidden) best.reset();
   }
   return best;
 }
 
-std::optional<Prox> Operation::other_prox(const Vector& z, const Metric& W) const {
+std::optional<Prox> Operation::other_prox(const Vector& z, const Metric& W, const Look& look) const {
   if (facts().piecewise_quadratic) return std::nullopt;
   const std::vector<Function> parts = maximum_of();
-  return parts.empty() ? std::nullopt : prox_of_max(parts, z, W);
+  return parts.empty() ? std::nullopt : prox_of_max(parts, z, W, look);
 }
 
 Function indicator_of_point(const Vector& p) {
@@ -122,38 +124,47 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
     }
   }
   if (const auto form = graph(x.size())) {
-    const GraphValue found = convex::evaluate(*form, at);
+    GraphValue found = convex::evaluate(*form, at);
+    // Heights in units of the slope there may show what others hide.
+    const double unit = found.v ? unit_of_slope(found.v->norm()) : 1;
+    if (form->by_slope && found.status != Status::solved && unit != 1) {
+      GraphValue other = convex::evaluate(*graph(x.size(), unit), at);
+      if (other.status == Status::solved || value_of(other).error < value_of(found).error)
+        found = std::move(other);
+    }
     return {multiple_of(size, value_of(found)), found.v};
   }
   refuse(*this, "value");
 }
 
-std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W) const {
-  std::optional<Prox> best = reduced_prox(z, W);
+std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W, const Look& look) const {
+  std::optional<Prox> best = reduced_prox(z, W, look);
   if (best && is_settled(*best, z, W)) return best;
-  if (auto whole = prox_by_entries(*this, z, W)) {
+  if (auto whole = prox_by_entries(*this, z, W, look)) {
     take_better(best, *std::move(whole));
     if (is_settled(*best, z, W)) return best;
   }
   if (const auto form = linear_quadratic(z.size()))
     take_better(best, convex::prox(*form, z, W));
-  else if (const auto program = graph(z.size()))
-    take_better(best, convex::prox(*program, z, W));
+  else if (auto program = prox_in_slopes(*this, 1, z, W, look))
+    take_better(best, *std::move(program));
+  else if (const auto plain = graph(z.size()))
+    take_better(best, convex::prox(*plain, z, W, look));
   return best;
 }
 
-Prox Operation::prox(const Vector& z, const Metric& W) const {
-  std::optional<Prox> best = own_prox(z, W);
+Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
+  std::optional<Prox> best = own_prox(z, W, look);
   if (!best) refuse(*this, "prox in this metric");
   if (!is_settled(*best, z, W))
-    if (auto other = other_prox(z, W)) take_better(best, *std::move(other));
+    if (auto other = other_prox(z, W, look)) take_better(best, *std::move(other));
   const OneAtATime question(OneAtATime::Kind::conjugate_prox);
   if (is_settled(*best, z, W) || !question.first()) return *std::move(best);
   const Function g = conjugate();
   const auto* dual = dynamic_cast<const Operation*>(&g.node());
   if (dual && primal_of(g)) return *std::move(best);
   const auto of_dual = [&](const Vector& point, const Metric& V) {
-    return dual ? dual->own_prox(point, V) : std::optional(g.prox(point, V));
+    return dual ? dual->own_prox(point, V, look) : std::optional(g.prox(point, V, look));
   };
   if (auto other = by_moreau(of_dual, z, W)) take_better(best, *std::move(other));
   return *std::move(best);
@@ -165,9 +176,9 @@ std::optional<Vector> Operation::subgradient(const Vector& x) const {
   refuse(*this, "subgradient");
 }
 
-std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W) {
+std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W, const Look& look) {
   if (const auto form = f.node().linear_quadratic(z.size())) return convex::prox(*form, z, W);
-  if (const auto form = f.node().graph(z.size())) return convex::prox(*form, z, W);
+  if (const auto form = f.node().graph(z.size())) return convex::prox(*form, z, W, look);
   return std::nullopt;
 }
 
@@ -206,10 +217,13 @@ Value value_near(const Function& f, const Vector& y, double size) {
   for (const double stiff : {stiffest_weight, nearest_point_weight}) {
     const double weight = f.facts().indicator ? 1 : stiff / (near * near);
     if (!std::isfinite(weight) || !(weight > 0)) continue;
-    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)));
+    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), look_of_values);
     if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
-    const Value inside = f.evaluate(nearest.x);
-    if (std::isfinite(inside.value)) return inside;
+    const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
+    if (!std::isfinite(inside.value)) continue;
+    // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
+    const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
+    return {inside.value, inside.error + 2 * rise};
   }
   return value;
 }

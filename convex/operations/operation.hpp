@@ -18,25 +18,25 @@ class Operation : public FunctionNode {
   Value evaluate(const Vector& x) const override;
   /// By formula, else by program; where that is not accurate, each of the ways there are is tried, the last
   /// of them Moreau's identity, and the one with the smallest bound is taken.
-  Prox prox(const Vector& z, const Metric& W) const override;
+  Prox prox(const Vector& z, const Metric& W, const Look& look) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
   /// f*(v) where a formula gives it though the conjugate has no expression for any number of entries.
   virtual std::optional<Value> conjugate_value(const Vector&) const { return std::nullopt; }
   /// The prox by another way, for where those by formula and program are not accurate, or the values of f do
   /// not bear them out; none when there is none.
-  virtual std::optional<Prox> other_prox(const Vector&, const Metric&) const;
+  virtual std::optional<Prox> other_prox(const Vector&, const Metric&, const Look&) const;
   /// The functions of which this is the maximum, where it is one of curved functions: an operation on a
   /// maximum that keeps the order of functions is the maximum of what it makes of them. Empty elsewhere.
   virtual std::vector<Function> maximum_of() const { return {}; }
   /// The slope that a covector of this function tells of the functions whose heights are measured.
   virtual double slope_of(const Vector& v) const { return v.norm(); }
-  /// The graph form for use where slopes are of the size of `slope` > 0.
-  virtual std::optional<GraphForm> graph_at_slope(Index n, double) const { return graph(n); }
 
  protected:
   /// The prox by formula from those of the parts; none when there is no formula in this metric.
-  virtual std::optional<Prox> reduced_prox(const Vector&, const Metric&) const { return std::nullopt; }
+  virtual std::optional<Prox> reduced_prox(const Vector&, const Metric&, const Look&) const {
+    return std::nullopt;
+  }
   /// A value with a subgradient there, which attains the supremum over the conjugate.
   struct ByProgram {
     Value value;
@@ -44,7 +44,7 @@ class Operation : public FunctionNode {
   };
   ByProgram by_program(const Vector& x) const;
   /// The prox by formula or program, without the conjugate's help.
-  std::optional<Prox> own_prox(const Vector& z, const Metric& W) const;
+  std::optional<Prox> own_prox(const Vector& z, const Metric& W, const Look& look) const;
   /// This function as one to be handed on.
   Function self() const { return Function(shared_from_this()); }
 };
@@ -72,7 +72,8 @@ double unit_of_slope(double slope);
 
 /// The prox through the graph form in units of the slope at the solution, which is known when it has been
 /// found: units far above would hide a miss in the height.
-std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W);
+std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vector& z, const Metric& W,
+                                   const Look& look);
 
 /// The prox of a function by that of its conjugate (Moreau 1965): prox^W_f z = z - W⁻¹ prox_f*(Wz) in W⁻¹.
 /// What the rounding of W⁻¹ leaves is corrected. None where `dual` has none.

@@ -83,7 +83,8 @@ Function computed_conjugate(const Function& f);
 
 /// The prox of f by the program of f itself, never by a formula or from its conjugate: a second route beside
 /// `Function::prox`. None for functions without a program.
-std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W);
+std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W,
+                                    const Look& look = {});
 
 /// h(Mx), M the Gram matrix of a metric: with h = f* the conjugate of f in the product (x|y) = x·My.
 Function in_product(const Function& h, const Metric& M);

@@ -18,10 +18,10 @@ std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> p
   return forms;
 }
 
-std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n) {
+std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n, double slope) {
   std::vector<GraphForm> forms;
   for (const Function& f : parts) {
-    auto form = f.node().graph(n);
+    auto form = f.node().graph(n, slope);
     if (!form) return std::nullopt;
     forms.push_back(*std::move(form));
   }

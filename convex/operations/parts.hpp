@@ -14,8 +14,8 @@ namespace convex::inline operations {
 /// The parts on n entries as programs, when all are.
 std::optional<std::vector<LinearQuadratic>> programs(std::span<const Function> parts, Index n);
 
-/// The parts on n entries as graph forms, when all are.
-std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n);
+/// The parts on n entries as graph forms, when all are, for slopes of such a size.
+std::optional<std::vector<GraphForm>> graphs(std::span<const Function> parts, Index n, double slope);
 
 /// Does the fact hold for all parts?
 bool all_of(std::span<const Function> parts, bool Facts::*fact);

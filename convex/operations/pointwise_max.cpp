@@ -80,11 +80,10 @@ class PointwiseMax : public Operation {
     if (!piecewise_) return std::nullopt;
     return program(parts_, n);
   }
-  std::optional<GraphForm> graph(Index n) const override { return graph_at_slope(n, 1); }
-  std::optional<GraphForm> graph_at_slope(Index n, double slope) const override {
-    const auto forms = graphs(parts_, n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto forms = graphs(parts_, n, slope);
     if (!forms) return std::nullopt;
-    return convex::pointwise_max(*forms, unit_of_slope(slope));
+    return convex::pointwise_max(*forms, slope);
   }
 
   std::vector<Function> maximum_of() const override { return parts_; }
@@ -92,9 +91,9 @@ class PointwiseMax : public Operation {
  protected:
   /// By epigraphs in units of the slope at the solution, which is known when it has been found: units far
   /// above would hide a miss in the height.
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     if (piecewise_) return std::nullopt;
-    return prox_in_slopes(*this, first_slope(z, W), z, W);
+    return prox_in_slopes(*this, first_slope(z, W), z, W, look);
   }
 
  private:
@@ -125,14 +124,15 @@ Function proper_max(std::vector<Function> parts) {
   return Function(std::make_shared<PointwiseMax>(std::move(parts)));
 }
 
-std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W) {
+std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                const Look& look) {
   const OneAtATime outer(OneAtATime::Kind::maximum);
   const auto inner =
       outer.first() ? nullptr : std::make_unique<OneAtATime>(OneAtATime::Kind::maximum_in_maximum);
   if (inner && !inner->first()) return std::nullopt;
   const Function rest =
       parts.size() == 2 ? parts[1] : proper_max(std::vector<Function>(parts.begin() + 1, parts.end()));
-  auto found = prox_of_two_function_max(parts[0], rest, z, W);
+  auto found = prox_of_two_function_max(parts[0], rest, z, W, look);
   if (found && !(found->error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found->x))))
     found->status = Status::inaccurate;
   return found;

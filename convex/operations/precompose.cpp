@@ -79,8 +79,8 @@ class Precompose : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::precompose(*form, A_.sparseView(), b_);
   }
-  std::optional<GraphForm> graph(Index) const override {
-    const auto form = f_.node().graph(A_.rows());
+  std::optional<GraphForm> graph(Index, double slope) const override {
+    const auto form = f_.node().graph(A_.rows(), slope);
     if (!form) return std::nullopt;
     return convex::precompose(*form, A_.sparseView(), b_);
   }
@@ -88,13 +88,13 @@ class Precompose : public Operation {
  protected:
   /// ½||x - z||_W² is least over Ax + b = u at x = z + W⁻¹Aᵀ S (u - Az - b), S = (A W⁻¹Aᵀ)⁻¹, where it is
   /// ½||u - Az - b||_S²; and S(Az + b - u) is the covector of f at u.
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const auto image = image_metric(W, A_);
     if (!image) return std::nullopt;
     if (f_.facts().piecewise_quadratic && !is_diagonal_kind(image->metric)) return std::nullopt;
     const Metric& S = image->metric;
     const auto from = [&](const Vector& point) {
-      Prox part = f_.prox(point, S);
+      Prox part = f_.prox(point, S, look);
       if (part.x.size() == 0) return part;
       Vector x = z - image->lift * part.v;
       // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.

@@ -70,19 +70,19 @@ class ProximalAverage : public Operation {
     if (!forms) return std::nullopt;
     return linear_quadratic::proximal_average((*forms)[0], (*forms)[1], t_, gamma_, product(n));
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto f = f_.node().graph(n), g = g_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto f = f_.node().graph(n, slope), g = g_.node().graph(n, slope);
     if (!f || !g) return std::nullopt;
     return convex::proximal_average(*f, *g, t_, gamma_, product(n));
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     // gamma W = factor M, factor 1: the prox of the average is the average of the proxes.
     const auto factor = ratio(W, product(z.size()));
     const double distance = factor ? std::abs(*factor * gamma_ - 1) : 1;
     if (!(distance <= equal_steps)) return std::nullopt;
-    const Prox p = f_.prox(z, W), q = g_.prox(z, W);
+    const Prox p = f_.prox(z, W, look), q = g_.prox(z, W, look);
     if (p.x.size() == 0) return p;
     if (q.x.size() == 0) return q;
     Prox part = p;

@@ -60,7 +60,7 @@ std::optional<Kernel> kernel_of(const QuadraticTerm& q) {
 }
 
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
-  const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q);
+  const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q, look_of_values);
   if (part.x.size() != x.size())
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
   const Vector b = x - part.x;
@@ -76,12 +76,12 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   return {part.x, own ? part.v : Vector(slope + q.c), sum_of(f.evaluate(part.x), rest)};
 }
 
-Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W) {
+Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {
   const Metric P = parallel_sum(W, q.Q);
   const Metric V = plus(W, q.Q);
   // An error of a in the parallel sum is one of a + b in W at most as large: b follows a as its best answer.
   const auto from = [&](const Vector& point) {
-    const Prox part = f.prox(point, P);
+    const Prox part = f.prox(point, P, look);
     if (part.x.size() == 0) return part;
     const Vector& a = part.x;
     const Vector b = V.solve(metric_difference(W, z, a) - q.c);

@@ -47,6 +47,6 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 
 /// prox^W z of f □ q. With z = a + b + W⁻¹v, v in ∂f(a), v = Qb + c: a is the prox of f at z + Q⁻¹c in the
 /// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c).
-Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W);
+Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look);
 
 }  // namespace convex::inline operations

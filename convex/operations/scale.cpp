@@ -67,8 +67,8 @@ class Scale : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::scale(linear_quadratic::dilate(*form, rho_), alpha_);
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = f_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = f_.node().graph(n, unit_of_slope(slope * std::abs(rho_) / alpha_));
     if (!form) return std::nullopt;
     SparseMatrix shrink(n, n);
     shrink.setIdentity();
@@ -77,10 +77,10 @@ class Scale : public Operation {
 
  protected:
   /// x = rho s: ½||x - z||_W² + alpha f(x/rho) is alpha times ½||s - z/rho||² in rho² W / alpha, plus f(s).
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const Metric V = times(rho_ * rho_ / alpha_, W);
     const auto from = [&](const Vector& point) {
-      Prox part = f_.prox(point, V);
+      Prox part = f_.prox(point, V, look);
       if (part.x.size() == 0) return part;
       part.duality_gap *= alpha_;
       if (part.values)

@@ -104,21 +104,21 @@ class Separable : public Operation {
         [&](const Function& f, Index, Index size) { forms.push_back(*f.node().linear_quadratic(size)); });
     return linear_quadratic::separable(forms);
   }
-  std::optional<GraphForm> graph(Index) const override {
+  std::optional<GraphForm> graph(Index, double slope) const override {
     std::vector<GraphForm> forms;
     for_each([&](const Function& f, Index, Index size) {
-      if (auto form = f.node().graph(size)) forms.push_back(*std::move(form));
+      if (auto form = f.node().graph(size, slope)) forms.push_back(*std::move(form));
     });
     if (forms.size() != parts_.size()) return std::nullopt;
     return blocks(forms);
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     if (couples(W, sizes_)) return std::nullopt;
     std::vector<Prox> blocks;
     for_each([&](const Function& f, Index first, Index size) {
-      blocks.push_back(f.prox(z.segment(first, size), block(W, first, size)));
+      blocks.push_back(f.prox(z.segment(first, size), block(W, first, size), look));
     });
     Prox whole = joined(blocks);
     if (parts_.size() > 1) whole.method += " by blocks";

@@ -94,15 +94,15 @@ std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
   return linear_quadratic::sum(*forms);
 }
 
-std::optional<GraphForm> Sum::graph(Index n) const {
-  const auto forms = graphs(parts_, n);
+std::optional<GraphForm> Sum::graph(Index n, double slope) const {
+  const auto forms = graphs(parts_, n, slope);
   if (!forms) return std::nullopt;
   return convex::sum(*forms);
 }
 
-std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
+std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W, const Look& look) const {
   const SplitSum sorted = split(parts_, z.size());
-  if (!sorted.quadratic) return composed_prox(parts_, z, W);
+  if (!sorted.quadratic) return composed_prox(parts_, z, W, look);
   const auto& [Q, c, constant] = *sorted.quadratic;
   const Metric V = plus(W, Q);
   const Vector y = V.solve(W.multiply(z) - c);
@@ -116,7 +116,7 @@ std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W) const {
   if (facts().piecewise_quadratic && !is_diagonal_kind(V)) return std::nullopt;
   const Function rest = sorted.rest.size() == 1 ? sorted.rest[0] : proper_sum(sorted.rest);
   const auto from = [&](const Vector& point) {
-    const Prox part = rest.prox(point, V);
+    const Prox part = rest.prox(point, V, look);
     if (part.x.size() == 0) return part;
     // The quadratic q takes its own slope Qx + c, where q*(Qx + c) = ½ x·Qx - q(0).
     const Value square = multiple_of(0.5, product(part.x, Q * part.x));

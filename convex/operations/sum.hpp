@@ -28,12 +28,12 @@ class Sum : public Operation {
   double domain_support(const Vector& v) const override;
   std::optional<Function> entry(Index i) const override;
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override;
-  std::optional<GraphForm> graph(Index n) const override;
+  std::optional<GraphForm> graph(Index n, double slope) const override;
   /// max(f, g) + h is the maximum of f + h and g + h.
   std::vector<Function> maximum_of() const override;
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override;
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override;
 
  private:
   std::vector<Function> parts_;

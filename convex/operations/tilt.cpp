@@ -46,19 +46,19 @@ class Tilt : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::tilt(*form, c_);
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = f_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = f_.node().graph(n, slope);
     if (!form) return std::nullopt;
     const GraphForm forms[] = {*form, graph_of(linear_atom(c_), n)};
     return convex::sum(forms);
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     // A program takes c as it is, without a rounded point.
     if (f_.facts().piecewise_quadratic && !is_diagonal_kind(W)) return std::nullopt;
     const auto from = [&](const Vector& point) {
-      Prox part = f_.prox(point, W);
+      Prox part = f_.prox(point, W, look);
       if (part.x.size() == 0) return part;
       return with_values(moved(part, part.x, part.v + c_, part.error_bound, z, W), part.values,
                          product(part.x, c_));

@@ -39,8 +39,8 @@ class Translate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::translate(*form, by_);
   }
-  std::optional<GraphForm> graph(Index n) const override {
-    const auto form = f_.node().graph(n);
+  std::optional<GraphForm> graph(Index n, double slope) const override {
+    const auto form = f_.node().graph(n, slope);
     if (!form) return std::nullopt;
     SparseMatrix identity(n, n);
     identity.setIdentity();
@@ -48,8 +48,8 @@ class Translate : public Operation {
   }
 
  protected:
-  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W) const override {
-    const Prox part = f_.prox(z - by_, W);
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
+    const Prox part = f_.prox(z - by_, W, look);
     if (part.x.size() == 0) return part;
     const double rounding = unit_roundoff * (W.norm(z - by_) + W.norm(part.x + by_));
     return with_values(moved(part, part.x + by_, part.v, part.error_bound + rounding, z, W), part.values, {},

@@ -36,13 +36,14 @@ Function weighted(const Function& f, double weight) {
   return proper_max(std::move(parts));
 }
 
-std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W) {
+std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W,
+                     const Look& look) {
   const double of_f = f.facts().finite ? 1 - t : std::max(1 - t, least_weight);
   const double of_g = g.facts().finite ? t : std::max(t, least_weight);
   std::vector<Function> terms;
   if (of_f > 0) terms.push_back(weighted(f, of_f));
   if (of_g > 0) terms.push_back(weighted(g, of_g));
-  At found{t, proper_sum(terms).prox(z, W), 0, 0, {}};
+  At found{t, proper_sum(terms).prox(z, W, look), 0, 0, {}};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
@@ -56,8 +57,8 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
 }  // namespace
 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
-                                             const Metric& W) {
-  std::optional<At> low = at(f, g, 0, z, W), high = at(f, g, 1, z, W);
+                                             const Metric& W, const Look& look) {
+  std::optional<At> low = at(f, g, 0, z, W, look), high = at(f, g, 1, z, W, look);
   if (!low || !high) return std::nullopt;
   // The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
   const auto named = [](const At& at_weight) {
@@ -85,7 +86,7 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
         t = 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low->t), (1 - low->t) * 1e-3);
     }
     if (!(t > low->t && t < high->t)) break;
-    auto middle = at(f, g, t, z, W);
+    auto middle = at(f, g, t, z, W, look);
     if (!middle) return std::nullopt;
     const double value = middle->difference;
     if (value == 0) {

@@ -18,7 +18,7 @@ namespace convex::inline operations {
 /// The error bound is that of the sums' proxes and twice the distance between the proxes at the ends of the
 /// last bracket, between which the solution is, with what the rounding of g - f is worth in x: an estimate.
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
-                                             const Metric& W);
+                                             const Metric& W, const Look& look = {});
 
 /// The functions of which f is the maximum; none when it is not made as one, or is a program.
 std::vector<Function> parts_of_max(const Function& f);
@@ -28,6 +28,7 @@ Function proper_max(std::vector<Function> parts);
 
 /// `prox_of_two_function_max` for two functions or more, as the first and the maximum of the rest. A maximum
 /// in a maximum is taken so once; none further inside.
-std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W);
+std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                const Look& look);
 
 }  // namespace convex::inline operations

@@ -34,7 +34,7 @@ class Side final : public FunctionNode {
     if (ball_) return x.cwiseAbs().maxCoeff() <= 1 ? 0 : infinity;
     return x.cwiseAbs().sum() + slip_.in_value;
   }
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     const Vector reach = W.diagonal().cwiseInverse();
     Prox found;
     if (ball_) {

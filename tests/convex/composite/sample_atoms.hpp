@@ -27,7 +27,7 @@ class Valued final : public convex::FunctionNode {
   Facts facts() const override { return {}; }
   convex::Call call() const override { return {"valued", {}, std::nullopt}; }
   double value(const Vector& x) const override { return value_(x); }
-  convex::Prox prox(const Vector&, const convex::Metric&) const override { return {}; }
+  convex::Prox prox(const Vector&, const convex::Metric&, const convex::Look&) const override { return {}; }
   Function conjugate() const override { return Function(shared_from_this()); }
   std::optional<Vector> subgradient(const Vector&) const override { return std::nullopt; }
 

@@ -34,7 +34,7 @@ class WrongNode : public FunctionNode {
   Facts facts() const override { return right_.facts(); }
   Call call() const override { return right_.call(); }
   double value(const Vector& x) const override { return wrong_.value ? wrong_.value(right_, x) : right_(x); }
-  Prox prox(const Vector& z, const Metric& W) const override {
+  Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     return wrong_.prox ? wrong_.prox(right_, z, W) : right_.prox(z, W);
   }
   Function conjugate() const override { return conjugate_ ? *conjugate_ : right_.conjugate(); }
