@@ -112,7 +112,7 @@ Function max_affine(const Matrix& A, const Vector& b) {
   const auto largest = std::dynamic_pointer_cast<const Atom>(max().shared());
   return program_function({.call = call,
                            .conjugate_call = {"conjugate", {argument(call)}},
-                           .facts = {.support = b.isZero(0), .finite = true},
+                           .facts = {.support = b.isZero(0), .smooth = A.rows() == 1, .finite = true},
                            .conjugate_facts = {.indicator = b.isZero(0)},
                            .form = form,
                            .conjugate_form = linear_quadratic::conjugate(form),

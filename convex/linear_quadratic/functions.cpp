@@ -117,6 +117,7 @@ LinearQuadratic max_affine(const Matrix& A, const Vector& b) {
           "A and b do not fit; give one number for each row");
   require(A.allFinite() && b.allFinite(), "max_affine", "an entry is not finite; give numbers");
   const Index n = A.cols();
+  if (A.rows() == 1) return raise(linear(A.row(0)), b[0]);
   LinearQuadraticBuilder form(n, 1);
   form.cost(n, 1);
   for (Index a = 0; a < A.rows(); ++a) {

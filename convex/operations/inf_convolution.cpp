@@ -6,6 +6,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/pinned_slopes.hpp"
 #include "convex/operations/quadratic_term.hpp"
 #include "convex/operations/supremum.hpp"
 
@@ -88,18 +89,6 @@ class InfConvolution : public Operation {
   Index n_;
 };
 
-/// f □ g of one entry whose conjugates have one slope c in common is c x - f*(c) - g*(c), which no pair of
-/// points attains.
-std::optional<Function> with_one_slope(const Function& f, const Function& g) {
-  const auto a = domain_of_one(f), b = domain_of_one(g);
-  if (!a || !b || std::max(a->low, b->low) != std::min(a->high, b->high)) return std::nullopt;
-  const Vector slope = Vector::Constant(1, std::max(a->low, b->low));
-  const Value sum = sum_of(f.evaluate(slope), g.evaluate(slope));
-  if (!std::isfinite(sum.value) || !(sum.error <= accuracy_of_prox * std::max(1.0, std::abs(sum.value))))
-    return std::nullopt;
-  return function_of({SparseMatrix(1, 1), slope, -sum.value});
-}
-
 [[noreturn]] void refuse_improper() {
   throw InvalidInput(
       "inf_convolution: it is -inf everywhere; give functions whose conjugates are finite at a common point");
@@ -153,8 +142,8 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     const Function conjugates[] = {f.conjugate(), g.conjugate()};
     const bool by_entry = n == 1 || (all_of(parts, &Facts::separable) && common_dimension(parts, "") == 0);
     if (by_entry && slopes_miss(conjugates[0], conjugates[1])) refuse_improper();
-    if (n == 1 && !all_of(parts, &Facts::piecewise_quadratic))
-      if (auto affine = with_one_slope(conjugates[0], conjugates[1])) return *affine;
+    if (const auto other = with_pinned_slopes(f, g, n)) return inf_convolution(*other, g, n);
+    if (const auto other = with_pinned_slopes(g, f, n)) return inf_convolution(f, *other, n);
     if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
         require_proper(proper_sum(conjugates), n, "inf_convolution");
       } catch (const InvalidInput&) {

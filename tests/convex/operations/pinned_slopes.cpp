@@ -1,0 +1,93 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "convex/functions/decomposition.hpp"
+#include "convex/invalid_input.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+using convex::Matrix;
+using convex::Metric;
+using convex::Vector;
+
+namespace {
+
+/// f □ g and a direction d along which f(w) + g(z - w) comes to its infimum, w = z + t d.
+struct Approached {
+  const char* first;
+  const char* second;
+  Vector direction;
+  double infimum;
+};
+
+const Approached not_attained[] = {
+    {"inverse_power(1)", "total_variation(2)", Eigen::Vector3d(1, 1, 1), 0},
+    {"inverse_power(0.5)", "indicator(polyhedron([[-3,1,0],[0,1,0],[0,0,1]],[1,6,2]))",
+     Eigen::Vector3d(1, 4, 1), 0},
+    {"inverse_power(1)", "squared_distance(halfspace([-3,2,-2],-2),2)", Eigen::Vector3d(1, 4, 1), 0}};
+
+}  // namespace
+
+TEST_CASE(
+    "an infimum that is approached along a ray alone is its limit, with a prox that stays at its point") {
+  Matrix gram(3, 3);
+  gram << 4, 1, 0, 1, 3, -1, 0, -1, 2;
+  const Vector z = Eigen::Vector3d(-2, 1, 0.5);
+  for (const Approached& pair : not_attained) {
+    CAPTURE(pair.first);
+    CAPTURE(pair.second);
+    const auto f = samples::function(pair.first, 3), g = samples::function(pair.second, 3);
+    const auto least =
+        samples::function("inf_convolution(" + std::string(pair.first) + "," + pair.second + ")", 3);
+    CHECK(least(z) == pair.infimum);
+    double before = std::numeric_limits<double>::infinity();
+    for (const double t : {1e3, 1e6, 1e9}) {
+      const double above = f(z + t * pair.direction) + g(-t * pair.direction);
+      CHECK(above >= pair.infimum);
+      CHECK(above < before);
+      before = above;
+    }
+    const auto split = convex::decompose(least, z, Metric::dense(gram));
+    CHECK(split.status == convex::Status::solved);
+    CHECK((split.x.x - z).norm() <= 1e-15 * z.norm());
+    CHECK(split.y.x.norm() <= 1e-15 * z.norm());
+  }
+}
+
+TEST_CASE("slopes in common that are more than one leave an infimum where it is attained") {
+  const auto least = samples::function("inf_convolution(inverse_power(1), norm1())", 2);
+  // 1/w + |x - w|: at x = 4 no w is better than x, at x = 1/4 none better than 1.
+  CHECK(least(Eigen::Vector2d(4, 0.25)) == doctest::Approx(0.25 + 1.75).epsilon(1e-12));
+}
+
+TEST_CASE("entries that are pinned beside others that are free are lines, and the others as they were") {
+  // Of the slopes (v, w) the plane has w alone, v = 0: the first entry is free to go out.
+  const auto least = samples::function("inf_convolution(inverse_power(1), distance(affine([[0,1]],0),3))", 2);
+  const auto alone = samples::function("inf_convolution(inverse_power(1), norm1(3))", 1);
+  for (const double x : {0.1, 0.5, 2.0, 40.0}) {
+    CAPTURE(x);
+    CHECK(least(Eigen::Vector2d(-7, x)) == doctest::Approx(alone(Vector::Constant(1, x))).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("where a shift puts a point on the open end of a domain, no finite value is told as known") {
+  const auto g = samples::function("tilt(negative_power(0.5),[1])", 1).conjugate();  // 1/(4(1 - v))
+  const convex::Value end = g.evaluate(Vector::Ones(1));
+  CHECK((std::isinf(end.value) || end.error >= std::abs(end.value)));
+  const convex::Value inside = g.evaluate(Vector::Constant(1, 0.5));
+  CHECK(inside.value == doctest::Approx(0.5).epsilon(1e-14));
+  CHECK(inside.error <= 1e-14);
+}
+
+TEST_CASE("a point whose square leaves the range of doubles is refused, or its bound covers what is lost") {
+  const auto f = samples::function("sum(norm2(1e-200), indicator(orthant()))", 2);
+  const Vector z = 1e-200 * Eigen::Vector2d(1, 2);
+  const auto split = convex::decompose(f, z, Metric::identity(2));
+  const Vector x = (1 - 1 / std::sqrt(5.0)) * z;
+  CHECK((split.x.x - x).stableNorm() <= split.error_bound);
+  CHECK((split.y.x - (z - x)).stableNorm() <= split.error_bound);
+  CHECK_THROWS_AS(convex::decompose(f, 1e200 * Eigen::Vector2d(1, 2), Metric::identity(2)),
+                  convex::InvalidInput);
+}
