@@ -38,6 +38,9 @@ class Motion::EventDriven final : public Motion::Course {
                const std::vector<Index>& switches);
   /// The contacts whose impacts come to an end so soon that they are at rest from now on.
   std::vector<Index> accumulating(const std::vector<Index>& closing) const;
+  /// Impacts follow each other within the rounding of t.
+  bool time_stands_still() const { return events_at_once_ > many_at_once; }
+  static constexpr long many_at_once = 10;
   void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
   std::vector<Index> find_branches();
   std::vector<Index> branches_after_jump(const std::vector<double>& arguments_before,

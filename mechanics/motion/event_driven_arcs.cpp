@@ -23,6 +23,18 @@ constexpr double roundings_of_passing = 1e3;
 /// What the constants of f and df/dt leave of a contact that is held.
 constexpr double roundings_of_constants = 16;
 
+/// Whether the last four terms of a series are no less than the four before: then what follows is not small
+/// because they are.
+bool is_rising(const std::vector<double>& sizes, double h) {
+  std::size_t top = sizes.size() - 1;
+  while (top > 0 && sizes[top] == 0) --top;
+  if (top < 8) return false;
+  double last = 0, before = 0, power = 1;
+  for (std::size_t k = top - 7; k <= top; ++k, power *= h)
+    (k + 4 > top ? last : before) = std::max(k + 4 > top ? last : before, sizes[k] * power);
+  return last >= before;
+}
+
 }  // namespace
 
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
@@ -133,7 +145,8 @@ void Motion::EventDriven::fill_next() {
   const double told = step_ahead_;
   for (const FunctionArgument& one : expansion_.arguments())
     step_ahead_ = seen_length(expansion_.argument(one), one.of, step_ahead_, reach_);
-  is_blind_ = !expansion_.arguments().empty() && (step_ahead_ < told || std::isinf(told));
+  is_blind_ = !expansion_.arguments().empty() &&
+              (step_ahead_ < told || std::isinf(told) || is_rising(sizes_, step_ahead_));
   watch();
   for (const Watched& one : watched_)
     if (one.of != Zero::Of::multiplier || !is_weak_[static_cast<std::size_t>(one.which)])

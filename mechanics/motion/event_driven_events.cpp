@@ -205,9 +205,10 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                       });
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
-      const double end = std::max(state.t + low_, last.end());
+      const double end = time_stands_still() ? state.t + low_ : std::max(state.t + low_, last.end());
       endings_.push_back({end, ending});
       std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
+      if (time_stands_still()) return;
       if (last.next_height() > options.tolerance || last.end_error() > options.tolerance * std::abs(end))
         remark("impacts of " + constraint_name(ending.front()) +
                " that bounce up to f = " + number_text(last.next_height()) +
@@ -237,6 +238,15 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   for (const Index a : closing)
     if (is_near_its_end(a)) found.push_back(a);
   if (found.empty()) return found;
+  if (time_stands_still()) {  // with all that struck at this instant
+    for (Index a = 0; a < expansion_.constraints(); ++a) {
+      const auto k = static_cast<std::size_t>(a);
+      if (!contains(found, a) && !is_two_sided(a) &&
+          elapsed_[k] <= roundings_of_bounce * epsilon * std::abs(state.t))
+        found.push_back(a);
+    }
+    return found;
+  }
   // Contacts whose impacts alternate with these come to their end at the same time.
   const double remaining = history_[static_cast<std::size_t>(found.front())].remaining();
   for (Index a = 0; a < expansion_.constraints(); ++a) {
