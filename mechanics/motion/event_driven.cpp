@@ -212,6 +212,7 @@ void Motion::EventDriven::take_step(double until) {
   if (!is_there) next.state(tau, there_);
   std::swap(done, next);
   done.length = tau;
+  if (tau > 0) last_length_ = tau;
   state.q = there_.q;
   state.v = there_.v;
   if (is_last && zeros.empty()) {

@@ -53,9 +53,12 @@ class Motion::EventDriven final : public Motion::Course {
   /// Where expressions have changed their branch, f and df/dt of contacts may have jumped: then what follows
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  void note_behind();
+  std::string jump_of_energy(const std::vector<Index>& switches) const;
   std::string advice_on_kinks() const;
+  bool has_kink_at(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   /// Why nothing is found that goes on.
-  std::string obstacle_ahead() const;
+  std::string obstacle_ahead(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   std::optional<ContactAnswer> answer_where_zero_stays(const ContactQuestion& question,
                                                        const std::vector<Index>& switches,
                                                        ContactAnswer beside);
@@ -87,8 +90,14 @@ class Motion::EventDriven final : public Motion::Course {
   double step_ahead_ = 0;
   long events_at_once_ = 0, kinks_at_once_ = 0;
   double until_ = 0;
-  std::optional<double> lagrangian_behind_;  // before the event, the velocity unchanged
-  std::string ends_here_;                    // at its last instant: why it does not go on from there
+  /// At an event, on the branches before it.
+  struct Behind {
+    double lagrangian;
+    Vector momentum, f, rate;
+  };
+  std::optional<Behind> behind_;
+  double last_length_ = 0;  // of the last arc that has one
+  std::string ends_here_;   // at its last instant: why it does not go on from there
 };
 
 }  // namespace mechanics::inline motions

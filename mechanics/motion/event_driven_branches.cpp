@@ -8,6 +8,9 @@
 namespace mechanics::inline motions {
 namespace {
 
+/// Events within so many roundings of the time follow each other at one instant.
+constexpr double roundings_of_instant = 64;
+
 bool is_among(const std::vector<Index>& all, Index a) {
   return std::find(all.begin(), all.end(), a) != all.end();
 }
@@ -20,6 +23,7 @@ std::vector<Index> Motion::EventDriven::branches_after_jump(const std::vector<do
                                                             const std::vector<Index>& at_zero_before) {
   constexpr double left_by_rounding = 64 * std::numeric_limits<double>::epsilon();
   expansion_.set(state);
+  if (!behind_) note_behind();
   std::vector<Index> at_zero = find_branches();
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
     const double now = expansion_.switch_argument(k)[0], then = arguments_before[k];
@@ -88,29 +92,71 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_where_zero_stays(const 
   return beside;
 }
 
+void Motion::EventDriven::note_behind() {
+  behind_.reset();
+  if (expansion_.switches() == 0) return;
+  const Index m = expansion_.constraints();
+  behind_ = Behind{expansion_.lagrangian(), expansion_.momentum(), Vector(m), Vector(m)};
+  for (Index a = 0; a < m; ++a) {
+    behind_->f[a] = expansion_.f(a);
+    behind_->rate[a] = expansion_.rate(a);
+  }
+}
+
+/// A jump of T - V over positions is an infinite force, one of p asks for a jump of the velocity that no
+/// impact law tells; a jump of V over time alone is neither. Empty if there is none.
+std::string Motion::EventDriven::jump_of_energy(const std::vector<Index>& switches) const {
+  constexpr double least_jump = 1e-8;  // what rounding of the time leaves is a thousandth of it
+  const double change = expansion_.lagrangian() - behind_->lagrangian, T = system.kinetic_energy(state),
+               scale = T + std::abs(T - expansion_.lagrangian()) + std::abs(T - behind_->lagrangian);
+  const bool over_positions = std::any_of(switches.begin(), switches.end(), [&](Index k) {
+    return expansion_.depends_on_position(static_cast<std::size_t>(k));
+  });
+  if (over_positions && std::abs(change) > least_jump * scale)
+    return "the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
+           "force does that; write a step of potential as a steep slope, one of mass as an impact";
+  const Vector p = expansion_.momentum();
+  if (!expansion_.has_branching_energy()) return "";
+  const convex::Metric& A = expansion_.inertia();
+  if (A.dual_norm(p - behind_->momentum) > least_jump * (A.dual_norm(p) + A.dual_norm(behind_->momentum)))
+    return "the momentum ∂T/∂q' jumps where T changes its branch; what the velocity does there is not told "
+           "by "
+           "it; write T without a jump";
+  return "";
+}
+
 bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches) {
   if (switches.empty()) return false;
-  if (lagrangian_behind_) {
-    constexpr double jump_of_energy = 1e-8;  // what rounding of the time leaves is a thousandth of it
-    const double change = expansion_.lagrangian() - *lagrangian_behind_, T = system.kinetic_energy(state),
-                 scale = T + std::abs(T - expansion_.lagrangian()) + std::abs(T - *lagrangian_behind_);
-    lagrangian_behind_.reset();
-    if (std::abs(change) > jump_of_energy * scale) {
-      stop("at t = " + number_text(state.t) +
-           ": the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
-           "force does that; write a step of potential as a steep slope, one of mass as an impact");
+  const std::optional<Behind> behind = behind_;
+  if (behind)
+    if (const std::string jump = jump_of_energy(switches); !jump.empty()) {
+      stop("at t = " + number_text(state.t) + ": " + jump);
       return true;
     }
-  }
+  behind_.reset();
   const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
-  const double length = record.steps == 0 ? 0 : done.length;
+  const double length = record.steps == 0 ? 0 : last_length_;
   std::vector<Index> closing, opening, others;
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const bool is_contact = is_among(contacts, a);
-    if (is_two_sided(a) && !is_contact) continue;
+    if (is_two_sided(a) && !behind) continue;
     const double f = expansion_.f(a), rate = expansion_.rate(a), tolerance = options.contact_tolerance[a];
     const double rate_scale = expansion_.rate_scale(a);
-    const double f_left = tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length});
+    // The time of what happens at once is known to some roundings of it.
+    const double f_left = std::max(
+        tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}),
+        rate_scale * roundings_of_instant * std::numeric_limits<double>::epsilon() * std::abs(state.t));
+    if (is_two_sided(a)) {  // holds on the branches behind
+      const double rate_left = tolerance * rate_scale + expansion_.rounding_of_rate(a);
+      if (std::abs(f - behind->f[a]) > f_left) {
+        stop("at t = " + number_text(state.t) + ": " + constraint_name(a) + " jumps from 0 to " +
+             number_text(f) +
+             " where one of its expressions changes its branch; no motion with finite velocities follows it");
+        return true;
+      }
+      if (std::abs(rate - behind->rate[a]) > rate_left) closing.push_back(a);
+      continue;
+    }
     if (f < -f_left) {
       stop("at t = " + number_text(state.t) + ": " + constraint_name(a) +
            " jumps below 0 where one of its expressions changes its branch; a step is written as a wall, a "
@@ -150,7 +196,34 @@ std::string Motion::EventDriven::advice_on_kinks() const {
   return "; a contact with a kink is written as two, y >= x and y >= -x for y >= abs(x)";
 }
 
-std::string Motion::EventDriven::obstacle_ahead() const {
+/// Whether gradients of contacts change with these branches.
+bool Motion::EventDriven::has_kink_at(const std::vector<Index>& contacts,
+                                      const std::vector<Index>& switches) {
+  for (const Index which : switches) {
+    double& branch = expansion_.branch(static_cast<std::size_t>(which));
+    std::vector<Vector> rows;
+    for (const bool turned : {false, true}) {
+      if (turned) branch = -branch;
+      try {
+        expansion_.set(state);
+      } catch (const convex::InvalidInput&) {  // undefined there, which is no kink
+        continue;
+      }
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        const Vector u = expansion_.row(contacts[k]);
+        if (!turned)
+          rows.push_back(u);
+        else if (rows.size() > k && rows[k] != u)
+          return true;
+      }
+    }
+  }
+  return false;
+}
+
+std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contacts,
+                                                const std::vector<Index>& switches) {
+  if (has_kink_at(contacts, switches)) return "neither side of a kink of f goes on alone" + advice_on_kinks();
   constexpr double shortly = 1e-9;
   State ahead = state;
   const double step = shortly * (1 + std::abs(state.t));

@@ -68,7 +68,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   }
   const Vector before = state.v;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) branches_behind_[k] = expansion_.branch(k);
-  lagrangian_behind_ = expansion_.lagrangian();
+  note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
   for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
     if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
@@ -138,20 +138,25 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     arguments.push_back(expansion_.switch_argument(k)[0]);
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
-    if (is_two_sided(a)) present.push_back(a);
+    if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
   std::vector<ImpactContact> contacts;
   std::vector<double> position_scales;
   for (const Index a : present) {
     position_scales.push_back(expansion_.position_scale(a));
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
-    const bool moves = contains(closing, a) || rate > expansion_.rounding_of_rate(a);
-    contacts.push_back({expansion_.row(a), moves && !is_two_sided(a) ? rate : 0, options.restitution[a],
-                        is_two_sided(a), expansion_.rate_scale(a)});
+    const bool turns = contains(closing, a), is_free = !is_two_sided(a);
+    const bool moves = turns || (is_free && rate > expansion_.rounding_of_rate(a));
+    contacts.push_back({expansion_.row(a), moves ? rate : 0, is_free ? options.restitution[a] : 0, !is_free,
+                        expansion_.rate_scale(a)});
+    if (turns && !is_free && options.impact_law == ImpactLaw::sequential)
+      return stop("at t = " + number_text(state.t) + ": " + constraint_name(a) +
+                  " has a kink, of which impacts one after the other say nothing; take impact_law = "
+                  "\"moreau\"");
   }
   const convex::Metric& A = expansion_.inertia();
   // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
-  lagrangian_behind_.reset();
+  behind_.reset();
   const Vector before = state.v;
   const Vector b = expansion_.momentum() - A.multiply(before);
   if (!record.first_impact)
@@ -176,6 +181,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     // By Moreau's law f'(v+) = -e f'(v-) wherever P is not 0.
     const double rate_after = options.impact_law == ImpactLaw::moreau ? -e * rate_before : outcome.rate[at];
     record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
+    if (is_two_sided(a) && contains(closing, a)) hit.push_back(a);
     if (is_two_sided(a)) continue;
     if (contains(persist_, a)) held.push_back(a);
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
@@ -266,7 +272,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   const std::optional<ContactAnswer> answer = answer_on_branches(contacts, switches);
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {
-    const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead();
+    const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead(contacts, switches);
     if (state.t < until_ - roundings_of_closed * epsilon * std::abs(until_)) return stop(obstacle);
     ends_here_ = obstacle;  // asked for no more
     state.t = until_;

@@ -77,6 +77,7 @@ class Expansion {
   /// ∂T/∂q'.
   Vector momentum() const;
   /// T - V where it takes branches, else 0.
+  bool has_branching_energy() const { return equations_.branching_lagrangian.has_value(); }
   double lagrangian() const {
     return equations_.branching_lagrangian ? series_[*equations_.branching_lagrangian][0] : 0;
   }
@@ -113,6 +114,8 @@ class Expansion {
   Vector rounding_of_multipliers(const std::vector<Index>& held);
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
+  /// Whether a coordinate stands in that argument.
+  bool depends_on_position(std::size_t k) const;
   double& branch(std::size_t k) { return series_.branches()[k]; }
   double branch(std::size_t k) const { return series_.branches()[k]; }
   /// "|x|" as it was written, and where.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mechanics/contacts.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/gauss_problem.hpp"
 #include "mechanics/number_text.hpp"
 
@@ -57,6 +58,8 @@ Motion::TimeStepping::TimeStepping(const LagrangianSystem& of, const State& at, 
   const mechanics::Contacts found =
       mechanics::contacts(system, state, options.contact_tolerance, Impending::allowed);
   for (const Index a : found.present) rests_[static_cast<std::size_t>(a)] = true;
+  for (const expression::NodeId f : system.model().f)
+    moves_.push_back((system.model().tape.depends(f) & expression::on_time) != 0);
   done.t = state.t;
   done.q = state.q;
   multipliers = Vector::Zero(static_cast<Index>(system.constraints().size()));
@@ -121,7 +124,8 @@ Motion::TimeStepping::Contacts Motion::TimeStepping::contacts_at(const State& mi
   found.closes_fast.resize(constraints.size());
   for (Index k = 0; k < m; ++k) {
     const Index a = constraints[static_cast<std::size_t>(k)];
-    found.drift[k] = rates.df[a] - along[k];
+    // What does not know the time does not drift, not by the rounding of a difference either.
+    found.drift[k] = moves_[static_cast<std::size_t>(a)] ? rates.df[a] - along[k] : 0;
     if (is_two_sided(a)) found.two_sided.push_back(k);
     if (is_two_sided(a) || rests_[static_cast<std::size_t>(a)]) {
       found.restitution[k] = (1 - options.theta) / options.theta;

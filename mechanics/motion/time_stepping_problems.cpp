@@ -64,6 +64,19 @@ convex::Solution nearly_nearest(const convex::NearestPointProblem& problem, doub
   return found;
 }
 
+/// Rows that depend on each other exclude each other where rounding has made their right-hand sides: of rest,
+/// the noise of v. One-sided rows ask for less by that, |u_a|·(|q| + |A⁻¹z|) rounded a few times.
+void relax(convex::NearestPointProblem& problem) {
+  const Vector size = problem.A.solve(problem.z).cwiseAbs();
+  const double most = size.maxCoeff();
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) continue;
+    const double row =
+        problem.U.is_sparse() ? problem.U.sparse().row(a).norm() : problem.U.dense().row(a).norm();
+    problem.s[a] -= roundings_of_step_rows * convex::unit_roundoff * (std::abs(problem.s[a]) + row * most);
+  }
+}
+
 bool same(const convex::ConstraintRows& a, const convex::ConstraintRows& b) {
   if (a.count() != b.count() || a.is_sparse() != b.is_sparse()) return false;
   if (!a.is_sparse()) return a.dense() == b.dense();
@@ -136,6 +149,11 @@ convex::Solution Motion::TimeStepping::solution_of(Repeated& repeated,
   pause(repeated, found.steps > few_exchanges_of_step || !is_found(found));
   if (large && !is_found(found))
     found = is_found(near) ? near : convex::sparse_interior_point(problem, accuracy);
+  if (!large && !is_found(found)) {
+    convex::NearestPointProblem relaxed = problem;
+    relax(relaxed);
+    found = convex::automatic(relaxed, accuracy, pushing);
+  }
   return found;
 }
 

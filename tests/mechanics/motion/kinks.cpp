@@ -1,0 +1,123 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace tests;
+using mechanics::EventKind;
+using mechanics::MotionStatus;
+
+namespace {
+
+/// A particle of mass 1 in the weight g.
+SystemText particle_on(const std::string& constraint, const std::string& g = "0") {
+  return {{"x", "y"}, "(x'^2+y'^2)/2", g + "*y", {}, {}, {}, {{"c", constraint}}};
+}
+
+Followed along_x(const std::string& kinetic, const std::string& potential, double until) {
+  return followed({{"x"}, kinetic, potential, {}, {}, {}, {}}, state({0}, {1}), until);
+}
+
+}  // namespace
+
+TEST_CASE("a ramp that begins with a kink is hit as a plane is, with its restitution") {
+  // (1, 0) on the normal (-1, 1)/√2: (1 - e, 1 + e)/2 after it.
+  for (const char* ramp : {"y >= max(0, x-1)", "y >= if(x>1, x-1, 0)", "min(y, y-x+1) >= 0"})
+    for (const double e : {0.0, 0.5, 1.0}) {
+      CAPTURE(ramp);
+      CAPTURE(e);
+      const SystemText text = particle_on(ramp, "1");
+      const Followed motion = followed(text, state({0, 0}, {1, 0}), 1 + 1e-6, restitution(text, e));
+      const auto impacts = motion.of(EventKind::impact);
+      REQUIRE(impacts.size() == 1);
+      CHECK(impacts[0].t == doctest::Approx(1).epsilon(1e-13));
+      CHECK((impacts[0].velocity_before - mechanics::Vector{{1, 0}}).norm() <= 1e-13);
+      CHECK((impacts[0].velocity_after - mechanics::Vector{{(1 - e) / 2, (1 + e) / 2}}).norm() <= 1e-13);
+      CHECK(motion.motion.record().ledger_energy == doctest::Approx(-(1 - e * e) / 4).epsilon(1e-12));
+      CHECK(motion.motion.record().impact_energy == doctest::Approx(-(1 - e * e) / 4).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("a bead on a wire with a kink strikes it, and the ledger says what that takes") {
+  // Along (1, 0), then along (1, 1)/√2: (1, 1)/2.
+  for (const auto law : {mechanics::ImpactLaw::moreau, mechanics::ImpactLaw::poisson}) {
+    const SystemText text = particle_on("y = max(0, x-1)");
+    mechanics::MotionOptions options = restitution(text, 0.7);
+    options.impact_law = law;
+    const Followed motion = followed(text, state({0, 0}, {1, 0}), 3, options);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK((motion.end().q - mechanics::Vector{{2, 1}}).norm() <= 1e-13);
+    const auto impacts = motion.of(EventKind::impact);
+    REQUIRE(impacts.size() == 1);
+    CHECK(impacts[0].constraints == std::vector<mechanics::Index>{0});
+    CHECK((impacts[0].velocity_before - mechanics::Vector{{1, 0}}).norm() <= 1e-13);
+    CHECK((impacts[0].velocity_after - mechanics::Vector{{0.5, 0.5}}).norm() <= 1e-13);
+    CHECK(motion.motion.record().impact_energy == doctest::Approx(-0.25).epsilon(1e-13));
+    CHECK(motion.motion.record().ledger_energy == doctest::Approx(-0.25).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a wire without a kink where its branches meet takes nothing") {
+  const SystemText text = particle_on("y = if(x>1, (x-1)^2, 0)");
+  const Followed motion = followed(text, state({0, 0}, {1, 0}), 2);
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.of(EventKind::impact).empty());
+  CHECK(motion.motion.energy() == doctest::Approx(0.5).epsilon(1e-12));
+}
+
+TEST_CASE("what is held with equality and jumps ends the motion with the reason") {
+  for (const char* wire :
+       {"y = if(x>5, 1, 0.5)", "y = 0.5 + 0*x + if(t>5, 1, 0)", "y = 0.5 + step(x-5)/1e4"}) {
+    CAPTURE(wire);
+    const Followed motion = followed(particle_on(wire), state({0, 0.5}, {1, 0}), 10);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("c jumps from 0 to ") != std::string::npos);
+    CHECK(motion.end().t == doctest::Approx(5).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("a potential that jumps over time alone is a force that jumps, and is followed") {
+  // x'' = 0 to t = 1, then -7: x = 1 + s - 7s²/2.
+  const Followed pushed = along_x("x'^2/2", "if(t>1, 7*x, 0)", 2);
+  CHECK(pushed.motion.status() == MotionStatus::done);
+  CHECK(pushed.end().q[0] == doctest::Approx(-1.5).epsilon(1e-13));
+  const Followed level = along_x("x'^2/2", "if(t>1, 7, 0)", 2);
+  CHECK(level.motion.status() == MotionStatus::done);
+  CHECK(level.end().v[0] == 1);
+  // Over a position that time moves it is a wall.
+  const Followed wall = along_x("x'^2/2", "if(x+t>2, 1, 0)", 2);
+  CHECK(wall.motion.status() == MotionStatus::stopped);
+  CHECK(wall.end().t == doctest::Approx(1).epsilon(1e-13));
+}
+
+TEST_CASE("a momentum that jumps with T ends the motion, though T itself does not jump") {
+  const Followed later = along_x("if(t>1, 2, 1)/2*x'^2", "", 2);
+  CHECK(later.motion.status() == MotionStatus::stopped);
+  CHECK(later.motion.why().find("momentum") != std::string::npos);
+  const SystemText crossed{{"x", "y"}, "(x'^2+y'^2)/2 + 0.3*if(x>1, 1, -1)*x'*y'", "", {}, {}, {}, {}};
+  const Followed aside = followed(crossed, state({0, 0}, {1, 0}), 2);
+  CHECK(aside.motion.status() == MotionStatus::stopped);
+  CHECK(aside.end().q[0] == doctest::Approx(1).epsilon(1e-13));
+  // A mass that changes while it rests is felt by nothing.
+  const SystemText resting{{"x", "y"}, "if(x>1, 2, 1)/2*y'^2 + x'^2/2", "", {}, {}, {}, {}};
+  CHECK(followed(resting, state({0, 0}, {1, 0}), 2).motion.status() == MotionStatus::done);
+}
+
+TEST_CASE("in a steep groove of one constraint a particle strikes one side after the other") {
+  // Sides of slope 3 at one point: with e = 1 the velocity is turned about them until it leads away.
+  const SystemText text = particle_on("y >= 3*abs(x)", "1");
+  const Followed motion = followed(text, state({-1, 3}, {1, -3}), 1.2, restitution(text, 1));
+  CHECK(motion.motion.status() == MotionStatus::done);
+  CHECK(motion.motion.energy() == doctest::Approx(8).epsilon(1e-12));
+  CHECK(motion.of(EventKind::impact).size() >= 2);
+  CHECK(motion.end().q[1] >= 3 * std::abs(motion.end().q[0]));
+}
+
+TEST_CASE("at rest at the bottom of a groove in one constraint the motion stops with advice") {
+  const SystemText text = particle_on("y >= abs(x)", "1");
+  const Followed motion = followed(text, state({-1, 1}, {1, -1}), 3, restitution(text, 0));
+  CHECK(motion.motion.status() == MotionStatus::stopped);
+  CHECK(motion.motion.why().find("kink") != std::string::npos);
+  CHECK(motion.motion.why().find("y >= -x") != std::string::npos);
+}
