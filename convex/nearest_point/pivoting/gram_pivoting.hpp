@@ -53,7 +53,6 @@ class GramPivoting {
   Index place(Index j) const { return set_.place(j); }  ///< of the j-th
   Index row(Index j) const { return set_.row(j); }
   bool holds(Index a) const { return state_[a] >= held; }
-  bool has_passed(Index a) const { return state_[a] == passed; }  ///< left out as dependent
   bool is_two_sided(Index a) const { return state_[a] == two_sided; }
   Index steps() const { return steps_; }            ///< rows taken in or dropped
   const double* lambda() const { return lambda_; }  ///< multipliers at their places

@@ -50,11 +50,4 @@ Vector WhitenedProblem::weights(const NearestPointProblem& problem, const Vector
   return found;
 }
 
-double WhitenedProblem::defect(const Vector& y, const Vector& slack) const {
-  double worst = 0;
-  for (Index a = 0; a < size(); ++a)
-    worst = std::max(worst, is_free(a) ? std::abs(slack[a]) : std::abs(std::min(y[a], slack[a])));
-  return worst;
-}
-
 }  // namespace convex::inline reductions

@@ -24,8 +24,6 @@ struct WhitenedProblem {
   Vector multipliers(const NearestPointProblem&, const Vector& y) const;
   /// Farkas weights of the problem from weights of the columns.
   Vector weights(const NearestPointProblem&, const Vector& y) const;
-  /// max over a of what y and the slack Vᵀd - b have of the wrong sign or together: 0 at the solution.
-  double defect(const Vector& y, const Vector& slack) const;
 };
 
 }  // namespace convex::inline reductions

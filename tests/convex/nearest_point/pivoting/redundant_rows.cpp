@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <array>
 #include <random>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -31,14 +32,14 @@ Solution exact(const NearestPointProblem& problem) {
 }
 
 /// Small integers, the later half of the rows made of the others: multiples, sums, some of them off by
-/// `off` in one entry, some turned round.
-NearestPointProblem degenerate(unsigned seed, double off) {
+/// `off` in one entry, some turned round. More than `least` rows, for so many coordinates.
+NearestPointProblem degenerate(unsigned seed, double off, Index least = 0) {
   std::mt19937 generator(seed);
   const auto integer = [&](int low, int high) {
     return static_cast<double>(std::uniform_int_distribution<int>(low, high)(generator));
   };
   const auto below = [&](Index n) { return static_cast<Index>(integer(0, static_cast<int>(n) - 1)); };
-  const Index n = 2 + below(4), some = 1 + below(n + 1), m = some + 1 + below(3 * n);
+  const Index n = 2 + below(4) + least / 8, some = 1 + below(n + 1), m = some + 1 + below(3 * n) + least;
   Matrix B(n, n);
   for (Index i = 0; i < B.size(); ++i) B.data()[i] = integer(-2, 2);
   const Matrix A = B * B.transpose() + static_cast<double>(n) * Matrix::Identity(n, n);
@@ -74,6 +75,54 @@ TEST_CASE("rows that are sums and multiples of others leave the answer as it is 
     if (truth.status != Status::solved) continue;
     CHECK(problem.A.norm(found.q - truth.q) <= few_roundings * scale(problem, truth.q));
   }
+}
+
+TEST_CASE("many rows that are sums and multiples of few leave the answer as it is in fractions") {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    const NearestPointProblem problem = degenerate(seed, 0, 48);
+    const Solution truth = exact(problem);
+    if (truth.status != Status::solved) continue;
+    const std::optional<Solution> found = convex::solve_by_gram_matrix(problem, {}, {}).solution;
+    REQUIRE(found.has_value());
+    CHECK(problem.A.norm(found->q - truth.q) <= few_roundings * scale(problem, truth.q));
+    CHECK(found->slack.minCoeff() >= 0);
+  }
+}
+
+TEST_CASE("multipliers of rows that just hold, made by rounding alone, are there and 0 as in fractions") {
+  std::mt19937 generator(5);
+  std::uniform_int_distribution<int> steps(-8, 8);
+  std::uniform_real_distribution<double> part(0.1, 1);
+  for (const auto& [n, m, strong, weak] : {std::array<Index, 4>{6, 9, 2, 3}, {12, 24, 6, 12}, {12, 40, 4, 4}})
+    for (int turn = 0; turn < 12; ++turn) {
+      CAPTURE(n);
+      CAPTURE(turn);
+      Matrix B(n, n);
+      convex::RowMatrix U(m, n);
+      Vector x(n), lambda = Vector::Zero(m);
+      for (Index i = 0; i < B.size(); ++i) B.data()[i] = part(generator) - 0.5;
+      for (Index i = 0; i < U.size(); ++i) U.data()[i] = steps(generator) / 16.0;
+      for (Index i = 0; i < n; ++i) x[i] = steps(generator) / 4.0;
+      const Matrix A = B * B.transpose() + Matrix::Identity(n, n);
+      Vector s = U * x;
+      for (Index a = 0; a < m; ++a)
+        if (a < strong)
+          lambda[a] = part(generator);
+        else if (a >= strong + weak)
+          s[a] -= part(generator);
+      const NearestPointProblem problem{
+          Metric::dense(A), A * x - U.transpose() * lambda, ConstraintRows(U), s, {}};
+      const Solution truth = exact(problem), found = convex::active_set(problem);
+      REQUIRE(truth.status == Status::solved);
+      REQUIRE(found.status == Status::solved);
+      CHECK(problem.A.norm(found.q - truth.q) <= few_roundings * scale(problem, truth.q));
+      const double length = truth.lambda.maxCoeff();
+      for (Index a = 0; a < m; ++a) {
+        CHECK((found.lambda[a] > 0) == (truth.lambda[a] > 0));
+        CHECK(std::abs(found.lambda[a] - truth.lambda[a]) <= 1e-13 * length);
+      }
+    }
 }
 
 TEST_CASE("rows that are sums of others but for an angle below rounding are judged right or not at all") {
