@@ -202,7 +202,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     find_largest(solution, levels.finest(), found.front());
     solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
-    bool is_close = solution.error_bound <= accuracy.part() * solution.largest;
+    const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();
+    const bool is_close = solution.error_bound <= accuracy.part() * size;
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
     if (is_last || is_close) {
       if (!found.front().ended || !is_close) solution.status = LiquidSolution::Status::inaccurate;

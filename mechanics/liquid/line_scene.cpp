@@ -221,7 +221,9 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
   if (solution.high_parts && !(solution.low_parts && line.low == line.high))
     found.parted_walls.push_back(line.high->name);
   found.error_bound = solution.error_bound;
-  if (!(found.error_bound <= accuracy.part() * found.largest) && found.error_bound > 0)
+  // Where all is cavity there is no pressure that the bound could be a part of, but what would make one.
+  const double size = found.largest > 0 ? found.largest : scene.pressure_scale();
+  if (!(found.error_bound <= accuracy.part() * size) && found.error_bound > 0)
     found.status = LiquidSolution::Status::inaccurate;
   found.p = [line, solution](const Point& x) { return solution.p(line.variable(x)); };
   found.in_cavity = [line, pieces = solution.pieces()](const Point& x) {

@@ -194,8 +194,9 @@ void prove_line(const LiquidScene& scene, const LineScene& line, const LiquidAcc
   found.is_proved = true;
   found.error_bound = enclosure->error_bound;
   find_largest(solution, line, *enclosure, found);
-  found.status = found.error_bound <= accuracy.part() * found.largest ? LiquidSolution::Status::solved
-                                                                      : LiquidSolution::Status::inaccurate;
+  const double size = found.largest > 0 ? found.largest : scene.pressure_scale();
+  found.status = found.error_bound <= accuracy.part() * size ? LiquidSolution::Status::solved
+                                                             : LiquidSolution::Status::inaccurate;
   found.p = [line, p = enclosure->p](const Point& x) { return p(line.variable(x)); };
 }
 

@@ -93,3 +93,56 @@ TEST_CASE("x |x| has the derivative 2 |x|, also where |x| has none") {
     CHECK(std::abs(found["probes"][1]["p"].get<double>() - (2.0 / 3 + 1.0 / 24)) <= 1e-12);
   }
 }
+
+TEST_CASE("a liquid that is all cavity is solved: p = 0, also proved") {
+  // h = -1 - 3 x²/7 < 0, no pressure at the mouth, and a wall that leaves faster than the liquid follows.
+  const Folder folder;
+  const std::string file = folder.write(
+      "cavity.toml",
+      "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\nforce = "
+      "[\"x + x^3/7\"]\nfree = { mouth = { where = \"x <= 0\", pressure = 0 } }\nwalls = { lid = { where = "
+      "\"true\", acceleration = 3 } }\n");
+  for (const bool is_proved : {false, true}) {
+    std::vector<std::string> arguments{"solve", "--json", file};
+    if (is_proved) arguments.push_back("--certify");
+    const Outcome outcome = run(arguments);
+    REQUIRE(outcome.code == 0);
+    const OnsetJson found = OnsetJson::parse(outcome.out);
+    CHECK(found["pressure"]["max"] == 0);
+    CHECK(found["cavity"]["fraction"] == 1);
+    CHECK(found["certificate"]["error_bound"].get<double>() <= 1e-14);
+  }
+}
+
+TEST_CASE("a thin layer of force between the points at which loads are taken is found, or counted") {
+  // A fan: p jumps by 5 sqrt(pi) across it, as it does in a thicker one. By the ends p(0) = p(1) = 1 its
+  // slope elsewhere is less that jump, so that p(0.2) is 1 + 0.2 * 5 sqrt(pi) + O(width) without a cavity.
+  const auto fan = [](const std::string& width) {
+    return "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\nforce = "
+           "[\"5/w*exp(-((x - 0.31)/w)^2)\"]\nfree = { ends = { where = \"true\", pressure = 9 } "
+           "}\n[liquid.parameters]\nw = " +
+           width + "\n";
+  };
+  const double jump = 5 * std::sqrt(std::acos(-1.0));
+  for (const std::string width : {"1e-3", "1e-4", "1e-5"}) {
+    CAPTURE(width);
+    const Folder folder;
+    const Outcome outcome =
+        run({"solve", "--json", "--certify", "--probe", "x=0.2", folder.write("fan.toml", fan(width))});
+    const OnsetJson found = OnsetJson::parse(outcome.out);
+    const double bound = found["certificate"]["error_bound"].get<double>();
+    CHECK(found["certificate"]["level"] == "enclosure");
+    CHECK(bound <= 1e-3);
+    CHECK(std::abs(found["probes"][0]["p"].get<double>() - (9 - 0.2 * jump)) <= bound + 1e-12);
+  }
+  const Folder folder;
+  const std::string disc =
+      "[liquid]\ncoordinates = [\"x\", \"y\"]\ndomain = \"disc(center=[0, 0], radius=1)\"\ndensity = "
+      "1\nforce = "
+      "[\"-40*exp(-((x - 0.3)/0.0004)^2)\", \"0\"]\nfree = { rim = { where = \"true\", pressure = 0.3 } "
+      "}\ncells = "
+      "64\n";
+  const Outcome outcome = run({"solve", "--json", folder.write("disc.toml", disc)});
+  CHECK(outcome.code == 3);
+  CHECK(OnsetJson::parse(outcome.out)["certificate"]["error_bound"].get<double>() >= 1.4e-2);
+}
