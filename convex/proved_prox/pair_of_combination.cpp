@@ -1,5 +1,6 @@
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/program_of_call.hpp"
+#include "convex/exact_program/program_operations.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
@@ -22,6 +23,46 @@ std::vector<Call> parts_of_sum(const Call& f, const ExactGram& W) {
   return parts;
 }
 
+/// Where both parts have corners: a program and a ball, or the norm that supports one.
+struct ProgramAndBall {
+  ExactProgram P;
+  Fraction radius;
+  Fractions centre;
+};
+
+std::optional<ProgramAndBall> program_and_ball(const std::vector<Call>& parts, bool conjugate,
+                                               const ExactGram& W) {
+  if (parts.size() != 2) return std::nullopt;
+  for (const std::size_t k : {0, 1}) {
+    const Call* ball = &parts[1 - k];
+    if (ball->name == "indicator")
+      ball = std::get<std::shared_ptr<const Call>>(ball->arguments[0].value).get();
+    if (ball->name != (conjugate ? "norm2" : "ball2")) continue;
+    const auto program = exact_program(parts[k], W);
+    if (!program) continue;
+    const ExactArguments a(*ball, W.dimension());
+    if (conjugate)
+      return ProgramAndBall{exact_programs::conjugate(*program), a.number("weight"),
+                            Fractions(W.dimension())};
+    return ProgramAndBall{*program, a.number("radius"), a.vector("center")};
+  }
+  return std::nullopt;
+}
+
+/// Of a program at x, with the subgradient nearest to v: that of a short step along v.
+PairSearch program_pair_towards(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
+  const auto program = exact_program(f, W);
+  if (!program) return {};
+  const Fraction step = fraction(0x1p-20);
+  ExactGram V = identity_gram(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) V.rows[i] = {{i, Fraction{1} / step}};
+  const auto moved = exact_prox(*program, V, pairs::sum_of(x, pairs::multiple_of(step, v))).at;
+  if (!moved) return {};
+  auto at = near_graph_point(*program, nearest(pairs::sum_of(x, moved->v)));
+  if (!at || at->x != x) return {};
+  return {proof_pair(std::move(*at)), {}};
+}
+
 /// f_1 + f_2 + …: one part takes what the gradients of the others leave of v, at a point that they share.
 PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   const std::vector<Call> parts = parts_of_sum(f, W);
@@ -31,8 +72,12 @@ PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, co
       ProofPair sum{point, Fractions(x.size()), only(Fraction{}), only(Fraction{}), true};
       for (std::size_t k = 0; k < parts.size(); ++k) {
         if (k == free) continue;
-        const PairSearch at = pair_at_point(parts[k], W, point);
+        PairSearch at = pair_at_point(parts[k], W, point);
         if (!at.pair) return std::nullopt;
+        if (parts.size() == 2) {
+          PairSearch towards = program_pair_towards(parts[k], W, point, v);
+          if (towards.pair) at = std::move(towards);
+        }
         sum.v = pairs::sum_of(sum.v, at.pair->v);
         sum.f_x = sum.f_x + at.pair->f_x;
         sum.f_v = sum.f_v + at.pair->f_v;
@@ -53,6 +98,8 @@ PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, co
     whole->is_rational = whole->is_rational && own.pair->is_rational;
     candidates.push_back(std::move(whole));
   }
+  if (const auto both = program_and_ball(parts, false, W))
+    candidates.push_back(pairs::of_program_and_ball(both->P, both->radius, both->centre, x, v));
   if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
   return {{}, f.name + ": more than one of its parts has a corner at the point"};
 }
@@ -74,6 +121,9 @@ PairSearch pair_of_inf_convolution(const Call& f, const ExactGram& W, const Frac
                                    own.pair->f_x + other.pair->f_x, own.pair->f_v + other.pair->f_v,
                                    own.pair->is_rational && other.pair->is_rational});
   }
+  if (const auto both = program_and_ball({*parts[0], *parts[1]}, true, W))
+    if (auto dual = pairs::of_program_and_ball(both->P, both->radius, both->centre, v, x))
+      candidates.push_back(turned_round(std::move(*dual)));
   if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
   return {{}, f.name + ": the conjugates of both parts have a corner at the covector"};
 }

@@ -17,6 +17,10 @@ MaybePair of_ball(const Fraction& radius, const Fractions& centre, const Fractio
 MaybePair ball_at_point(const Fraction& radius, const Fractions& centre, const Fractions& x);
 MaybePair ball_at_covector(const Fraction& radius, const Fractions& centre, const Fractions& v);
 
+/// P and the indicator of the ball, their sum, P piecewise linear-quadratic: a pair with x on the sphere.
+MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, const Fractions& centre,
+                              const Fractions& x, const Fractions& v);
+
 /// log Σ e^x_i and Σ v_i log v_i on the simplex.
 MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v);
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/Eigenvalues>
+#include <random>
 
 #include "cli/function_language/number_of_entries.hpp"
 #include "cli/function_language/parse_call.hpp"
@@ -51,6 +52,9 @@ const std::vector<std::string> proved_calls = {"norm1(1/3)",
                                                "indicator(power_cone(0.3))",
                                                "distance(box(-1, 1), 2)",
                                                "sum(norm2(), indicator(box(-1, 2)))",
+                                               "sum(norm1(0.3), indicator(ball2(1)))",
+                                               "sum(norm1(), norm2())",
+                                               "inf_convolution(norm2(), norm1(0.75))",
                                                "envelope(entropy(), 0.25)",
                                                "conjugate(logistic())",
                                                "precompose(logistic(), [[1,2,0],[0,1,1]], [1,0])"};
@@ -280,6 +284,46 @@ TEST_CASE("a matrix that rounding would call semidefinite is told apart in fract
   CHECK(exact_programs::is_semidefinite(Q));
   Q[1][1] = read("999999999999999999999/1000000000000000000000");
   CHECK_FALSE(exact_programs::is_semidefinite(Q));
+}
+
+TEST_CASE(
+    "a full Gram matrix of fewer vectors than rows is semidefinite, and not when any entry of its diagonal "
+    "falls") {
+  std::mt19937_64 generator(4);
+  std::uniform_int_distribution<int> digit(-9, 9);
+  const std::size_t n = 12, rank = 5;
+  std::vector<Fractions> B(n, Fractions(rank));
+  for (Fractions& row : B)
+    for (Fraction& entry : row) entry = Fraction{digit(generator), 7};
+  std::vector<ExactRow> Q(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) add(Q[i], j, dot(B[i], B[j]));
+  CHECK(exact_programs::is_semidefinite(Q));
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<ExactRow> raised = Q, lowered = Q;
+    add(raised[i], i, read("1e-40"));
+    add(lowered[i], i, read("-1e-40"));
+    CHECK(exact_programs::is_semidefinite(raised));
+    CHECK_FALSE(exact_programs::is_semidefinite(lowered));
+  }
+}
+
+TEST_CASE(
+    "where a corner and a sphere meet, the proof covers the point of the sphere along the soft threshold") {
+  // prox of weight |.|_1 on the unit ball is the projection of the soft threshold (Yu 2013).
+  for (const Vector& z : {Vector{{2.0, -0.2, 1.0}}, Vector{{0.1, 0.2, -3}}, Vector{{-1.5, 1.25, 0.3}}}) {
+    const SplitQuestion q = question("sum(norm1(0.3), indicator(ball2(1)))", z, Metric::identity(3));
+    const ProvedSplit proof = prove(q, in_doubles(q));
+    REQUIRE(proof.level == ProofLevel::enclosure);
+    Vector soft = z;
+    for (double& entry : soft) entry = std::copysign(std::max(std::abs(entry) - 0.3, 0.0), entry);
+    const Vector truth = soft / std::max(1.0, soft.norm());
+    CHECK(proof.error_bound() <= 1e-14);
+    CHECK((in_doubles(q).x.x - truth).norm() <= proof.x_bound + 1e-15);
+    Decomposition off = in_doubles(q);
+    off.x.x *= 1 + 1e-9;
+    CHECK(prove(q, off).x_bound >= 0.99e-9 * truth.norm());
+  }
 }
 
 TEST_CASE("a bound of the least eigenvalue is below it, and near it where that is well conditioned") {
