@@ -207,6 +207,24 @@ std::size_t largest_part(const ExactProgram& f, const ExactGram* W) {
   return largest;
 }
 
+double pair_operations(const ExactProgram& f, const ExactGram& W) {
+  constexpr double of_a_nonzero = 1000;  // in an unknown's digits, measured: both proofs, sums and repairs
+  const auto count = [](const std::vector<ExactRow>& rows) {
+    double entries = 0;
+    for (const ExactRow& row : rows) entries += static_cast<double>(row.size());
+    return entries;
+  };
+  double most_unknowns = 0, total = 0;
+  for (const Part& part : parts_of(f, nullptr)) {
+    double entries = count(part.program.H);
+    for (const ExactBound& bound : part.program.rows) entries += static_cast<double>(bound.row.size());
+    const auto unknowns = static_cast<double>(part.variables.size() + part.program.rows.size());
+    total += entries * unknowns;
+    most_unknowns = std::max(most_unknowns, unknowns);
+  }
+  return of_a_nonzero * (total + count(W.rows) * most_unknowns);
+}
+
 std::optional<GraphPoint> graph_point(const ExactProgram& f, const Fractions& xi, const Fractions& lambda) {
   Fractions slope(f.variables());
   for (std::size_t i = 0; i < f.variables(); ++i) slope[i] = f.c[i] + dot(f.H[i], xi);

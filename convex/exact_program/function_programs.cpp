@@ -137,7 +137,53 @@ std::optional<ExactProgram> plq(const ExactArguments& a) {
 
 }  // namespace
 
+namespace {
+
+/// Of a full symmetric matrix in integers: all minors that elimination meets are positive, or belong to rows
+/// that are 0 (Bareiss 1968).
+bool is_semidefinite_in_integers(IntegerRows A) {
+  Integer last = 1;
+  for (std::size_t k = 0; k < A.size(); ++k) {
+    const Integer pivot = A[k][k];
+    if (pivot.sign() < 0) return false;
+    if (pivot.is_zero()) {
+      for (std::size_t j = k + 1; j < A.size(); ++j)
+        if (!A[k][j].is_zero()) return false;
+      continue;
+    }
+    for (std::size_t i = k + 1; i < A.size(); ++i)
+      for (std::size_t j = i; j < A.size(); ++j)
+        A[i][j] = exact_quotient(pivot * A[i][j] - A[k][i] * A[k][j], last);
+    last = pivot;
+  }
+  return true;
+}
+
+/// Q times the denominator that its entries have in common.
+IntegerRows in_integers(const std::vector<ExactRow>& Q) {
+  const std::size_t n = Q.size();
+  Fractions entries(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const auto& [j, value] : Q[i]) entries[i * n + j] = value;
+  const ExactVector made = exact_vector(entries);
+  IntegerRows A;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = made.numerators.begin() + static_cast<std::ptrdiff_t>(i * n);
+    A.emplace_back(row, row + static_cast<std::ptrdiff_t>(n));
+  }
+  return A;
+}
+
+}  // namespace
+
 bool is_semidefinite(std::vector<ExactRow> Q) {
+  std::size_t entries = 0;
+  for (const ExactRow& row : Q) entries += row.size();
+  constexpr std::size_t sparse_entries = 4;  // a row; fuller matrices are for integers
+  if (entries > sparse_entries * Q.size()) {
+    const IntegerRows A = in_integers(Q);
+    return is_positive_definite(A) || is_semidefinite_in_integers(A);
+  }
   for (std::size_t k = 0; k < Q.size(); ++k) {
     const auto pivot = Q[k].find(k);
     if (pivot == Q[k].end()) {

@@ -1,10 +1,12 @@
 #include "convex/exact_program/linear_equations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <set>
 
 #include "convex/exact/integer_system.hpp"
+#include "convex/vector.hpp"
 
 namespace convex {
 namespace {
@@ -38,6 +40,23 @@ std::optional<Fractions> lifted(const std::vector<ExactEquation>& equations, std
   return u;
 }
 
+/// A column for each row, in which elimination in doubles finds its largest entry; fewer where a row is left
+/// with nothing.
+std::vector<std::size_t> pivot_columns(Matrix M) {
+  std::vector<std::size_t> columns;
+  for (Index i = 0; i < M.rows(); ++i) {
+    Index pivot = 0;
+    const double size = M.row(i).cwiseAbs().maxCoeff(&pivot);
+    if (!(size > 0) || !std::isfinite(size)) return {};
+    columns.push_back(static_cast<std::size_t>(pivot));
+    const Index below = M.rows() - i - 1;
+    const Vector factors = M.col(pivot).tail(below) / M(i, pivot);
+    M.bottomRows(below).noalias() -= factors * M.row(i);
+    M.col(pivot).tail(below).setZero();
+  }
+  return columns;
+}
+
 class Elimination {
  public:
   Elimination(std::vector<ExactEquation> equations, std::size_t n)
@@ -49,11 +68,13 @@ class Elimination {
   }
 
   /// False when an equation reads 0 = something else.
-  bool run() {
+  bool run(const Fractions& guess) {
     while (!waiting_.empty()) {
       const auto shortest = std::min_element(waiting_.begin(), waiting_.end(), [&](auto a, auto b) {
         return equations_[a].row.size() < equations_[b].row.size();
       });
+      if (equations_[*shortest].row.size() >= least_lifted && !tried_to_lift_ && lift_rest(guess))
+        return true;
       const std::size_t a = *shortest;
       waiting_.erase(shortest);
       const ExactEquation& chosen = equations_[a];
@@ -71,6 +92,7 @@ class Elimination {
   }
 
   Fractions back_substituted(Fractions u) const {
+    for (const auto& [j, value] : lifted_) u[j] = value;
     for (auto step = solved_.rbegin(); step != solved_.rend(); ++step) {
       const auto& [pivot, a] = *step;
       const ExactEquation& equation = equations_[a];
@@ -81,6 +103,43 @@ class Elimination {
   }
 
  private:
+  /// Solves what is left as one full system, where it is regular in unknowns that doubles choose; the others
+  /// keep their guess.
+  bool lift_rest(const Fractions& guess) {
+    tried_to_lift_ = true;
+    std::vector<std::size_t> unknowns;
+    for (std::size_t j = 0; j < in_rows_.size(); ++j)
+      if (!in_rows_[j].empty()) unknowns.push_back(j);
+    const std::size_t m = waiting_.size();
+    if (unknowns.size() < m) return false;
+    Matrix M = Matrix::Zero(static_cast<Index>(m), static_cast<Index>(unknowns.size()));
+    std::vector<std::size_t> place(in_rows_.size());
+    for (std::size_t k = 0; k < unknowns.size(); ++k) place[unknowns[k]] = k;
+    for (std::size_t i = 0; i < m; ++i)
+      for (const auto& [j, value] : equations_[waiting_[i]].row)
+        M(static_cast<Index>(i), static_cast<Index>(place[j])) = nearest_double(value);
+    const std::vector<std::size_t> chosen = pivot_columns(std::move(M));
+    if (chosen.size() != m) return false;
+    constexpr std::size_t not_chosen = static_cast<std::size_t>(-1);
+    place.assign(in_rows_.size(), not_chosen);
+    for (std::size_t k = 0; k < m; ++k) place[unknowns[chosen[k]]] = k;
+    std::vector<ExactEquation> rest;
+    for (const std::size_t a : waiting_) {
+      rest.push_back({{}, equations_[a].right});
+      for (const auto& [j, value] : equations_[a].row) {
+        if (place[j] == not_chosen)
+          rest.back().right = rest.back().right - value * guess[j];
+        else
+          rest.back().row[place[j]] = value;
+      }
+    }
+    const auto solution = lifted(rest, m);
+    if (!solution) return false;
+    for (std::size_t k = 0; k < m; ++k) lifted_.emplace_back(unknowns[chosen[k]], (*solution)[k]);
+    waiting_.clear();
+    return true;
+  }
+
   std::size_t rarest(const ExactRow& row) const {
     return std::min_element(row.begin(), row.end(),
                             [&](const auto& one, const auto& other) {
@@ -106,6 +165,8 @@ class Elimination {
   std::vector<std::set<std::size_t>> in_rows_;  ///< of an unknown: the waiting equations that have it
   std::vector<std::size_t> waiting_;
   std::vector<std::pair<std::size_t, std::size_t>> solved_;  ///< unknown, equation
+  std::vector<std::pair<std::size_t, Fraction>> lifted_;     ///< unknowns of the full system that was left
+  bool tried_to_lift_ = false;
 };
 
 }  // namespace
@@ -115,7 +176,7 @@ std::optional<Fractions> solve_near(std::vector<ExactEquation> equations, const 
   if (equations.size() == n && n >= least_lifted && 4 * nonzeros(equations) > n * n)
     if (auto u = lifted(equations, n)) return u;
   Elimination elimination(std::move(equations), n);
-  if (!elimination.run()) return std::nullopt;
+  if (!elimination.run(guess)) return std::nullopt;
   return elimination.back_substituted(guess);
 }
 

@@ -7,6 +7,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/nearest_point/solution.hpp"
 #include "convex/proved_prox/doubles/proof_in_doubles.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 
@@ -147,13 +148,13 @@ ProvedSplit prove_in_fractions(const SplitQuestion& question, const Decompositio
   return made;
 }
 
-/// Functions whose programs have larger parts, coupled by W, are proved in doubles first: fractions would
-/// take longer than the program takes to start.
-constexpr std::size_t most_at_once = 20;
+/// Pairs in fractions that take more of `most_word_operations` than this part, by their count, are left to
+/// doubles first: a fraction of a second.
+constexpr double part_at_once = 0.1;
 
 bool is_quick_in_fractions(const SplitQuestion& question) {
   const auto program = exact_program(question.f, question.W);
-  return program && largest_part(*program, &question.W) <= most_at_once;
+  return program && pair_operations(*program, question.W) <= part_at_once * most_word_operations;
 }
 
 /// Relative error of the doubles nearest to entries of W: 0 where they are the entries.
