@@ -144,8 +144,14 @@ std::string map_text(const std::vector<StressTrial>& trials) {
   return text;
 }
 
-/// For each method the settings at which it first fails, and how.
-std::string threshold_text(const std::vector<StressTrial>& trials) {
+/// Did it come back right, with the digits that were asked for?
+bool is_as_asked(const Trial& t, double tolerance) {
+  return t.is_right() && (std::isnan(t.judgement.error) || !exceeds(t.judgement.error, tolerance));
+}
+
+/// For each method the settings at which it first fails, and how: what says of itself that it is not as near
+/// as was asked has few digits.
+std::string threshold_text(const std::vector<StressTrial>& trials, double tolerance) {
   TextTable table({"method", "family", "first fails at", "how", "error"});
   std::vector<std::string> methods;
   for (const StressTrial& t : trials)
@@ -154,9 +160,12 @@ std::string threshold_text(const std::vector<StressTrial>& trials) {
   for (const std::string& method : methods) {
     std::string last;
     for (const auto& [family, knob, difficulty, t] : trials) {
-      if (t.method != method || family == last || t.is_right() || t.verdict() == Verdict::refused) continue;
+      if (t.method != method || family == last || is_as_asked(t, tolerance) ||
+          t.verdict() == Verdict::refused)
+        continue;
       last = family;
-      table.add({method, family, fmt::format("{:g}", difficulty), verdict_text(t.verdict()),
+      table.add({method, family, fmt::format("{:g}", difficulty),
+                 t.is_right() ? "few-digits" : verdict_text(t.verdict()),
                  std::isfinite(t.judgement.error) ? fmt::format("{:.0e}", t.judgement.error) : "-"});
     }
     if (last.empty()) table.add({method, "none", "-", "-", "-"});
@@ -184,7 +193,7 @@ Exit make_stress(const StressOptions& options) {
     write_stress(options, trials);
     if (options.quiet) return Exit::solved;
     if (!options.output) fmt::print("{}", map_text(trials));
-    fmt::print("{}", threshold_text(trials));
+    fmt::print("{}", threshold_text(trials, asked_accuracy(options).tolerance));
     return Exit::solved;
   });
 }

@@ -81,8 +81,28 @@ std::string joined(const std::vector<const Call*>& parts, Index n, const std::st
   return alone ? text.substr(1, text.size() - 2) : text;
 }
 
+/// Of a piecewise quadratic: between the first and the last piece that is finite.
+std::string of_pieces(const Given& given) {
+  const Argument *breaks = given.value("breaks"), *pieces = given.value("coefficients");
+  if (breaks == nullptr || pieces == nullptr || !std::holds_alternative<convex::Matrix>(*pieces)) return "";
+  convex::Vector at(1);
+  if (const auto* many = std::get_if<convex::Vector>(breaks))
+    at = *many;
+  else if (const auto* one = std::get_if<double>(breaks))
+    at[0] = *one;
+  else
+    return "";
+  const auto& rows = std::get<convex::Matrix>(*pieces);
+  double low = -INFINITY, high = INFINITY;
+  for (Index j = 0; j < at.size() && std::isinf(rows(j, 0)); ++j) low = at[j];
+  for (Index j = at.size(); j > 0 && std::isinf(rows(j, 0)); --j) high = at[j - 1];
+  if (std::isinf(low) && std::isinf(high)) return everywhere;
+  return to_text(Call{"box", {convex::argument("", low), convex::argument("", high)}});
+}
+
 std::string of_operation(const Call& call, Index n) {
   const Given given(call);
+  if (call.name == "plq") return of_pieces(given);
   const Call* f = given.call("f");
   const auto same = [](const std::string& domain) { return domain; };
   if (call.name == "tilt" || call.name == "scale") return changed(f, n, same);

@@ -77,7 +77,8 @@ WrittenNumber take_number(Cursor& cursor) {
     cursor.fail("the denominator of " + shown(digits) + " is 0; write another number, or inf", place);
   if (!std::isfinite(*value))
     cursor.fail(
-        "the number " + shown(digits) + " is too large for a double; write inf, or choose other units",
+        "the number " + shown(digits) +
+            " is too large for a double; choose other units, or write inf where a bound may be infinite",
         place);
   return {*value, std::move(digits)};
 }

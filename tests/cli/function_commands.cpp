@@ -24,6 +24,15 @@ struct WrongArguments {
 
 }  // namespace
 
+TEST_CASE("the domain of a conjugate of pieces lies between the slopes at both ends") {
+  const std::vector<std::pair<std::string, std::string>> domains = {
+      {"huber(0.5)", "box(-1, 1)"}, {"hinge()", "box(-1, 0)"}, {"squared_hinge()", "box(-inf, 0)"}};
+  for (const auto& [f, domain] : domains) {
+    CAPTURE(f);
+    CHECK(Json::parse(run({"conjugate", f, "--json"}).out)["domain"] == domain);
+  }
+}
+
 TEST_CASE("the conjugate prints as an expression that reads back, with its domain and its value") {
   const Json norm = Json::parse(run({"conjugate", "norm2(weight=2)", "--json"}).out);
   CHECK(norm["g"] == "indicator(ball2(radius=2))");
