@@ -96,8 +96,10 @@ class Motion::EventDriven final : public Motion::Course {
     Vector momentum, f, rate;
   };
   std::optional<Behind> behind_;
-  double last_length_ = 0;  // of the last arc that has one
-  std::string ends_here_;   // at its last instant: why it does not go on from there
+  Vector left_of_f_;          // by constraint, at a kink: up to here f counts as 0
+  double time_of_kinks_ = 0;  // the last one
+  double last_length_ = 0;    // of the last arc that has one
+  std::string ends_here_;     // at its last instant: why it does not go on from there
 };
 
 }  // namespace mechanics::inline motions

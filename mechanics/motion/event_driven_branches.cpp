@@ -134,6 +134,11 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
       return true;
     }
   behind_.reset();
+  // What impacts at one instant, ever slower, have to tell from 0 is what the first of them found there.
+  constexpr double at_once = roundings_of_instant * std::numeric_limits<double>::epsilon();
+  if (left_of_f_.size() == 0 || !(state.t - time_of_kinks_ <= at_once * std::abs(state.t)))
+    left_of_f_.setZero(expansion_.constraints());
+  time_of_kinks_ = state.t;
   const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
   const double length = record.steps == 0 ? 0 : last_length_;
   std::vector<Index> closing, opening, others;
@@ -142,10 +147,9 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     if (is_two_sided(a) && !behind) continue;
     const double f = expansion_.f(a), rate = expansion_.rate(a), tolerance = options.contact_tolerance[a];
     const double rate_scale = expansion_.rate_scale(a);
-    // The time of what happens at once is known to some roundings of it.
-    const double f_left = std::max(
-        tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}),
-        rate_scale * roundings_of_instant * std::numeric_limits<double>::epsilon() * std::abs(state.t));
+    double& f_left = left_of_f_[a];
+    f_left =
+        std::max(f_left, tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}));
     if (is_two_sided(a)) {  // holds on the branches behind
       const double rate_left = tolerance * rate_scale + expansion_.rounding_of_rate(a);
       if (std::abs(f - behind->f[a]) > f_left) {

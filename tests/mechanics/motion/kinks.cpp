@@ -105,13 +105,21 @@ TEST_CASE("a momentum that jumps with T ends the motion, though T itself does no
 }
 
 TEST_CASE("in a steep groove of one constraint a particle strikes one side after the other") {
-  // Sides of slope 3 at one point: with e = 1 the velocity is turned about them until it leads away.
+  // Sides of slope 3 at one point: each impact turns the velocity about one of them, until it leads away.
   const SystemText text = particle_on("y >= 3*abs(x)", "1");
-  const Followed motion = followed(text, state({-1, 3}, {1, -3}), 1.2, restitution(text, 1));
-  CHECK(motion.motion.status() == MotionStatus::done);
-  CHECK(motion.motion.energy() == doctest::Approx(8).epsilon(1e-12));
-  CHECK(motion.of(EventKind::impact).size() >= 2);
-  CHECK(motion.end().q[1] >= 3 * std::abs(motion.end().q[0]));
+  for (const double e : {0.5, 1.0}) {
+    const Followed motion = followed(text, state({-1, 3}, {1, -3}), 1.5, restitution(text, e));
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.of(EventKind::impact).size() >= 2);
+    CHECK(motion.end().q[1] >= 3 * std::abs(motion.end().q[0]) - 1e-15);
+    const double lost = motion.motion.record().ledger_energy;
+    CHECK(motion.motion.energy() - lost == doctest::Approx(8).epsilon(1e-12));
+    CHECK((e < 1 || std::abs(lost) <= 1e-14));
+  }
+  // With e = 0 there is always one more, ever slower.
+  const Followed slower = followed(text, state({-1, 3}, {1, -3}), 1.5, restitution(text, 0));
+  CHECK(slower.motion.status() == MotionStatus::stopped);
+  CHECK(slower.motion.why().find("y >= -x") != std::string::npos);
 }
 
 TEST_CASE("at rest at the bottom of a groove in one constraint the motion stops with advice") {
