@@ -9,9 +9,9 @@ using OnsetJson = nlohmann::json;
 namespace {
 
 /// A liquid on (-1, 1), or another domain, pulled by F from both ends, or a rim, where p is given.
-std::string pulled(const std::string& force, const std::string& pressure, const std::string& w,
+std::string pulled(const std::string& F, const std::string& pressure, const std::string& w,
                    const std::string& domain = "interval(low=-1, high=1)") {
-  return "[liquid]\ncoordinates = [\"x\"]\ndomain = \"" + domain + "\"\ndensity = 1\nforce = [\"" + force +
+  return "[liquid]\ncoordinates = [\"x\"]\ndomain = \"" + domain + "\"\ndensity = 1\nforce = [\"" + F +
          "\"]\nfree = { ends = { where = \"true\", pressure = \"" + pressure +
          "\" } }\n[liquid.parameters]\nw = " + w + "\n";
 }

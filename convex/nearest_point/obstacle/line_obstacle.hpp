@@ -25,7 +25,7 @@ struct LineObstacle {
   std::function<double(double)> h;
   /// At most how far h is from a polynomial of degree 11 between two points, so that nothing hides between
   /// those at which h is evaluated; empty: not known.
-  std::function<double(double, double)> departure;
+  std::function<double(double, double)> departure = {};
 };
 
 /// A maximal interval where p > 0 (liquid) or p = 0 (not).
