@@ -1,8 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <ctime>
 #include <limits>
 
 #include "convex/nearest_point/automatic.hpp"
@@ -168,17 +165,7 @@ const convex::Solution& Motion::TimeStepping::solve(Repeated& repeated, const st
   problem.radii = convex::rounding_radii(problem, roundings_of_step_rows);
   if (repeated.lambda.size() == 0)
     repeated.lambda = Vector::Zero(static_cast<Index>(system.constraints().size()));
-  const std::clock_t from_ = std::clock();
   repeated.solution = solution_of(repeated, problem, constraints, effort);
-  if (std::getenv("TRACE"))
-    std::fprintf(stderr,
-                 "DBG %s effort %d rows %ld two %zu method %s steps %ld pause %d  %.1f ms bound %.2e\n",
-                 &repeated == &velocities_  ? "vel"
-                 : &repeated == &positions_ ? "pos"
-                                            : "tan",
-                 int(effort), long(problem.rows()), two_sided.size(),
-                 std::string(repeated.solution.method).c_str(), long(repeated.solution.steps), repeated.pause,
-                 1e3 * double(std::clock() - from_) / CLOCKS_PER_SEC, repeated.solution.error_bound);
   repeated.pushing.clear();
   repeated.lambda.setZero();
   if (repeated.solution.lambda.size() == problem.rows())
