@@ -175,11 +175,12 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
     impulse_ = solution.lambda;
     // The next change would be smaller by the same factor again.
     const double next = i > 0 && change < last ? change * (change / last) : change;
-    // No change below what is known of them tells more; the first is found for its rows alone.
-    const double known = solution.error_bound + (i > 1 ? error : 0),
-                 settled = is_crowded_ ? settled_part_of_crowd : settled_part;
+    // No change below what is known of them tells more; the first may be found for its rows alone.
+    const double settled = (is_crowded_ ? settled_part_of_crowd : settled_part) * size;
+    const double known = solution.error_bound + (i > 1 ? error : 0);
     error = solution.error_bound;
-    if ((i > 0 || !is_crowded_) && (std::min(change, next) <= settled * size || change <= known)) {
+    const bool is_first_rough = is_crowded_ && i == 0 && error > settled;
+    if (!is_first_rough && (std::min(change, next) <= settled || change <= known)) {
       tell_error(error, size);
       return true;
     }

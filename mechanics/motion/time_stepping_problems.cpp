@@ -23,6 +23,7 @@ constexpr Index most_warm_steps = 60;
 /// They are taken, and their error is told, where the method ends within the first part, or within the second
 /// where the active set does not settle either.
 constexpr double usual_part = 1e-5, far_part = 1e-3;
+constexpr Index most_steps_inside = 40;
 
 /// A rough correction of positions, of its own size; the next ones see to the rest.
 constexpr double correction_part = 1e-3;
@@ -52,6 +53,7 @@ convex::Solution nearly_nearest(const convex::NearestPointProblem& problem, doub
   scaled.radii.reset();
   convex::Accuracy accuracy;
   accuracy.tolerance = part;
+  accuracy.step_limit = most_steps_inside;
   convex::Solution near;
   near.q = q / size;
   near.lambda = lambda / size;
@@ -144,7 +146,7 @@ convex::Solution Motion::TimeStepping::solution_of(Repeated& repeated,
   convex::Solution found = large ? convex::sparse_active_set(problem, accuracy, pushing)
                                  : convex::automatic(problem, accuracy, pushing);
   pause(repeated, found.steps > few_exchanges_of_step || !is_found(found));
-  if (large && !is_found(found))
+  if (problem.rows() > 0 && !is_found(found))
     found = is_found(near) ? near : convex::sparse_interior_point(problem, accuracy);
   if (!large && !is_found(found)) {
     convex::NearestPointProblem relaxed = problem;

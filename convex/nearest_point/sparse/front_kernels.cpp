@@ -61,44 +61,6 @@ void subtract_one(Index n, double* __restrict c, const double* a, double w) {
   for (Index i = 0; i < n; ++i) c[i] -= a[i] * w;
 }
 
-/// y += Σ_k a_k x_k for four columns a.
-MOREAU_CLONES
-void add_four(Index n, double* __restrict y, const double* a0, const double* a1, const double* a2,
-              const double* a3, const double* x) {
-  const double x0 = x[0], x1 = x[1], x2 = x[2], x3 = x[3];
-  for (Index i = 0; i < n; ++i) y[i] += (a0[i] * x0 + a1[i] * x1) + (a2[i] * x2 + a3[i] * x3);
-}
-
-/// The inner products of four columns with y, in sums of an order that does not depend on the machine.
-MOREAU_CLONES
-void four_products(Index n, const double* y, const double* a0, const double* a1, const double* a2,
-                   const double* a3, double* x) {
-  constexpr Index lanes = 8;
-  double s0[lanes] = {}, s1[lanes] = {}, s2[lanes] = {}, s3[lanes] = {};
-  Index i = 0;
-  for (; i + lanes <= n; i += lanes)
-    for (Index l = 0; l < lanes; ++l) {
-      const double at = y[i + l];
-      s0[l] += a0[i + l] * at;
-      s1[l] += a1[i + l] * at;
-      s2[l] += a2[i + l] * at;
-      s3[l] += a3[i + l] * at;
-    }
-  for (Index l = 0; i < n; ++i, ++l) {
-    s0[l] += a0[i] * y[i];
-    s1[l] += a1[i] * y[i];
-    s2[l] += a2[i] * y[i];
-    s3[l] += a3[i] * y[i];
-  }
-  const auto sum = [](const double* s) {
-    return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
-  };
-  x[0] = sum(s0);
-  x[1] = sum(s1);
-  x[2] = sum(s2);
-  x[3] = sum(s3);
-}
-
 /// Columns first … first + count - 1 of L, times their pivots, at row i.
 void scaled_row(const double* panel, Index rows, Index first, Index count, Index i, double* w) {
   for (Index k = 0; k < count; ++k) {
@@ -185,27 +147,6 @@ void subtract_outer(double* C, Index size, const double* panel, Index rows, Inde
   for (Index first = 0; first < columns; first += block)
     subtract_columns(panel, rows, first, std::min(block, columns - first), 0, size, rows - size,
                      [&](Index c) { return C + c * size + c; });
-}
-
-void add_product(const double* panel, Index rows, Index columns, Index size, const double* x, double* y) {
-  const double* a = panel + rows - size;
-  Index k = 0;
-  for (; k + block <= columns; k += block, a += block * rows)
-    add_four(size, y, a, a + rows, a + 2 * rows, a + 3 * rows, x + k);
-  for (; k < columns; ++k, a += rows) subtract_one(size, y, a, -x[k]);
-}
-
-void subtract_transposed_product(const double* panel, Index rows, Index columns, Index size, const double* y,
-                                 double* x) {
-  const double* a = panel + rows - size;
-  std::array<double, block> sums{};
-  for (Index k = 0; k < columns; k += block, a += block * rows) {
-    const Index count = std::min(block, columns - k);
-    // Columns that are not there are the first once more.
-    const auto column = [&](Index j) { return a + (j < count ? j * rows : 0); };
-    four_products(size, y, column(0), column(1), column(2), column(3), sums.data());
-    for (Index j = 0; j < count; ++j) x[k + j] -= sums[static_cast<std::size_t>(j)];
-  }
 }
 
 }  // namespace convex::inline sparse

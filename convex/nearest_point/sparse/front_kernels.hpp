@@ -14,9 +14,4 @@ bool factor_panel(double* panel, Index rows, Index columns);
 /// panel.
 void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns);
 
-/// y += L x and x -= Lᵀy for the last `size` rows of a factored panel; x: columns, y: size.
-void add_product(const double* panel, Index rows, Index columns, Index size, const double* x, double* y);
-void subtract_transposed_product(const double* panel, Index rows, Index columns, Index size, const double* y,
-                                 double* x);
-
 }  // namespace convex::inline sparse

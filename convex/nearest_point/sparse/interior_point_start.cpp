@@ -18,14 +18,16 @@ constexpr double first_weight = 100;
 /// begins below the other, in the scaled units.
 constexpr double part_of_free = 0.1, smallest = 1e-3;
 
-/// Where rows as springs are the start, nothing begins below so many times its usual size: near the boundary
-/// the first steps would be short.
+/// Where no active set follows, rows as springs begin no nearer to the boundary than so many times the usual
+/// sizes, for there the first steps are short; and these are corrected so often.
 constexpr double well_inside = 10;
+constexpr int correctors = 2;
 
-/// Of rows held as they were in a problem like this one: one over the weight; no more exchanges than these;
-/// the part of the multipliers' size that products begin with where some rows stay wrong.
-constexpr double held_delta = 1e-6, part_of_size = 1e-5;
-constexpr int most_exchanges = 6;
+/// Of rows held as they were in a problem like this one: one over the weight; the slowest corrections that
+/// are trusted; the part of what is asked to which they go on, and at most how many; the part of the
+/// multipliers' size that products begin with where some rows stay wrong.
+constexpr double held_delta = 1e-6, slowest_held = 0.5, part_of_asked = 0.1, part_of_size = 1e-5;
+constexpr int most_corrections = 10;
 
 /// The equations are met well enough for a look at the rows when this part of the first residual is left.
 constexpr double part_left = 0.1;
@@ -73,10 +75,17 @@ void InteriorPointStart::start() {
   at_.lambda = -first_weight * at_.slack;
   const double push = std::max(smallest, root_mean_square(at_.lambda.cwiseMax(0)));
   const double open = std::max(usual_slack_, root_mean_square(at_.slack.cwiseMax(0)));
+  const double inside = stands_alone_ ? well_inside : 1;
   for (Index a = 0; a < at_.slack.size(); ++a) {
-    if (one_sided(a)) at_.lambda[a] = std::max(0.0, at_.lambda[a]) + well_inside * push;
-    at_.slack[a] = one_sided(a) ? std::max(0.0, at_.slack[a]) + well_inside * open : 0;
+    if (one_sided(a)) at_.lambda[a] = std::max(0.0, at_.lambda[a]) + inside * push;
+    at_.slack[a] = one_sided(a) ? std::max(0.0, at_.slack[a]) + inside * open : 0;
   }
+}
+
+void InteriorPointStart::stand_alone(Index limit) {
+  stands_alone_ = true;
+  limit_ = limit;
+  step_.set_correctors(correctors);
 }
 
 void InteriorPointStart::start_from_free_motion() {
@@ -92,24 +101,25 @@ void InteriorPointStart::start_from_free_motion() {
   make_interior();
 }
 
-/// A step towards U q = s on the rows that look active, and multipliers of 0 on the others; how far it still
-/// is from there.
+/// A correction towards U q = s on the rows that look active, with multipliers of 0 on the others; its size.
 double InteriorPointStart::hold_active_rows() {
-  bool is_factored = held_;
+  bool is_same = held_;
   for (Index a = 0; a < weight_.size(); ++a) {
     const double weight = looks_active(a) ? 1 / held_delta : 0;
-    is_factored = is_factored && weight == weight_[a];
+    is_same = is_same && weight == weight_[a];
     weight_[a] = weight;
     if (weight == 0) at_.lambda[a] = 0;
   }
-  held_ = is_factored || system_.factor(weight_);
+  held_ = is_same || system_.factor(weight_);
   if (!held_) return infinity;
   const Vector rest = problem_.z - problem_.A * at_.q + problem_.U.transpose() * at_.lambda;
   const Vector miss = problem_.s - problem_.U * at_.q;
-  at_.q += system_.solve(rest + problem_.U.transpose() * weight_.cwiseProduct(miss));
+  const Vector dq = system_.solve(rest + problem_.U.transpose() * weight_.cwiseProduct(miss));
+  at_.q += dq;
   at_.slack = problem_.U * at_.q - problem_.s;
   at_.lambda -= weight_.cwiseProduct(at_.slack);
-  return held_delta * at_.slack.cwiseProduct(weight_).cwiseAbs().maxCoeff();
+  corrected_same_ = is_same;
+  return std::sqrt(std::max(0.0, dq.dot(problem_.A * dq)));
 }
 
 /// Pairs of multiplier and slack with the same difference and this product (Chen and Harker 1993).
@@ -125,13 +135,14 @@ void InteriorPointStart::centre(double product) {
   }
 }
 
-void InteriorPointStart::start_near(const Vector& q, const Vector& lambda, double mean) {
+double InteriorPointStart::start_near(const Vector& q, const Vector& lambda, double part) {
   at_ = {q, problem_.U * q - problem_.s, lambda};
   const InteriorPointState given = at_;
-  const double size = root_mean_square(lambda);
+  const double size = root_mean_square(lambda), length = std::max(1.0, q.norm());
   Index fewest = lambda.size() + 1;
-  for (int k = 0; k < most_exchanges; ++k) {
-    const double left = hold_active_rows();
+  double last = infinity;
+  for (int k = 0; k < most_corrections; ++k) {
+    const double correction = hold_active_rows();
     Index wrong = 0;
     double square = 0;
     for (Index a = 0; a < lambda.size(); ++a) {
@@ -140,16 +151,22 @@ void InteriorPointStart::start_near(const Vector& q, const Vector& lambda, doubl
       ++wrong;
       square += miss * miss;
     }
-    if (!(std::sqrt(square / step_.count()) <= size)) return;  // as far away as any start
-    started_ = true;
-    if (wrong == 0 && left <= std::sqrt(mean)) return centre(mean);
+    if (!(std::sqrt(square / step_.count()) <= size)) return infinity;
+    started_ = began_near_ = true;
+    // With the same rows each correction is smaller by the same factor.
+    if (wrong == 0 && corrected_same_ && correction < slowest_held * last) {
+      const double left = correction * correction / last / (1 - slowest_held) + 4 * unit_roundoff * length;
+      if (left <= part_of_asked * part * length) return left;
+    }
+    last = correction;
     if (wrong > 0 && wrong >= fewest) break;
-    fewest = wrong;
+    if (wrong > 0) fewest = wrong;
   }
   at_ = given;
   const Vector rest = problem_.z - problem_.A * q + problem_.U.transpose() * lambda;
   const double miss = std::max(root_mean_square(rest), root_mean_square(lambda.cwiseMin(at_.slack)));
   centre(std::max(miss * miss, part_of_size * size));
+  return infinity;
 }
 
 /// Mehrotra's shift: far enough inside, and not badly centred.
@@ -221,6 +238,7 @@ InteriorPointStart::End InteriorPointStart::approach(double gap, bool until_stea
       return End::steady;
     if (at_.lambda.cwiseAbs().maxCoeff() > largest_multiplier || mean <= hopeless * gap)
       return End::unbounded;
+    if (limit_ > 0 && steps_ >= limit_) return End::stalled;
     held_ = false;
     for (Index a = 0; a < m; ++a)
       weight_[a] = 1 / ((one_sided(a) ? at_.slack[a] / at_.lambda[a] : 0) + regularisation);

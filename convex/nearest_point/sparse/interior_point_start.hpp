@@ -21,10 +21,13 @@ class InteriorPointStart {
   /// Begins, or begins again, with slacks and multipliers as large as the free motion violates the rows: for
   /// problems in which rows held together are far from the answer.
   void start_from_free_motion();
-  /// Begins from a point with multipliers that solve a problem like this one, where that helps: the rows that
-  /// look active there are held, and exchanged as long as fewer are wrong each time; products of multiplier
-  /// and slack begin with `mean` when none is, else with what is then missing.
-  void start_near(const Vector& q, const Vector& lambda, double mean);
+  /// Begins from a point with multipliers that solve a problem like this one: the rows that look active there
+  /// are held, and exchanged as long as fewer are wrong each time. Where none is wrong any more, that is the
+  /// answer: how far from it corrections of the rows held leave q, in the norm of A, at most about this part
+  /// of it. Else +inf, and pairs of multiplier and slack begin with what was missing; or as ever, where that
+  /// is as far away as any start.
+  double start_near(const Vector& q, const Vector& lambda, double part);
+  bool began_near() const { return began_near_; }
 
   const Vector& q() const { return at_.q; }
   const Vector& lambda() const { return at_.lambda; }
@@ -33,6 +36,9 @@ class InteriorPointStart {
     return problem_.two_sided[static_cast<std::size_t>(a)] || at_.lambda[a] > at_.slack[a];
   }
   Index steps() const { return steps_; }
+  /// No active set follows: it begins well inside, short steps are corrected, and `approach` ends as stalled
+  /// after so many steps in all; 0: no such limit.
+  void stand_alone(Index limit);
 
  private:
   void start();
@@ -51,8 +57,11 @@ class InteriorPointStart {
   Vector weight_;
   std::vector<bool> side_;  ///< of each row, as it looked before the last step
   double usual_slack_, first_rest_ = 0;
-  Index steps_ = 0;
+  Index steps_ = 0, limit_ = 0;
+  bool stands_alone_ = false;
   bool started_ = false, held_ = false;  ///< held: factored with the weights of hold_active_rows
+  bool corrected_same_ = false;          ///< its last correction was of the rows of the one before
+  bool began_near_ = false;
 };
 
 }  // namespace convex::inline sparse

@@ -24,6 +24,9 @@ class MehrotraStep {
     for (const bool is : two_sided) one_sided_count_ += !is;
   }
 
+  /// Correctors of a step, at most: none unless told.
+  void set_correctors(int most) { most_correctors_ = most; }
+
   bool one_sided(Index a) const { return !two_sided_[static_cast<std::size_t>(a)]; }
   double count() const { return static_cast<double>(std::max<Index>(1, one_sided_count_)); }
 
@@ -51,16 +54,15 @@ class MehrotraStep {
   }
 
  private:
-  /// At most so many correctors, none where a step is this long; products are to be within a factor of
+  /// No correctors where a step is this long; products are to be within a factor of
   /// their mean for a step that much longer, of which a corrector must gain a part to be followed by another.
-  static constexpr int most_correctors = 2;
   static constexpr double long_step = 0.9, longer_by = 0.3, factor = 10, gain = 0.1;
 
   template <class Solve>
   double corrected(const InteriorPointState& at, double short_of_boundary, double mean, Solve solve) {
     const auto length = [&] { return std::min(1.0, short_of_boundary * longest(at)); };
     double step = length();
-    for (int k = 0; k < most_correctors && step < long_step; ++k) {
+    for (int k = 0; k < most_correctors_ && step < long_step; ++k) {
       const double ahead = std::min(1.0, step + longer_by);
       for (Index a = 0; a < target_.size(); ++a) {
         if (!one_sided(a)) continue;
@@ -96,6 +98,7 @@ class MehrotraStep {
   Index one_sided_count_ = 0;
   Vector target_;
   InteriorPointState to_, before_;
+  int most_correctors_ = 0;
 };
 
 }  // namespace convex::inline sparse

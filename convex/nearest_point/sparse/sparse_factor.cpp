@@ -211,9 +211,12 @@ void SparseFactor::solve(Vector& x) const {
     const int* list = rows_.data() + panel.row_list;
     double* own = y.data() + panel.first;
     rest.setZero(panel.below());
-    for (Index j = 0; j < panel.columns; ++j)
-      for (Index i = j + 1; i < panel.columns; ++i) own[i] -= L[j * panel.rows + i] * own[j];
-    add_product(L, panel.rows, panel.columns, panel.below(), own, rest.data());
+    for (Index j = 0; j < panel.columns; ++j) {
+      const double* column = L + j * panel.rows;
+      const double value = own[j];
+      for (Index i = j + 1; i < panel.columns; ++i) own[i] -= column[i] * value;
+      for (Index i = 0; i < panel.below(); ++i) rest[i] += column[panel.columns + i] * value;
+    }
     for (Index i = 0; i < panel.below(); ++i) y[list[panel.columns + i]] -= rest[i];
   }
   for (std::size_t p = panels_.size(); p-- > 0;) {
@@ -223,10 +226,13 @@ void SparseFactor::solve(Vector& x) const {
     double* own = y.data() + panel.first;
     rest.resize(panel.below());
     for (Index i = 0; i < panel.below(); ++i) rest[i] = y[list[panel.columns + i]];
-    for (Index j = 0; j < panel.columns; ++j) own[j] /= L[j * (panel.rows + 1)];
-    subtract_transposed_product(L, panel.rows, panel.columns, panel.below(), rest.data(), own);
-    for (Index j = panel.columns; j-- > 0;)
-      for (Index i = j + 1; i < panel.columns; ++i) own[j] -= L[j * panel.rows + i] * own[i];
+    for (Index j = panel.columns; j-- > 0;) {
+      const double* column = L + j * panel.rows;
+      double sum = own[j] / column[j];
+      for (Index i = j + 1; i < panel.columns; ++i) sum -= column[i] * own[i];
+      sum -= Eigen::Map<const Vector>(column + panel.columns, panel.below()).dot(rest);
+      own[j] = sum;
+    }
   }
   for (Index i = 0; i < x.size(); ++i) x[i] = y[new_place_[at(i)]];
 }

@@ -16,21 +16,36 @@ constexpr double first_mean = 1e-6, last_mean = 1e-18, ever_smaller = 1e-1;
 /// Below this, a mean that makes the bound no smaller is the last.
 constexpr double trusted_mean = 1e-9;
 
-/// Of rows held as in a problem before this one, products begin with this part of the square of what is
-/// asked.
-constexpr double below_asked = 1e-3;
+/// The point of a start, without a bound of its error.
+Solution point_of(const NearestPointProblem& problem, const BalancedProblem& scaled,
+                  const InteriorPointStart& start) {
+  Solution now;
+  now.method = method_name;
+  now.steps = start.steps();
+  now.q = start.q().cwiseProduct(scaled.coordinate);
+  now.lambda = start.lambda().cwiseProduct(scaled.multiplier);
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (!start.looks_active(a)) now.lambda[a] = 0;
+  now.slack = problem.U.times(now.q) - problem.s;
+  now.farkas = Vector::Zero(problem.rows());
+  now.acceleration_norm = problem.A.norm(now.q);
+  now.force_norm = problem.A.dual_norm(problem.z);
+  now.residuals = residuals(
+      problem, now.q, now.lambda,
+      KnownParts{Vector::Zero(problem.rows()), now.slack, {}, now.acceleration_norm, now.force_norm});
+  return now;
+}
 
-}  // namespace
+bool settle(Solution& now, const Accuracy& accuracy, double error) {
+  now.error_bound = error;
+  const bool is_close = error <= accuracy.tolerance * std::max(1.0, now.acceleration_norm);
+  now.status = is_close ? Status::solved : Status::inaccurate;
+  return is_close;
+}
 
-Solution sparse_interior_point(const NearestPointProblem& problem, const Accuracy& accuracy,
-                               const Solution& guess) {
-  validate(problem);
-  const BalancedProblem scaled = balanced_problem(problem);
-  RowSystem system(scaled);
-  InteriorPointStart start(scaled, system, problem.A.solve(problem.z).cwiseQuotient(scaled.coordinate));
-  if (guess.q.size() == problem.dimension() && guess.lambda.size() == problem.rows())
-    start.start_near(guess.q.cwiseQuotient(scaled.coordinate), guess.lambda.cwiseQuotient(scaled.multiplier),
-                     std::max(last_mean, below_asked * accuracy.tolerance * accuracy.tolerance));
+Solution approached(const NearestPointProblem& problem, const Accuracy& accuracy,
+                    const BalancedProblem& scaled, InteriorPointStart& start) {
+  start.stand_alone(accuracy.step_limit);
   Solution best;
   best.method = method_name;
   best.farkas = Vector::Zero(problem.rows());
@@ -39,32 +54,47 @@ Solution sparse_interior_point(const NearestPointProblem& problem, const Accurac
     if (end == InteriorPointStart::End::unbounded || start.q().size() != problem.dimension()) break;
     if (!start.q().allFinite() || !start.lambda().allFinite()) break;
     if (best.q.size() > 0 && start.steps() == best.steps && end == InteriorPointStart::End::close) continue;
-    Solution now;
-    now.method = method_name;
-    now.steps = start.steps();
-    now.q = start.q().cwiseProduct(scaled.coordinate);
-    now.lambda = start.lambda().cwiseProduct(scaled.multiplier);
-    for (Index a = 0; a < problem.rows(); ++a)
-      if (!start.looks_active(a)) now.lambda[a] = 0;
-    now.slack = problem.U.times(now.q) - problem.s;
-    now.acceleration_norm = problem.A.norm(now.q);
-    now.force_norm = problem.A.dual_norm(problem.z);
-    now.residuals = residuals(
-        problem, now.q, now.lambda,
-        KnownParts{Vector::Zero(problem.rows()), now.slack, {}, now.acceleration_norm, now.force_norm});
+    Solution now = point_of(problem, scaled, start);
     // ||q - q*||_A is at most the root of the duality gap, where the rows are kept.
     const Residuals& r = now.residuals;
-    now.error_bound = (r.duality_gap + r.stationarity) * std::max(now.acceleration_norm, now.force_norm) +
-                      r.feasibility * now.acceleration_norm;
+    const bool is_close =
+        settle(now, accuracy,
+               (r.duality_gap + r.stationarity) * std::max(now.acceleration_norm, now.force_norm) +
+                   r.feasibility * now.acceleration_norm);
     const bool is_better = best.q.size() == 0 || now.error_bound < best.error_bound;
     if (!is_better && mean < trusted_mean) break;
-    const bool is_close = now.error_bound <= accuracy.tolerance * std::max(1.0, now.acceleration_norm);
-    now.status = is_close ? Status::solved : Status::inaccurate;
-    now.farkas = best.farkas;
-    best = std::move(now);
+    if (is_better) best = std::move(now);
     if (is_close || end == InteriorPointStart::End::stalled) break;
   }
   return best;
+}
+
+}  // namespace
+
+Solution sparse_interior_point(const NearestPointProblem& problem, const Accuracy& accuracy,
+                               const Solution& guess) {
+  validate(problem);
+  const BalancedProblem scaled = balanced_problem(problem);
+  RowSystem system(scaled);
+  const Vector free = problem.A.solve(problem.z).cwiseQuotient(scaled.coordinate);
+  Solution near;
+  if (problem.rows() > 0 && guess.q.size() == problem.dimension() && guess.lambda.size() == problem.rows()) {
+    InteriorPointStart start(scaled, system, free);
+    const double left = start.start_near(guess.q.cwiseQuotient(scaled.coordinate),
+                                         guess.lambda.cwiseQuotient(scaled.multiplier), accuracy.tolerance);
+    if (left < infinity) {
+      near = point_of(problem, scaled, start);
+      const double unit = scaled.coordinate[0] * std::sqrt(problem.A.diagonal()[0]);
+      settle(near, accuracy, unit * left);
+    } else {
+      near = approached(problem, accuracy, scaled, start);
+    }
+    if (near.status == Status::solved || !start.began_near()) return near;
+  }
+  InteriorPointStart start(scaled, system, free);
+  Solution found = approached(problem, accuracy, scaled, start);
+  const bool is_better = found.q.size() > 0 && !(near.error_bound <= found.error_bound);
+  return near.q.size() == 0 || is_better ? found : near;
 }
 
 }  // namespace convex::inline sparse

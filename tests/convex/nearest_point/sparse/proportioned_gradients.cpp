@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include "convex/nearest_point/gallery/gallery.hpp"
-#include "convex/nearest_point/sparse/sparse_interior_point.hpp"
 
 using namespace convex;
 
@@ -68,16 +67,4 @@ TEST_CASE("rows that contradict each other are not called solved") {
   const NearestPointProblem problem{
       Metric::identity(1), Vector::Zero(1), ConstraintRows(SparseRows(U.sparseView())), Vector{{1, 1}}, {}};
   CHECK(proportioned_gradients(problem, to(1e-6)).status == Status::inaccurate);
-}
-
-TEST_CASE("an interior point is as near as it is asked to be, and says how near") {
-  const GalleryInstance instance = packing(400);
-  Index last = 0;
-  for (const double tolerance : {1e-2, 1e-5, 1e-8}) {
-    const Solution found = sparse_interior_point(instance.problem, to(tolerance));
-    REQUIRE(found.status == Status::solved);
-    CHECK(instance.problem.A.norm(found.q - instance.solution.hi) <= found.error_bound);
-    CHECK(found.steps >= last);
-    last = found.steps;
-  }
 }
