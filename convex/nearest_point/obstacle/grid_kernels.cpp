@@ -17,16 +17,33 @@ double sum_of_lanes(const float* sums) {
   return sum;
 }
 
+/// u_i = next(i) along a row. Points beside each other have other colours, so that next(i) is the same before
+/// and after they change; a block is written when the next one has been read, for reading across what was
+/// just written is slow.
+template <class Number, class Next>
+[[gnu::always_inline]] inline void change_in_place(Index n, Number* u, Next next) {
+  Number before[lanes], now[lanes];
+  Index i = 0;
+  for (; i + lanes <= n; i += lanes) {
+    for (Index l = 0; l < lanes; ++l) now[l] = next(i + l);
+    for (Index l = 0; l < lanes && i > 0; ++l) u[i - lanes + l] = before[l];
+    for (Index l = 0; l < lanes; ++l) before[l] = now[l];
+  }
+  for (Index l = 0; l < n - i; ++l) now[l] = next(i + l);
+  for (Index l = 0; l < lanes && i > 0; ++l) u[i - lanes + l] = before[l];
+  for (Index l = 0; l < n - i; ++l) u[i + l] = now[l];
+}
+
 }  // namespace
 
 MOREAU_CLONES
 void relax(Index n, Index stride, float c, float inverse_d, const float* colour, const float* free,
-           const float* r, const float* u, float* __restrict out) {
-  for (Index i = 0; i < n; ++i) {
+           const float* r, float* u) {
+  change_in_place(n, u, [&](Index i) {
     const float around = (u[i - 1] + u[i + 1]) + (u[i - stride] + u[i + stride]);
     const float relaxed = free[i] * ((r[i] + c * around) * inverse_d);
-    out[i] = u[i] + colour[i] * (relaxed - u[i]);
-  }
+    return u[i] + colour[i] * (relaxed - u[i]);
+  });
 }
 
 MOREAU_CLONES
@@ -37,12 +54,12 @@ void relax_zero(Index n, float inverse_d, const float* colour, const float* free
 
 MOREAU_CLONES
 void relax_above(Index n, Index stride, double c, double inverse_d, const double* colour, const double* lower,
-                 const double* z, const double* u, double* __restrict out) {
-  for (Index i = 0; i < n; ++i) {
+                 const double* z, double* u) {
+  change_in_place(n, u, [&](Index i) {
     const double around = (u[i - 1] + u[i + 1]) + (u[i - stride] + u[i + stride]);
     const double relaxed = (z[i] + c * around) * inverse_d, held = relaxed > lower[i] ? relaxed : lower[i];
-    out[i] = colour[i] > 0 ? held : u[i];
-  }
+    return colour[i] > 0 ? held : u[i];
+  });
 }
 
 MOREAU_CLONES

@@ -9,15 +9,14 @@ namespace convex::inline obstacle {
 /// fixed order.
 namespace grid_kernels {
 
-/// out = free (r + c Σ neighbours of u)/d on the points of a colour (`colour` is 1 there, else 0), u on the
-/// others.
+/// u = free (r + c Σ neighbours of u)/d on the points of a colour (`colour` is 1 there, else 0).
 void relax(Index n, Index stride, float c, float inverse_d, const float* colour, const float* free,
-           const float* r, const float* u, float* out);
+           const float* r, float* u);
 /// u = free r/d on the points of a colour, 0 on the others.
 void relax_zero(Index n, float inverse_d, const float* colour, const float* free, const float* r, float* u);
-/// out = max(lower, (z + c Σ neighbours of u)/d) on the points of a colour, u on the others.
+/// u = max(lower, (z + c Σ neighbours of u)/d) on the points of a colour.
 void relax_above(Index n, Index stride, double c, double inverse_d, const double* colour, const double* lower,
-                 const double* z, const double* u, double* out);
+                 const double* z, double* u);
 /// out = weight (free (r - A u)) + before.
 void add_residual(Index n, Index stride, float d, float c, const float* free, const float* r, const float* u,
                   float weight, const float* before, float* out);

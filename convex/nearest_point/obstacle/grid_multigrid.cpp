@@ -24,10 +24,10 @@ GridOperator coarsened(const GridOperator& fine) {
 }
 
 GridMultigrid::Level GridMultigrid::level(const GridOperator& A) {
-  Level made{A.width, A.height, static_cast<float>(A.d / A.c), 1, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  Level made{A.width, A.height, static_cast<float>(A.d / A.c), 1, {}, {}, {}, {}, {}, {}, {}, {}};
   const auto size = static_cast<std::size_t>(A.size()), row = static_cast<std::size_t>(A.stride());
   for (std::vector<float>* field : {&made.free, &made.u, &made.r}) field->assign(size, 0);
-  for (std::vector<float>* one : {&made.even, &made.odd, &made.row, &made.mean, &made.sum, &made.last})
+  for (std::vector<float>* one : {&made.even, &made.odd, &made.mean, &made.sum, &made.last})
     one->assign(row, 0);
   for (std::size_t i = 0; i < row; ++i) (i % 2 == 1 ? made.even : made.odd)[i] = 1;  // entry i is point i - 1
   return made;
@@ -58,10 +58,8 @@ void GridMultigrid::set_free(const Vector& free) {
 
 /// One colour of a row relaxed; colours of points beside differ, so the order within a row is no matter.
 void GridMultigrid::sweep_row(Level& grid, Index j, bool red) {
-  float* u = grid.u.data() + grid.at(j);
   grid_kernels::relax(grid.width, grid.stride(), grid.c, 1 / grid.d, grid.colour(j, red),
-                      grid.free.data() + grid.at(j), grid.r.data() + grid.at(j), u, grid.row.data() + 1);
-  std::copy_n(grid.row.data() + 1, grid.width, u);
+                      grid.free.data() + grid.at(j), grid.r.data() + grid.at(j), grid.u.data() + grid.at(j));
 }
 
 /// A red-black sweep from 0 on the fine grid, and what it leaves, restricted.

@@ -47,7 +47,7 @@ class GridMultigrid {
   struct Level {
     Index width, height;
     float d, c;
-    std::vector<float> free, u, r, even, odd, row, mean, sum, last;
+    std::vector<float> free, u, r, even, odd, mean, sum, last;
     Index stride() const { return width + 2; }
     Index at(Index j) const { return (j + 1) * stride() + 1; }
     /// 1 on the points of row j that are red (or black), else 0.

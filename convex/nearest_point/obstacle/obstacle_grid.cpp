@@ -23,7 +23,7 @@ constexpr double enough = 0x1p-58;
 class GridSolver {
  public:
   GridSolver(const ObstacleGrid& grid, GridMultigrid& multigrid, bool sharp)
-      : grid_(grid), A_(grid.A), sharp_(sharp), multigrid_(multigrid), free_(A_.field()), row_(A_.width) {
+      : grid_(grid), A_(grid.A), sharp_(sharp), multigrid_(multigrid), free_(A_.field()) {
     point_.q = DoubleDoubleVector(A_.size());
     point_.rest = A_.field();
     for (Vector* colour : {&even_, &odd_}) *colour = Vector::Zero(A_.width + 1);
@@ -93,11 +93,9 @@ class GridSolver {
   void project_row(Index j, Index first) {
     const Index k = A_.at(0, j);
     grid_kernels::relax_above(A_.width, A_.stride(), A_.c, 1 / A_.d, (first == 0 ? even_ : odd_).data(),
-                              grid_.lower.data() + k, grid_.z.data() + k, point_.q.hi.data() + k,
-                              row_.data());
-    for (Index i = 0; i < A_.width && grid_.held.size() > 0; ++i)
-      if (grid_.holds(k + i)) row_[i] = grid_.lower[k + i];
-    point_.q.hi.segment(k, A_.width) = row_;
+                              grid_.lower.data() + k, grid_.z.data() + k, point_.q.hi.data() + k);
+    for (Index i = k; i < k + A_.width && grid_.held.size() > 0; ++i)
+      if (grid_.holds(i)) point_.q.hi[i] = grid_.lower[i];
   }
 
   void residual() {
@@ -172,7 +170,7 @@ class GridSolver {
   const bool sharp_;
   GridMultigrid& multigrid_;
   ObstaclePoint point_;
-  Vector free_, correction_, row_, even_, odd_;
+  Vector free_, correction_, even_, odd_;
 };
 
 }  // namespace
