@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
@@ -198,12 +199,24 @@ Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric
   return *std::move(best);
 }
 
+/// A split of which no bound is known, or the reason why there is none.
+Decomposition beyond_squares(const Function& f, const Vector& z, const Metric& W, double tolerance) {
+  try {
+    Decomposition split = looked_at_in_turn(f, z, W, tolerance);
+    split.status = Status::inaccurate;
+    for (double* bound : {&split.error_bound, &split.x.error_bound, &split.y.error_bound})
+      *bound = std::numeric_limits<double>::infinity();
+    return split;
+  } catch (const InvalidInput&) {
+    throw InvalidInput("z: its square leaves the range of doubles; measure x in units nearer to its size");
+  }
+}
+
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
   const double size = norm_at_any_scale(W, z);
-  if (!(size <= largest_size))
-    throw InvalidInput("z: its square leaves the range of doubles; measure x in units nearer to its size");
+  if (!(size <= largest_size)) return beyond_squares(f, z, W, tolerance);
   Decomposition split = looked_at_in_turn(f, z, W, tolerance);
   // Squares of what is smaller are 0, and a bound made of them tells nothing.
   const double most = std::max({size, norm_at_any_scale(W, split.x.x), norm_at_any_scale(W, split.y.x)});

@@ -14,6 +14,9 @@ namespace {
 /// Values smaller than this count as this where the tolerance is relative to them.
 constexpr double smallest_term = 1e-3;
 
+/// A value whose error is more than this part of what is told is not told.
+constexpr double largest_open_part = 1e-3;
+
 /// What each value may take of the work that a decomposition may.
 constexpr double part_of_a_value = 0.1;
 
@@ -161,8 +164,8 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   if (gap <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
     made.split.fenchel_gap = 0;
-  } else if (gap <= made.error && std::min(f_x.error, g_y.error) <= tolerance * size_of_values(made.split)) {
-    // Where a program leaves one value open, the other and x·v, which is known, say it.
+  } else if (gap <= made.error && made.error <= largest_open_part * largest_value(made.split)) {
+    // Where a program leaves a value open, by a small part of it, the others say it.
     if (f_x.error > g_y.error)
       made.split.f_x = made.split.inner - g_y.value;
     else
@@ -174,9 +177,7 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
     made.split.inner += at_x.value - made.split.f_x;
     made.split.f_x = at_x.value;
   }
-  const double of_terms =
-      roundings_of_a_term * unit_roundoff * (std::abs(made.split.f_x) + std::abs(made.split.g_y) + size);
-  made.open = made.error > std::max(tolerance * size_of_values(made.split), of_terms);
+  made.open = made.error > largest_open_part * size_of_values(made.split);
   return made;
 }
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -59,8 +60,8 @@ TEST_CASE("a decomposition file is proved too: strings are exact, floats are dou
 }
 
 TEST_CASE("without a proof the level is none, the reason is said and the exit code is 3") {
-  const Outcome outcome =
-      run({"prox", "inf_convolution(norm2(), norm1(0.75))", "--at", "[1,2,-1]", "--certify", "--json"});
+  const Outcome outcome = run(
+      {"prox", "precompose(log_sum_exp(), [[1,2,3],[0,1,1]])", "--at", "[1,2,-1]", "--certify", "--json"});
   CHECK(outcome.code == 3);
   const Json answer = Json::parse(outcome.out);
   CHECK(answer["certificate"]["level"] == "none");
@@ -92,7 +93,6 @@ TEST_CASE("the value of a conjugate is proved, +inf included") {
 TEST_CASE("the catalogue says how many of its examples are proved, and names the others with the reason") {
   const Outcome outcome = run({"check", "--catalogue", "--certify", "--json"});
   const Json answer = Json::parse(outcome.out);
-  CHECK(outcome.code == 3);
   int proved = 0;
   for (const Json& one : answer["functions"]) {
     CAPTURE(one["call"]);
@@ -102,6 +102,7 @@ TEST_CASE("the catalogue says how many of its examples are proved, and names the
     if (one.contains("error_bound")) CHECK(one["error_bound"].get<double>() <= 1e-9);
   }
   CHECK(answer["proved"] == proved);
+  CHECK(outcome.code == (answer["proved"] == answer["examples"] ? 0 : 3));
   CHECK(answer["examples"] == answer["functions"].size());
   CHECK(proved * 20 >= 17 * static_cast<int>(answer["functions"].size()));
 }
@@ -173,7 +174,8 @@ TEST_CASE("a prox near 0, and far out, is that of an ordinary point, scaled") {
     CHECK(answer["x"][0].get<double>() / size == doctest::Approx(2.4).epsilon(1e-14));
     CHECK(answer["y"][1].get<double>() / size == doctest::Approx(0.8).epsilon(1e-14));
     CHECK(answer["certificate"]["error_bound"].get<double>() > 0);
-    CHECK(answer["certificate"]["error_bound"].get<double>() <= 1e-14 * size);
+    // Bounds are made of squares, which are 0 below 1e-160 or so.
+    CHECK(answer["certificate"]["error_bound"].get<double>() <= std::max(1e-14 * size, 1e-150));
   }
   const Json box = json_of({"prox", "indicator(box(-1,2))", "--at", "[1e100]", "--json"});
   CHECK(box["x"][0] == 2);
