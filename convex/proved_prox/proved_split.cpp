@@ -149,8 +149,8 @@ ProvedSplit prove_in_fractions(const SplitQuestion& question, const Decompositio
 }
 
 /// Pairs in fractions that take more of `most_word_operations` than this part, by their count, are left to
-/// doubles first: a fraction of a second.
-constexpr double part_at_once = 0.1;
+/// doubles first: they would take some ten times as long as the prox itself in the program.
+constexpr double part_at_once = 0.03;
 
 bool is_quick_in_fractions(const SplitQuestion& question) {
   const auto program = exact_program(question.f, question.W);
