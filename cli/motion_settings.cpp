@@ -1,6 +1,8 @@
 #include "cli/motion_settings.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 #include "cli/motion_files.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
@@ -84,6 +86,24 @@ double value_of(const Problem& problem, const mechanics::LagrangianSystem& syste
     throw InvalidInput(where + " " + expression + ": " +
                        (what.starts_with(prefix) ? what.substr(prefix.size()) : what));
   }
+}
+
+double end_of_motion(const Problem& problem, const mechanics::LagrangianSystem& system,
+                     const std::optional<std::string>& told) {
+  const std::optional<mechanics::Text>& written = problem.simulate.until;
+  if (!told && !written)
+    throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
+  const std::string& text = told ? *told : written->text;
+  double until = 0;
+  const std::from_chars_result number = std::from_chars(text.data(), text.data() + text.size(), until);
+  if (number.ec != std::errc() || number.ptr != text.data() + text.size()) try {
+      until = value_of(problem, system, text, told ? "--until" : "simulate.until");
+    } catch (const InvalidInput& error) {
+      if (told) throw;
+      throw InvalidInput(error.what(), written->begin);
+    }
+  if (!std::isfinite(until)) throw InvalidInput("simulate.until: not finite; give a time to end at");
+  return until;
 }
 
 convex::Vector multiples_of_turns(const Problem& problem, const mechanics::LagrangianSystem& system,

@@ -24,6 +24,11 @@ mechanics::MotionOptions motion_options(const Problem&, const mechanics::System&
 double value_of(const Problem&, const mechanics::LagrangianSystem&, const std::string& expression,
                 const std::string& where);
 
+/// The end of a motion: that of the command line, or of [simulate]. Throws InvalidInput where neither is
+/// there or it is not finite.
+double end_of_motion(const Problem&, const mechanics::LagrangianSystem&,
+                     const std::optional<std::string>& told);
+
 /// `--modulo "a=2*pi"` by coordinate, 0 where there is none.
 convex::Vector multiples_of_turns(const Problem&, const mechanics::LagrangianSystem&,
                                   const std::vector<std::string>& modulo);

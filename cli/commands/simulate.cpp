@@ -27,7 +27,7 @@ using convex::InvalidInput;
 
 /// What `moreau simulate` is told.
 struct SimulateOptions : FileOptions, MotionChoice {
-  std::optional<double> until;
+  std::optional<std::string> until;
   std::optional<std::string> output, events, plot, animate;  ///< files to write
   std::optional<std::string> phase;                          ///< a coordinate: --plot draws q' over q
   std::optional<std::string> strobe;                         ///< a period: instants of --output and --phase
@@ -140,15 +140,11 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr) throw InvalidInput("nothing here moves; `moreau simulate` takes a file with [system]");
-  const SimulateSettings& settings = problem.simulate;
-  if (!options.until && !settings.until)
-    throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
   const auto start = std::chrono::steady_clock::now();
   const auto system = mechanics::lagrangian_system(text->system);
   const mechanics::State state =
       options.resume ? resumed_state(*options.resume, *system) : system->state(text->state);
-  const double until = options.until.value_or(settings.until.value_or(0));
-  if (!std::isfinite(until)) throw InvalidInput("simulate.until: not finite; give a time to end at");
+  const double until = end_of_motion(problem, *system, options.until);
   if (!(until >= state.t))
     throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
   const mechanics::MotionOptions chosen = motion_options(problem, *system, options);
@@ -187,7 +183,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
-  if (const std::string why = motion_way(settings, *system, options).why; !why.empty())
+  if (const std::string why = motion_way(problem.simulate, *system, options).why; !why.empty())
     answer.warnings.push_back(why);
   return answer;
 }
@@ -211,7 +207,10 @@ void add_simulate(CLI::App& program, Work& chosen) {
   CLI::App& command = add_command(program, "simulate", "the motion: smooth arcs, impacts, rest on contacts",
                                   chosen, [options] { return simulate_files(*options); });
   add_files(command, *options);
-  command.add_option("--until", options->until, "the time at which the motion ends")->type_name("T");
+  command
+      .add_option("--until", options->until,
+                  "the time at which the motion ends: an expression in the parameters")
+      ->type_name("T");
   add_step_tolerance(command, *options);
   command
       .add_option("--method", options->method,

@@ -59,7 +59,9 @@ void add_motion(const std::string& file, const Problem& problem, std::vector<Lib
   const mechanics::MotionOptions options = motion_options(problem, *system, {});
   mechanics::Motion motion(*system, system->state(text.state), options);
   std::vector<LibraryProblem> along;
-  for (const mechanics::State& state : states_in_contact(motion, *problem.simulate.until)) try {
+  for (const mechanics::State& state :
+       states_in_contact(motion, end_of_motion(problem, *system, std::nullopt)))
+    try {
       LibraryProblem next = at_instant(file, *system, state, options.contact_tolerance);
       if (next.problem.rows() > 0) along.push_back(std::move(next));
     } catch (const convex::InvalidInput&) {

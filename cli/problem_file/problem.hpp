@@ -82,7 +82,7 @@ struct SolveSettings {
 
 /// `[simulate]`: the motion of a system.
 struct SimulateSettings {
-  std::optional<double> until;
+  std::optional<mechanics::Text> until;  ///< an expression in the parameters
   std::optional<std::string> method;
   convex::Place method_place;
   std::optional<double> tolerance;

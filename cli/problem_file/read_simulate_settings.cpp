@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include "cli/problem_file/exact_number.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/tables.hpp"
 
@@ -5,6 +8,12 @@ namespace cli::inline problem_files {
 namespace {
 
 using convex::InvalidInput;
+
+/// A number, or an expression to be evaluated when the parameters are known.
+mechanics::Text require_time(const TomlValue& value) {
+  if (value.is_string() && !nearest_double(value.text)) return {value.text, value.place};
+  return {fmt::format("{:.17g}", require_number(value, "simulate.until")), value.place};
+}
 
 long require_samples(const TomlValue& value) {
   const double samples = require_number(value, "simulate.samples");
@@ -22,7 +31,7 @@ SimulateSettings read_simulate_settings(const TomlValue& table) {
   require_known_keys(require_table(table, "simulate"), "simulate",
                      {"until", "method", "tolerance", "step", "restitution", "samples", "impact_law"});
   SimulateSettings settings;
-  if (const TomlValue* until = table.find("until")) settings.until = require_number(*until, "simulate.until");
+  if (const TomlValue* until = table.find("until")) settings.until = require_time(*until);
   if (const TomlValue* method = table.find("method")) {
     settings.method = require_string(*method, "simulate.method");
     settings.method_place = method->place;

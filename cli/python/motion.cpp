@@ -46,8 +46,10 @@ std::shared_ptr<FollowedSystem> begin(const Document& document, const py::dict& 
   const mechanics::State state = system->state(text->state);
   std::vector<std::string> constraints = cli::constraint_names(*system);
   mechanics::Motion motion(*system, state, cli::motion_options(problem, *system, choice));
+  std::optional<double> until;
+  if (problem.simulate.until) until = cli::end_of_motion(problem, *system, std::nullopt);
   return std::make_shared<FollowedSystem>(
-      FollowedSystem{std::move(system), std::move(constraints), std::move(motion), problem.simulate.until});
+      FollowedSystem{std::move(system), std::move(constraints), std::move(motion), until});
 }
 
 py::list events_of(const FollowedSystem& followed) {

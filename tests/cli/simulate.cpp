@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -259,6 +260,34 @@ TEST_CASE("Ctrl-C keeps what is done of a motion, and says where it was") {
   const auto kept = lines(events);
   CHECK(kept.size() == told["events"].get<std::size_t>());
   CHECK(Json::parse(kept.back())["t"].get<double>() <= told["t"].get<double>());
+}
+
+TEST_CASE("a motion ends at an expression in the parameters, of the file and of the command line") {
+  const Folder folder;
+  const auto file = [&](const std::string& until) {
+    return folder.write("a.toml",
+                        "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = "
+                        "\"w^2*x^2/2\"\n[system.parameters]\nw = 3\n[state.position]\nx = 1\n" +
+                            until);
+  };
+  const double pi = std::acos(-1.0);
+  const auto end = [](const Outcome& found) {
+    CAPTURE(found.err);
+    REQUIRE(found.code == 0);
+    const Json told = Json::parse(found.out);
+    CHECK(told["position"]["x"].get<double>() == doctest::Approx(1).epsilon(1e-9));  // whole periods
+    return told["t"].get<double>();
+  };
+  const std::string whole = file("[simulate]\nuntil = \"4*pi/w\"\n");
+  CHECK(end(run({"simulate", "--json", whole})) == doctest::Approx(4 * pi / 3).epsilon(1e-15));
+  CHECK(end(run({"simulate", "--json", whole, "--until", "2*pi/w"})) ==
+        doctest::Approx(2 * pi / 3).epsilon(1e-15));
+  CHECK(end(run({"simulate", "--json", whole, "--set", "w=2"})) == doctest::Approx(2 * pi).epsilon(1e-15));
+  const std::string unknown = file("[simulate]\nuntil = \"2*pi/u\"\n");
+  const Outcome refused = run({"simulate", unknown});
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("a.toml:10:") != std::string::npos);
+  CHECK(refused.err.find("simulate.until") != std::string::npos);
 }
 
 TEST_CASE("a million events take no more memory than a few") {
