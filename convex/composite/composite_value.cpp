@@ -107,7 +107,7 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
     throw InvalidInput("graph form: a function of " + std::to_string(f.n) + " entries at a point of " +
                        std::to_string(x.size()) + "; give one of the same size");
   if (f.k == 0) return direct_value(f, x);
-  const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0), look_of_values);
+  const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0), Look{});
   const SaddleSolution solution = solve(problem);
   const SaddlePoint& point = solution.point;
   GraphValue found;

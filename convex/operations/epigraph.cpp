@@ -107,7 +107,7 @@ class Epigraph : public Lifted {
     if (height == infinity) return {infinity, 0};
     if (height - x[n] <= membership_tolerance * scale) return {};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
-    const Prox nearest = prox(x, Metric::identity(x.size()), look_of_values);
+    const Prox nearest = prox(x, Metric::identity(x.size()), Look{});
     const bool near =
         nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm();
     return {near ? 0 : infinity, 0};

@@ -217,7 +217,7 @@ Value value_near(const Function& f, const Vector& y, double size) {
   for (const double stiff : {stiffest_weight, nearest_point_weight}) {
     const double weight = f.facts().indicator ? 1 : stiff / (near * near);
     if (!std::isfinite(weight) || !(weight > 0)) continue;
-    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), look_of_values);
+    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
     if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
     const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
     if (!std::isfinite(inside.value)) continue;

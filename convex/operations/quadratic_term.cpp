@@ -60,7 +60,7 @@ std::optional<Kernel> kernel_of(const QuadraticTerm& q) {
 }
 
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
-  const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q, look_of_values);
+  const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q, Look{});
   if (part.x.size() != x.size())
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
   const Vector b = x - part.x;

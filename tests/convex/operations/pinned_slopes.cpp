@@ -92,3 +92,18 @@ TEST_CASE("a point whose square leaves the range of doubles has no bound, and be
   CHECK(far.status == convex::Status::inaccurate);
   CHECK(std::isinf(far.error_bound));
 }
+
+TEST_CASE("the value of a program is not that of scales at which its misses look small") {
+  // The support function of [0, 1/4], whose program has more rows than it needs.
+  const auto g = samples::function(
+                     "sum(total_variation(1),indicator(intersection(intersection(box(-1,2),ball2(0.25)),"
+                     "intersection(box(-1,2),box(0,inf)))))",
+                     1)
+                     .conjugate();
+  const convex::Value far = g.evaluate(Vector::Constant(1, 3125000));
+  CHECK(std::abs(far.value - 781250) <= far.error + 1e-9 * 781250);
+  // The maximum of two convex functions that cross, where the slopes are of size 1 and v is not.
+  const auto h = samples::function("pointwise_max(kullback_leibler(2), squared_norm2(3))", 1).conjugate();
+  const convex::Value small = h.evaluate(Vector::Constant(1, -1e-12));
+  CHECK(std::abs(small.value - h(Vector::Zero(1))) <= small.error + 1e-11);
+}
