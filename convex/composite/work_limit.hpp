@@ -19,6 +19,8 @@ class WorkLimit {
   WorkLimit& operator=(const WorkLimit&) = delete;
   /// What one evaluation of a saddle problem counts as.
   static constexpr long of_a_saddle_point = 4;
+  /// And a search for the nearest point of a domain, whose program is made and solved, often by others within.
+  static constexpr long of_a_nearest_point = 1000;
   static void count(long evaluations = 1);
   static bool passed();
 

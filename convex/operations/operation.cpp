@@ -156,6 +156,7 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W, const 
 Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
   std::optional<Prox> best = own_prox(z, W, look);
   if (!best) refuse(*this, "prox in this metric");
+  if (WorkLimit::passed()) return *std::move(best);
   if (!is_settled(*best, z, W))
     if (auto other = other_prox(z, W, look)) take_better(best, *std::move(other));
   const OneAtATime question(OneAtATime::Kind::conjugate_prox);
@@ -216,7 +217,8 @@ Value value_near(const Function& f, const Vector& y, double size) {
   const double near = std::min(size, 1.0);
   for (const double stiff : {stiffest_weight, nearest_point_weight}) {
     const double weight = f.facts().indicator ? 1 : stiff / (near * near);
-    if (!std::isfinite(weight) || !(weight > 0)) continue;
+    if (!std::isfinite(weight) || !(weight > 0) || WorkLimit::passed()) continue;
+    WorkLimit::count(WorkLimit::of_a_nearest_point);
     const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
     if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
     const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));

@@ -71,7 +71,7 @@ void move(const cli::Problem& problem) {
   for (const auto method : {mechanics::MotionMethod::event_driven, mechanics::MotionMethod::time_stepping}) {
     options.method = method;
     mechanics::Motion motion(*system, state, options);
-    while (motion.advance(problem.simulate.until.value_or(1))) motion.energy();
+    while (motion.advance(state.t + 1)) motion.energy();
   }
 }
 

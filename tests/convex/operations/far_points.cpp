@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <string>
+
 #include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
@@ -51,7 +53,6 @@ const Question questions[] = {
     {"inf_convolution(pointwise_max(huber(0.5), squared_hinge()), elastic_net(3, 0.125))",
      {2e8, 1, -3e8},
      {}},
-    {"inf_convolution(hinge(), inverse_power(0.5))", {3e8, 3e8, 2}, {10, 0, 0, 0, 0.5, 0, 0, 0, 2}},
     {"perspective(pointwise_max(entropy(), exponential()))",
      {2.019308175375862, 9.922587492261805, -0.10601748343867712, -0.710620986652339},
      {1, -1, 0, 0, -1, 10, 9, 9, 0, 9, 13, 7, 0, 9, 7, 19}},
@@ -72,7 +73,7 @@ const Question questions[] = {
 
 TEST_CASE("a split of a point far above its parts is solved, and its values agree") {
   for (const Question& question : questions) {
-    CAPTURE(question.f);
+    CAPTURE(std::string(question.f));
     const auto n = static_cast<convex::Index>(question.z.size());
     const Vector z = Eigen::Map<const Vector>(question.z.data(), n);
     const Metric W = question.gram.empty()
@@ -120,7 +121,7 @@ TEST_CASE("roots in roots end, and what they leave is said") {
             "pointwise_max(perspective(dilate(max_affine([[-3,-1,3],[-2,-2,-3]],[3,2]),0.125)),power(3))",
             {0, 0, 2, -3e-6},
             {}}}) {
-    CAPTURE(question.f);
+    CAPTURE(std::string(question.f));
     const auto n = static_cast<convex::Index>(question.z.size());
     const Vector z = Eigen::Map<const Vector>(question.z.data(), n);
     const Metric W = question.gram.empty()
