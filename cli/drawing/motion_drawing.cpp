@@ -46,7 +46,10 @@ std::string style(mechanics::EventKind kind) {
     case mechanics::EventKind::branch:
       break;
   }
-  return fmt::format("lc rgb \"#666666\" lw 0.7 dt {}", dashes);
+  // Impacts may be many; what is dashed must still be seen.
+  const bool is_full = kind == mechanics::EventKind::impact;
+  return fmt::format("lc rgb \"{}\" lw {} dt {}", is_full ? "#888888" : "#222222", is_full ? 0.5 : 1.2,
+                     dashes);
 }
 
 /// Pixels; the key is beside them.
