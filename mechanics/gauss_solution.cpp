@@ -73,7 +73,7 @@ GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, con
   if (found.primal.status == convex::Status::solved)
     found.touching = touching_contacts(problem, found.primal, found.multipliers, tolerance);
   const Vector& lambda = found.multipliers.least_norm;
-  found.residuals = found.multipliers.unique
+  found.residuals = lambda == found.primal.lambda
                         ? found.primal.residuals
                         : convex::residuals(problem, found.primal.q, lambda, Vector::Zero(problem.rows()));
   found.reaction = reaction(problem, found.primal.q, lambda);

@@ -164,17 +164,60 @@ std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution
   return tight;
 }
 
-Multipliers multipliers(const NearestPointProblem& problem, const Solution& solution, double tolerance,
+namespace {
+
+/// Whether some row that depends on others has a part in lambda: then it is no vertex of the dual optima, as
+/// where a method ends between rows that depend on each other.
+bool is_no_vertex(const std::vector<Dependence>& groups, const Vector& lambda) {
+  return std::any_of(groups.begin(), groups.end(), [&](const Dependence& rows) {
+    return std::any_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) { return lambda[p] != 0; });
+  });
+}
+
+/// The same answer with the multipliers of a vertex of the dual optima: q is the nearest point of the tight
+/// rows alone, too. The answer as it is where they do not give it.
+Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>& tight, Solution solution) {
+  NearestPointProblem held{problem.A, problem.z, problem.U.select(tight), problem.s(tight), {}};
+  const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
+  for (std::size_t k = 0; k < tight.size(); ++k)
+    if (is_free[static_cast<std::size_t>(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
+  const Solution vertex = active_set(held, {});
+  if (vertex.status != Status::solved ||
+      !(problem.A.norm(vertex.q - solution.q) <= 2 * (vertex.error_bound + solution.error_bound)))
+    return solution;
+  solution.lambda.setZero();
+  solution.lambda(tight) = vertex.lambda;
+  solution.basis.clear();
+  for (const Index row : vertex.basis) solution.basis.push_back(tight[static_cast<std::size_t>(row)]);
+  return solution;
+}
+
+/// The solution without what rounding left of the multipliers of rows that open.
+Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
+  Vector lambda = Vector::Zero(solution.lambda.size());
+  lambda(tight) = solution.lambda(tight);
+  solution.lambda = std::move(lambda);
+  return solution;
+}
+
+}  // namespace
+
+Multipliers multipliers(const NearestPointProblem& problem, const Solution& given, double tolerance,
                         bool want_ranges) {
   Multipliers found;
+  found.tight = tight_rows(problem, given, tolerance);
+  Solution solution = off_open_rows(given, found.tight);
+  auto groups = dependences(problem, solution.basis, found.tight);
+  if (groups && is_no_vertex(*groups, solution.lambda)) {
+    solution = at_vertex(problem, found.tight, std::move(solution));
+    groups = dependences(problem, solution.basis, found.tight);
+  }
   found.least_norm = solution.lambda;
-  found.tight = tight_rows(problem, solution, tolerance);
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   std::vector<Interval> ranges(static_cast<std::size_t>(problem.rows()));
   for (Index a = 0; a < problem.rows(); ++a)
     ranges[static_cast<std::size_t>(a)] = {solution.lambda[a], solution.lambda[a]};
 
-  const auto groups = dependences(problem, solution.basis, found.tight);
   if (!groups) {
     std::vector<Index> loaded;
     for (Index a : found.tight)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/methods.hpp"
 #include "tests/oracles/planted_problem.hpp"
 
 using convex::Index;
@@ -213,4 +214,34 @@ TEST_CASE("whether multipliers are unique is told by their signs, however far ap
   CHECK((*found.ranges)[1].low == 0);
   CHECK((*found.ranges)[1].high == doctest::Approx(1).epsilon(1e-12));
   CHECK((*found.ranges)[2].high == doctest::Approx(0.5).epsilon(1e-12));
+}
+
+TEST_CASE("every method that solves tells the same multipliers where they are not unique") {
+  // A body squeezed between two rows, and rows that share a load: ends of a method inside the dual optima.
+  RowMatrix U(5, 3);
+  U << -1, -1, 1, -2, 0, -2, 2, 0, 2, -0.5, -0.5, 0.5, 0, 1, 0;
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector::Constant(3, 4096)),
+                                    Vector{{1, -4096, -1}},
+                                    convex::ConstraintRows(U),
+                                    Vector{{1, 1, -2, 0.5, -3}},
+                                    {}};
+  const double low[] = {0, 512, 0, 0, 0}, high[] = {2.0 / 3, 512, 0, 4.0 / 3, 0},
+               least[] = {8.0 / 15, 512, 0, 4.0 / 15, 0};
+  int solved = 0;
+  for (const convex::Method& method : convex::methods()) {
+    if (!method.applies(problem).empty()) continue;
+    const convex::Solution solution = method.solve(problem, {});
+    if (solution.status != convex::Status::solved) continue;
+    CAPTURE(std::string(method.name));
+    ++solved;
+    const Multipliers found = convex::multipliers(problem, solution, tolerance, true);
+    CHECK_FALSE(found.unique);
+    REQUIRE(found.ranges.has_value());
+    for (Index a = 0; a < 5; ++a) {
+      CHECK((*found.ranges)[static_cast<std::size_t>(a)].low == doctest::Approx(low[a]).epsilon(1e-8));
+      CHECK((*found.ranges)[static_cast<std::size_t>(a)].high == doctest::Approx(high[a]).epsilon(1e-8));
+      CHECK(found.least_norm[a] == doctest::Approx(least[a]).epsilon(1e-8));
+    }
+  }
+  CHECK(solved >= 8);
 }
