@@ -23,7 +23,7 @@ std::vector<Index> touching_contacts(const convex::NearestPointProblem& problem,
     if (!multipliers.unique)
       most = multipliers.ranges ? (*multipliers.ranges)[static_cast<std::size_t>(a)].high
                                 : std::numeric_limits<double>::infinity();
-    if (length[a] == 0 || most * length[a] <= tolerance * push) found.push_back(a);
+    if (most * length[a] <= tolerance * push) found.push_back(a);
   }
   return found;
 }
