@@ -1,6 +1,7 @@
 #include "cli/problem_file/toml_slip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 
@@ -76,6 +77,30 @@ bool begins_a_key(const std::string& rest) {
   return i != std::string::npos && rest[i] == '=' && rest.compare(i, 2, "==") != 0;
 }
 
+/// Whether it is made of units, as "m/s^2" and "N*m": their symbols, powers, products and quotients.
+bool is_unit(const std::string& text) {
+  constexpr std::array<std::string_view, 26> symbols = {
+      "m",  "mm", "cm", "km", "nm", "um",  "s",   "ms", "us", "min", "h",   "kg", "g",
+      "mg", "t",  "N",  "kN", "Nm", "rad", "deg", "Hz", "Pa", "kPa", "bar", "J",  "W"};
+  std::string symbol;
+  const auto is_known = [&] {
+    const bool known = symbol.empty() || std::find(symbols.begin(), symbols.end(), symbol) != symbols.end();
+    symbol.clear();
+    return known;
+  };
+  for (const char c : text) {
+    if (is_letter(c)) {
+      symbol += c;
+      continue;
+    }
+    if (!is_known()) return false;
+    if (std::isdigit(static_cast<unsigned char>(c)) == 0 &&
+        std::string_view(" */^-()").find(c) == std::string_view::npos)
+      return false;
+  }
+  return is_known();
+}
+
 /// What stands behind a whole number or text, where the line should end.
 std::string advice_on_rest(const std::string& token, const std::string& given) {
   if (begins_a_key(given)) return "two keys on a line; give each a line of its own, or join them in { }";
@@ -88,7 +113,7 @@ std::string advice_on_rest(const std::string& token, const std::string& given) {
   const std::string behind = rest.substr(0, rest.find_first_of("#,}"));
   if (c == ',' && rest.size() > 1 && std::isdigit(static_cast<unsigned char>(rest[1])) != 0)
     return "a decimal comma; write " + token + "." + without_spaces_around(rest.substr(1));
-  if (is_letter(c) && behind.find_first_of("*^()=<>+") == std::string::npos)
+  if (is_letter(c) && (behind.find_first_of("*^()=<>+") == std::string::npos || is_unit(behind)))
     return token + " " + without_spaces_around(behind) + " is no number; write " + token +
            " with its unit in a comment, # " + without_spaces_around(behind) +
            ", or an expression in quotation marks";

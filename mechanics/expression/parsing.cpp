@@ -43,7 +43,8 @@ void Parsing::unexpected(const char* wanted) const {
       token_.kind == Kind::name || token_.kind == Kind::number || token_.kind == Kind::open;
   const bool is_product = is_factor && std::string_view(wanted).starts_with("an operator");
   source_->fail(token_.offset,
-                "got " + got + "; expected " + wanted + (is_product ? ": a product is written with *" : ""));
+                "got " + got + "; expected " + wanted +
+                    (is_product ? ": a product is written with *, and numbers carry no units" : ""));
 }
 
 Instruction& Parsing::emit(Step step, std::size_t offset, std::uint32_t operand) {

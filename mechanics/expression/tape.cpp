@@ -128,6 +128,11 @@ void write(const Tape& tape, NodeId node, const std::vector<std::string>& coordi
       part(tape.b(node));
       if (depth > 0) out += ")";
       return;
+    case Operation::negate:
+      out += depth > 0 ? "(-" : "-";
+      part(tape.a(node));
+      if (depth > 0) out += ")";
+      return;
     default:
       break;
   }
