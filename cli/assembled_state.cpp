@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "cli/problem_file/keys.hpp"
@@ -81,16 +82,19 @@ std::string fighting_text(const LagrangianSystem& system, const std::vector<Inde
 
 void assemble_declared(Problem& problem, const std::string& file) {
   if (const auto moved = assemble_declared(problem))
-    fmt::print(stderr, "moreau: {}: the state was assembled, moved by {} in the kinetic metric\n", file,
-               mechanics::number_text(*moved));
+    fmt::print(stderr,
+               "moreau: {}: the state was assembled; in the kinetic metric its position moved by {} and its "
+               "velocity changed by {}\n",
+               file, mechanics::number_text(moved->position), mechanics::number_text(moved->velocity));
 }
 
-std::optional<double> assemble_declared(Problem& problem) {
+std::optional<Moved> assemble_declared(Problem& problem) {
   auto* text = std::get_if<SystemProblem>(&problem.content);
   if (text == nullptr || !text->declared) return std::nullopt;
   const auto system = mechanics::lagrangian_system(text->system);
+  const mechanics::State given = system->state(text->state);
   const mechanics::Assembly found =
-      mechanics::assemble(*system, system->state(text->state), declared_question(*system, *text->declared));
+      mechanics::assemble(*system, given, declared_question(*system, *text->declared));
   if (found.status != mechanics::AssemblyStatus::solved)
     throw InvalidInput(found.status == mechanics::AssemblyStatus::infeasible
                            ? "state.in_contact: no state was found, " +
@@ -101,7 +105,8 @@ std::optional<double> assemble_declared(Problem& problem) {
                            : "state.in_contact: no state was found from the one given; give a closer one",
                        text->declared->place);
   text->state = state_text(*system, found.state, text->state);
-  return found.moved;
+  const mechanics::Vector change = found.state.v - given.v;
+  return Moved{found.moved, std::sqrt(change.dot(system->inertia(given).A * change))};
 }
 
 }  // namespace cli

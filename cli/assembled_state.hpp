@@ -28,10 +28,15 @@ mechanics::StateText state_text(const mechanics::LagrangianSystem&, const mechan
 std::string fighting_text(const mechanics::LagrangianSystem&, const std::vector<mechanics::Index>& fighting);
 
 /// Where [state] declares contacts, or what to solve for: the nearest such state takes its place, and
-/// standard error tells by how much it moved. Throws InvalidInput when there is none.
+/// standard error tells by how much position and velocity changed. Throws InvalidInput when there is none.
 void assemble_declared(Problem&, const std::string& file);
 
-/// The same, without telling; returns the distance, none where nothing is declared.
-std::optional<double> assemble_declared(Problem&);
+/// How far a state was moved, in the kinetic metric of the one given.
+struct Moved {
+  double position = 0, velocity = 0;
+};
+
+/// The same, without telling; none where nothing is declared.
+std::optional<Moved> assemble_declared(Problem&);
 
 }  // namespace cli

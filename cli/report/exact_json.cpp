@@ -1,5 +1,7 @@
 #include "cli/report/exact_json.hpp"
 
+#include <algorithm>
+
 namespace cli::inline reports {
 namespace {
 
@@ -91,8 +93,13 @@ const char* name(mechanics::ContactVerdict verdict) {
 
 void write_text_proof(JsonWriter& json, const Scene& scene, const mechanics::TextProof& proof) {
   json.key("from_text").begin_object().key("contacts").begin_object();
+  // What the file declares to be in contact is, whatever the digits of the state found say.
+  const std::vector<convex::Index>& declared = scene.written->in_contact;
   for (std::size_t a = 0; a < proof.contacts.size(); ++a)
-    json.key(scene.constraints[a]).value(name(proof.contacts[a]));
+    json.key(scene.constraints[a])
+        .value(std::binary_search(declared.begin(), declared.end(), static_cast<convex::Index>(a))
+                   ? "declared"
+                   : name(proof.contacts[a]));
   json.end_object();
   json.key("contacts_hold").value(proof.contacts_hold);
   const auto write_names = [&](const char* key, const std::vector<convex::Index>& named) {

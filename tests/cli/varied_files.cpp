@@ -170,7 +170,9 @@ TEST_CASE("contacts that the state declares are assembled before it is solved") 
   // The nearest velocity is (1, 0) less its part along (0.6, 0.8): (0.64, -0.48); v²/r of it holds the
   // string.
   CHECK(double(Json::parse(outcome.out).at("acceleration").at("x")) == doctest::Approx(-0.64 / 5 * 0.6));
-  CHECK(outcome.err.find("moved by 0.5") != std::string::npos);
+  CHECK(outcome.err.find("position moved by 0.5") != std::string::npos);
+  // What is left off the velocity is its part along (0.6, 0.8).
+  CHECK(outcome.err.find("velocity changed by 0.6") != std::string::npos);
 }
 
 TEST_CASE("a projection that goes through every form comes back with the same answer") {
