@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/singular/resolution.hpp"
+#include "mechanics/vanishing_gradient.hpp"
 
 namespace cli {
 
@@ -124,6 +126,21 @@ mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {
   return found;
 }
 
+/// A contact of which second derivatives tell nothing, and that the answer would violate: then nothing is
+/// known of the acceleration.
+std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene, convex::Solution& solution) {
+  if (!scene.written || solution.status == convex::Status::infeasible ||
+      solution.q.size() != scene.problem.dimension())
+    return std::nullopt;
+  auto warning =
+      mechanics::violated_at_higher_order(*scene.written, scene.contacts, scene.problem, solution.q);
+  if (warning) {
+    solution.status = convex::Status::inaccurate;
+    solution.error_bound = convex::infinity;
+  }
+  return warning;
+}
+
 }  // namespace
 
 ProvedScene resolve_and_prove(Scene& scene, bool certify) {
@@ -142,6 +159,10 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
     mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
   // What is proved of rows that were settled is proved of the mechanism by its text alone.
   if (scene.is_settled && !(found.text && found.text->error_bound)) nothing();
+  if (auto violated = violated_at_higher_order(scene, found.solution.primal)) {
+    resolved.warnings.push_back(*std::move(violated));
+    nothing();
+  }
   return resolved;
 }
 

@@ -58,4 +58,20 @@ std::optional<Warning> near_contacts(const System& system, const State& state, c
   return warning;
 }
 
+std::vector<Index> closed_by_tolerance(const WrittenMechanism& written, const Contacts& contacts) {
+  const ConstraintRates& rates = contacts.rates;
+  std::vector<Index> suspects;
+  for (const Index a : contacts.present)
+    if (!written.system->constraints()[static_cast<std::size_t>(a)].two_sided &&
+        !std::binary_search(written.in_contact.begin(), written.in_contact.end(), a) &&
+        (rates.f[a] != 0 || rates.df[a] != 0))
+      suspects.push_back(a);
+  if (suspects.empty()) return suspects;
+  const RateRadii radii = rate_radii(*written.system, written.state, written.radii);
+  std::erase_if(suspects, [&](Index a) {
+    return std::abs(rates.f[a]) <= radii.f[a] && std::abs(rates.df[a]) <= radii.df[a];
+  });
+  return suspects;
+}
+
 }  // namespace mechanics

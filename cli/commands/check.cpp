@@ -72,7 +72,7 @@ Answer check_scene(Scene scene, const CheckOptions& options) {
   SolvedScene solved = solved_scene(scene, solution, seconds);
   solved.as_evaluated = as_evaluated;
   solved.warnings = std::move(warnings);
-  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  add_contact_warnings(solved);
   return {exit_code(report, solution.primal.status),
           options.json ? with_checks(report, [&](JsonWriter& json) { write_solved(json, solved); })
                        : solve_text(solved) + "\n" + checks_text(report),

@@ -61,7 +61,7 @@ Explained explain_scene(Problem problem, const std::string& file, const ExplainO
   if (scene.written) count_evaluation_error(scene, solution);
   SolvedScene solved = solved_scene(scene, solution, 0);
   solved.warnings = std::move(resolved.warnings);
-  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  add_contact_warnings(solved);
   Line next;
   if (text && scene.added.empty() && solved.has_answer())
     next = next_event(scene, motion_options(kept, *scene.system, {}));

@@ -43,7 +43,7 @@ Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const So
   solved.farkas = found.farkas;
   if (found.text) solved.text = &*found.text;
   solved.warnings = std::move(resolved.warnings);
-  for (mechanics::Warning& warning : contact_warnings(solved)) solved.warnings.push_back(std::move(warning));
+  add_contact_warnings(solved);
   if (options.plot) draw(*options.plot, scene_drawing(solved, *drawn, options.plane));
   Exit exit = exit_code(found.solution.primal.status);
   if (options.certify && found.certificate.level == convex::ProofLevel::none)

@@ -51,22 +51,23 @@ std::optional<double> multiplier(const SolvedScene& solved, std::size_t added) {
 
 }  // namespace
 
-std::vector<Warning> contact_warnings(const SolvedScene& solved) {
-  std::vector<Warning> found;
+void add_contact_warnings(SolvedScene& solved) {
+  std::vector<Warning>& found = solved.warnings;
   const Scene& scene = solved.scene;
-  if (!scene.system || !solved.has_answer()) return found;
+  if (!scene.system || !solved.has_answer()) return;
   if (auto near = mechanics::near_contacts(*scene.system, scene.state, {scene.contacts, *scene.rates},
                                            solved.solution.primal.q))
     found.push_back(std::move(*near));
   if (scene.written)
-    if (auto edges = mechanics::branch_edges(*scene.system, scene.state, scene.written->radii))
+    if (auto edges = mechanics::branch_edges(*scene.system, scene.state, scene.written->radii)) {
       found.push_back(std::move(*edges));
+      solved.on_edge = true;
+    }
   if (const std::vector<Index> only_touch = touching(solved); !only_touch.empty())
     found.push_back({Warning::Kind::undecided, only_touch,
                      names(solved, only_touch) +
                          ": neither presses nor opens to second order, multiplier and d²f/dt² are 0; higher "
                          "derivatives decide whether contact lasts, so look a moment later"});
-  return found;
 }
 
 void write_warnings(JsonWriter& json, const SolvedScene& solved) {

@@ -171,6 +171,12 @@ void write_solved(JsonWriter& json, const SolvedScene& solved) {
     write_exact(json, solved);
   }
   write_warnings(json, solved);
+  if (!solved.closed_by_tolerance.empty()) {
+    json.key("closed_by_tolerance").begin_array();
+    for (const Index a : solved.closed_by_tolerance)
+      json.value(solved.scene.constraints[static_cast<std::size_t>(a)]);
+    json.end_array();
+  }
   json.key("seconds").value(solved.seconds);
 }
 

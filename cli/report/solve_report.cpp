@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mechanics/evaluation_error.hpp"
+#include "mechanics/near_contact.hpp"
 
 namespace cli::inline reports {
 
@@ -37,6 +38,9 @@ SolvedScene solved_scene(const Scene& scene, const mechanics::GaussSolution& sol
                                      : convex::Vector(convex::Vector::Zero(static_cast<Index>(count)));
   for (std::size_t k = 0; k < scene.contacts.size(); ++k)
     solved.second_rates[scene.contacts[k]] = solution.primal.slack[static_cast<Index>(k)];
+  if (scene.written && scene.rates)
+    solved.closed_by_tolerance =
+        mechanics::closed_by_tolerance(*scene.written, {scene.contacts, *scene.rates});
   return solved;
 }
 

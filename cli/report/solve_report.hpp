@@ -32,6 +32,9 @@ struct SolvedScene {
   convex::IntegerVector farkas = {};                     ///< exact weights, when these alone were proved
   const mechanics::TextProof* text = nullptr;            ///< when it was proved from the text of a mechanism
   std::vector<mechanics::Warning> warnings = {};         ///< what its numbers do not show
+  /// Constraints that count as closed by contact_tolerance alone: the mechanism as written has gaps there.
+  std::vector<convex::Index> closed_by_tolerance = {};
+  bool on_edge = false;  ///< the state stands between two branches of an expression
 
   /// Whether an added row weighs this constraint: its multiplier then grows without bound near the state.
   bool is_weighed(std::size_t constraint) const;
@@ -51,9 +54,9 @@ std::optional<double> count_evaluation_error(const Scene&, mechanics::GaussSolut
 
 SolvedScene solved_scene(const Scene&, const mechanics::GaussSolution&, double seconds);
 
-/// What is to be said of a mechanism beside `singular` states: contacts that are nearly there, and contacts
-/// that only touch.
-std::vector<mechanics::Warning> contact_warnings(const SolvedScene&);
+/// Adds what is to be said of a mechanism beside `singular` states: contacts that are nearly there, contacts
+/// that only touch, and an edge between branches.
+void add_contact_warnings(SolvedScene&);
 
 const char* name(ConstraintState);
 

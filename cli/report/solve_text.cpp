@@ -151,8 +151,8 @@ std::string from_text_text(const SolvedScene& solved) {
             ? ", which makes no difference"
             : "; write the state or the constraint so that they cancel term by term");
   if (proof.error_bound && is_proved(solved.certificate) && !solved.infeasible())
-    text +=
-        fmt::format("; the acceleration is that of the mechanism as written to {:.1e}", *proof.error_bound);
+    text += fmt::format("; the acceleration is that of the mechanism as written{} to {:.1e}",
+                        solved.on_edge ? ", on the branch that is taken," : "", *proof.error_bound);
   else if (!is_proved(solved.certificate))
     text += proof.contacts_hold ? "; no bound on the acceleration is proved from there"
                                 : ". Nothing is proved of the mechanism as written";
@@ -193,18 +193,40 @@ std::string dual_text(const SolvedScene& solved) {
                      difference <= agreement ? "" : ": one of the two routes is inaccurate here");
 }
 
+/// Of which mechanism the accuracy speaks: contacts that the tolerance closed are not as they were written.
+std::string mechanism_text(const SolvedScene& solved) {
+  const std::vector<Index>& closed = solved.closed_by_tolerance;
+  if (closed.empty())
+    return solved.on_edge ? "the mechanism as written, on the branch that is taken"
+                          : "the mechanism as written";
+  constexpr std::size_t most_told = 4;
+  const std::vector<Index> told(
+      closed.begin(), closed.begin() + static_cast<std::ptrdiff_t>(std::min(closed.size(), most_told)));
+  const Index first = closed.front();
+  return fmt::format(
+      "the mechanism with {}{} closed: as written {} not, f = {} and df/dt = {} of {} are within "
+      "contact_tolerance",
+      constraints_text(solved, told), closed.size() > most_told ? " …" : "",
+      closed.size() == 1 ? "it is" : "they are", number_text(solved.scene.rates->f[first]),
+      number_text(solved.scene.rates->df[first]), solved.scene.constraints[static_cast<std::size_t>(first)]);
+}
+
 std::string accuracy_text(const SolvedScene& solved) {
   const convex::Solution& primal = solved.solution.primal;
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double relative = scale > 0 ? primal.error_bound / scale : primal.error_bound;
+  if (!std::isfinite(primal.error_bound))
+    return fmt::format("NOT solved: {} gives this acceleration, and nothing is known of its error.\n",
+                       primal.method);
   std::string accuracy = fmt::format(
       "relative error of the acceleration at most {}{}{}", is_proved(solved.certificate) ? "" : "about ",
       relative > 0 ? fmt::format("{:.1e}", relative) : "0", proof_text(solved.certificate));
+  const std::string mechanism = mechanism_text(solved);
   if (solved.as_evaluated && solved.verbose)
-    accuracy += fmt::format(" for the mechanism as written, {:.1e} for A, z, U, s as evaluated",
+    accuracy += fmt::format(" for {}, {:.1e} for A, z, U, s as evaluated", mechanism,
                             scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
   else if (solved.as_evaluated || (solved.solution.as_written && solved.scene.written))
-    accuracy += " for the mechanism as written";
+    accuracy += " for " + mechanism;
   else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
     accuracy += ", for A, z, U, s as evaluated";
   if (primal.status != convex::Status::solved)

@@ -217,3 +217,37 @@ TEST_CASE("an ordinary answer has no warning, and numbers alone leave nothing to
   CHECK(numbers.at("constraints").at("c[1]").at("state") == "touches");
   CHECK(run_on("solve", point_on_floor()).err.empty());
 }
+
+TEST_CASE("a contact whose gradient vanishes and that the answer would violate leaves nothing known of it") {
+  const Outcome falls = run_json_on("solve", particle("floor = \"y^3 >= 0\"", "x = 1"));
+  const Json object = Json::parse(falls.out);
+  CHECK(falls.code == 3);
+  CHECK(object.at("status") == "inaccurate");
+  CHECK(object.at("certificate").at("error_bound") == "inf");
+  REQUIRE(object.at("warnings").size() == 1);
+  CHECK(object.at("warnings")[0].at("constraints") == Json{"floor"});
+  // y^2 >= 0 asks for nothing.
+  const Outcome free = run_json_on("solve", particle("floor = \"y^2 >= 0\"", "x = 1"));
+  CHECK(free.code == 0);
+  CHECK(Json::parse(free.out).at("warnings").empty());
+}
+
+TEST_CASE("a gap that the contact tolerance closes is told, one that is rounding is not") {
+  const auto above = [](const std::string& y) {
+    return "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\npotential = \"9.81*y\"\n"
+           "constraints = { floor = \"sqrt(y^2) >= sqrt(2)\" }\n[state]\nposition = { y = " +
+           y + " }\n";
+  };
+  const Json gap = solved(above("\"sqrt(2) + 5e-10\""));
+  CHECK(gap.at("active") == Json{"floor"});
+  CHECK(gap.at("closed_by_tolerance") == Json{"floor"});
+  const Outcome text = run_on("solve", above("\"sqrt(2) + 5e-10\""));
+  CHECK(text.out.find("as written it is not") != std::string::npos);
+  CHECK(text.out.find("for the mechanism as written") == std::string::npos);
+  CHECK_FALSE(solved(above("\"2/sqrt(2)\"")).contains("closed_by_tolerance"));
+}
+
+TEST_CASE("on an edge between branches the answer is told to be that of the branch taken") {
+  const std::string edge = particle("floor = \"y >= if(x > 0, -x, 0)\"", "x = 1", "y");
+  CHECK(run_on("solve", edge).out.find("on the branch that is taken") != std::string::npos);
+}
