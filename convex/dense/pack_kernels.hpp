@@ -15,11 +15,14 @@ struct Kernels : TriangleKernels<W, Fused> {
   MOREAU_INLINE void gram(Index n, const double* X, const double* Y, double* into, Index stride) {
     constexpr Index together = W == 8 ? 8 : 4;
     for (Index first = 0; first < 8; first += together) {
-      Pack sum[together] = {};
+      Pack sum[together];
+      P::clear(sum);
       for (Index i = 0; i < n; ++i) {
         const Pack x = P::load(X + 8 * i);
+#pragma GCC unroll 8
         for (Index l = 0; l < together; ++l) P::add_product(sum[l], x, Y[8 * i + first + l]);
       }
+#pragma GCC unroll 8
       for (Index l = 0; l < together; ++l) P::store(into + (first + l) * stride, sum[l]);
     }
   }
@@ -38,9 +41,11 @@ struct Kernels : TriangleKernels<W, Fused> {
   MOREAU_INLINE void combine(Index n, Index count, const double* X, const double* y, double* w) {
     Index i = 0;
     for (; i + 8 <= n && W == 8; i += 8) {
-      Pack sum[8] = {};
+      Pack sum[8];
+      P::clear(sum);
       for (Index k = 0; k < count; ++k) {
         const Pack factor = P::load(y + 8 * k);
+#pragma GCC unroll 8
         for (int r = 0; r < 8; ++r) P::add_products(sum[r], P::load(X + 8 * (k * n + i + r)), factor);
       }
       P::store(w + i, P::plus(P::load(w + i), P::totals(sum)));
@@ -73,14 +78,17 @@ struct Kernels : TriangleKernels<W, Fused> {
   /// 0 where rows have ended.
   template <int count, class Factor>
   MOREAU_INLINE void along(Index n, const double* U, const double* end, Factor factor, double* into) {
-    Pack sum[count] = {};
+    Pack sum[count];
+    P::clear(sum);
     Index i = 0;
     for (; i + 8 <= n; i += 8)
+#pragma GCC unroll 8
       for (int r = 0; r < count; ++r) {
         const Pack u = P::load(U + r * n + i);
         P::add_products(sum[r], factor(i, u), u);
       }
     if (i < n)
+#pragma GCC unroll 8
       for (int r = 0; r < count; ++r) {
         const Pack u = P::load_before(U + r * n + i, end);
         P::add_products(sum[r], factor(i, u), u);
@@ -88,6 +96,7 @@ struct Kernels : TriangleKernels<W, Fused> {
     if constexpr (count == 8)
       P::store(into, P::totals(sum));
     else
+#pragma GCC unroll 8
       for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
   }
 
@@ -196,11 +205,14 @@ struct Kernels : TriangleKernels<W, Fused> {
     Index i = 0;
     for (; i + 8 * rows <= n; i += 8 * rows) {
       Pack sum[rows];
+#pragma GCC unroll 8
       for (int r = 0; r < rows; ++r) sum[r] = P::load(y + i + 8 * r);
       for (Index k = 0; k < count; ++k) {
         const double *const x = X + columns[k] * stride + i, factor = c[columns[k]];
+#pragma GCC unroll 8
         for (int r = 0; r < rows; ++r) P::add_product(sum[r], P::load(x + 8 * r), factor);
       }
+#pragma GCC unroll 8
       for (int r = 0; r < rows; ++r) P::store(y + i + 8 * r, sum[r]);
     }
     for (; i < n; i += 8) {
@@ -214,9 +226,12 @@ struct Kernels : TriangleKernels<W, Fused> {
   MOREAU_INLINE void combine_runs(Index n, Index width, const double* D, const double* u, double* into) {
     Index k = 0;
     for (; k + 32 <= width; k += 32) {
-      Pack sum[4] = {};
+      Pack sum[4];
+      P::clear(sum);
       for (Index i = 0; i < n; ++i)
+#pragma GCC unroll 4
         for (int r = 0; r < 4; ++r) P::add_product(sum[r], P::load(D + i * width + k + 8 * r), u[i]);
+#pragma GCC unroll 4
       for (int r = 0; r < 4; ++r) P::store(into + k + 8 * r, sum[r]);
     }
     for (; k < width; k += 8) {

@@ -28,18 +28,28 @@ struct Packs {
     Part part[parts];
   };
 
+  // Part by part: a copy of the whole would go by the words of the smallest machine, through memory.
   MOREAU_INLINE Pack load(const double* x) {
     Pack pack;
-    std::memcpy(&pack, x, sizeof pack);
+    for (int k = 0; k < parts; ++k) std::memcpy(&pack.part[k], x + k * W, sizeof(Part));
     return pack;
   }
-  MOREAU_INLINE void store(double* x, const Pack& pack) { std::memcpy(x, &pack, sizeof pack); }
+  MOREAU_INLINE void store(double* x, const Pack& pack) {
+    for (int k = 0; k < parts; ++k) std::memcpy(x + k * W, &pack.part[k], sizeof(Part));
+  }
   /// Only what lies before `end` may be read; zeros stand for the rest.
   MOREAU_INLINE Pack load_before(const double* x, const double* end) {
     if (end - x >= 8) return load(x);
     double tail[8] = {};
     for (Index i = 0; i < end - x; ++i) tail[i] = x[i];
     return load(tail);
+  }
+  /// Sets each of an array of packs to 0; `Pack sum[8] = {}` would go through memory.
+  template <int count>
+  MOREAU_INLINE void clear(Pack (&x)[count]) {
+#pragma GCC unroll 8
+    for (int r = 0; r < count; ++r)
+      for (int k = 0; k < parts; ++k) x[r].part[k] = Part{};
   }
   MOREAU_INLINE Pack times(const Pack& x, double c) {
     Pack product;

@@ -24,6 +24,7 @@ struct TriangleKernels : Packs<W, Fused> {
     const double *l = T + row, *across = T + j;
     for (Index p = 0; p < before; ++p, l += ld, across += ld) {
       const Pack x = P::load(l);
+#pragma GCC unroll 4
       for (int c = 0; c < 4; ++c) P::subtract_product(column[c], x, across[c]);
     }
   }
@@ -56,8 +57,10 @@ struct TriangleKernels : Packs<W, Fused> {
         double B[64];  // eight columns of the pack of rows
         for (int half = 0; half < 8; half += 4) {
           Pack column[4];
+#pragma GCC unroll 4
           for (int c = 0; c < 4; ++c) column[c] = P::load(T + (j + half + c) * ld + row);
           subtract_before(j, ld, T, j + half, row, column);
+#pragma GCC unroll 4
           for (int c = 0; c < 4; ++c) P::store(B + 8 * (half + c), column[c]);
         }
         if (row == j) {
@@ -69,11 +72,14 @@ struct TriangleKernels : Packs<W, Fused> {
           continue;
         }
         for (int half = 0; half < 8; half += 4) {  // B L⁻ᵀ
-          Pack column[4] = {};
+          Pack column[4];
+          P::clear(column);
           for (int d = 0; d < half + 4; ++d) {
             const Pack x = P::load(B + 8 * d);
+#pragma GCC unroll 4
             for (int c = 0; c < 4; ++c) P::add_product(column[c], x, inverse[8 * d + half + c]);
           }
+#pragma GCC unroll 4
           for (int c = 0; c < 4; ++c) {
             double X[8];
             P::store(X, column[c]);
@@ -118,11 +124,14 @@ struct TriangleKernels : Packs<W, Fused> {
     for (; i + 4 <= n; i += 4) {
       Pack sum[4];
       const double* row = T + i * ld;
+#pragma GCC unroll 4
       for (int r = 0; r < 4; ++r) sum[r] = P::load(X + 8 * (i + r));
       for (Index j = 0; j < i; ++j) {
         const Pack x = P::load(X + 8 * j);
+#pragma GCC unroll 4
         for (int r = 0; r < 4; ++r) P::subtract_product(sum[r], x, row[r * ld + j]);
       }
+#pragma GCC unroll 4
       for (int r = 0; r < 4; ++r) {
         for (int c = 0; c < r; ++c) P::subtract_product(sum[r], sum[c], row[r * ld + i + c]);
         sum[r] = P::times(sum[r], reciprocal(i + r));
@@ -142,11 +151,14 @@ struct TriangleKernels : Packs<W, Fused> {
     for (; i >= 4; i -= 4) {
       Pack sum[4];
       const double* column = T + (i - 4) * ld;
+#pragma GCC unroll 4
       for (int r = 0; r < 4; ++r) sum[r] = P::load(X + 8 * (i - 4 + r));
       for (Index j = i; j < n; ++j) {
         const Pack x = P::load(X + 8 * j);
+#pragma GCC unroll 4
         for (int r = 0; r < 4; ++r) P::subtract_product(sum[r], x, column[r * ld + j]);
       }
+#pragma GCC unroll 4
       for (int r = 3; r >= 0; --r) {
         for (int c = 3; c > r; --c) P::subtract_product(sum[r], sum[c], column[r * ld + i - 4 + c]);
         sum[r] = P::times(sum[r], reciprocal(i - 4 + r));
