@@ -90,7 +90,9 @@ struct Kernels : TriangleKernels<W, Fused> {
     if (i < n)
 #pragma GCC unroll 8
       for (int r = 0; r < count; ++r) {
-        const Pack u = P::load_before(U + r * n + i, end);
+        // A row that others follow has at least as many numbers behind it as its last pack reaches beyond.
+        const double* const from = U + r * n + i;
+        const Pack u = r < count - 1 ? P::load(from) : P::load_before(from, end);
         P::add_products(sum[r], factor(i, u), u);
       }
     if constexpr (count == 8)
