@@ -174,6 +174,13 @@ bool is_no_vertex(const std::vector<Dependence>& groups, const Vector& lambda) {
   });
 }
 
+/// Whether a dense factor of so many tight rows is affordable.
+bool has_dense_factor(Index coordinates, std::size_t rows) {
+  constexpr double most_numbers = 4e6;
+  const double n = static_cast<double>(coordinates);
+  return n * std::min(n, static_cast<double>(rows)) <= most_numbers;
+}
+
 /// The same answer with the multipliers of a vertex of the dual optima: q is the nearest point of the tight
 /// rows alone, too. The answer as it is where they do not give it.
 Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>& tight, Solution solution) {
@@ -208,9 +215,14 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
   found.tight = tight_rows(problem, given, tolerance);
   Solution solution = off_open_rows(given, found.tight);
   auto groups = dependences(problem, solution.basis, found.tight);
-  if (groups && is_no_vertex(*groups, solution.lambda)) {
-    solution = at_vertex(problem, found.tight, std::move(solution));
+  // A point may be right and the multipliers that led to it not: those of Delassus' rule, where it hits.
+  const bool is_unbalanced = given.residuals.stationarity > tolerance;
+  if (groups && (is_unbalanced || is_no_vertex(*groups, solution.lambda))) {
+    const bool is_small = has_dense_factor(problem.dimension(), found.tight.size());
+    if (is_small) solution = at_vertex(problem, found.tight, std::move(solution));
     groups = dependences(problem, solution.basis, found.tight);
+    if (!is_small || is_no_vertex(*groups, solution.lambda))
+      groups.reset();  // there is no table to begin with
   }
   found.least_norm = solution.lambda;
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);

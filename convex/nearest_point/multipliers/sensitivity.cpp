@@ -18,15 +18,17 @@ std::vector<bool> marks_of(Index size, const std::vector<Index>& rows) {
   return mark;
 }
 
-/// Multipliers that are this part of the largest push, each measured by its row's length, count as 0.
+/// Multipliers that are this part of the largest push, each measured by its row's length, or of z, count as
+/// 0.
 constexpr double weak = 1e-12;
 
 /// By row: two-sided, or with a multiplier that is not 0.
-std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Multipliers& multipliers) {
+std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution& solution,
+                              const Multipliers& multipliers) {
   std::vector<bool> loaded = marks_of(problem.rows(), problem.two_sided);
   const Vector push =
       multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
-  const double largest = push.size() > 0 ? push.maxCoeff() : 0;
+  const double largest = std::max(solution.force_norm, push.size() > 0 ? push.maxCoeff() : 0);
   for (Index a = 0; a < push.size(); ++a)
     if (push[a] > weak * largest) loaded[static_cast<std::size_t>(a)] = true;
   return loaded;
@@ -74,12 +76,12 @@ std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& fa
 
 }  // namespace
 
-std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution&,
+std::optional<Derivative> directional_derivative(const NearestPointProblem& problem, const Solution& solution,
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds) {
   const std::vector<Index>& tight = multipliers.tight;
   const std::vector<bool> two_sided = marks_of(problem.rows(), problem.two_sided),
-                          loaded = loaded_rows(problem, multipliers);
+                          loaded = loaded_rows(problem, solution, multipliers);
   const bool choose = !multipliers.unique && (ds.array() != 0).any();
   const std::vector<bool>& held = choose ? two_sided : loaded;
   NearestPointProblem face{
@@ -108,10 +110,10 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
                               const Multipliers& multipliers) {
   if (!multipliers.unique) return std::nullopt;
   const Index m = problem.rows();
-  const std::vector<bool> loaded = loaded_rows(problem, multipliers),
+  const std::vector<bool> loaded = loaded_rows(problem, solution, multipliers),
                           two_sided = marks_of(m, problem.two_sided);
   std::vector<Index> held;
-  for (Index a : solution.basis)
+  for (Index a : multipliers.tight)  // independent, for the multipliers are unique
     if (loaded[static_cast<std::size_t>(a)]) held.push_back(a);
   const auto k = static_cast<Index>(held.size());
   Matrix Q(problem.dimension(), 0), R_inverse(0, 0);

@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <random>
+
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/isotonic/peeling.hpp"
@@ -37,4 +40,54 @@ TEST_CASE("peeling leaves the rows of cycles and repetitions, and nothing of a f
   CHECK(convex::rows_left_by_peeling(convex::ConstraintRows(U), {0, 1, 2, 3, 4, 5}) ==
         std::vector<Index>{2, 3, 4});
   CHECK(convex::rows_left_by_peeling(convex::ConstraintRows(U), {2, 2}) == std::vector<Index>{2, 2});
+}
+
+TEST_CASE("multipliers of sparse rows that repeat each other balance A q - z") {
+  constexpr Index n = 300, m = 750;
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    const auto draw = [&](int low, int high) {
+      return std::uniform_int_distribution<int>(low, high)(random);
+    };
+    std::vector<Eigen::Triplet<double>> entries;
+    std::vector<std::vector<std::pair<int, double>>> rows(m);
+    const Vector q = Vector::NullaryExpr(n, [&] { return static_cast<double>(draw(-3, 3)); });
+    Vector z = q, s(m);
+    for (int a = 0; a < m; ++a) {
+      auto& row = rows[static_cast<std::size_t>(a)];
+      if (a > 0 && draw(0, 9) == 0) {
+        row = rows[static_cast<std::size_t>(draw(0, a - 1))];
+        for (auto& entry : row) entry.second *= 2;
+      } else {
+        const int middle = a * static_cast<int>(n) / static_cast<int>(m);
+        for (int k = draw(1, 4); k > 0; --k) {
+          const int i = std::clamp(middle + draw(-20, 20), 0, static_cast<int>(n) - 1);
+          const bool is_there =
+              std::any_of(row.begin(), row.end(), [&](const auto& e) { return e.first == i; });
+          if (!is_there) row.emplace_back(i, draw(0, 1) == 0 ? -1 : 2);
+        }
+      }
+      const bool is_tight = draw(0, 9) < 6;
+      const int lambda = is_tight ? draw(0, 3) : 0;
+      s[a] = is_tight ? 0 : -draw(1, 2);
+      for (const auto& [i, u] : row) {
+        entries.emplace_back(a, i, u);
+        s[a] += u * q[i];
+        z[i] -= u * lambda;
+      }
+    }
+    convex::SparseRows U(m, n);
+    U.setFromTriplets(entries.begin(), entries.end());
+    const convex::NearestPointProblem problem{
+        convex::Metric::identity(n), z, convex::ConstraintRows(U), s, {}};
+    const convex::Solution solution = convex::automatic(problem);
+    REQUIRE(solution.status == convex::Status::solved);
+    CHECK((solution.q - q).norm() <= 1e-9 * q.norm());
+    for (const bool ranges : {false, true}) {
+      const convex::Multipliers found = convex::multipliers(problem, solution, 1e-9, ranges);
+      CHECK((problem.U.transpose_times(found.least_norm) - (q - z)).norm() <= 1e-9 * z.norm());
+      CHECK(found.least_norm.minCoeff() >= 0);
+    }
+  }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/methods.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 #include "tests/oracles/full_mantissa.hpp"
 #include "tests/oracles/planted_problem.hpp"
@@ -137,4 +138,38 @@ TEST_CASE("forces below the least margin change no contact, and a ball leaves it
       CHECK(then == held);
     }
   }
+}
+
+TEST_CASE("margins and derivatives do not hang on the method that found the point") {
+  int compared = 0;
+  for (const Difficulty difficulty : {Difficulty::none, Difficulty::repeated_rows, Difficulty::at_rest})
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      const NearestPointProblem problem = oracles::planted_problem(seed, 4, 6, difficulty).problem;
+      const Solution usual = convex::active_set(problem);
+      const Multipliers known = convex::multipliers(problem, usual, 1e-9, false);
+      const Vector dz = integers(seed + 100, 4), ds = Vector::Zero(6);
+      const auto margins = convex::margins(problem, usual, known);
+      const auto moved = convex::directional_derivative(problem, usual, known, dz, ds);
+      for (const convex::Method& method : convex::methods()) {
+        if (!method.applies(problem).empty()) continue;
+        const Solution other = method.solve(problem, {});
+        if (other.status != convex::Status::solved) continue;
+        CAPTURE(seed);
+        CAPTURE(std::string(method.name));
+        const Multipliers found = convex::multipliers(problem, other, 1e-9, false);
+        REQUIRE(found.unique == known.unique);
+        const auto their_margins = convex::margins(problem, other, found);
+        REQUIRE(their_margins.has_value() == margins.has_value());
+        for (Index a = 0; margins && a < 6; ++a)
+          CHECK(std::min((*their_margins)[a], 1e9) ==
+                doctest::Approx(std::min((*margins)[a], 1e9)).epsilon(1e-6));
+        const auto theirs = convex::directional_derivative(problem, other, found, dz, ds);
+        REQUIRE(theirs.has_value() == moved.has_value());
+        if (moved)
+          CHECK((theirs->acceleration - moved->acceleration).norm() <=
+                1e-8 * (1 + moved->acceleration.norm()));
+        ++compared;
+      }
+    }
+  CHECK(compared > 200);
 }
