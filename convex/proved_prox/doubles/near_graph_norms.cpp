@@ -54,10 +54,17 @@ NearGraph of_norm2(const Interval& weight, const Vector& x, const Vector& v) {
 
 MaybeNear of_norm_p(double p, const Interval& weight, const Vector& x, const Vector& v) {
   if (x.isZero(0)) {
-    // |v|_q <= |v|₂ for q >= 2, and <= |v|_1 always.
+    // Σ (|v_i|/weight)^q <= 1; powers of what is below 1 are larger for a smaller exponent.
     NearGraph made(x, v);
-    const double size = above(v.cwiseAbs().sum());
-    if (size > weight.low) return std::nullopt;
+    const double q = moved_down(p / (p - 1), 4);
+    double sum = 0;
+    for (const double entry : v) {
+      const double part = moved_up(std::abs(entry) / weight.low, 2);
+      if (part > 1) return std::nullopt;
+      sum = moved_up(
+          sum + (part < smallest_ordinary ? smallest_ordinary : moved_up(std::pow(part, q), library_units)));
+    }
+    if (!(sum <= 1)) return std::nullopt;
     return made;
   }
   if (!has_ordinary_norm(x)) return std::nullopt;
