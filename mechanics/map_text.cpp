@@ -52,7 +52,7 @@ class MapExpressions {
     std::vector<convex::Fraction> entries;
     for (const NodeId node : nodes_) {
       const auto& jet = evaluation(node);
-      if (!jet || !jet->value.is_finite()) return in_doubles(z);
+      if (!jet || !jet->value.is_finite()) return with_radius(z);
       entries.push_back(jet->value.middle());
       image.radius = std::max(image.radius, jet->value.radius());
     }
@@ -60,9 +60,52 @@ class MapExpressions {
     return image;
   }
 
+  convex::Vector in_doubles(const convex::Vector& z) const {
+    bool is_finite = true;
+    const auto values =
+        program_.values({0, z, convex::Vector::Zero(static_cast<convex::Index>(n_))}, 0, is_finite);
+    convex::Vector image(static_cast<convex::Index>(n_));
+    for (std::size_t i = 0; i < n_; ++i) image[static_cast<convex::Index>(i)] = values[program_.roots(0)[i]];
+    return image;
+  }
+
+  /// Where each sign that a branch hangs on is that of a ball without 0, so that the same formula holds
+  /// around z; then in fractions if there are such, which is what fractions alone would also tell at a kink.
+  std::optional<convex::MapDerivative> derivative(const convex::ExactVector& z) const {
+    if (!convex::Ball::why_none().empty()) return std::nullopt;
+    const auto by_balls = derivative(z, map_precision, true);
+    if (!by_balls) return std::nullopt;
+    const auto by_fractions = derivative(z, 0, false);
+    return by_fractions ? by_fractions : by_balls;
+  }
+
  private:
+  std::optional<convex::MapDerivative> derivative(const convex::ExactVector& z, long precision,
+                                                  bool as_ball) const {
+    ExactState state{Number(0), {}, {}};
+    for (std::size_t i = 0; i < n_; ++i) {
+      const convex::Fraction exact = entry(z, i);
+      state.q.push_back(as_ball ? Number(convex::Ball::of(exact, precision), std::nullopt, nullptr)
+                                : Number(exact));
+      state.v.emplace_back(0);
+    }
+    ExactEvaluation evaluation(tape_, state, precision, JetPart::whole);
+    convex::MapDerivative J;
+    for (const NodeId node : nodes_) {
+      const auto& jet = evaluation(node);
+      if (!jet || !jet->value.is_finite()) return std::nullopt;
+      for (std::size_t j = 0; j < n_; ++j) {
+        const Number entry = jet->by_q.empty() ? Number(0) : jet->by_q[j];
+        if (!entry.is_finite()) return std::nullopt;
+        J.entries.push_back(entry.middle());
+        J.radius = std::max(J.radius, entry.radius());
+      }
+    }
+    return J;
+  }
+
   /// At a kink, or where there are no balls: doubles with what they may be off.
-  std::optional<convex::MapImage> in_doubles(const convex::ExactVector& z) const {
+  std::optional<convex::MapImage> with_radius(const convex::ExactVector& z) const {
     RoundedState state;
     for (std::size_t i = 0; i < n_; ++i) {
       const convex::Fraction exact = entry(z, i);
@@ -100,7 +143,9 @@ class MapExpressions {
 convex::Map map_of_text(const std::vector<Text>& components) {
   const auto expressions = std::make_shared<const MapExpressions>(components);
   return {static_cast<convex::Index>(components.size()),
-          [expressions](const convex::ExactVector& z) { return expressions->at(z); }};
+          [expressions](const convex::ExactVector& z) { return expressions->at(z); },
+          [expressions](const convex::Vector& z) { return expressions->in_doubles(z); },
+          [expressions](const convex::ExactVector& z) { return expressions->derivative(z); }};
 }
 
 }  // namespace mechanics

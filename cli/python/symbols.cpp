@@ -24,11 +24,12 @@ struct Formula {
   symbolic::Cases cases;
 };
 
-/// A Fraction, or the nearest float of a root.
-py::object bound(const std::optional<symbolic::Surd>& value) {
+/// A Fraction, or the nearest float of a root or a term.
+py::object bound(const std::optional<symbolic::Bound>& value) {
   if (!value) return py::none();
-  if (!value->is_rational()) return py::float_(nearest_double(*value));
-  return fraction_list({value->rational_part()})[py::int_(0)];
+  const auto& surd = value->surd();
+  if (!surd || !surd->is_rational()) return py::float_(nearest_double(*value));
+  return fraction_list({surd->rational_part()})[py::int_(0)];
 }
 
 py::list cases_of(const Formula& formula) {

@@ -40,7 +40,22 @@ std::string fraction_text(const convex::Fraction& value) {
   return exact.size() <= longest ? exact : convex::decimal_text(value, 12);
 }
 
+/// "S[1][2] = 1/100, S[2][1] = -1/100".
+std::string unequal_text(const MapCounterexample& found) {
+  const convex::UnequalEntries& S = *found.entries;
+  std::string text = fmt::format("  x = {}\n", point_text(found.points.front()));
+  text += fmt::format("  S = W T'(x):  S[{}][{}] = {}, S[{}][{}] = {}\n", S.i + 1, S.j + 1,
+                      fraction_text(S.S_ij), S.j + 1, S.i + 1, fraction_text(S.S_ji));
+  text += fmt::format("  their difference is {}", fraction_text(found.excess));
+  return text + (S.radius > 0 ? fmt::format(" +- {:.0e} > 0\n", S.radius) : " > 0\n");
+}
+
 std::string counterexample_text(const MapCounterexample& found) {
+  if (found.law == MapLaw::symmetric)
+    return "Refuted: its derivative times the metric is not symmetric, so it is the prox of no function in "
+           "this "
+           "metric.\n" +
+           unequal_text(found);
   const bool is_pair = found.law == MapLaw::nonexpansive;
   std::string text =
       is_pair ? "Refuted: it is not nonexpansive, so it is the prox of no function in this metric.\n"
@@ -69,6 +84,7 @@ void write_points(JsonWriter& json, const std::vector<ExactVector>& points) {
 }
 
 const char* law_name(MapLaw law) {
+  if (law == MapLaw::symmetric) return "symmetric";
   return law == MapLaw::nonexpansive ? "nonexpansive" : "cyclically-monotone";
 }
 
@@ -80,7 +96,8 @@ std::string map_json(const JudgedMap& judged) {
   json.begin_object().key("kind").value("map").key("map").value(judged.source);
   json.key("status").value(judged.is_refuted() ? "refuted" : "not-refuted");
   json.key("points").value(verdict.points).key("undefined").value(verdict.undefined);
-  json.key("polygons").value(verdict.polygons).key("asymmetry").value(verdict.asymmetry);
+  json.key("polygons").value(verdict.polygons).key("symmetric_at").value(verdict.symmetric_at);
+  json.key("asymmetry").value(verdict.asymmetry);
   json.key("counterexample");
   if (const auto& found = verdict.counterexample) {
     json.begin_object().key("law").value(law_name(found->law)).key("points");
@@ -93,7 +110,13 @@ std::string map_json(const JudgedMap& judged) {
     }
     json.key("images");
     write_points(json, images);
-    json.key("radius").value(radius).key("excess").value(convex::text(found->excess)).end_object();
+    json.key("radius").value(radius).key("excess").value(convex::text(found->excess));
+    if (const auto& S = found->entries) {
+      json.key("entries").begin_object().key("row").value(S->i + 1).key("column").value(S->j + 1);
+      json.key("value").value(convex::text(S->S_ij)).key("mirrored").value(convex::text(S->S_ji));
+      json.key("radius").value(S->radius).end_object();
+    }
+    json.end_object();
   } else {
     json.null();
   }
@@ -112,7 +135,10 @@ std::string map_text(const JudgedMap& judged) {
   if (verdict.polygons > 0) text += fmt::format(" and on {} polygons", verdict.polygons);
   text += ". Sampling can only refute: this is no proof.\n";
   if (verdict.undefined > 0) text += fmt::format("At {} points the map has no value.\n", verdict.undefined);
-  if (verdict.asymmetry > 0)
+  if (verdict.symmetric_at > 0)
+    text += fmt::format("Jacobian times metric: symmetric at {} points, by exact derivatives.\n",
+                        verdict.symmetric_at);
+  else if (verdict.asymmetry > 0)
     text += fmt::format("Jacobian times metric: symmetric to {:.1e}, by differences.\n", verdict.asymmetry);
   if (judged.function) {
     text += judged.is_table ? "Joined by straight lines it is the prox of, up to a constant,\n"

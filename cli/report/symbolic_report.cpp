@@ -24,7 +24,7 @@ struct NamedCases {
   bool is_finite_everywhere = false;  ///< a prox
 };
 
-std::string shown(const symbolic::Surd& value, bool latex) {
+std::string shown(const symbolic::Bound& value, bool latex) {
   return latex ? symbolic::latex(value) : symbolic::text(value);
 }
 
@@ -134,7 +134,7 @@ std::string cases_latex(const std::string& left, const std::string& variable, co
 
 void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
   json.begin_array();
-  const auto bound = [&](const char* key, const std::optional<symbolic::Surd>& value) {
+  const auto bound = [&](const char* key, const std::optional<symbolic::Bound>& value) {
     json.key(key);
     if (value)
       json.value(symbolic::text(*value));

@@ -2,58 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/laws/map_cycles.hpp"
 
 namespace convex::inline law_checks {
 namespace {
-
-ExactVector exact_difference(const ExactVector& a, const ExactVector& b) {
-  ExactVector d{{}, a.denominator * b.denominator};
-  for (std::size_t i = 0; i < a.numerators.size(); ++i)
-    d.numerators.push_back(a.numerators[i] * b.denominator - b.numerators[i] * a.denominator);
-  return d;
-}
-
-Matrix rounded_gram(const ExactMetric& W) {
-  const Index n = W.dimension();
-  Matrix gram(n, n);
-  for (Index i = 0; i < n; ++i) gram.row(i) = nearest({W.gram[static_cast<std::size_t>(i)], W.denominator});
-  return gram;
-}
-
-/// A few units of the last place of what the allowances for radii are made of.
-constexpr double allowance = 1 + 0x1p-40;
-
-std::optional<MapCounterexample> pair_broken(const ExactMetric& W, std::vector<ExactVector> points,
-                                             std::vector<MapImage> images) {
-  const ExactVector there = exact_difference(images[0].value, images[1].value),
-                    here = exact_difference(points[0], points[1]);
-  const Fraction excess = inner(W, there, there) - inner(W, here, here);
-  const double radius = images[0].radius + images[1].radius;
-  const Matrix gram = rounded_gram(W).cwiseAbs();
-  const Vector moved = nearest(there).cwiseAbs(), off = Vector::Constant(moved.size(), radius);
-  const double bound = radius == 0 ? 0 : (2 * moved.dot(gram * off) + off.dot(gram * off)) * allowance;
-  if (sign(excess) <= 0 || nearest_double(excess) <= bound) return std::nullopt;
-  return MapCounterexample{MapLaw::nonexpansive, std::move(points), std::move(images), excess};
-}
-
-std::optional<MapCounterexample> cycle_broken(const ExactMetric& W, std::vector<ExactVector> points,
-                                              std::vector<MapImage> images) {
-  Fraction sum{0, 1};
-  double bound = 0;
-  const Matrix gram = rounded_gram(W).cwiseAbs();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const ExactVector step = exact_difference(points[k], points[(k + 1) % points.size()]);
-    sum = sum + inner(W, images[k].value, step);
-    if (images[k].radius > 0) bound += images[k].radius * (gram * nearest(step).cwiseAbs()).sum() * allowance;
-  }
-  if (sign(sum) >= 0 || -nearest_double(sum) <= bound) return std::nullopt;
-  return MapCounterexample{MapLaw::cyclically_monotone, std::move(points), std::move(images), -sum};
-}
 
 /// Points with their images, and both in doubles.
 struct Sample {
@@ -86,8 +42,7 @@ class MapSearch {
 
  private:
   static constexpr Index polygon_centres = 8;
-  /// Points are multiples of 1/8, corners of polygons of 2^-20.
-  static constexpr int point_unit = 8, corner_unit = 1 << 20;
+  static constexpr int point_unit = 8;  ///< points are multiples of 1/8
 
   Vector random_point() {
     std::uniform_real_distribution<double> within(samples_.low, samples_.high);
@@ -225,45 +180,41 @@ class MapSearch {
     return std::nullopt;
   }
 
-  /// A map that turns, however little, goes down along a polygon of enough corners: the sum is minus the
-  /// circulation, area times S_ij - S_ji, plus what falls with the number of corners.
+  /// A map that turns goes down along a polygon of enough corners: the sum is minus the circulation, area
+  /// times S_ij - S_ji, plus what falls with their number. How many, the derivative tells; a few regular
+  /// polygons are for maps that have none.
   bool polygons_around(const Vector& centre) {
-    measure_asymmetry(centre);
-    for (const int corners : {3, 4, 6, 8, 12, 16, 24, 32, 48, most_corners})
+    if (turning_around(centre)) return true;
+    for (const int corners : {3, 4, 6, 8, 12, 16, 24, 32})
       for (Index i = 0; i < T_.n; ++i)
         for (Index j = 0; j < T_.n; ++j)
-          for (const double radius : {1.0, 1.0 / 64}) {
-            if (i == j) continue;
-            ++verdict_.polygons;
-            std::vector<ExactVector> points;
-            for (int k = 0; k < corners; ++k) {
-              const double angle = 2 * std::numbers::pi * k / corners;
-              Vector corner = centre;
-              corner[i] += std::round(radius * std::cos(angle) * corner_unit) / corner_unit;
-              corner[j] += std::round(radius * std::sin(angle) * corner_unit) / corner_unit;
-              points.push_back(exact_vector(corner));
-            }
-            verdict_.counterexample = broken(T_, W_, MapLaw::cyclically_monotone, points);
-            if (verdict_.counterexample) return true;
-          }
+          for (const double radius : {1.0, 1.0 / 64})
+            if (i != j && refuted_on(regular_polygon(centre, i, j, radius, corners))) return true;
     return false;
   }
 
-  void measure_asymmetry(const Vector& at) {
-    constexpr double step = 0x1p-13;
-    Matrix J(T_.n, T_.n);
-    for (Index j = 0; j < T_.n; ++j) {
-      Vector right = at, left = at;
-      right[j] += step;
-      left[j] -= step;
-      const auto there = T_.at(exact_vector(right)), here = T_.at(exact_vector(left));
-      if (!there || !here) return;
-      J.col(j) = (nearest(there->value) - nearest(here->value)) / (2 * step);
-    }
-    const Matrix S = gram_ * J;
-    const double size = S.cwiseAbs().maxCoeff();
-    if (size > 0)
-      verdict_.asymmetry = std::max(verdict_.asymmetry, (S - S.transpose()).cwiseAbs().maxCoeff() / size);
+  bool turning_around(const Vector& centre) {
+    const auto slope = slope_at(T_, W_, centre);
+    if (!slope) return false;
+    verdict_.asymmetry = std::max(verdict_.asymmetry, slope->asymmetry());
+    if (slope->is_derivative && slope->is_symmetric()) ++verdict_.symmetric_at;
+    const auto [i, j] = slope->most_turning_plane();
+    if (i == j) return false;
+    if (const auto parts = slope->parts_of_side(i, j))
+      for (const double side : {1.0, 1.0 / 8, 1.0 / 64, 1.0 / 512})
+        if (refuted_on(square(centre, i, j, side, *parts))) return true;
+    verdict_.counterexample = asymmetric(T_, *slope, centre);
+    return verdict_.counterexample.has_value();
+  }
+
+  /// Doubles look first: fractions and balls are for what may go down.
+  bool refuted_on(const std::vector<Vector>& corners) {
+    ++verdict_.polygons;
+    if (!may_go_down(T_, gram_, corners)) return false;
+    std::vector<ExactVector> points;
+    for (const Vector& corner : corners) points.push_back(exact_vector(corner));
+    verdict_.counterexample = broken(T_, W_, MapLaw::cyclically_monotone, points);
+    return verdict_.counterexample.has_value();
   }
 
   const Map& T_;
@@ -277,23 +228,13 @@ class MapSearch {
 }  // namespace
 
 Map map_of(std::function<Vector(const Vector&)> T, Index n, double relative_error) {
-  return {n, [T = std::move(T), relative_error](const ExactVector& z) -> std::optional<MapImage> {
+  return {n,
+          [T, relative_error](const ExactVector& z) -> std::optional<MapImage> {
             const Vector image = T(nearest(z));
             if (!image.allFinite()) return std::nullopt;
             return MapImage{exact_vector(image), relative_error * image.cwiseAbs().maxCoeff()};
-          }};
-}
-
-std::optional<MapCounterexample> broken(const Map& T, const ExactMetric& W, MapLaw law,
-                                        const std::vector<ExactVector>& points) {
-  std::vector<MapImage> images;
-  for (const ExactVector& point : points) {
-    auto image = T.at(point);
-    if (!image) return std::nullopt;
-    images.push_back(std::move(*image));
-  }
-  return law == MapLaw::nonexpansive ? pair_broken(W, points, std::move(images))
-                                     : cycle_broken(W, points, std::move(images));
+          },
+          T};
 }
 
 MapVerdict laws(const Map& T, const ExactMetric& W, const MapSamples& samples) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "convex/laws/map_cycles.hpp"
 #include "convex/laws/quadrature.hpp"
 
 namespace convex::inline law_checks {
@@ -88,8 +89,7 @@ std::optional<std::vector<AffinePiece>> seen_pieces(const Map& T, double low, do
 std::vector<PotentialPoint> potential(const Map& T, const ExactMetric& W, double low, double high,
                                       Index along) {
   const Index n = T.n;
-  Matrix gram(n, n);
-  for (Index i = 0; i < n; ++i) gram.row(i) = nearest({W.gram[static_cast<std::size_t>(i)], W.denominator});
+  const Matrix gram = rounded_gram(W);
   std::vector<PotentialPoint> found;
   Index count = 1;
   for (Index i = 0; i < n; ++i) count *= along;
@@ -97,11 +97,7 @@ std::vector<PotentialPoint> potential(const Map& T, const ExactMetric& W, double
     Vector z(n);
     for (Index i = 0, rest = k; i < n; ++i, rest /= along)
       z[i] = low + (high - low) * static_cast<double>(rest % along) / static_cast<double>(along - 1);
-    const auto image = [&](const Vector& at) -> Vector {
-      const auto value = T.at(exact_vector(at));
-      if (!value) return Vector::Constant(n, std::nan(""));
-      return nearest(value->value);
-    };
+    const auto image = [&](const Vector& at) { return image_in_doubles(T, at); };
     const Vector covector = gram * z;
     const Quadrature phi =
         integral([&](double t) { return covector.dot(image(t * z)); }, 0, 1, 1e-9 * (1 + z.dot(covector)));

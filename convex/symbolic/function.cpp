@@ -19,7 +19,7 @@ Cases changed(Cases cases, const std::function<Term(const Term&)>& change) {
 /// The cases at slope v + offset for the variable v, slope not 0.
 Cases moved(Cases cases, const std::string& name, const Fraction& slope, const Fraction& offset) {
   const Term by = slope * variable(name) + number(offset);
-  const auto back = [&](std::optional<Surd>& bound) {
+  const auto back = [&](std::optional<Bound>& bound) {
     if (bound) bound = (*bound - offset) / slope;
   };
   for (Case& each : cases) {
@@ -166,27 +166,36 @@ Function add_constant(const Function& f, const Fraction& c) {
   return rule;
 }
 
+RuleFunction with_quadratic(const RuleFunction& f, const Fraction& c2, const Fraction& c1,
+                            const Fraction& c0) {
+  const auto tilted = std::get<RuleFunction>(add_constant(tilt(f, c1), c0));
+  if (sign(c2) == 0) return tilted;
+  // (f + c/2 x²)* is the envelope of f* with gamma = c.
+  RuleFunction made = with_square(tilted, c2);
+  const Function dual = envelope(conjugate(tilted), c2);
+  made.conjugate = renamed(std::get<RuleFunction>(dual).f, "x", "y");
+  return made;
+}
+
 Function sum(const Function& f, const Function& g) {
   const auto *first = std::get_if<ExactCurve>(&f), *second = std::get_if<ExactCurve>(&g);
   if (first != nullptr && second != nullptr) return sum(*first, *second);
   if (first != nullptr) return sum(g, f);
-  if (second == nullptr) return sum_of_rules(std::get<RuleFunction>(f), std::get<RuleFunction>(g));
-  // One quadratic on the whole line is a square, a tilt and a constant.
+  const auto& rule = std::get<RuleFunction>(f);
+  if (rule.parts) {
+    // Rules with rules, and pieces with pieces.
+    if (second != nullptr) return sum_with_pieces(rule.parts->rule, sum(rule.parts->pieces, *second));
+    return sum(sum(Function{rule.parts->rule}, g), Function{rule.parts->pieces});
+  }
+  if (second == nullptr) {
+    const auto& other = std::get<RuleFunction>(g);
+    return other.parts ? sum(g, f) : Function{sum_of_rules(rule, other)};
+  }
   const std::vector<ExactPiece> quadratic = pieces(*second);
   if (quadratic.size() != 1 || quadratic.front().low || quadratic.front().high)
-    throw InvalidInput(
-        "sum: a function by rules can be added to one quadratic on the whole line or to another one by "
-        "rules, "
-        "and to no pieces in symbols");
+    return sum_with_pieces(rule, *second);
   const ExactPiece& q = quadratic.front();
-  const Fraction c2 = rational(q.c2);
-  const Function tilted = add_constant(tilt(f, rational(q.c1)), rational(q.c0));
-  if (sign(c2) == 0) return tilted;
-  // (f + c/2 x²)* is the envelope of f* with gamma = c.
-  RuleFunction made = with_square(std::get<RuleFunction>(tilted), c2);
-  const Function dual = envelope(conjugate(tilted), c2);
-  made.conjugate = renamed(std::get<RuleFunction>(dual).f, "x", "y");
-  return made;
+  return with_quadratic(rule, rational(q.c2), rational(q.c1), rational(q.c0));
 }
 
 Function inf_convolution(const Function& f, const Function& g) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <variant>
 
 #include "convex/symbolic/exact_curve.hpp"
@@ -12,6 +13,12 @@ namespace convex::symbolic {
 struct RuleFunction {
   Cases f, conjugate;
   std::function<Cases(const Fraction& gamma)> prox;
+  /// What a sum of a rule and pieces was made of, so that more pieces can be added.
+  std::shared_ptr<const struct RuleAndPieces> parts = {};
+};
+struct RuleAndPieces {
+  RuleFunction rule;
+  ExactCurve pieces;
 };
 
 /// Piecewise linear-quadratic in fractions, or by rules.
@@ -23,8 +30,8 @@ Cases conjugate_formula(const Function&);
 Cases prox_formula(const Function&, const Fraction& gamma);
 
 /// As those of exact_curve.hpp. Of two functions by rules the prox is the root of u + gamma (f + g)'(u) = z,
-/// and so is the conjugate, where one of theirs is finite everywhere. Sums of a function by rules with
-/// pieces, maxima of such, and envelopes of such with a prox by cases, have no rule: InvalidInput.
+/// and so is the conjugate, where one of theirs is finite everywhere. Maxima of functions by rules, and
+/// envelopes of such with a prox by cases, have no rule: InvalidInput.
 Function conjugate(const Function&);
 Function envelope(const Function&, const Fraction& gamma);
 Function scale(const Function&, const Fraction& alpha);
@@ -37,6 +44,13 @@ Function inf_convolution(const Function&, const Function&);
 Function pointwise_max(const Function&, const Function&);
 /// The sum of two by rules; see `sum`.
 RuleFunction sum_of_rules(const RuleFunction&, const RuleFunction&);
+/// Of a rule and c2/2 x² + c1 x + c0 on the whole line.
+RuleFunction with_quadratic(const RuleFunction&, const Fraction& c2, const Fraction& c1, const Fraction& c0);
+/// Of a rule f and pieces p: where p is quadratic, f with that quadratic has a prox and a conjugate; they
+/// hold for the z and y that lead there, between b + gamma (f'(b) + p'(b)) and f'(b) + p'(b) of its ends b.
+/// At a corner b the prox stays, and the conjugate is b y - f(b) - p(b). InvalidInput where f has several
+/// formulas or a derivative without one.
+RuleFunction sum_with_pieces(const RuleFunction& f, const ExactCurve& p);
 
 /// e^x; x log x; -log x; log(1 + e^x); |x|^p, p > 1; x^-q for x > 0; x log(x/r) - x + r.
 /// Conjugates: Rockafellar 1970, section 12; Bauschke and Combettes 2017, chapter 13. Proxes: Chaux,

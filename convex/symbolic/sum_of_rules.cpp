@@ -29,7 +29,7 @@ Cases added(const Cases& f, const Cases& g) {
       // At a point its own case tells, once.
       const bool is_point = both.low && both.high && *both.low == *both.high;
       both.term =
-          is_point ? substituted(a.term, "x", number(*both.low)) + substituted(b.term, "x", number(*both.low))
+          is_point ? substituted(a.term, "x", both.low->term()) + substituted(b.term, "x", both.low->term())
                    : a.term + b.term;
       const bool is_told =
           is_point && std::any_of(sum.begin(), sum.end(), [&](const Case& other) {

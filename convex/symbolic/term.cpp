@@ -155,15 +155,43 @@ Term operator*(const Term& a, const Term& b) {
   return kept.size() == 1 ? kept.front() : made(Kind::product, std::move(kept));
 }
 
+namespace {
+
+/// Of a small whole exponent; none for a negative one of 0.
+std::optional<Fraction> whole_power(const Fraction& base, const Fraction& exponent) {
+  constexpr double largest = 16;
+  const double times = nearest_double(exponent);
+  if (std::abs(times) > largest || (times < 0 && sign(base) == 0)) return std::nullopt;
+  Fraction product{1, 1};
+  for (int k = 0; k < std::abs(times); ++k) product = product * base;
+  return times < 0 ? Fraction{1, 1} / product : product;
+}
+
+/// A function of a number that is a fraction.
+std::optional<Fraction> known_value(const std::string& name, const Fraction& x) {
+  if (name == "abs") return sign(x) < 0 ? -x : x;
+  if (name == "sign") return Fraction{sign(x), 1};
+  if (name == "sqrt" && sign(x) >= 0)
+    if (const Surd root = Surd::root_of(x); root.is_rational()) return root.rational_part();
+  if (name == "W" && sign(x) == 0) return x;
+  return std::nullopt;
+}
+
+}  // namespace
+
 Term power(const Term& base, const Fraction& exponent) {
   if (exponent == Fraction{1, 1}) return base;
-  if (base.kind == Kind::number && exponent == Fraction{2, 1}) return number(base.number * base.number);
+  if (is_number(base, {1, 1})) return base;
+  if (base.kind == Kind::number && exponent.denominator == 1)
+    if (const auto value = whole_power(base.number, exponent)) return number(*value);
   return made(Kind::power, {base, number(exponent)});
 }
 
 Term function(const std::string& name, const Term& argument) {
   if (name == "log" && is_number(argument, {1, 1})) return number(0);
   if (name == "exp" && is_number(argument, {0, 1})) return number(1);
+  if (argument.kind == Kind::number)
+    if (const auto value = known_value(name, argument.number)) return number(*value);
   return {Kind::function, {0, 1}, name, {argument}, {}};
 }
 

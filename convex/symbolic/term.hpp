@@ -49,15 +49,48 @@ double evaluate(const Term&, const std::string& name, double at);
 std::string text(const Term&);
 std::string latex(const Term&);
 
+/// The end of an interval: a + b sqrt(c), or a term without a variable, such as log(2) + 1.
+class Bound {
+ public:
+  Bound(Surd value) : surd_(std::move(value)) {}      // NOLINT: a surd is one
+  Bound(Fraction value) : surd_(std::move(value)) {}  // NOLINT
+  explicit Bound(Term value);
+  const std::optional<Surd>& surd() const { return surd_; }
+  Term term() const { return surd_ ? number(*surd_) : term_; }
+
+  friend Bound operator-(const Bound& a, const Fraction& b) { return a.less(b); }
+  friend Bound operator/(const Bound& a, const Fraction& b) { return a.over(b); }
+  /// Exact for surds; other terms are equal when they are written alike, and else in the order of their
+  /// doubles. Throws InvalidInput where these do not tell.
+  friend bool operator==(const Bound& a, const Bound& b) { return a.equals(b); }
+  friend bool operator<(const Bound& a, const Bound& b) { return a.is_below(b); }
+
+ private:
+  Bound less(const Fraction&) const;
+  Bound over(const Fraction&) const;
+  bool equals(const Bound&) const;
+  bool is_below(const Bound&) const;
+  std::optional<Surd> surd_;
+  Term term_;
+};
+double nearest_double(const Bound&);
+std::string text(const Bound&);
+std::string latex(const Bound&);
+Fraction rational(const Bound&);
+std::optional<Fraction> rational(const std::optional<Bound>&);
+
 /// A formula on an interval; no bound: infinite. Where an end is left out another case tells.
 struct Case {
-  std::optional<Surd> low, high;
+  std::optional<Bound> low, high;
   bool has_low = true, has_high = true;
   Term term;
 };
 
 /// A function by cases, in increasing order; elsewhere it is +inf.
 using Cases = std::vector<Case>;
+
+/// The part of the cases between two ends, which belong to it.
+Cases restricted(const Cases&, const std::optional<Bound>& low, const std::optional<Bound>& high);
 
 /// The value at a point, +inf outside of all cases.
 double evaluate(const Cases&, const std::string& name, double at);

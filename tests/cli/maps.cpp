@@ -144,6 +144,59 @@ TEST_CASE("maps that are a prox are not refuted, by their expressions or as C++ 
   }
 }
 
+TEST_CASE("a linear map that is not symmetric is refuted however little it turns") {
+  for (const auto& [turn, law] : {std::pair{"1/50", "cyclically-monotone"},
+                                  {"1/100", "cyclically-monotone"},
+                                  {"1/10000000", "symmetric"},
+                                  {"1/1000000000000000000000000000000", "symmetric"}}) {
+    CAPTURE(turn);
+    const Fraction t = *convex::read_fraction(turn), half{1, 2};
+    const Outcome outcome = run({"check", "--map", "[x1/2 + x2*" + std::string(turn) + ", x2/2]", "--json"});
+    CHECK(outcome.code == 1);
+    const Json found = Json::parse(outcome.out).at("counterexample");
+    REQUIRE(found.at("law") == law);
+    const Fraction excess = *convex::read_fraction(found.at("excess").get<std::string>());
+    if (found.at("law") == "symmetric") {
+      CHECK(excess == t);
+      CHECK(found.at("entries").at("radius") == 0);
+      continue;
+    }
+    const std::vector<Point> x = points_of(found.at("points"));
+    CHECK(x.size() > 64);
+    Fraction sum{0, 1};
+    for (std::size_t k = 0; k < x.size(); ++k)
+      sum = sum + product({half * x[k][0] + t * x[k][1], half * x[k][1]}, minus(x[k], x[(k + 1) % x.size()]));
+    CHECK(sum == -excess);
+    CHECK(sign(sum) < 0);
+  }
+}
+
+TEST_CASE("of a map that bends the entries of its derivative are enclosed, and their difference refutes it") {
+  const Outcome outcome = run({"check", "--map", "[x1/2 + sin(x2)/10^7, x2/2 + 2*sin(x1)/10^7]", "--json"});
+  CHECK(outcome.code == 1);
+  const Json found = Json::parse(outcome.out).at("counterexample");
+  REQUIRE(found.at("law") == "symmetric");
+  const Json& entries = found.at("entries");
+  CHECK(entries.at("radius") > 0);
+  CHECK(entries.at("radius") < 1e-60);
+  const Point x = points_of(found.at("points")).front();
+  const double of_first = std::cos(convex::nearest_double(x[1])) * 1e-7,
+               of_second = 2 * std::cos(convex::nearest_double(x[0])) * 1e-7;
+  const double value = convex::nearest_double(*convex::read_fraction(entries.at("value").get<std::string>())),
+               mirrored =
+                   convex::nearest_double(*convex::read_fraction(entries.at("mirrored").get<std::string>()));
+  CHECK(std::max(value, mirrored) == doctest::Approx(std::max(of_first, of_second)).epsilon(1e-12));
+  CHECK(std::min(value, mirrored) == doctest::Approx(std::min(of_first, of_second)).epsilon(1e-12));
+}
+
+TEST_CASE("at a kink no derivative is taken, however its branches are written") {
+  // The projection on x1 <= x2; at 0, where all points of this box lie, one row would be that of either side.
+  const Outcome outcome = run(
+      {"check", "--map", "[x1 - max(x1 - x2, 0)/2, x2 - min(0, x2 - x1)/2]", "--box", "0:0.01", "--json"});
+  CHECK(outcome.code == 0);
+  CHECK(Json::parse(outcome.out).at("symmetric_at") == 0);
+}
+
 TEST_CASE("maps of C++ that are no prox are refuted beyond what rounding of their values could do") {
   for (const KnownMap& known : no_proxes()) {
     CAPTURE(known.text);

@@ -31,6 +31,26 @@ TEST_CASE("of a sum by rules the prox is the root of its equation, without facto
       std::string::npos);
 }
 
+TEST_CASE(
+    "of a rule and pieces the prox is told piece by piece, by the rule's own solution and the corners") {
+  // u + e^u + sign(u) = z, e^0 = 1.
+  const Json prox = Json::parse(run({"prox", "sum(exponential(), norm1())", "--symbolic", "--json"}).out)
+                        .at("symbolic")
+                        .at("prox");
+  REQUIRE(prox.size() == 3);
+  CHECK(prox[0].at("formula") == "z - W(exp(z + 1)) + 1");
+  CHECK(prox[0].at("high") == "0");
+  CHECK(prox[1].at("formula") == "0");
+  CHECK(prox[1].at("high") == "2");
+  CHECK(prox[2].at("formula") == "z - W(exp(z - 1)) - 1");
+  // (log x)' = 1/2 at the end 2 of the interval: z stays at 2 from 2 - 1/2 on.
+  const std::string barrier = run({"prox", "sum(log_barrier(), indicator(box(0, 2)))", "--symbolic"}).out;
+  CHECK(barrier.find("z >= 3/2") != std::string::npos);
+  // Where the slope at a corner is no fraction, its formula is the end of a case.
+  CHECK(run({"prox", "sum(entropy(), translate(norm1(), [2]))", "--symbolic", "--latex"}).out.find("\\log") !=
+        std::string::npos);
+}
+
 TEST_CASE("in LaTeX cases stand in their environment, with where the function is infinite") {
   const std::string text = run({"conjugate", "logistic()", "--symbolic", "--latex"}).out;
   CHECK(text.find("\\begin{cases}") != std::string::npos);
@@ -42,7 +62,9 @@ TEST_CASE(
   CHECK(run({"prox", "norm1()", "--symbolic", "--at", "[1]"}).code == 2);
   CHECK(run({"prox", "norm1()", "--symbolic", "--metric", "[[2, 1], [1, 2]]"}).code == 2);
   CHECK(run({"prox", "box([0, 0], [1, 1])", "--symbolic"}).code == 2);
-  CHECK(run({"prox", "sum(entropy(), norm1())", "--symbolic"}).code == 2);
+  const Outcome bent = run({"prox", "sum(envelope(exponential(), 1), norm1())", "--symbolic"});
+  CHECK(bent.code == 2);
+  CHECK(bent.err.find("derivative") != std::string::npos);
   CHECK(run({"prox", "norm1()"}).code == 2);
   CHECK(run({"prox", "norm1()", "--latex", "--at", "[1]"}).code == 2);
 }

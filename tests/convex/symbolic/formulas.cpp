@@ -81,7 +81,26 @@ const char* const symbolic_calls[] = {"norm1(weight=2)",
                                       "sum(exponential(), power(4))",
                                       "sum(entropy(), translate(log_barrier(), 1/2))",
                                       "sum(logistic(), power(3), inverse_power(1))",
-                                      "translate(scale(dilate(kullback_leibler(1/3), 2), 1/2), -1)"};
+                                      "translate(scale(dilate(kullback_leibler(1/3), 2), 1/2), -1)",
+                                      "sum(exponential(), norm1())",
+                                      "sum(norm1(2), translate(exponential(), 1), hinge())",
+                                      "sum(log_barrier(), indicator(box(1/3, 2)))",
+                                      "sum(log_barrier(), indicator(box(-1, 2)))",
+                                      "sum(entropy(), norm1())",
+                                      "sum(entropy(), huber(1/2), indicator(box(0, 4)))",
+                                      "sum(indicator(box(-1, 3)), exponential(), elastic_net(1, 2))",
+                                      "sum(logistic(), norm1(1/3))",
+                                      "sum(power(3), norm1(), indicator(box(-2, inf)))",
+                                      "sum(kullback_leibler(2), translate(norm1(), [1]))",
+                                      "sum(exponential(), power(4), norm1())",
+                                      "sum(conjugate(logistic()), hinge())",
+                                      "sum(conjugate(exponential()), translate(norm1(), [2]))",
+                                      "sum(exponential(), indicator(point([1/2])))",
+                                      "scale(dilate(sum(exponential(), norm1()), -2), 3)",
+                                      "translate(tilt(sum(log_barrier(), hinge()), [1]), [-2])",
+                                      "conjugate(sum(entropy(), norm1()))",
+                                      "inf_convolution(exponential(), indicator(box(-1, 1/2)))",
+                                      "inf_convolution(norm1(1/2), exponential())"};
 
 }  // namespace
 
@@ -125,7 +144,7 @@ TEST_CASE("formulas by cases have the values of the function, its conjugate and 
 
 TEST_CASE("what has no rule is refused by name") {
   for (const char* text :
-       {"nuclear_norm(1, 1)", "sum(entropy(), norm1())", "pointwise_max(entropy(), norm1())",
+       {"nuclear_norm(1, 1)", "sum(envelope(exponential(), 1), norm1())", "pointwise_max(entropy(), norm1())",
         "sum_largest(2)", "sum(exponential(), dilate(log_barrier(), -1))"})
     CHECK_THROWS_AS(symbolic::function_of(cli::parse_call(text, "f")), InvalidInput);
 }
