@@ -2,9 +2,11 @@
 
 #include "convex/exact/elimination.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/singular_values.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
+#include "convex/sets/multiple_eigenvalue.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
 namespace convex::subgradients {
@@ -210,8 +212,7 @@ Subdifferential of_spectraplex(const ExactArguments& a, const Fractions& x) {
 }
 
 /// weight {QSQᵀ : S semidefinite of trace 1}, the columns of Q a basis of the eigenspace of the largest
-/// eigenvalue, and all skew matrices (Overton 1992). A multiple eigenvalue is found in fractions: of a matrix
-/// of integers it is a whole number where it is rational.
+/// eigenvalue, and all skew matrices (Overton 1992). That it is multiple, fractions decide.
 std::optional<Subdifferential> of_max_eigenvalue(const ExactArguments& a, const Fractions& x) {
   const std::size_t k = side_of(x.size());
   if (!is_symmetric(x, k)) return none(x.size());
@@ -231,13 +232,20 @@ std::optional<Subdifferential> of_max_eigenvalue(const ExactArguments& a, const 
   while (many < side && largest - eigen.values[side - 1 - many] <= doubt) ++many;
   Matrix Q = eigen.vectors.rightCols(many);
   if (many > 1) {
-    const double scaled = eigen.values.tail(many).mean() * nearest_double(Fraction{denominator});
-    if (!(std::abs(scaled) < 0x1p+52)) return std::nullopt;
-    const Integer level = static_cast<std::int64_t>(std::llround(scaled));
-    for (std::size_t i = 0; i < k; ++i) X[i][i] -= level;
-    const Echelon rows = echelon(X, k);
-    if (static_cast<Index>(k - rows.rank()) != many) return std::nullopt;
-    Q = orthonormal_complement(X, k);
+    const Fraction d{denominator};
+    const double lowest = eigen.values[side - many] - doubt, highest = largest + doubt;
+    const bool is_apart = many == side || eigen.values[side - many - 1] + doubt < lowest;
+    if (!is_apart || !is_multiple_eigenvalue(X, many, d * fraction(lowest), d * fraction(highest)))
+      throw InvalidInput(
+          "max_eigenvalue: no rule gives its subdifferential at this point as a set: its largest eigenvalues "
+          "differ, by less than doubles tell; give another point");
+    // Of integers it is a whole number where it is rational: then fractions have the eigenspace too.
+    const double scaled = eigen.values.tail(many).mean() * nearest_double(d);
+    if (std::abs(scaled) < 0x1p+52) {
+      const Integer level = static_cast<std::int64_t>(std::llround(scaled));
+      for (std::size_t i = 0; i < k; ++i) X[i][i] -= level;
+      if (static_cast<Index>(k - echelon(X, k).rank()) == many) Q = orthonormal_complement(X, k);
+    }
   }
   if (many > 1)
     return of_support({"sum",

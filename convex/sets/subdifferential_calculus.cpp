@@ -3,11 +3,10 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/exact/elimination.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
-#include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
-#include "convex/interval_arithmetic.hpp"
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
+#include "convex/sets/known_value.hpp"
 #include "convex/sets/subdifferential_rules.hpp"
 
 namespace convex::subgradients {
@@ -15,28 +14,6 @@ namespace {
 
 [[noreturn]] void refuse(const Call& f, const std::string& why) {
   throw InvalidInput(f.name + ": no rule gives its subdifferential at this point as a set: " + why);
-}
-
-/// f(x), in fractions or between two doubles.
-struct KnownValue {
-  std::optional<Fraction> exact;
-  Interval between;
-};
-
-KnownValue value_of(const Call& f, const ExactGram& W, const Fractions& x) {
-  if (const auto program = exact_program(f, W)) {
-    const ExactValue found = exact_value(*program, x);
-    if (found.end != ProgramEnd::minimum) return {std::nullopt, {INFINITY, INFINITY}};
-    const double rounded = nearest_double(found.value);
-    return {found.value, outwards(rounded, rounded)};
-  }
-  const Vector doubles = nearest(x);
-  const Value found = make_function(f, {rounded(W)}).evaluate(doubles);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!(fraction(doubles[static_cast<Index>(i)]) == x[i])) return {std::nullopt, {-INFINITY, INFINITY}};
-  if (found.error == 0 && std::isfinite(found.value))
-    return {fraction(found.value), interval_at(found.value)};
-  return {std::nullopt, outwards(found.value - found.error, found.value + found.error)};
 }
 
 /// ∂(f + g) = ∂f + ∂g where all but one of them are finite around x (Rockafellar 1970, theorem 23.8). Parts
@@ -56,9 +33,8 @@ Subdifferential of_sum(const Call& f, const ExactGram& W, const Fractions& x) {
     for (const Call* part : programs) together.arguments.push_back(argument(*part));
     parts.push_back(subdifferential(together, W, x));
   }
-  const bool is_outside = std::any_of(calls.begin(), calls.end(), [&](const Call* part) {
-    return value_of(*part, W, x).between.low == INFINITY;
-  });
+  const bool is_outside = std::any_of(calls.begin(), calls.end(),
+                                      [&](const Call* part) { return known_value(*part, W, x).is_infinite; });
   if (is_outside) return none(x.size());
   const auto is_on_edge = [](const Subdifferential& part) { return part.is_empty() || !is_bounded(part); };
   if (std::count_if(parts.begin(), parts.end(), is_on_edge) > 1)
@@ -79,7 +55,7 @@ Subdifferential of_precompose(const Call& f, const Fractions& x) {
   Fractions at = a.is_vector("b") ? a.vector("b") : Fractions(A.size(), a.number("b"));
   for (std::size_t i = 0; i < A.size(); ++i) at[i] = at[i] + dot(A[i], x);
   const Subdifferential inner = subdifferential(a.call("f"), identity_gram(A.size()), at);
-  if (value_of(a.call("f"), identity_gram(A.size()), at).between.low == INFINITY) return none(x.size());
+  if (known_value(a.call("f"), identity_gram(A.size()), at).is_infinite) return none(x.size());
   if (inner.is_empty() || !is_bounded(inner)) {
     IntegerRows rows;
     for (const ExactRow& row : A) {
@@ -119,26 +95,25 @@ Subdifferential of_blocks(const Call& f, const ExactGram& W, const Fractions& x)
 Subdifferential of_maximum(const Call& f, const ExactGram& W, const Fractions& x) {
   std::vector<KnownValue> values;
   std::vector<Subdifferential> parts;
-  for (const Call* part : ExactArguments(f, x.size()).calls()) {
-    values.push_back(value_of(*part, W, x));
+  const auto calls = ExactArguments(f, x.size()).calls();
+  for (const Call* part : calls) {
+    values.push_back(known_value(*part, W, x));
+    if (values.back().is_infinite) return none(x.size());
     parts.push_back(subdifferential(*part, W, x));
-    if (values.back().between.low == INFINITY) return none(x.size());
     if (parts.back().is_empty() || !is_bounded(parts.back()))
       refuse(f, "x lies on the edge of the domain of a part; make the part finite around x");
   }
-  const auto largest = std::max_element(values.begin(), values.end(), [](const auto& a, const auto& b) {
-    return a.between.low < b.between.low;
-  });
-  std::vector<Subdifferential> active;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const KnownValue& value = values[k];
-    if (value.between.high < largest->between.low) continue;
-    const bool both_exact = value.exact && largest->exact;
-    if (both_exact && *value.exact < *largest->exact) continue;
-    if (!both_exact && &value != &*largest)
-      refuse(f, "doubles do not tell which of its parts is the largest; give x in numbers that are doubles");
-    active.push_back(parts[k]);
+  std::vector<std::size_t> largest{0};
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const auto above = order(values[k], values[largest.front()]);
+    if (!above)
+      refuse(f, "whether " + calls[k]->name + " or " + calls[largest.front()]->name +
+                    " is larger at x is not told by 512 bits, nor by their formulas; they may be equal");
+    if (*above > 0) largest.clear();
+    if (*above >= 0) largest.push_back(k);
   }
+  std::vector<Subdifferential> active;
+  for (const std::size_t k : largest) active.push_back(parts[k]);
   return hull(active);
 }
 
@@ -227,9 +202,33 @@ std::optional<Subdifferential> of_renamed(const Call& f, const ExactGram& W, con
   return transposed_image(subdifferential(renamed, plain, multiply(W, x)), W.rows, x.size());
 }
 
+/// The fraction of least denominator within `radius` of a number: the convergents of its continued fraction,
+/// the last one shortened.
+Fraction simplest_within(const Fraction& value, const Fraction& radius) {
+  Fraction low = value - radius, high = value + radius;
+  if (sign(low) <= 0 && sign(high) >= 0) return Fraction{};
+  if (sign(high) < 0) return -simplest_within(-value, radius);
+  const Integer whole = truncated_quotient(low.numerator, low.denominator);
+  const Fraction floor{whole, 1}, next = floor + Fraction{1};
+  if (low == floor) return floor;
+  if (!(high < next)) return next;
+  // Between two whole numbers: 1 over the simplest between the reciprocals of what is left.
+  const Fraction above = Fraction{1} / (low - floor), below = Fraction{1} / (high - floor), half{1, 2};
+  return floor + Fraction{1} / simplest_within((above + below) * half, (above - below) * half);
+}
+
+/// The fractions of least denominators within a part 1e-9 of doubles: where corners lie, most often.
+Fractions simplest_near(const Vector& u) {
+  constexpr double within = 1e-9;
+  const double size = std::max(1.0, u.cwiseAbs().maxCoeff());
+  Fractions made;
+  for (const double entry : u) made.push_back(simplest_within(fraction(entry), fraction(within * size)));
+  return made;
+}
+
 /// ∂(f □ g)(x) = ∂f(u) ∩ ∂g(x - u) for any u that attains the minimum of f(u) + g(x - u), which is one where
-/// the two meet (Rockafellar 1970, theorem 23.8 for the conjugates). Tried are u = 0, u = x, and the u of
-/// doubles where one of the parts has a single subgradient.
+/// the two meet (Rockafellar 1970, theorem 23.8 for the conjugates). Tried are u = 0, u = x, the corners near
+/// which doubles find u or x - u, and the u of doubles where one of the parts has a single subgradient.
 Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Fractions& x) {
   const auto calls = ExactArguments(f, x.size()).calls();
   const Vector at = nearest(x);
@@ -237,7 +236,15 @@ Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Frac
   const auto v = made.subgradient(at);
   if (!v || !v->allFinite()) refuse(f, "doubles find no subgradient there");
   const Fractions covector = fractions(*v);
-  for (const Fractions& u : {Fractions(x.size()), x}) {
+  // Where v lies inside of the subgradients of a corner, this is the gradient of the conjugate: the corner.
+  const auto corner_of = [&](const Call& part) -> std::optional<Fractions> {
+    const auto u = make_function(part, {rounded(W)}).conjugate().subgradient(*v);
+    return u && u->allFinite() ? std::optional(simplest_near(*u)) : std::nullopt;
+  };
+  std::vector<Fractions> shares{Fractions(x.size()), x};
+  if (const auto u = corner_of(*calls[0])) shares.push_back(*u);
+  if (const auto u = corner_of(*calls[1])) shares.push_back(difference(x, *u));
+  for (const Fractions& u : shares) {
     const Subdifferential first = subdifferential(*calls[0], W, u),
                           second = subdifferential(*calls[1], W, difference(x, u));
     if (first.is_empty() || second.is_empty()) continue;
@@ -265,7 +272,7 @@ Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Frac
         return single(covector, false);
     }
   }
-  refuse(f, "both parts have a corner at the point where they share x");
+  refuse(f, "both parts have a corner where they share x, and doubles do not find where that is");
 }
 
 }  // namespace

@@ -98,7 +98,20 @@ TEST_CASE(
       {"indicator(dual_power_cone(1/3))", {"8/3", "2/3", "-2"}, "[0,-1,-1]"},
       {"k_support(2)", {"3", "1", "0", "0"}, "[1,0,0.8,0]"},
       {"k_support(2, 0.5)", {"1", "-1", "1"}, "[0.4,-0.3,0.3]"},
-      {"k_support(3)", {"0", "2", "0", "0"}, "[0.1,1,0,0]"}};
+      {"k_support(3)", {"0", "2", "0", "0"}, "[0.1,1,0,0]"},
+      {"inf_convolution(translate(norm2(),[0.3,0.1]),translate(norm2(0.75),[1,2]))",
+       {"13/10", "21/10"},
+       "[0.8,0]"},
+      {"pointwise_max(norm2(), constant(5))", {"3", "4"}, "[0.6,0.9]"},
+      {"pointwise_max(hinge(), distance(box(3, 7/2), 2/5))", {"3"}, "[0.1]"},
+      {"pointwise_max(norm2(), linear([1,0]))", {"3", "0"}, "[0.9,0]"},
+      {"pointwise_max(norm2(), translate(norm2(),[2,0]))", {"1", "3"}, "[0,0.9]"},
+      {"pointwise_max(exponential(), constant(1))", {"0"}, "[1.1]"},
+      {"pointwise_max(power(3), linear([4]))", {"2"}, "[13]"},
+      // The largest eigenvalue of [[1,1],[1,0]], (1 + sqrt(5))/2, twice.
+      {"max_eigenvalue()",
+       {"1", "1", "0", "0", "1", "0", "0", "0", "0", "0", "1", "1", "0", "0", "1", "0"},
+       "[0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]"}};
   std::mt19937 random(11);
   std::normal_distribution<double> normal;
   for (const Case& one : cases) {
@@ -147,11 +160,38 @@ TEST_CASE("where two domains have x on their edge, and one slope is vertical, no
             .is_empty());
 }
 
+TEST_CASE(
+    "values that differ by less than a double's last digit are told apart, and no smaller set is made of "
+    "them") {
+  // sqrt(2) is above its nearest double's predecessor and below its successor: the larger part alone counts.
+  const std::string below = "1.4142135623730950488016887242096980785696718753769480",
+                    above = "1.4142135623730950488016887242096980785696718753769481";
+  const auto count = [](const std::string& level) {
+    return subdifferential(parsed("pointwise_max(norm2(), constant(" + level + "))"), identity_gram(2),
+                           fractions_of({"1", "1"}));
+  };
+  REQUIRE(count(below).is_single());
+  CHECK(nearest(count(below).polyhedron->vertices.front())
+            .isApprox(Vector{{std::sqrt(0.5), std::sqrt(0.5)}}, 1e-15));
+  REQUIRE(count(above).is_single());
+  CHECK(nearest(count(above).polyhedron->vertices.front()).isZero(0));
+}
+
+TEST_CASE("eigenvalues that differ by less than doubles tell are not taken for one") {
+  CHECK_THROWS_AS(
+      subdifferential(parsed("max_eigenvalue()"), identity_gram(4),
+                      fractions_of({"1", "0", "0", "1000000000000000000001/1000000000000000000000"})),
+      InvalidInput);
+}
+
 TEST_CASE("what the calculus does not cover is refused, and never told as a smaller set") {
-  for (const auto& [f, x] : {std::pair<const char*, std::vector<const char*>>{
-                                 "sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))", {"1", "0"}},
-                             {"precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", {"0", "0"}},
-                             {"epigraph(norm2())", {"3", "4", "5"}}}) {
+  for (const auto& [f, x] :
+       {std::pair<const char*, std::vector<const char*>>{
+            "sum(indicator(ball2(1)), indicator(ball2(1, [2,0])))", {"1", "0"}},
+        {"precompose(indicator(ball2(1)), [[1,0],[0,0]], [0,1])", {"0", "0"}},
+        {"epigraph(norm2())", {"3", "4", "5"}},
+        // Equal, for no reason that a formula shows.
+        {"pointwise_max(exponential(), tilt(sum(exponential(), zero()), [0]))", {"1"}}}) {
     CAPTURE(f);
     CHECK_THROWS_AS(subdifferential(parsed(f), identity_gram(x.size()), fractions_of(x)), InvalidInput);
   }
