@@ -100,6 +100,25 @@ std::string of_pieces(const Given& given) {
   return to_text(Call{"box", {convex::argument("", low), convex::argument("", high)}});
 }
 
+/// "box(0, 1) for entry 1, everywhere for entries 2 to 3".
+std::string of_blocks(const Call& call) {
+  std::string text;
+  Index first = 1;
+  for (std::size_t k = 0; k + 1 < call.arguments.size(); k += 2) {
+    const auto* part = std::get_if<std::shared_ptr<const Call>>(&call.arguments[k].value);
+    const auto* count = std::get_if<double>(&call.arguments[k + 1].value);
+    if (part == nullptr || count == nullptr) return "";
+    const Index last = first + static_cast<Index>(*count) - 1;
+    const std::string domain = domain_of(**part, static_cast<Index>(*count));
+    if (domain.empty()) return "";
+    text += (text.empty() ? "" : ", ") + domain + " for ";
+    text += first == last ? "entry " + std::to_string(first)
+                          : "entries " + std::to_string(first) + " to " + std::to_string(last);
+    first = last + 1;
+  }
+  return text;
+}
+
 std::string of_operation(const Call& call, Index n) {
   const Given given(call);
   if (call.name == "plq") return of_pieces(given);
@@ -119,6 +138,10 @@ std::string of_operation(const Call& call, Index n) {
       return given.text("A") + "x" + (b.empty() ? "" : " + " + b) + " in (" + domain + ")";
     });
   }
+  if (call.name == "separable") return of_blocks(call);
+  // sup of v.x - max_i (a_i.x + b_i) is finite where v is a mean of the a_i (Rockafellar 1970, theorem 16.5).
+  if (call.name == "conjugate" && f != nullptr && f->name == "max_affine")
+    return "the convex hull of the rows of A";
   if (call.name == "inf_convolution") {
     std::string text;
     for (const Call* part : given.calls()) {

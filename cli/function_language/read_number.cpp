@@ -76,10 +76,7 @@ WrittenNumber take_number(Cursor& cursor) {
   if (!value)
     cursor.fail("the denominator of " + shown(digits) + " is 0; write another number, or inf", place);
   if (!std::isfinite(*value))
-    cursor.fail(
-        "the number " + shown(digits) +
-            " is too large for a double; choose other units, or write inf where a bound may be infinite",
-        place);
+    cursor.fail("the number " + shown(digits) + " is too large for a double; choose other units", place);
   return {*value, std::move(digits)};
 }
 

@@ -207,22 +207,43 @@ std::size_t largest_part(const ExactProgram& f, const ExactGram* W) {
   return largest;
 }
 
-double pair_operations(const ExactProgram& f, const ExactGram& W) {
-  constexpr double of_a_nonzero = 1000;  // in an unknown's digits, measured: both proofs, sums and repairs
-  const auto count = [](const std::vector<ExactRow>& rows) {
-    double entries = 0;
-    for (const ExactRow& row : rows) entries += static_cast<double>(row.size());
-    return entries;
-  };
-  double most_unknowns = 0, total = 0;
-  for (const Part& part : parts_of(f, nullptr)) {
-    double entries = count(part.program.H);
+namespace {
+
+double entries_of(const std::vector<ExactRow>& rows) {
+  double entries = 0;
+  for (const ExactRow& row : rows) entries += static_cast<double>(row.size());
+  return entries;
+}
+
+/// Of the parts of f: their unknowns times their nonzeros, summed, and the most unknowns.
+struct SizeOfParts {
+  double total = 0, most_unknowns = 0;
+};
+
+SizeOfParts size_of_parts(const ExactProgram& f, const ExactGram* W) {
+  SizeOfParts made;
+  for (const Part& part : parts_of(f, W)) {
+    double entries = entries_of(part.program.H);
     for (const ExactBound& bound : part.program.rows) entries += static_cast<double>(bound.row.size());
     const auto unknowns = static_cast<double>(part.variables.size() + part.program.rows.size());
-    total += entries * unknowns;
-    most_unknowns = std::max(most_unknowns, unknowns);
+    made.total += entries * unknowns;
+    made.most_unknowns = std::max(made.most_unknowns, unknowns);
   }
-  return of_a_nonzero * (total + count(W.rows) * most_unknowns);
+  return made;
+}
+
+}  // namespace
+
+double pair_operations(const ExactProgram& f, const ExactGram& W) {
+  constexpr double of_a_nonzero = 1000;  // in an unknown's digits, measured: both proofs, sums and repairs
+  const SizeOfParts size = size_of_parts(f, nullptr);
+  return of_a_nonzero * (size.total + entries_of(W.rows) * size.most_unknowns);
+}
+
+double split_operations(const ExactProgram& f, const ExactGram& W) {
+  constexpr double of_a_nonzero = 50;  // in an unknown's digits, measured: both are solved modulo a prime
+  const SizeOfParts size = size_of_parts(f, &W);
+  return of_a_nonzero * (size.total + entries_of(W.rows) * size.most_unknowns);
 }
 
 std::optional<GraphPoint> graph_point(const ExactProgram& f, const Fractions& xi, const Fractions& lambda) {

@@ -25,9 +25,11 @@ std::optional<GraphPoint> graph_point(const ExactProgram& f, const Fractions& xi
 /// W too unless null: what the work of everything below grows with.
 std::size_t largest_part(const ExactProgram& f, const ExactGram* W);
 
-/// The word operations that a graph point near doubles takes, about: of each part its nonzeros for every digit
-/// of the solution, whose length grows with the number k of its unknowns (Dixon 1982), and those of W.
+/// The word operations that a graph point near doubles takes, about: of each part its nonzeros for every
+/// digit of the solution, whose length grows with the number k of its unknowns (Dixon 1982), and those of W.
 double pair_operations(const ExactProgram& f, const ExactGram& W);
+/// And those of both proxes in W, whose parts W couples.
+double split_operations(const ExactProgram& f, const ExactGram& W);
 
 /// A graph point with x + v near p (the resolvent (I + ∂f)⁻¹ p rounded, then put on the graph in fractions);
 /// none where the rows that doubles found active do not lead to one.

@@ -93,6 +93,7 @@ struct LogBarrier : EntryFormula {
     if (sign(v) >= 0) return std::nullopt;
     return ball(-one_entry - offset) - log(ball(-v));
   }
+  bool conjugate_is_infinite(const Fraction& v) const override { return sign(v) >= 0; }
   Maybe slope(const Fraction& x) const override {
     if (sign(x) <= 0) return std::nullopt;
     return ball(-(one_entry / x));
@@ -152,6 +153,9 @@ struct FallingPower : EntryFormula {
   }
   Fraction into_domain(const Fraction& x) const override { return clamped(x, no_entry); }
   Fraction into_conjugate_domain(const Fraction& v) const override { return sign(v) > 0 ? no_entry : v; }
+  bool conjugate_is_infinite(const Fraction& v) const override {
+    return sign(v) > 0 || (sign(v) == 0 && sign(e) > 0);
+  }
 };
 
 /// f and f* change places: binary entropy and the logistic function.
@@ -295,6 +299,21 @@ std::optional<ProofPair> entries_at_covector(const std::vector<std::unique_ptr<E
     append(whole, *found);
   }
   return whole;
+}
+
+std::optional<ConjugateValue> conjugate_of_entries(const std::vector<std::unique_ptr<EntryFormula>>& entries,
+                                                   const Fractions& v) {
+  ConjugateValue sum{false, {}};
+  bool is_known = true;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i]->conjugate_is_infinite(v[i])) return ConjugateValue{true, {}};
+    const Maybe value = entries[i]->conjugate(v[i]);
+    const auto between = value ? interval(*value) : std::nullopt;
+    is_known = is_known && between;
+    if (is_known) sum.between = sum.between + *between;
+  }
+  if (!is_known) return std::nullopt;
+  return sum;
 }
 
 }  // namespace convex::inline proved_prox

@@ -19,6 +19,8 @@ class EntryFormula {
   /// The nearest number of the closed domain.
   virtual Fraction into_domain(const Fraction& x) const { return x; }
   virtual Fraction into_conjugate_domain(const Fraction& v) const { return v; }
+  /// Where the domain of f* is open, or all of a half-line, it says more.
+  virtual bool conjugate_is_infinite(const Fraction& v) const { return !(into_conjugate_domain(v) == v); }
 };
 
 /// The formulas of the entries of a separable function of the catalogue; empty for another call.
@@ -32,5 +34,13 @@ std::optional<ProofPair> entries_at_point(const std::vector<std::unique_ptr<Entr
                                           const Fractions& x);
 std::optional<ProofPair> entries_at_covector(const std::vector<std::unique_ptr<EntryFormula>>&,
                                              const Fractions& v);
+
+/// f*(v) alone: the supremum need not be attained (e^x at v = 0). An infinite one is `is_infinite`.
+struct ConjugateValue {
+  bool is_infinite = false;
+  FractionInterval between;
+};
+std::optional<ConjugateValue> conjugate_of_entries(const std::vector<std::unique_ptr<EntryFormula>>&,
+                                                   const Fractions& v);
 
 }  // namespace convex::inline proved_prox

@@ -2,21 +2,41 @@
 
 #include <cmath>
 
+#include "convex/catalogue/catalogue.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
+#include "convex/proved_prox/entry_formulas.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
+#include "convex/proved_prox/proved_metric.hpp"
 
 namespace convex::inline proved_prox {
 
 double ProvedValue::error_of(double value) const {
   if (std::isinf(interval.low) && interval.low == interval.high) return value == interval.low ? 0 : INFINITY;
   if (!std::isfinite(value)) return INFINITY;
+  if (interval.low == value && interval.high == value) return 0;
   if (exact) {
     const Fraction miss = *exact - fraction(value);
     return root_above(miss * miss);
   }
   return std::nextafter(std::max(interval.high - value, value - interval.low), INFINITY);
 }
+
+namespace {
+
+/// A pair near the point where doubles find the supremum, if its covector is v itself.
+PairSearch pair_by_subgradient(const SplitQuestion& question, const Fractions& v, PairSearch otherwise) {
+  const Function g = make_function(question.f, {rounded(question.W)}).conjugate(rounded(question.W));
+  // ∂g(y) = W ∂f*(Wy): the maximisers x are W⁻¹ of a subgradient of g.
+  const auto c = g.subgradient(nearest(question.z));
+  if (!c || !c->allFinite()) return otherwise;
+  const Vector x = rounded(question.W).solve(*c);
+  if (!x.allFinite()) return otherwise;
+  PairSearch found = pair_of_call(question.f, question.W, fractions(x), v);
+  return found.pair && found.pair->v == v ? found : otherwise;
+}
+
+}  // namespace
 
 ProvedValue proved_conjugate(const SplitQuestion& question) {
   ProvedValue made;
@@ -32,7 +52,19 @@ ProvedValue proved_conjugate(const SplitQuestion& question) {
     }
     return made;
   }
-  const PairSearch found = pair_at_covector(question.f, question.W, v);
+  if (!Ball::why_none().empty()) {
+    made.why_none = Ball::why_none();
+    return made;
+  }
+  if (const auto entries = entry_formulas(question.f, v.size()); !entries.empty())
+    if (const auto value = conjugate_of_entries(entries, v)) {
+      made.level = ProofLevel::enclosure;
+      made.interval = value->is_infinite ? ProvedInterval{INFINITY, INFINITY}
+                                         : outwards(value->between.low, value->between.high);
+      return made;
+    }
+  PairSearch found = pair_at_covector(question.f, question.W, v);
+  if (!found.pair) found = pair_by_subgradient(question, v, std::move(found));
   if (!found.pair) {
     made.why_none = found.why_none;
     return made;

@@ -2,14 +2,22 @@
 
 #include <cmath>
 
+#include "convex/exact/positive_definite.hpp"
 #include "convex/exact_program/linear_equations.hpp"
 #include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/nearest_point/solution.hpp"
 
 namespace convex::inline proved_prox {
 namespace {
 
-/// A full W of so many entries is solved with in fractions.
-constexpr std::size_t most_exact_entries = 16;
+/// A full W is solved with in fractions where elimination takes at most this part of `most_word_operations`:
+/// n³/3 products of fractions whose digits grow with n, measured.
+constexpr double part_for_elimination = 0.0025, of_a_product = 100;
+
+bool is_quick_to_solve(const ExactGram& W) {
+  const auto n = static_cast<double>(W.dimension());
+  return W.is_diagonal || of_a_product * n * n * n * n <= part_for_elimination * most_word_operations;
+}
 
 /// Elimination without a pivot that is not positive.
 bool is_definite(std::vector<ExactRow> W) {
@@ -84,13 +92,25 @@ Fractions difference(const Fractions& a, const Fractions& b) {
 }
 
 ProvedMetric::ProvedMetric(ExactGram W)
-    : W_(std::move(W)),
-      doubles_(rounded(W_)),
-      is_exact_(W_.is_diagonal || W_.dimension() <= most_exact_entries) {
+    : W_(std::move(W)), doubles_(rounded(W_)), is_exact_(is_quick_to_solve(W_)) {
   if (is_exact_)
     positive_ = is_definite(W_.rows);
   else
     least_ = least_eigenvalue_below(doubles_.dense_gram());
+}
+
+bool is_proved_in_integers(const ExactGram& W) {
+  const std::size_t n = W.dimension();
+  Fractions entries(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (const auto& [j, value] : W.rows[i]) entries[i * n + j] = value;
+  const IntegerVector all = exact_vector(entries).numerators;
+  IntegerRows rows;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * n);
+    rows.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(n));
+  }
+  return is_positive_definite(rows);
 }
 
 double ProvedMetric::norm_above(const Fractions& x) const { return root_above(squared_norm(W_, x)); }

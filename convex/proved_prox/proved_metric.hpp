@@ -18,7 +18,7 @@ class ProvedMetric {
   /// for e near W⁻¹c in doubles and a proved α < λ_min(W).
   double dual_norm_above(const Fractions& c) const;
   bool is_proved_definite() const { return is_exact_ ? positive_ : least_ > 0; }
-  /// W diagonal, or small: everything is in fractions but the last root.
+  /// W diagonal, or quick to solve with: everything is in fractions but the last root.
   bool is_exact() const { return is_exact_; }
   /// W⁻¹c; c: n. Where `is_exact` and definite.
   Fractions solve(const Fractions& c) const;
@@ -29,6 +29,9 @@ class ProvedMetric {
   bool is_exact_, positive_ = false;
   double least_ = 0;  ///< below λ_min(W), where not exact
 };
+
+/// That W is positive definite, decided in integers whatever its size.
+bool is_proved_in_integers(const ExactGram& W);
 
 /// A number below the least eigenvalue of W, 0 where none above 0 is proved: Cholesky's method in doubles on
 /// W - shift I without a negative pivot proves λ_min(W) > shift - γ tr(W) (Rump 2006; Higham 2002, theorem

@@ -44,6 +44,11 @@ Proof judged(PairSearch search, const ProvedMetric& W, const Fractions& z) {
 
 bool usable(const Vector& v, const Vector& z) { return v.size() == z.size() && v.allFinite(); }
 
+bool has_points(const Decomposition& split, std::size_t n) {
+  const Vector &x = split.x.x, &y = split.y.x;
+  return x.size() == static_cast<Index>(n) && x.allFinite() && usable(y, x);
+}
+
 /// x* is within `radius` of pair.x, y* of W⁻¹pair.v. f(x*) >= v·x* - f*(v), g(y*) >= x·Wy* - f(x), and both
 /// add up to (x*|y*).
 void enclose_values(const ProvedMetric& W, const Proof& proof, ProvedSplit& made) {
@@ -86,7 +91,7 @@ namespace {
 ProvedSplit prove_in_fractions(const SplitQuestion& question, const Decomposition& split) {
   ProvedSplit made;
   const Vector &x = split.x.x, &y = split.y.x;
-  if (x.size() != static_cast<Index>(question.z.size()) || !x.allFinite() || !usable(y, x)) {
+  if (!has_points(split, question.z.size())) {
     made.why_none = "there is no point to prove anything of";
     return made;
   }
@@ -157,6 +162,18 @@ bool is_quick_in_fractions(const SplitQuestion& question) {
   return program && pair_operations(*program, question.W) <= part_at_once * most_word_operations;
 }
 
+/// Both proxes in fractions take at most this part of `most_word_operations`, some ten times as long as in
+/// doubles. A full W couples all entries, so that a pair near the doubles would not do: the residual W(z - x)
+/// - v is 0 of the prox alone, and W⁻¹ is not needed then.
+constexpr double part_for_both = 0.01;
+
+bool is_split_quickly_in_fractions(const SplitQuestion& question) {
+  if (question.W.is_diagonal) return false;
+  const auto program = exact_program(question.f, question.W);
+  return program && split_operations(*program, question.W) <= part_for_both * most_word_operations &&
+         is_proved_in_integers(question.W);
+}
+
 /// Relative error of the doubles nearest to entries of W: 0 where they are the entries.
 double rounding_of(const ExactGram& W) {
   for (const ExactRow& row : W.rows)
@@ -168,7 +185,12 @@ double rounding_of(const ExactGram& W) {
 }  // namespace
 
 ProvedSplit prove(const SplitQuestion& question, const Decomposition& split) {
-  if (is_quick_in_fractions(question)) return prove_in_fractions(question, split);
+  if (is_quick_in_fractions(question)) {
+    ProvedSplit made = prove_in_fractions(question, split);
+    if (made.level == ProofLevel::exact) return made;
+  }
+  if (is_split_quickly_in_fractions(question) && has_points(split, question.z.size()))
+    return proof_of(exact_split(question), split, question);
   const Metric W = rounded(question.W);
   const Vector z = nearest(question.z);
   Vector z_radius = Vector::Zero(z.size());
@@ -191,8 +213,8 @@ ExactSplit exact_split(const SplitQuestion& question) {
     throw InvalidInput(
         "method \"exact\" solves piecewise linear-quadratic functions in fractions, and this is none; leave "
         "the method out, or ask for --certify");
-  if (!ProvedMetric(question.W).is_proved_definite())
-    throw InvalidInput("metric: not proved positive definite; give a better conditioned one");
+  if (!is_proved_in_integers(question.W))
+    throw InvalidInput("metric: not positive definite as it is written; correct it");
   if (largest_part(*program, &question.W) > most_in_fractions)
     throw InvalidInput(
         "method \"exact\": fractions are out of reach for so many variables; leave the method out");

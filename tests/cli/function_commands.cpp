@@ -26,7 +26,11 @@ struct WrongArguments {
 
 TEST_CASE("the domain of a conjugate of pieces lies between the slopes at both ends") {
   const std::vector<std::pair<std::string, std::string>> domains = {
-      {"huber(0.5)", "box(-1, 1)"}, {"hinge()", "box(-1, 0)"}, {"squared_hinge()", "box(-inf, 0)"}};
+      {"huber(0.5)", "box(-1, 1)"},
+      {"hinge()", "box(-1, 0)"},
+      {"squared_hinge()", "box(-inf, 0)"},
+      {"separable(huber(1), 1, norm1(), 2)", "box(-1, 1) for entry 1, ball_inf(radius=1) for entries 2 to 3"},
+      {"max_affine([[1,0],[0,1]], [0,1])", "the convex hull of the rows of A"}};
   for (const auto& [f, domain] : domains) {
     CAPTURE(f);
     CHECK(Json::parse(run({"conjugate", f, "--json"}).out)["domain"] == domain);

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -88,6 +89,44 @@ TEST_CASE("the value of a conjugate is proved, +inf included") {
   CHECK(curved["certificate"]["value"][0].get<double>() <= 2);  // e^0 + e^0
   CHECK(curved["certificate"]["value"][1].get<double>() >= 2);
   CHECK(curved["error_bound"].get<double>() <= 1e-15);
+}
+
+TEST_CASE("the value of a conjugate is proved where no point attains it, and where it is infinite") {
+  for (const auto& [f, y, value] :
+       std::vector<std::array<const char*, 3>>{{"exponential()", "[0]", "0"},
+                                               {"exponential()", "[-1]", "\"inf\""},
+                                               {"log_barrier()", "[0]", "\"inf\""},
+                                               {"logistic()", "[1]", "0"},
+                                               {"inverse_power(1)", "[0]", "0"},
+                                               {"norm2()", "[0.6,0.8]", "0"},  // as written: |y| is 1
+                                               {"second_order_cone()", "[0.6,0.8,-2]", "0"},
+                                               {"sum(exponential(), norm1())", "[2]", "-1"}}) {
+    CAPTURE(f);
+    const Json found = json_of({"conjugate", f, "--at", y, "--certify", "--json"});
+    CHECK(found["value"] == Json::parse(value));
+    CHECK(found["certificate"]["level"] != "none");
+    CHECK(found["certificate"]["error_bound"].get<double>() <= 1e-300);
+  }
+}
+
+TEST_CASE("in a full metric a polyhedral function is proved in fractions as long as these are quick") {
+  const auto level = [](int n) {
+    std::string metric = "[", z = "[";
+    for (int i = 0; i < n; ++i) {
+      metric += i > 0 ? ",[" : "[";
+      for (int j = 0; j < n; ++j)
+        metric += (j > 0 ? "," : "") + std::to_string(i == j ? 2 * n : 1 + (i + j) % 2);
+      metric += "]";
+      z += (i > 0 ? "," : "") + std::to_string((7 * i) % 11 - 5) + "/3";
+    }
+    return json_of({"prox", "norm1()", "--at", z + "]", "--metric", metric + "]", "--certify", "--json"});
+  };
+  for (const int n : {8, 20, 30}) {
+    const Json found = level(n);
+    CHECK(found["certificate"]["level"] == "exact");
+    CHECK(found["certificate"]["error_bound"].get<double>() <= 1e-13);
+  }
+  CHECK(level(90)["certificate"]["level"] == "enclosure");
 }
 
 TEST_CASE("the catalogue says how many of its examples are proved, and names the others with the reason") {
