@@ -32,7 +32,7 @@ constexpr std::string_view motion_page_script =
 const frames = motion.frames, shapes = motion.shapes;
 const byId = (id) => document.getElementById(id);
 const canvas = byId("scene"), pen = canvas.getContext("2d"), scrubber = byId("scrubber");
-const blue = "#0072b2", red = "#d55e00", grey = "#666";
+const blue = "#0072b2", red = "#d55e00", grey = "#666", black = "#222";
 byId("title").textContent = motion.title;
 scrubber.max = frames.length - 1;
 const first = frames[0].t, last = frames[frames.length - 1].t;
@@ -56,6 +56,9 @@ for (const frame of frames) {
 // One impact must not make all other forces invisible: nine in ten are drawn to scale.
 sizes.sort((a, b) => a - b);
 strongest = sizes.length > 0 ? sizes[Math.floor(0.9 * (sizes.length - 1))] : 0;
+// What never moves is drawn as ground.
+const isGround = shapes.map((shape) =>
+  shape.numbers.every((k) => frames.every((frame) => frame.values[k] === frames[0].values[k])));
 const span = Math.max(box[2] - box[0], box[3] - box[1], 1e-12);
 const low = motion.coordinates.map((_, i) => Math.min(...frames.map((f) => f.values[i])));
 const high = motion.coordinates.map((_, i) => Math.max(...frames.map((f) => f.values[i])));
@@ -71,9 +74,10 @@ function drawScene(frame) {
   const Y = (y) => h / 2 - scale * (y - (box[1] + box[3]) / 2);
   const v = frame.values;
   pen.lineWidth = 2.5;
-  for (const shape of shapes) {
-    const n = shape.numbers;
-    pen.strokeStyle = pen.fillStyle = blue;
+  const order = shapes.map((_, i) => i).sort((i, j) => isGround[j] - isGround[i]);
+  for (const i of order) {
+    const shape = shapes[i], n = shape.numbers;
+    pen.strokeStyle = pen.fillStyle = isGround[i] ? grey : blue;
     pen.beginPath();
     if (shape.kind === "segment") {
       pen.moveTo(X(v[n[0]]), Y(v[n[1]]));
@@ -90,19 +94,56 @@ function drawScene(frame) {
       pen.fill();
     }
   }
-  pen.fillStyle = grey;
   pen.font = "12px system-ui, sans-serif";
-  if (shapes.length <= 40) for (const shape of shapes) {
-    const n = shape.numbers, isSegment = shape.kind === "segment";
-    const x = isSegment ? (v[n[0]] + v[n[2]]) / 2 : v[n[0]], y = isSegment ? (v[n[1]] + v[n[3]]) / 2 : v[n[1]];
-    pen.textAlign = shape.kind === "circle" ? "center" : "left";
-    pen.fillText(shape.name, shape.kind === "circle" ? X(x) : X(x) + 8, Y(y) - 6);
-  }
+  if (shapes.length <= 40) shapes.forEach((shape, i) => {
+    pen.fillStyle = isGround[i] ? grey : black;
+    nameShape(shape, v, X, Y, scale);
+  });
   pen.textAlign = "left";
+  drawScale(scale);
   for (const [a, x, y, fx, fy] of frame.arrows) {
     const size = Math.hypot(fx, fy), length = 90 * Math.min(1.3, size / strongest);
     arrow(X(x), Y(y), fx / size * length, -fy / size * length, motion.constraints[a]);
   }
+}
+
+// Beside a rod, on the side that looks up; above a circle's centre; to the right of a point.
+function nameShape(shape, v, X, Y, scale) {
+  const n = shape.numbers;
+  if (shape.kind !== "segment") {
+    const isCircle = shape.kind === "circle", inside = isCircle && Math.abs(v[n[2]]) * scale > 14;
+    pen.textAlign = isCircle ? "center" : "left";
+    pen.fillText(shape.name, isCircle ? X(v[n[0]]) : X(v[n[0]]) + 8,
+                 Y(v[n[1]]) - (isCircle && !inside ? Math.abs(v[n[2]]) * scale + 6 : 6));
+    return;
+  }
+  const dx = X(v[n[2]]) - X(v[n[0]]), dy = Y(v[n[3]]) - Y(v[n[1]]), length = Math.hypot(dx, dy);
+  let nx = length > 0 ? dy / length : 0, ny = length > 0 ? -dx / length : -1;
+  if (ny > 0 || (ny === 0 && nx < 0)) { nx = -nx; ny = -ny; }
+  const half = pen.measureText(shape.name).width / 2;
+  pen.textAlign = "center";
+  // The box of the words touches the rod where its corner is 6 pixels off.
+  const away = 6 + Math.abs(nx) * half + Math.abs(ny) * 5;
+  pen.fillText(shape.name, (X(v[n[0]]) + X(v[n[2]])) / 2 + nx * away,
+               (Y(v[n[1]]) + Y(v[n[3]])) / 2 + ny * away + 4);
+}
+
+// A length of 1, 2 or 5 times a power of ten, in the units of the file.
+function drawScale(scale) {
+  const power = Math.pow(10, Math.floor(Math.log10(200 / scale)));
+  const unit = [5, 2, 1].find((k) => k * power * scale <= 200) * power;
+  const right = canvas.width - 16, left = right - unit * scale, y = canvas.height - 14;
+  pen.strokeStyle = pen.fillStyle = black;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.moveTo(left, y - 5);
+  pen.lineTo(left, y);
+  pen.lineTo(right, y);
+  pen.lineTo(right, y - 5);
+  pen.stroke();
+  pen.textAlign = "center";
+  pen.fillText(Number(unit.toPrecision(1)).toString(), (left + right) / 2, y - 5);
+  pen.textAlign = "left";
 }
 
 function arrow(x, y, dx, dy, name) {

@@ -66,14 +66,38 @@ ArrowPair arrows_at(const AtlasMap& map, const Scene& scene, const Eigen::Vector
   return {p, {free[x], free[y]}, {truth[x], truth[y]}};
 }
 
+std::string joined_names(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The contacts that persist; of most of them those that do not. Beyond the room of the key, how many.
 std::string region_name(const SolvedAtlas& solved, const PlaneRegion& region) {
-  std::string name;
-  constexpr std::size_t longest = 18;
-  for (const std::string& contact : solved.names(solved.atlas.cells[region.cell])) {
-    if (name.size() > longest) return name + ", …";
-    name += (name.empty() ? "" : ", ") + contact;
-  }
-  return name.empty() ? "no contact" : name;
+  constexpr std::size_t longest = 46;
+  const std::vector<std::string> held = solved.names(solved.atlas.cells[region.cell]);
+  if (held.empty()) return "no contact";
+  const std::string all = joined_names(held);
+  if (all.size() <= longest) return all;
+  std::vector<std::string> others;
+  for (const std::string& name : solved.contacts)
+    if (std::find(held.begin(), held.end(), name) == held.end()) others.push_back(name);
+  if (others.empty()) return fmt::format("all {} contacts", held.size());
+  const std::string rest = "all but " + joined_names(others);
+  if (rest.size() <= longest) return rest;
+  return fmt::format("{}, … ({} of {})", all.substr(0, all.rfind(", ", longest - 14)), held.size(),
+                     solved.contacts.size());
+}
+
+/// Two regions that would read alike are told apart by their number in the list of cells.
+std::vector<std::string> region_names(const SolvedAtlas& solved, const std::vector<PlaneRegion>& regions) {
+  std::vector<std::string> names;
+  for (const PlaneRegion& region : regions) names.push_back(region_name(solved, region));
+  std::vector<std::string> told = names;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (std::count(names.begin(), names.end(), names[k]) > 1)
+      told[k] += fmt::format(", cell {}", regions[k].cell + 1);
+  return told;
 }
 
 }  // namespace
@@ -84,6 +108,7 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
   const auto plot = [&](const std::string& text) { plots += (plots.empty() ? "plot " : ", \\\n  ") + text; };
   bool hatched = false;
   std::vector<ArrowPair> pairs;
+  const std::vector<std::string> titles = region_names(solved, map.regions);
   for (std::size_t k = 0; k < map.regions.size(); ++k) {
     const PlaneRegion& region = map.regions[k];
     const std::string name = fmt::format("region{}", k), right = fmt::format("right{}", k);
@@ -91,7 +116,7 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
     data += block(name, region.polygon);
     plot(fmt::format(
         "${} with filledcurves closed fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" title {}", name,
-        colour, quoted(region_name(solved, region))));
+        colour, quoted(titles[k])));
     if (region.right && region.right->area < region.polygon.area) {
       hatched = true;
       plot(fmt::format(
@@ -146,7 +171,8 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
           "set lmargin at screen 0.13\nset rmargin at screen 0.62\nset tmargin at screen 0.93\n"
           "set bmargin at screen 0.12\nset xrange [{}:{}]\nset yrange [{}:{}]\nset title {} font \",11\"\n"
           "set xlabel {} font \",10\"\nset ylabel {} font \",10\"\nset border 15 lc rgb \"#666666\" lw 0.7\n"
-          "set tics nomirror out font \",9\"\nset key outside right top Left reverse font \",9\" samplen "
+          "set tics nomirror out font \",9\"\nset key at screen 0.64,0.94 left top Left reverse font \",9\" "
+          "samplen "
           "1.5\n",
           bound(map.over[0].low), bound(map.over[0].high), bound(map.over[1].low), bound(map.over[1].high),
           quoted(heading_line(solved.title.empty() ? solved.file : solved.title)),

@@ -9,6 +9,7 @@ namespace cli::inline drawings {
 namespace {
 
 constexpr double line_height = 1.25;  ///< over the font size
+constexpr double clearance = 3;       ///< of the words from what they had better not lie on, in pixels
 constexpr double impossible = 1e9;    ///< on another label, or out of the frame
 constexpr double line_cost = 60;      ///< of lying on a line, in pixels of distance
 constexpr double point_cost = 200;
@@ -80,7 +81,7 @@ double LabelPlacement::cost(const Box& box) const {
 
 LabelPlacement::Found LabelPlacement::best(const std::vector<PagePoint>& anchors, const std::string& text,
                                            double font_size) const {
-  const PagePoint half(text_width(text, font_size) / 2 + 2, line_height * font_size / 2);
+  const PagePoint half(text_width(text, font_size) / 2 + clearance, line_height * font_size / 2 + clearance);
   constexpr int directions = 16;
   constexpr double nearest = 6, farthest = 120, step = 6;
   Found found{text, PagePoint::Zero(), half, PagePoint::Zero(), impossible, 0};
@@ -111,8 +112,10 @@ std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& a
   const auto& [text, middle, half, direction, cost, distance] = *chosen;
   labels_.push_back({middle - half, middle + half});
   constexpr double sideways = 0.3;
-  if (direction.x() > sideways) return PlacedLabel{{middle.x() - half.x() + 2, middle.y()}, "left", text};
-  if (direction.x() < -sideways) return PlacedLabel{{middle.x() + half.x() - 2, middle.y()}, "right", text};
+  if (direction.x() > sideways)
+    return PlacedLabel{{middle.x() - half.x() + clearance, middle.y()}, "left", text};
+  if (direction.x() < -sideways)
+    return PlacedLabel{{middle.x() + half.x() - clearance, middle.y()}, "right", text};
   return PlacedLabel{middle, "center", text};
 }
 

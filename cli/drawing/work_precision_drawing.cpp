@@ -10,6 +10,7 @@
 
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/drawing/label_column.hpp"
+#include "cli/drawing/label_placement.hpp"
 #include "cli/drawing/method_style.hpp"
 
 namespace cli::inline drawings {
@@ -26,12 +27,14 @@ constexpr double names_end = -19.5, exact_at = -18.6, errors_end = 0.6, failed_a
 /// pixels in a narrow one.
 struct PageLayout {
   int columns;
-  double width;
+  double failures_width, width;
   double decade, names_from, x_end;
 
-  PageLayout(std::size_t diagrams, const DrawnAs& drawn)
+  /// `failure_words`: the width of the longest, in pixels.
+  PageLayout(std::size_t diagrams, const DrawnAs& drawn, double failure_words)
       : columns(static_cast<int>(std::clamp<std::size_t>(diagrams, 1, drawn.motions ? 2 : 3))),
-        width(columns == 1 ? alone : beside_others),
+        failures_width(std::max(usual_failures, failure_words + before_words)),
+        width((columns == 1 ? alone : beside_others) + failures_width - usual_failures),
         decade((width - left - right - names_width - failures_width) / (errors_end - names_end)),
         names_from(names_end - names_width / decade),
         x_end(errors_end + failures_width / decade) {}
@@ -39,7 +42,8 @@ struct PageLayout {
   double page_width() const { return width * columns; }
 
  private:
-  static constexpr double alone = 700, beside_others = 490, names_width = 116, failures_width = 148;
+  static constexpr double alone = 700, beside_others = 490, names_width = 116, usual_failures = 148,
+                          before_words = 26;
 };
 
 double error_of(const Trial& trial, const DrawnAs& drawn) {
@@ -76,6 +80,25 @@ std::string seconds_text(double seconds) {
   const double rounded = std::round(seconds / digits) * digits;
   if (rounded < 1e-3) return fmt::format("{:.3g} us", rounded * 1e6);
   return rounded < 1 ? fmt::format("{:.3g} ms", rounded * 1e3) : fmt::format("{:.3g} s", rounded);
+}
+
+constexpr double failure_letters = 8;
+
+/// "too-slow: lemke", with the setting of an iterative method.
+std::string failure_words(const Trial& trial) {
+  return fmt::format(
+      "{}{}{}", trial.verdict() == Verdict::gave_up ? "" : std::string(verdict_text(trial.verdict())) + ": ",
+      trial.method,
+      trial.kind == convex::MethodKind::iterative
+          ? fmt::format(", 1e{}", std::lround(std::log10(trial.setting)))
+          : "");
+}
+
+double widest_failure(const std::vector<Trial>& trials) {
+  double widest = 0;
+  for (const Trial& trial : trials)
+    if (!trial.is_right()) widest = std::max(widest, text_width(failure_words(trial), failure_letters));
+  return widest;
 }
 
 std::string best_text(const std::vector<Trial>& here, const DrawnAs& drawn) {
@@ -158,13 +181,7 @@ class Panel {
         Mark& mark = trial.judgement.polished ? refined : best;
         if (x < mark.x - 1e-9) mark.x = x, mark.y = y;
       } else if (!trial.is_right()) {
-        failed.words = fmt::format(
-            "{}{}{}",
-            trial.verdict() == Verdict::gave_up ? "" : std::string(verdict_text(trial.verdict())) + ": ",
-            method,
-            trial.kind == convex::MethodKind::iterative
-                ? fmt::format(", 1e{}", std::lround(std::log10(trial.setting)))
-                : "");
+        failed.words = failure_words(trial);
         failed.y = y;
       }
     }
@@ -199,8 +216,8 @@ class Panel {
            fmt::format("using 1:2 with lines lc rgb \"{}\" lw 0.4", style.colour));
       plot(name + "text", fmt::format("{} {} {}\n", x, placed[k], quoted(mark.words)),
            fmt::format("using 1:2:3 with labels {} offset {},0 font \"{},{}\" tc rgb \"{}\"", aligned,
-                       0.9 * side, mark.method == "auto" ? "Helvetica:Bold" : "", side < 0 ? 9 : 8,
-                       style.text_colour()));
+                       0.9 * side, mark.method == "auto" ? "Helvetica:Bold" : "",
+                       side < 0 ? 9 : failure_letters, style.text_colour()));
       plot(name + "mark", fmt::format("{} {}\n", side < 0 ? x : mark.x, side < 0 ? placed[k] : mark.y),
            fmt::format("using 1:2 with points lc rgb \"{}\" lw 1.2 pt {} ps {}", style.colour,
                        side < 0 ? style.marker : style.hollow(), side < 0 ? 0.6 : 0.8));
@@ -285,7 +302,7 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
                [](const Trial& trial) { return trial.verdict() != Verdict::refused; });
   const auto problems = in_order<std::string>(applied, [](const Trial& t) { return t.problem; });
   const MethodStyles styles(applied);
-  const PageLayout layout(problems.size(), drawn);
+  const PageLayout layout(problems.size(), drawn, widest_failure(applied));
   const auto columns = static_cast<std::size_t>(layout.columns);
   const std::size_t rows = (problems.size() + columns - 1) / columns;
   const double panel = title_height + box_height + foot;
