@@ -55,6 +55,24 @@ std::pair<double, double> CavityEdge::edge_beside(const convex::CutSolution& fou
   return {steps, std::min(step, std::sqrt(slope / curvature))};
 }
 
+/// Whether the point or one of those around it is such.
+template <class Such>
+bool CavityEdge::is_near(Index k, Such such) const {
+  const convex::CutGrid& grid = cells_.grid;
+  for (Index code = 0; code < 27; ++code) {
+    Index there = k, rest = code;
+    bool is_used = true;
+    for (std::size_t axis = 0; axis < 3; ++axis, rest /= 3) {
+      if (axis < grid.dimension)
+        there += (rest % 3 - 1) * grid.stride(axis);
+      else
+        is_used = is_used && rest % 3 == 1;
+    }
+    if (is_used && such(there)) return true;
+  }
+  return false;
+}
+
 void CavityEdge::find_levels(const convex::CutSolution& found) {
   const convex::CutGrid& grid = cells_.grid;
   double shortest = cells_.step[0];
@@ -67,11 +85,9 @@ void CavityEdge::find_levels(const convex::CutSolution& found) {
       level_[k] = 2 * shortest;
   }
   // Where p = 0 is given the cavity, if it is near, goes up to the boundary.
-  for (std::size_t k = 0; k < n; ++k)
-    if (cells_.given[k] == 0)
-      for (std::size_t axis = 0; axis < grid.dimension; ++axis)
-        for (const Index by : {-grid.stride(axis), grid.stride(axis)})
-          if (cavity_[place_of(static_cast<Index>(k) + by)]) level_[k] = -0.5 * shortest;
+  for (Index k = 0; k < grid.size(); ++k)
+    if (cells_.given[place_of(k)] == 0 && is_near(k, [&](Index there) { return cavity_[place_of(there)]; }))
+      level_[place_of(k)] = -0.5 * shortest;
   std::vector<double> sum(n, 0), weight(n, 0);
   for (Index k = 0; k < grid.size(); ++k) {
     if (!cavity_[place_of(k)]) continue;
@@ -148,48 +164,44 @@ double CavityEdge::level(const Point& x) const {
   return weights > 0 ? sum / weights : 1;
 }
 
-/// Whether the point or one of those around it has a pressure given.
-bool CavityEdge::is_near_given(Index k) const {
-  const convex::CutGrid& grid = cells_.grid;
-  for (Index code = 0; code < 27; ++code) {
-    Index there = k, rest = code;
-    bool is_used = true;
-    for (std::size_t axis = 0; axis < 3; ++axis, rest /= 3) {
-      if (axis < grid.dimension)
-        there += (rest % 3 - 1) * grid.stride(axis);
-      else
-        is_used = is_used && rest % 3 == 1;
-    }
-    if (is_used && grid.kind[place_of(there)] == CutPoint::fixed) return true;
-  }
-  return false;
-}
-
 double CavityEdge::measure(const Domain& domain) const {
   if (is_empty_) return 0;
   const convex::CutGrid& grid = cells_.grid;
   const bool may_reach = std::any_of(cells_.pressures.begin(), cells_.pressures.end(),
                                      [](const GivenPressure& given) { return given.pressure == 0; });
-  double sum = 0, whole = 1;
-  for (std::size_t i = 0; i < grid.dimension; ++i) whole *= cells_.step[i];
+  const bool is_box = domain.shape == Domain::Shape::box;  // its cells are boxes too
+  double sum = 0;
   for (Index c = 0; c < grid.points[2]; ++c)
     for (Index b = 0; b < grid.points[1]; ++b)
       for (Index a = 0; a < grid.points[0]; ++a) {
         const Index k = grid.at(a, b, c);
-        const bool is_given = may_reach && is_near_given(k);
+        const bool is_given = may_reach && is_near(k, [&](Index there) {
+                                return grid.kind[place_of(there)] == CutPoint::fixed;
+                              });
         if (grid.kind[place_of(k)] != CutPoint::bounded && !is_given) continue;
         CellLevels cell;
         cell.dimension = grid.dimension;
         bool below = false, above = false;
-        const Point x = cells_.at(k);
+        Point low = cells_.at(k), high = low;
+        double whole = 1;
+        for (std::size_t i = 0; i < grid.dimension; ++i) {
+          low[i] -= 0.5 * cells_.step[i];
+          high[i] += 0.5 * cells_.step[i];
+          if (is_box) {
+            low[i] = std::max(low[i], domain.low[i]);
+            high[i] = std::min(high[i], domain.high[i]);
+          }
+          whole *= high[i] - low[i];
+        }
         for (unsigned code = 0; code < 1U << grid.dimension; ++code) {
-          Point corner = x;
+          Point corner = low;
           for (std::size_t i = 0; i < grid.dimension; ++i)
-            corner[i] += ((code >> i & 1U) != 0 ? 0.5 : -0.5) * cells_.step[i];
-          cell.at[code] = is_given ? std::max(level(corner), domain.level(corner)) : level(corner);
+            if ((code >> i & 1U) != 0) corner[i] = high[i];
+          cell.at[code] = is_given && !is_box ? std::max(level(corner), domain.level(corner)) : level(corner);
           (cell.at[code] < 0 ? below : above) = true;
         }
-        if (below) sum += (is_given ? whole : cells_.volume[place_of(k)]) * (above ? cell.fraction() : 1);
+        if (!below) continue;
+        sum += (is_given || is_box ? whole : cells_.volume[place_of(k)]) * (above ? cell.fraction() : 1);
       }
   return sum;
 }
@@ -201,19 +213,29 @@ std::pair<Point, Point> CavityEdge::extent() const {
     low[i] = std::numeric_limits<double>::infinity();
     high[i] = -low[i];
   }
+  const auto offer = [&](const Point& x) {
+    for (std::size_t i = 0; i < grid.dimension; ++i) {
+      low[i] = std::min(low[i], x[i]);
+      high[i] = std::max(high[i], x[i]);
+    }
+  };
   for (Index k = 0; k < grid.size(); ++k) {
     const double here = level_[place_of(k)];
     if (!(here < 0) || !grid.is_unknown(k)) continue;
     const Point x = cells_.at(k);
     for (std::size_t i = 0; i < grid.dimension; ++i)
       for (const int by : {-1, 1}) {
-        double end = x[i];
+        Point end = x;
         const double there = level_[place_of(k + by * grid.stride(i))];
-        if (there > 0) end += by * cells_.step[i] * here / (here - there);
-        low[i] = std::min(low[i], end);
-        high[i] = std::max(high[i], end);
+        if (there > 0) end[i] += by * cells_.step[i] * here / (here - there);
+        offer(end);
       }
   }
+  // Up to the boundary, where it gives p = 0 or is a wall.
+  for (const GivenPressure& given : cells_.pressures)
+    if (given.pressure == 0 && level_[place_of(given.from)] < 0) offer(given.at);
+  for (const WallPiece& wall : cells_.walls)
+    if (level_[place_of(wall.point)] < 0 && level(wall.at) < 0) offer(wall.at);
   return {low, high};
 }
 

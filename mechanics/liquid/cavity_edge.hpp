@@ -23,7 +23,8 @@ class CavityEdge {
   std::pair<Point, Point> extent() const;
 
  private:
-  bool is_near_given(convex::Index) const;
+  template <class Such>
+  bool is_near(convex::Index, Such) const;
   bool is_liquid(const convex::CutSolution&, convex::Index) const;
   std::pair<double, double> edge_beside(const convex::CutSolution&, convex::Index k, convex::Index by,
                                         double curvature, double step) const;

@@ -6,6 +6,7 @@
 
 #include "mechanics/liquid/cell_mean.hpp"
 #include "mechanics/liquid/cut_walls.hpp"
+#include "mechanics/liquid/junction_flux.hpp"
 #include "mechanics/liquid/wall_level.hpp"
 
 namespace mechanics::liquid {
@@ -48,10 +49,12 @@ class Cutting {
       if (side_[at(k)] == Side::on) settle_boundary_point(k);
     });
     find_walls();
+    if (has_both_) given_faces_.assign(side_.size(), Point{});
     for_points([&](Index k) {
       if (grid().is_unknown(k)) join(k);
     });
     hang_walls(made_, side_, normals_);
+    if (has_both_) close_junctions(scene_, made_, std::move(given_faces_), normals_);
     CellMean source(scene_.h, domain_, made_, scene_.pressure_scale());
     for_points([&](Index k) {
       if (grid().is_unknown(k)) load(k, source);
@@ -95,9 +98,6 @@ class Cutting {
       }
     return scene_.boundary_part(x);
   }
-  std::size_t number(const BoundaryPart& part) const {
-    return static_cast<std::size_t>(&part - scene_.parts.data());
-  }
 
   /// Where a wall ends at a free part p is what the free part gives: p is continuous.
   const BoundaryPart& part_or_free_beside(const Point& x) const {
@@ -118,11 +118,8 @@ class Cutting {
   void settle_boundary_point(Index k) {
     const Point x = made_.at(k);
     const BoundaryPart& found = part_or_free_beside(x);
-    if (!found.is_free) {
-      grid().kind[at(k)] = CutPoint::bounded;
-      return;
-    }
-    grid().kind[at(k)] = CutPoint::fixed;
+    grid().kind[at(k)] = found.is_free ? CutPoint::fixed : CutPoint::bounded;
+    if (!found.is_free) return;
     made_.given[at(k)] = scene_.free_pressure(found, x);
     made_.pressures.push_back({k, x, made_.given[at(k)]});
   }
@@ -147,8 +144,7 @@ class Cutting {
     return false;
   }
 
-  double face_area(std::size_t axis) const { return made_.face_area(axis); }
-  double cell_volume() const { return face_area(3); }
+  double cell_volume() const { return made_.face_area(3); }
 
   /// The parts of the faces that are open, low and high by axis, of the cells near walls; volumes; pieces.
   void find_walls() {
@@ -195,7 +191,7 @@ class Cutting {
       if (end[i] == 0) continue;
       Point middle = made_.at(k), normal{};
       normal[i] = end[i];
-      double area = face_area(i);
+      double area = made_.face_area(i);
       for (std::size_t j = 0; j < d_; ++j)
         if (j != i && end[j] != 0) {
           area *= 0.5;
@@ -216,7 +212,7 @@ class Cutting {
     keep(k, {cut->low, cut->high});
     if (side_[at(k)] == Side::outside) {
       // Beyond free parts nothing is; beyond a wall the rest of its cell is.
-      if (!(cut->fraction > 0) || !wall_level_.is_beyond_wall(x)) return;
+      if (!(cut->fraction > 0) || (cut->has_free && !wall_level_.is_beyond_wall(x))) return;
       grid().kind[at(k)] = CutPoint::free;
     }
     made_.volume[at(k)] = cut->fraction * cell_volume();
@@ -225,7 +221,8 @@ class Cutting {
   }
 
   void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal) {
-    WallPiece piece{k, -1, number(wall), area, area * scene_.wall_flux(wall, middle, normal), middle};
+    WallPiece piece{
+        k, -1, at(&wall - scene_.parts.data()), area, area * scene_.wall_flux(wall, middle, normal), middle};
     made_.walls.push_back(piece);
     normals_.push_back(normal);
   }
@@ -242,19 +239,20 @@ class Cutting {
       for (const int by : {-1, 1}) {
         if (!is_on_grid(k, axis, by)) continue;
         const Index other = k + by * grid().stride(axis);
-        const double weight = face_area(axis) * opening(by > 0 ? k : other, axis) / made_.step[axis];
+        const double weight = made_.face_area(axis) * opening(by > 0 ? k : other, axis) / made_.step[axis];
         if (!(weight > 0)) continue;
-        if (grid().is_unknown(other)) {
-          if (is_cut_by_free(k, other)) {
-            if (side_[at(k)] == Side::inside) join_cut(k, axis, other, weight);
-          } else if (by > 0) {
-            grid().link[axis][at(k)] = weight;
-          }
+        bool is_given = true;
+        if (grid().is_unknown(other) && !is_cut_by_free(k, other)) {
+          if (by > 0) grid().link[axis][at(k)] = weight;
+          is_given = false;
+        } else if (grid().is_unknown(other)) {
+          is_given = side_[at(k)] == Side::inside && join_cut(k, axis, other, weight);
         } else if (side_[at(other)] == Side::on) {
           give(k, weight, made_.given[at(other)]);
-        } else if (side_[at(k)] != Side::outside) {
-          join_cut(k, axis, other, weight);
+        } else {
+          is_given = side_[at(k)] != Side::outside && join_cut(k, axis, other, weight);
         }
+        if (has_both_ && is_given) given_faces_[at(k)][axis] += by * weight * made_.step[axis];
       }
   }
 
@@ -270,7 +268,7 @@ class Cutting {
     grid().load[at(k)] += weight * pressure;
   }
 
-  void join_cut(Index k, std::size_t axis, Index other, double weight) {
+  bool join_cut(Index k, std::size_t axis, Index other, double weight) {
     Point from = made_.at(k), to = made_.at(other);
     if (side_[at(k)] == Side::on) {  // along a wall: just inside of it
       const Point n = domain_.outward(from);
@@ -281,12 +279,13 @@ class Cutting {
     }
     const Point x = domain_.crossing(from, to);
     const BoundaryPart& found = part(x);
-    if (!found.is_free) return;
+    if (!found.is_free) return false;
     const double length = std::abs(x[axis] - from[axis]) / made_.step[axis];
     const double pressure = scene_.free_pressure(found, x);
     give(k, weight / std::max(length, shortest_link), pressure);
     made_.pressures.push_back({k, x, pressure});
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
+    return true;
   }
 
   void load(Index k, CellMean& source) {
@@ -308,6 +307,7 @@ class Cutting {
   std::vector<std::ptrdiff_t> open_;
   std::vector<Opening> openings_;
   std::vector<Point> normals_;
+  std::vector<Point> given_faces_;  // by point, the areas of faces to given pressures, outward
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ struct Window {
   std::array<convex::Index, 3> first{}, points{1, 1, 1};
   /// What a window must have around a node, by axis, so that the node has the row that it has on the whole
   /// grid.
-  static constexpr convex::Index margin = 4;
+  static constexpr convex::Index margin = 6;
 };
 
 /// `cells`: by axis. Throws InvalidInput where a boundary point lies in no part.

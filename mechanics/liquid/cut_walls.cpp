@@ -16,25 +16,31 @@ std::size_t index_at(Index k) { return static_cast<std::size_t>(k); }
 
 class WallHanging {
  public:
-  WallHanging(CutCells& cells, const std::vector<Side>& side, const std::vector<Point>& normals)
+  WallHanging(CutCells& cells, const std::vector<Side>& side, std::vector<Point>& normals)
       : cells_(cells), side_(side), normals_(normals), d_(cells.grid.dimension) {}
 
-  /// Cells beyond walls that nothing of the liquid's side reaches are taken out.
+  /// Cells beyond walls that nothing of the liquid's side reaches, also through others, are taken out.
   void hang_all() {
-    std::vector<Index> closed;
-    for (Index k = 0; k < grid().size(); ++k) {
-      if (grid().kind[index_at(k)] != CutPoint::free) continue;
-      double widest = 0;
+    std::vector<bool> reached(index_at(grid().size()));
+    std::vector<Index> from;
+    for (Index k = 0; k < grid().size(); ++k)
+      if (grid().kind[index_at(k)] == CutPoint::bounded) from.push_back(k);
+    while (!from.empty()) {
+      const Index k = from.back();
+      from.pop_back();
       for (std::size_t axis = 0; axis < d_; ++axis)
         for (const int by : {-1, 1}) {
           const Index other = k + by * grid().stride(axis);
-          if (grid().kind[index_at(other)] == CutPoint::bounded)
-            widest = std::max(widest, grid().link[axis][index_at(by > 0 ? k : other)] * cells_.step[axis] /
-                                          cells_.face_area(axis));
+          const double open = grid().link[axis][index_at(by > 0 ? k : other)] * cells_.step[axis];
+          if (grid().kind[index_at(other)] != CutPoint::free || reached[index_at(other)] ||
+              open < least_opening * cells_.face_area(axis))
+            continue;
+          reached[index_at(other)] = true;
+          from.push_back(other);
         }
-      if (widest < least_opening) closed.push_back(k);
     }
-    for (const Index k : closed) {
+    for (Index k = 0; k < grid().size(); ++k) {
+      if (grid().kind[index_at(k)] != CutPoint::free || reached[index_at(k)]) continue;
       grid().kind[index_at(k)] = CutPoint::beyond;
       for (std::size_t axis = 0; axis < d_; ++axis) {
         grid().link[axis][index_at(k)] = 0;
@@ -42,6 +48,7 @@ class WallHanging {
       }
     }
     std::vector<WallPiece> kept;
+    std::vector<Point> kept_normals;
     for (std::size_t a = 0; a < cells_.walls.size(); ++a) {
       WallPiece piece = cells_.walls[a];
       const Index behind = nearest_inside(piece, normals_[a]);
@@ -51,8 +58,10 @@ class WallHanging {
       }
       hang(piece, normals_[a], behind);
       kept.push_back(piece);
+      kept_normals.push_back(normals_[a]);
     }
     cells_.walls.swap(kept);
+    normals_.swap(kept_normals);
   }
 
   double diagonal() const {
@@ -66,35 +75,40 @@ class WallHanging {
     return along;
   }
 
-  /// The node inside, next to the piece's or itself, straight behind the wall; -1 where there is none.
+  /// The node inside, within two steps of the piece's or itself, straight behind the wall; -1 where there is
+  /// none.
   Index nearest_inside(const WallPiece& piece, const Point& normal) const {
     if (side_[index_at(piece.point)] != Side::outside) return piece.point;
+    const Index near = straightest_inside(piece.point, normal, 1);
+    return near >= 0 ? near : straightest_inside(piece.point, normal, 2);
+  }
+
+  Index straightest_inside(Index point, const Point& normal, Index reach) const {
     Index best = -1;
     double straightest = 0;
-    const auto place = cells_.place(piece.point);
-    for (int code = 0; code < 27; ++code) {
-      const std::array<Index, 3> by{code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1};
-      Index k = piece.point;
-      double along = 0, square = 0;
-      bool is_there = true;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (i >= d_) {
-          is_there = is_there && by[i] == 0;
-          continue;
+    const auto place = cells_.place(point);
+    const auto of_axis = [&](std::size_t i) { return i < d_ ? reach : Index{0}; };
+    std::array<Index, 3> by{};
+    for (by[2] = -of_axis(2); by[2] <= of_axis(2); ++by[2])
+      for (by[1] = -of_axis(1); by[1] <= of_axis(1); ++by[1])
+        for (by[0] = -of_axis(0); by[0] <= of_axis(0); ++by[0]) {
+          Index k = point;
+          double along = 0, square = 0;
+          bool is_there = true;
+          for (std::size_t i = 0; i < d_; ++i) {
+            const Index there = place[i] + by[i];
+            is_there = is_there && there >= 0 && there < grid().points[i];
+            k += by[i] * grid().stride(i);
+            const double step = static_cast<double>(by[i]) * cells_.step[i];
+            along -= step * normal[i];
+            square += step * step;
+          }
+          if (!is_there || !(square > 0) || grid().kind[index_at(k)] != CutPoint::bounded) continue;
+          if (along / std::sqrt(square) > straightest) {
+            straightest = along / std::sqrt(square);
+            best = k;
+          }
         }
-        const Index there = place[i] + by[i];
-        is_there = is_there && there >= 0 && there < grid().points[i];
-        k += by[i] * grid().stride(i);
-        const double step = static_cast<double>(by[i]) * cells_.step[i];
-        along -= step * normal[i];
-        square += step * step;
-      }
-      if (!is_there || !(square > 0) || grid().kind[index_at(k)] != CutPoint::bounded) continue;
-      if (along / std::sqrt(square) > straightest) {
-        straightest = along / std::sqrt(square);
-        best = k;
-      }
-    }
     return best;
   }
 
@@ -111,13 +125,13 @@ class WallHanging {
   convex::CutGrid& grid() const { return cells_.grid; }
   CutCells& cells_;
   const std::vector<Side>& side_;
-  const std::vector<Point>& normals_;
+  std::vector<Point>& normals_;
   std::size_t d_;
 };
 
 }  // namespace
 
-void hang_walls(CutCells& cells, const std::vector<Side>& side, const std::vector<Point>& normals) {
+void hang_walls(CutCells& cells, const std::vector<Side>& side, std::vector<Point>& normals) {
   WallHanging(cells, side, normals).hang_all();
 }
 

@@ -50,7 +50,7 @@ struct Orders {
 Orders possible_orders(const LiquidScene& scene) {
   Orders orders;
   const Domain& domain = scene.domain;
-  if (scene.has_free_part() && scene.has_wall()) orders = {0.5, 1};
+  if (scene.has_free_part() && scene.has_wall()) orders.least = 0.5;
   if (domain.sheets.size() > 1) orders.least = 0.5;  // their angles are not known
   if (domain.shape != Domain::Shape::polygon) return orders;
   const std::size_t n = domain.vertices.size();
@@ -182,9 +182,15 @@ double error_by_differences(const LiquidScene& scene, const std::vector<double>&
   if (differences.empty()) return std::numeric_limits<double>::infinity();
   const Orders possible = possible_orders(scene);
   double order = possible.least, left = differences[0];
-  const bool is_halved_twice = cells % 4 == 0;  // else the third grid lies otherwise to the boundary
-  if (is_halved_twice && cells >= few_cells && differences.size() > 1 && left > 0)
-    order = std::clamp(std::log2(differences[1] / left), possible.least, possible.most);
+  // How many times a grid lies to the boundary as the next coarser one does.
+  const int halved = cells % 8 == 0 ? 3 : cells % 4 == 0 ? 2 : 0;
+  const auto seen = [&](std::size_t l) { return std::log2(differences[l + 1] / differences[l]); };
+  if (halved >= 2 && cells >= few_cells && differences.size() > 1 && left > 0) {
+    double shown = seen(0);
+    if (scene.has_free_part() && scene.has_wall() && shown > 1)
+      shown = halved >= 3 && differences.size() > 2 ? std::clamp(seen(1), 1.0, shown) : 1;
+    order = std::clamp(shown, possible.least, possible.most);
+  }
   for (std::size_t l = 1; l < std::min(differences.size(), most_differences); ++l)
     left = std::max(left, differences[l] * std::exp2(-order * static_cast<double>(l)));
   return safety * left / (std::exp2(order) - 1);

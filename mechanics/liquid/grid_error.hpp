@@ -10,8 +10,9 @@ namespace mechanics::liquid {
 /// solutions on all of them; infinite of one grid alone. `largest`: p.
 ///
 /// Of the smooth part: differences of grids at common nodes, whose ratio tells the order, between what theory
-/// allows; the error left by it, doubled. Differences may be small by chance, so that those before, lowered
-/// by that order, count too. At junctions of free parts and walls, and at corners, p has a term K r^α
+/// allows, beside junctions above the first only where two ratios show it; the error left by it, doubled.
+/// Differences may be small by chance, so that those before, lowered by that order, count too. At junctions
+/// of free parts and walls, and at corners, p has a term K r^α
 /// (Grisvard 1985, section 4.4: α = π/ω, and π/(2ω) where a wall meets a free part), of which a grid misses a
 /// part of K h^α whatever others say: there the largest second difference of nodes next to each other, which
 /// is O(h²) where p is smooth and of the size of K h^α where it is not, is added. So is, or counts if it is

@@ -7,6 +7,7 @@
 #include "mechanics/liquid/line_scene.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 #include "mechanics/liquid/proved_line.hpp"
+#include "mechanics/liquid/proved_zero.hpp"
 
 namespace mechanics::liquid {
 namespace {
@@ -24,16 +25,32 @@ void require_no_divergence(const LiquidScene& scene, const LineScene& line, cons
   }
 }
 
-}  // namespace
+/// Where p = 0 was found everywhere: the proof that it is so.
+void prove_zero(const LiquidScene& scene, LiquidSolution& found) {
+  if (found.is_proved || found.status == LiquidSolution::Status::infeasible || found.largest > 0 ||
+      !is_proved_zero(scene))
+    return;
+  found.is_proved = true;
+  found.error_bound = 0;
+  found.status = LiquidSolution::Status::solved;
+}
 
-LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
-  require_continuous(scene);
+LiquidSolution solve_scene(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
   const std::optional<LineScene> line = as_line(scene);
   if (!line) return solve_grid_scene(scene, accuracy);
   LiquidSolution found = solve_line_scene(scene, *line, accuracy);
   if (accuracy.proved && found.status != LiquidSolution::Status::infeasible)
     prove_line(scene, *line, accuracy, found);
   if (found.status != LiquidSolution::Status::infeasible) require_no_divergence(scene, *line, found);
+  return found;
+}
+
+}  // namespace
+
+LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
+  require_continuous(scene);
+  LiquidSolution found = solve_scene(scene, accuracy);
+  if (accuracy.proved) prove_zero(scene, found);
   return found;
 }
 

@@ -30,12 +30,12 @@ Point onto(const std::function<double(const Point&)>& level, Point x, std::size_
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-/// Whether a piece of surface is one of a boundary with this normal, and not what closes a cell where its
-/// wall ends.
-bool is_along(const SurfacePiece& piece, const Point& normal) {
-  constexpr double least_cosine = 0.5;
-  return piece.normal[0] * normal[0] + piece.normal[1] * normal[1] + piece.normal[2] * normal[2] >
-         least_cosine;
+/// What of a piece of surface faces a boundary's outward normal, where the piece is part of what closes a
+/// cell in which its wall ends.
+SurfacePiece facing(SurfacePiece piece, const Point& normal) {
+  piece.area *= piece.normal[0] * normal[0] + piece.normal[1] * normal[1] + piece.normal[2] * normal[2];
+  piece.normal = normal;
+  return piece;
 }
 
 }  // namespace
@@ -83,11 +83,15 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
     reach = std::hypot(reach, step[i]);
   }
   std::vector<Near> walls;
+  std::vector<const Sheet*> cut_away;
   bool any_free = false;
   for (const Sheet& sheet : sheets_) {
     const Point foot = sheet.nearest(middle);
     if (distance(foot, middle) > 1.5 * reach) continue;
-    if (scene_.domain.level(foot) > 1e-6 * reach) continue;  // off the domain: another sheet cuts it away
+    if (scene_.domain.level(foot) > 1e-6 * reach) {  // off the domain: another sheet cuts it away
+      cut_away.push_back(&sheet);
+      continue;
+    }
     const BoundaryPart* part = scene_.part_at(foot);
     if (part == nullptr) part = part_near(middle);
     if (part != nullptr && !part->is_free)
@@ -95,6 +99,9 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
     else
       any_free = true;
   }
+  if (walls.empty() && !any_free && !cut_away.empty())  // beyond an edge where these meet
+    if (const BoundaryPart* part = part_near(middle); part != nullptr && !part->is_free)
+      for (const Sheet* sheet : cut_away) walls.push_back({sheet, part});
   if (walls.empty()) return std::nullopt;
   bool turned = false;
   for (std::size_t code = 0; code < std::size_t{1} << cell.dimension; ++code) {
@@ -116,17 +123,19 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
     cell.at[code] = level == 0 ? -std::numeric_limits<double>::min() : level;
   }
   WallCut made;
+  made.has_free = any_free || turned;
   made.fraction = cell.fraction();
   for (std::size_t i = 0; i < cell.dimension; ++i) {
     made.low[i] = cell.face_fraction(i, false);
     made.high[i] = cell.face_fraction(i, true);
   }
-  for (const SurfacePiece& piece : cell.surface()) {
+  for (SurfacePiece piece : cell.surface()) {
     const Near* nearest = &walls.front();
     for (const Near& wall : walls)
       if (std::abs(wall.sheet->level(piece.at)) < std::abs(nearest->sheet->level(piece.at))) nearest = &wall;
     const Point foot = nearest->sheet->nearest(piece.at);
-    if (turned && !is_along(piece, scene_.domain.outward(foot))) continue;
+    if (turned) piece = facing(piece, scene_.domain.outward(foot));
+    if (!(piece.area > 0)) continue;
     const BoundaryPart* here = scene_.part_at(foot);
     made.pieces.push_back({piece, here != nullptr && !here->is_free ? here : nearest->wall});
   }
@@ -135,14 +144,15 @@ std::optional<WallCut> WallLevel::cut(const Point& low, const Point& step) const
 
 namespace {
 
-/// The part of the side a..b in the box, empty when low >= high.
-std::pair<double, double> part_in_box(const Vertex& a, const Vertex& b, const Vertex& low,
-                                      const Vertex& high) {
+/// The part of the side a..b in the box, empty when low >= high. A side in a face of it, to `least`, is in
+/// it.
+std::pair<double, double> part_in_box(const Vertex& a, const Vertex& b, const Vertex& low, const Vertex& high,
+                                      double least) {
   double first = 0, last = 1;
   for (std::size_t i = 0; i < 2; ++i) {
     const double along = b[i] - a[i];
-    if (along == 0) {
-      if (a[i] < low[i] || a[i] > high[i]) return {1, 0};
+    if (std::abs(along) < least) {
+      if (a[i] < low[i] - least || a[i] > high[i] + least) return {1, 0};
       continue;
     }
     const double u = (low[i] - a[i]) / along, v = (high[i] - a[i]) / along;
@@ -163,21 +173,33 @@ std::optional<WallCut> WallLevel::cut_polygon(const Point& low, const Point& ste
     Vertex from, to, normal;
     const BoundaryPart* part;
   };
+  // The axis and the direction of the face of the cell in which a side lies.
+  const auto face_of = [&](const Crossing& side) -> std::optional<std::pair<std::size_t, int>> {
+    for (std::size_t i = 0; i < 2; ++i)
+      for (const int by : {-1, 1}) {
+        const double limit = by < 0 ? a[i] : b[i];
+        if (std::abs(side.from[i] - limit) < least && std::abs(side.to[i] - limit) < least)
+          return std::pair{i, by};
+      }
+    return std::nullopt;
+  };
   std::vector<Crossing> walls;
   bool any_free = false;
   for (std::size_t k = 0; k < v.size(); ++k) {
     const Vertex &p = v[k], &q = v[(k + 1) % v.size()];
-    const auto [first, last] = part_in_box(p, q, a, b);
+    const auto [first, last] = part_in_box(p, q, a, b, least);
     const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
     if (!((last - first) * length > least)) continue;
     const auto at = [&](double part) {
       return Vertex{p[0] + part * (q[0] - p[0]), p[1] + part * (q[1] - p[1])};
     };
+    const Crossing side{at(first), at(last), {(q[1] - p[1]) / length, (p[0] - q[0]) / length}, nullptr};
+    if (const auto face = face_of(side); face && side.normal[face->first] * face->second < 0)
+      continue;  // the liquid is in the cell beside this one
     const Vertex middle = at(0.5 * (first + last));
     const BoundaryPart& part = scene_.boundary_part({middle[0], middle[1], 0});
     any_free = any_free || part.is_free;
-    if (!part.is_free)
-      walls.push_back({at(first), at(last), {(q[1] - p[1]) / length, (p[0] - q[0]) / length}, &part});
+    if (!part.is_free) walls.push_back({side.from, side.to, side.normal, &part});
   }
   if (walls.empty()) return std::nullopt;
   std::vector<Vertex> rest = any_free ? std::vector<Vertex>{a, {b[0], a[1]}, b, {a[0], b[1]}} : v;
@@ -193,6 +215,7 @@ std::optional<WallCut> WallLevel::cut_polygon(const Point& low, const Point& ste
       rest = cut_off(rest, [&](const Vertex& x) { return x[i] - b[i]; });
     }
   WallCut made;
+  made.has_free = any_free;
   made.fraction = rest.size() < 3 ? 0 : polygon_area(rest) / (step[0] * step[1]);
   made.low = made.high = {0, 0, 0};
   for (std::size_t k = 0; k < rest.size(); ++k) {
@@ -221,6 +244,8 @@ std::optional<WallCut> WallLevel::cut_polygon(const Point& low, const Point& ste
       }
     }
     const double area = std::hypot(to[0] - from[0], to[1] - from[1]);
+    if (const auto face = face_of({from, to, wall.normal, wall.part}))  // closed by the wall itself
+      (face->second < 0 ? made.low : made.high)[face->first] -= area / step[1 - face->first];
     made.pieces.push_back(
         {{area, {0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0}, {wall.normal[0], wall.normal[1], 0}},
          wall.part});

@@ -20,6 +20,7 @@ struct WallCut {
   double fraction = 1;                                ///< of the cell's volume
   std::array<double, 3> low{1, 1, 1}, high{1, 1, 1};  ///< open parts of the faces, by axis
   std::vector<Piece> pieces;
+  bool has_free = false;  ///< a free part may be in the cell too
 };
 
 /// Cuts cells at the walls of a scene: exactly at polygons, else as linear between corners.
