@@ -19,6 +19,13 @@ inline void fill_packs(Index n, double value, double* to) {
     for (Index k = 0; k < 8; ++k) to[i + k] = value;
 }
 
+/// X := up to eight rows of U side by side, n packs, filled with zeros.
+inline void side_by_side(Index n, const double* U, const Index* rows, Index count, double* X) {
+  if (count < 8) fill_packs(8 * n, 0, X);
+  for (Index k = 0; k < count; ++k)
+    for (Index i = 0; i < n; ++i) X[8 * i + k] = U[rows[k] * n + i];
+}
+
 /// Kernels on dense data for one processor family. Sums are taken in an order that is the same for all of
 /// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
 ///

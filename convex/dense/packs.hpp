@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "convex/dense/dense_kernels.hpp"
+#include "convex/processor.hpp"
 
 // Packs never cross a function that is not inlined, so how they would be passed does not matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -11,6 +12,20 @@
 #define MOREAU_INLINE [[gnu::always_inline]] static inline
 
 namespace convex::inline dense {
+
+/// `at` is f, compiled for the family of processors with registers of W doubles.
+template <int W, auto f>
+struct Compiled;
+#define MOREAU_COMPILED(W, target)                 \
+  template <class R, class... X, R (*f)(X...)>     \
+  struct Compiled<W, f> {                          \
+    target static R at(X... x) { return f(x...); } \
+  };
+MOREAU_COMPILED(2, )
+#ifdef MOREAU_HAS_FAMILIES
+MOREAU_COMPILED(4, [[gnu::target("avx2,fma")]])
+MOREAU_COMPILED(8, [[gnu::target("avx512f")]])
+#endif
 
 template <int W>
 struct Register {

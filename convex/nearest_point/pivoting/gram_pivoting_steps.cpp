@@ -9,7 +9,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Steps in which multipliers are brought up to date before they are solved for anew, as at the end.
+/// Steps in which multipliers are brought up to date before they are solved for anew.
 constexpr Index most_steps_since = 16;
 
 /// So many violated rows come in, the deepest first, before the slacks of all are found anew.
@@ -35,11 +35,10 @@ bool GramPivoting::descend_known() {
       if (const Index a = rows_.row(p); a >= 0 && state_[a] == passed) state_[a] = outside;
     find_slacks_of_known();
     const Index count = list_violated_known(outside);
-    if (count == 0 && steps_since == 0) return true;
+    if (count == 0) return true;
     if (!raise_in_turn(count)) return false;
     find_energy();
-    steps_since =
-        count == 0 || steps_since >= most_steps_since ? 0 : steps_since + std::min(count, most_in_turn);
+    steps_since = steps_since >= most_steps_since ? 0 : steps_since + std::min(count, most_in_turn);
     if (steps_since == 0 && !find_multipliers()) return false;
   }
   return false;

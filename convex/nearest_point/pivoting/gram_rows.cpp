@@ -15,15 +15,6 @@ GramRows::GramRows(const NearestPointProblem& problem, Arena& arena, Index most,
       row_(arena.take<Index>(most_)),
       place_(arena.take_filled<Index>(problem.rows(), -1)) {}
 
-void GramRows::copy_rows(const Index* rows, Index count, double* pack) const {
-  const double* U = problem_.U.dense().data();
-  if (count < 8) fill_packs(8 * n_, 0, pack);
-  for (Index k = 0; k < count; ++k) {
-    const double* u = U + rows[k] * n_;
-    for (Index i = 0; i < n_; ++i) pack[8 * i + k] = u[i];
-  }
-}
-
 void GramRows::load(Index first) {
   dense_kernels().dots(n_, whitened_ + first * n_, w_free_, load_ + first);
   for (Index place = first; place < first + 8; ++place) {

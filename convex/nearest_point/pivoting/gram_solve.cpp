@@ -68,16 +68,18 @@ void GramSolve::whiten_z() {
 
 bool GramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
   whiten_z();
-  return set_->settle(guess) && finish_settled(accuracy, solution);
+  return set_->settle(guess) && finish_settled(true, accuracy, solution);
 }
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   whiten_z();
-  return set_->settle_again() && finish_settled(accuracy, solution);
+  const Index size = set_->size();
+  return set_->settle_again() &&
+         finish_settled(set_->steps() > 0 || set_->size() != size, accuracy, solution);
 }
 
-bool GramSolve::finish_settled(const Accuracy& accuracy, Solution& solution) {
-  take_point();
+bool GramSolve::finish_settled(bool has_changed, const Accuracy& accuracy, Solution& solution) {
+  take_point(has_changed);
   return (!accuracy.refine && answer_of_doubles(accuracy, solution)) || finish(*this, accuracy, solution);
 }
 
@@ -100,22 +102,23 @@ bool GramSolve::is_exact_vertex() const {
 }
 
 /// q and lambda of the rows held, in doubles.
-void GramSolve::take_point() {
+void GramSolve::take_point(bool has_changed) {
   set_->point(w_, q_);
   fill_packs(ld_, 0, q_low_);
   copy_packs(set_->rows().count(), set_->lambda(), total_);
-  list_rows_held();
+  list_rows_held(has_changed);
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   known_.scale = std::max(acceleration_norm_, z_norm_);
 }
 
-void GramSolve::list_rows_held() {
+void GramSolve::list_rows_held(bool have_changed) {
   for (Index j = 0; j < set_->size(); ++j) {
     rows_[j] = set_->row(j);
     lambda_[j] = total_[set_->place(j)];
     length_[j] = std::sqrt(set_->rows().square(set_->place(j)));
     pull_[j] = set_->is_two_sided(rows_[j]) ? 0 : length_[j];
   }
+  if (!have_changed) return;
   inverse_norm_ = set_->inverse_norm();
   gram_condition_ = set_->condition(load_);
 }

@@ -30,11 +30,11 @@ class GramSolve {
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
   void whiten_z();
-  bool finish_settled(const Accuracy& accuracy, Solution& solution);
+  bool finish_settled(bool has_changed, const Accuracy& accuracy, Solution& solution);
   Corrections& corrections() { return known_; }
   bool is_exact_vertex() const;
-  void take_point();
-  void list_rows_held();
+  void take_point(bool has_changed);
+  void list_rows_held(bool have_changed);
   double near_scale(double part);
   bool correct(bool is_first, double small);
   bool take_noise_for_zero(bool more);

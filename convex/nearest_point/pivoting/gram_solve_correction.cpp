@@ -48,19 +48,18 @@ bool GramSolve::correct(bool is_first, double small) {
   copy_packs(ld_, r_, dw_);
   kernels_.forward(n_, ld_, A_.T, A_.inverse, dw_);
   rest_loads(is_first, small > 0);
-  const Index steps = set_->steps();
+  const Index steps = set_->steps(), size = set_->size();
   if (!set_->settle_rest(rest_, std::sqrt(kernels_.dot(ld_, dw_, dw_)))) return false;
-  const bool has_changed = set_->steps() > steps || small > 0;
+  const bool has_changed = set_->steps() > steps || set_->size() != size;
   invariant(before == set_->rows().count(), "no row is looked at by a correction");
   copy_packs(before, set_->lambda(), y_);
   kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
   kernels_.add_multiple(ld_, 1, dw_, w_);
   kernels_.add_multiple(before, 1, y_, total_);
-  if (has_changed) list_rows_held();
-  for (Index j = 0; j < set_->size(); ++j) lambda_[j] = total_[set_->place(j)];
+  list_rows_held(has_changed);
   for (Index j = 0; j < set_->size(); ++j) change_[j] = y_[set_->place(j)];
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed,
+  if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed || small > 0,
                    problem_.A.factor_condition(), gram_condition_, 0, std::max(acceleration_norm_, z_norm_)))
     return false;
   copy_packs(ld_, dw_, dq_);

@@ -44,12 +44,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
   /// Looks at the rows of the block at r, and at their products with those before.
   MOREAU_INLINE void whiten_block(SmallTableau& t, Index r) {
     double* const raw = t.raw + r * t.n;
-    const Index count = t.m - r < 8 ? t.m - r : 8;
-    if (count < 8) fill_packs(8 * t.n, 0, raw);
-    for (Index k = 0; k < count; ++k) {
-      const double* const u = t.U + t.row[r + k] * t.n;
-      for (Index i = 0; i < t.n; ++i) raw[8 * i + k] = u[i];
-    }
+    side_by_side(t.n, t.U, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
     double* const whitened = t.whitened + r * t.n;
     Pack scale{};
     for (Index i = 0; i < t.n; ++i) {
