@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/infinity.hpp"
 #include "convex/invariant.hpp"
@@ -14,6 +15,9 @@ constexpr double entry_noise = 1e-11;
 
 /// So do values, below this part of the largest.
 constexpr double relative_value_noise = 1e-14;
+
+/// After so many pivots the next range is found from the tableau at the start: rounding does not add up.
+constexpr Index most_pivots_since_start = 64;
 
 }  // namespace
 
@@ -29,6 +33,7 @@ MultiplierTableau::MultiplierTableau(std::vector<Index> basic, Vector value, std
       noise_(entry_noise * std::max(1.0, T_.size() > 0 ? T_.cwiseAbs().maxCoeff() : 0.0)),
       value_noise_(relative_value_noise * (value_.size() > 0 ? value_.cwiseAbs().maxCoeff() : 0.0)) {
   settle_free_columns();
+  start_ = {basic_, nonbasic_, value_, T_};
 }
 
 void MultiplierTableau::settle_free_columns() {
@@ -58,7 +63,7 @@ Index MultiplierTableau::blocking_row(Index column, double sign, double& step) c
     const Index name = basic_[static_cast<std::size_t>(k)];
     const double rate = sign * T_(k, column);
     if (is_free(name) || rate <= noise_) continue;
-    const double ratio = std::max(0.0, value_[k]) / rate;
+    const double ratio = value_[k] > value_noise_ ? value_[k] / rate : 0;
     if (ratio < step || (ratio <= step && name < basic_[static_cast<std::size_t>(blocking)])) {
       step = ratio;
       blocking = k;
@@ -68,6 +73,7 @@ Index MultiplierTableau::blocking_row(Index column, double sign, double& step) c
 }
 
 void MultiplierTableau::pivot(Index row, Index column) {
+  ++pivots_;
   const double element = T_(row, column);
   const double entering = value_[row] / element;
   const Eigen::RowVectorXd pivot_row = T_.row(row) / element;
@@ -98,9 +104,10 @@ Index MultiplierTableau::entering_column(Index row, double direction, bool by_na
 double MultiplierTableau::extreme(Index a, double direction) {
   // The steepest column enters; after a step of length 0 the rule of Bland (1977) holds until there is a
   // longer one: the entering multiplier of least name that improves, the leaving one of least name. So
-  // nothing comes back.
+  // nothing comes back, but for rounding: then the rule holds to the end, and there is one.
   bool by_name = false;
-  while (true) {
+  const Index usual = T_.rows() + T_.cols(), most = 20 * usual;
+  for (Index step_count = 0; step_count <= most; ++step_count) {
     const auto position = std::find(basic_.begin(), basic_.end(), a);
     Index entering = -1;
     if (position == basic_.end()) {
@@ -115,13 +122,21 @@ double MultiplierTableau::extreme(Index a, double direction) {
     double step = infinity;
     const Index row = blocking_row(entering, 1, step);
     if (row < 0) return direction * infinity;
-    by_name = step <= 0;
+    by_name = step <= 0 || step_count >= usual;
     pivot(row, entering);
   }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 Interval MultiplierTableau::range(Index a) {
   if (unbounded_[static_cast<std::size_t>(a)]) return {-infinity, infinity};
+  if (pivots_ > most_pivots_since_start) {
+    basic_ = start_.basic;
+    nonbasic_ = start_.nonbasic;
+    value_ = start_.value;
+    T_ = start_.T;
+    pivots_ = 0;
+  }
   const double noise = value_noise_;
   const auto silenced = [noise](double end) { return std::abs(end) <= noise ? 0 : end; };
   return {silenced(extreme(a, -1)), silenced(extreme(a, 1))};

@@ -15,10 +15,18 @@ class MultiplierTableau {
   MultiplierTableau(std::vector<Index> basic, Vector value, std::vector<Index> nonbasic, Matrix T,
                     const std::vector<bool>& is_free);
 
-  /// The interval of the multiplier named `a` over the polyhedron.
+  /// The interval of the multiplier named `a` over the polyhedron; not a number where rounding keeps the
+  /// pivots from an end.
   Interval range(Index a);
 
  private:
+  /// What pivots change.
+  struct State {
+    std::vector<Index> basic, nonbasic;
+    Vector value;
+    Matrix T;
+  };
+
   double extreme(Index a, double direction);
   /// A column whose growth moves the basic multiplier of `row` that way: the steepest or the least by name;
   /// or -1.
@@ -34,6 +42,8 @@ class MultiplierTableau {
   Matrix T_;
   std::vector<bool> free_, unbounded_, fixed_;
   double noise_, value_noise_;
+  State start_;
+  Index pivots_ = 0;  // since the tableau was as at the start
 };
 
 }  // namespace convex::inline multiplier_sets

@@ -257,7 +257,7 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
     MultiplierPolyhedron directions(rows, signs, length, is_free);
     const bool unique = std::none_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) {
       const Interval range = directions.range_of_multiplier(p);
-      return range.high - range.low > tolerance;
+      return !(range.high - range.low <= tolerance);
     });
     if (unique) continue;
     found.unique = false;
@@ -269,7 +269,10 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     least_norm(rows, is_free, found.least_norm);
   }
-  if (want_ranges || found.unique) found.ranges = std::move(ranges);
+  const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {
+    return std::isnan(range.low) || std::isnan(range.high);
+  });
+  if ((want_ranges && are_found) || found.unique) found.ranges = std::move(ranges);
   return found;
 }
 

@@ -15,7 +15,8 @@ namespace convex::inline multiplier_sets {
 struct Multipliers {
   bool unique = true;
   Vector least_norm;  ///< of least Euclidean norm: m
-  /// The m intervals of the multipliers over all dual optima; none when not asked for.
+  /// The m intervals of the multipliers over all dual optima; none when not asked for, or when rounding keeps
+  /// one from being found.
   std::optional<std::vector<Interval>> ranges;
   /// A basis of {mu : Uᵀmu = 0} over the tight rows; none when they are too many for a dense factor.
   std::optional<std::vector<NullVector>> null_space;

@@ -52,6 +52,7 @@ TEST_CASE("multipliers of sparse rows that repeat each other balance A q - z") {
     };
     std::vector<Eigen::Triplet<double>> entries;
     std::vector<std::vector<std::pair<int, double>>> rows(m);
+    Vector planted(m);
     const Vector q = Vector::NullaryExpr(n, [&] { return static_cast<double>(draw(-3, 3)); });
     Vector z = q, s(m);
     for (int a = 0; a < m; ++a) {
@@ -70,6 +71,7 @@ TEST_CASE("multipliers of sparse rows that repeat each other balance A q - z") {
       }
       const bool is_tight = draw(0, 9) < 6;
       const int lambda = is_tight ? draw(0, 3) : 0;
+      planted[a] = lambda;
       s[a] = is_tight ? 0 : -draw(1, 2);
       for (const auto& [i, u] : row) {
         entries.emplace_back(a, i, u);
@@ -88,6 +90,49 @@ TEST_CASE("multipliers of sparse rows that repeat each other balance A q - z") {
       const convex::Multipliers found = convex::multipliers(problem, solution, 1e-9, ranges);
       CHECK((problem.U.transpose_times(found.least_norm) - (q - z)).norm() <= 1e-9 * z.norm());
       CHECK(found.least_norm.minCoeff() >= 0);
+      if (!ranges) continue;
+      REQUIRE(found.ranges.has_value());
+      bool all_hold = true;  // both are multipliers of the problem
+      for (Index a = 0; a < m; ++a) {
+        const auto [low, high] = (*found.ranges)[static_cast<std::size_t>(a)];
+        const double most = std::max(planted[a], found.least_norm[a]),
+                     least = std::min(planted[a], found.least_norm[a]);
+        all_hold = all_hold && low <= least + 1e-9 && most <= high + 1e-9;
+      }
+      CHECK(all_hold);
     }
+  }
+}
+
+TEST_CASE("in a stack whose gaps are written twice each of them may carry all that lies above") {
+  constexpr int blocks = 200, load = 20;
+  std::vector<Eigen::Triplet<double>> entries{{0, 0, 1.0}};
+  int row = 1;
+  for (int copy = 0; copy < 2; ++copy)
+    for (int i = 0; i + 1 < blocks; ++i, ++row) {
+      entries.emplace_back(row, i + 1, 1.0);
+      entries.emplace_back(row, i, -1.0);
+    }
+  for (int i = 0; i + 2 < blocks; ++i, ++row) {  // over two: a sum of two gaps
+    entries.emplace_back(row, i + 2, 1.0);
+    entries.emplace_back(row, i, -1.0);
+  }
+  convex::SparseRows U(row, blocks);
+  U.setFromTriplets(entries.begin(), entries.end());
+  const convex::NearestPointProblem problem{convex::Metric::identity(blocks),
+                                            Vector::Constant(blocks, -load),
+                                            convex::ConstraintRows(U),
+                                            Vector::Zero(row),
+                                            {}};
+  const convex::Solution solution = convex::automatic(problem);
+  REQUIRE(solution.status == convex::Status::solved);
+  const convex::Multipliers found = convex::multipliers(problem, solution, 1e-9, true);
+  CHECK_FALSE(found.unique);
+  REQUIRE(found.ranges.has_value());
+  CHECK((*found.ranges)[0].low == doctest::Approx(load * blocks));
+  for (int i = 0; i + 1 < blocks; ++i) {
+    const auto [low, high] = (*found.ranges)[static_cast<std::size_t>(1 + i)];
+    CHECK(std::abs(low) <= 1e-9);
+    CHECK(high == doctest::Approx(load * (blocks - 1 - i)));
   }
 }
