@@ -84,6 +84,7 @@ class PiecewiseNode : public Atom {
                           .pieces = {f},
                           .dimension = 1});
   }
+  std::optional<Value> constant_beside_entries() const override { return Value{parts_.offset, 0}; }
 
   double value(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();

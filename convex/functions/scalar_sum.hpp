@@ -36,6 +36,7 @@ class ScalarSum : public Atom {
   }
   Call call() const override { return law_.call(); }
   Function conjugate() const override { return law_.conjugate(); }
+  std::optional<Value> constant_beside_entries() const override { return Value{}; }
 
   double domain_size() const override {
     double size = 0;

@@ -39,6 +39,8 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
 
   /// f_i of an f(x) = Σ_i f_i(x_i) + constant, a function of one entry; none where the f_i are not known.
   virtual std::optional<Function> entry(Index i) const;
+  /// That constant; none where it is not known.
+  virtual std::optional<Value> constant_beside_entries() const { return std::nullopt; }
 
   /// f on Rⁿ as a quadratic program over x and auxiliary variables; exactly when facts().piecewise_quadratic.
   /// It is what makes the prox exact in any metric.

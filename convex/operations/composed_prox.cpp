@@ -74,6 +74,21 @@ std::optional<Composition> composition(std::span<const Function> parts) {
   return std::nullopt;
 }
 
+/// f_1, …, f_n, where they are known.
+std::optional<std::vector<Function>> entries_of(const FunctionNode& f, Index n) {
+  std::vector<Function> entries;
+  for (Index i = 0; i < n; ++i) {
+    if (i > 0 && f.dimension() == 0) {
+      entries.push_back(entries[0]);
+    } else if (auto one = f.entry(i)) {
+      entries.push_back(*std::move(one));
+    } else {
+      return std::nullopt;
+    }
+  }
+  return entries;
+}
+
 }  // namespace
 
 std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector& z, const Metric& W,
@@ -98,17 +113,29 @@ std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector&
 std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, const Metric& W,
                                     const Look& look) {
   if (z.size() < 2 || !is_diagonal_kind(W) || !f.facts().separable) return std::nullopt;
-  std::vector<Prox> entries;
-  std::optional<Function> one;
-  for (Index i = 0; i < z.size(); ++i) {
-    if (i == 0 || f.dimension() != 0) one = f.entry(i);
-    if (!one) return std::nullopt;
-    entries.push_back(one->prox(z.segment(i, 1), block(W, i, 1), look));
-  }
-  Prox whole = joined(entries);
-  whole.values.reset();  // those of the entries are without the constant
+  const auto entries = entries_of(f, z.size());
+  if (!entries) return std::nullopt;
+  std::vector<Prox> proxes;
+  for (Index i = 0; i < z.size(); ++i)
+    proxes.push_back((*entries)[static_cast<std::size_t>(i)].prox(z.segment(i, 1), block(W, i, 1), look));
+  Prox whole = joined(proxes);
+  const auto constant = f.constant_beside_entries();
+  if (constant && whole.values)
+    whole = with_values(whole, whole.values, *constant, {-constant->value, constant->error});
+  else
+    whole.values.reset();
   whole.method += " by entries";
   return whole;
+}
+
+std::optional<Value> value_by_entries(const FunctionNode& f, const Vector& x) {
+  if (x.size() < 2 || !f.facts().separable) return std::nullopt;
+  std::optional<Value> total = f.constant_beside_entries();
+  const auto entries = total ? entries_of(f, x.size()) : std::nullopt;
+  if (!entries) return std::nullopt;
+  for (Index i = 0; i < x.size(); ++i)
+    total = sum_of(*total, value_near((*entries)[static_cast<std::size_t>(i)], x.segment(i, 1), x.norm()));
+  return total;
 }
 
 Prox joined(const std::vector<Prox>& blocks) {

@@ -4,6 +4,7 @@
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/composed_prox.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/pinned_slopes.hpp"
@@ -35,6 +36,7 @@ class InfConvolution : public Operation {
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
   Value evaluate(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
+    if (const auto sum = value_by_entries(*this, x)) return *sum;
     const ByProgram found = by_program(x);
     return settled_value(found.value, found.slope, conjugate(), x);
   }
@@ -56,6 +58,9 @@ class InfConvolution : public Operation {
   std::optional<Function> entry(Index i) const override {
     const auto f = f_.node().entry(i), g = g_.node().entry(i);
     return f && g ? std::optional(proper_inf_convolution(*f, *g)) : std::nullopt;
+  }
+  std::optional<Value> constant_beside_entries() const override {
+    return sum_of_constants(std::vector{f_, g_});
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);

@@ -44,6 +44,16 @@ Index common_dimension(std::span<const Function> parts, const char* where) {
   return n;
 }
 
+std::optional<Value> sum_of_constants(std::span<const Function> parts) {
+  Value total;
+  for (const Function& f : parts) {
+    const auto part = f.node().constant_beside_entries();
+    if (!part) return std::nullopt;
+    total = sum_of(total, *part);
+  }
+  return total;
+}
+
 bool domains_may_miss(std::span<const Function> parts) {
   return std::count_if(parts.begin(), parts.end(), [](const Function& f) { return !f.facts().finite; }) > 1;
 }

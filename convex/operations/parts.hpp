@@ -23,6 +23,9 @@ bool all_of(std::span<const Function> parts, bool Facts::*fact);
 /// The one number of entries that all of these take, 0 when any will do. Throws InvalidInput "where: …".
 Index common_dimension(std::span<const Function> parts, const char* where);
 
+/// The sum of the constants beside their entries, where all are known.
+std::optional<Value> sum_of_constants(std::span<const Function> parts);
+
 /// Is some part not finite, and another one too? Then their domains need not meet.
 bool domains_may_miss(std::span<const Function> parts);
 

@@ -62,6 +62,10 @@ class Scale : public Operation {
     const auto f = f_.node().entry(i);
     return f ? std::optional(scale(dilate(*f, rho_), alpha_)) : std::nullopt;
   }
+  std::optional<Value> constant_beside_entries() const override {
+    const auto of_f = f_.node().constant_beside_entries();
+    return of_f ? std::optional(multiple_of(alpha_, *of_f)) : std::nullopt;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -97,6 +97,14 @@ class Separable : public Operation {
     });
     return found;
   }
+  std::optional<Value> constant_beside_entries() const override {
+    std::optional<Value> total = Value{};
+    for_each([&](const Function& f, Index, Index size) {
+      const auto part = size == 1 ? Value{} : f.node().constant_beside_entries();
+      total = total && part ? std::optional(sum_of(*total, *part)) : std::nullopt;
+    });
+    return total;
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     if (!facts().piecewise_quadratic) return std::nullopt;
     std::vector<LinearQuadratic> forms;

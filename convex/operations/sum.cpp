@@ -88,6 +88,8 @@ std::optional<Function> Sum::entry(Index i) const {
   return proper_sum(entries);
 }
 
+std::optional<Value> Sum::constant_beside_entries() const { return sum_of_constants(parts_); }
+
 std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
   const auto forms = programs(parts_, n);
   if (!forms) return std::nullopt;

@@ -27,6 +27,7 @@ class Sum : public Operation {
   /// Each part's domain holds the sum's.
   double domain_support(const Vector& v) const override;
   std::optional<Function> entry(Index i) const override;
+  std::optional<Value> constant_beside_entries() const override;
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override;
   std::optional<GraphForm> graph(Index n, double slope) const override;
   /// max(f, g) + h is the maximum of f + h and g + h.

@@ -34,6 +34,9 @@ class Translate : public Operation {
     const auto f = f_.node().entry(i);
     return f ? std::optional(translate(*f, by_.segment(i, 1))) : std::nullopt;
   }
+  std::optional<Value> constant_beside_entries() const override {
+    return f_.node().constant_beside_entries();
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;
