@@ -59,48 +59,96 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
   return made;
 }
 
+namespace {
+
+/// A metric of some size beside W, and the entries of x (the others: of v) that are kept from pass to pass.
+struct Balance {
+  Metric V;
+  double distance = 1;       ///< of V from W: at least their ratio and its inverse, in each direction
+  std::vector<bool> keep_x;  ///< n
+};
+
+/// Passes in one metric from x and v, which they move.
+std::optional<Prox> passes(const Function& f, const Balance& balance, Vector& x, Vector& v, const Vector& z,
+                           const Metric& W, const Look& look) {
+  constexpr double slow = 0.5;
+  constexpr int most_passes = 3;
+  std::optional<Prox> best;
+  double least = INFINITY;
+  for (int pass = 0; pass < most_passes && !WorkLimit::passed(); ++pass) {
+    const Vector of_x = metric_difference(W, z, x), of_v = z - refined_solve(W, v);
+    for (Index i = 0; i < z.size(); ++i) {
+      const bool kept = balance.keep_x[static_cast<std::size_t>(i)];
+      (kept ? v : x)[i] = (kept ? of_x : of_v)[i];
+    }
+    Prox made = f.prox(x + balance.V.solve(v), balance.V, look);
+    if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) break;
+    x = made.x;
+    v = made.v;
+    // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
+    const double root = std::sqrt(balance.distance);
+    made.error_bound = 2 * made.error_bound * (root + 1 / root) +
+                       W.dual_norm(metric_difference(W, x, z) + v) +
+                       roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
+    const bool converging = made.error_bound < slow * least;
+    least = std::min(least, made.error_bound);
+    if (!best || made.error_bound < best->error_bound) best = std::move(made);
+    if (!converging) break;
+  }
+  return best;
+}
+
+/// The power of 2 next to |v| over |x|, each at least `least`; 1 where there is none in range.
+double power_of_ratio(double x, double v, double least) {
+  constexpr double farthest = 0x1p200;  // times and over weights it is a double still
+  const double ratio = std::exp2(std::round(std::log2(std::max(v, least) / std::max(x, least))));
+  return ratio > 1 / farthest && ratio < farthest ? ratio : 1;
+}
+
+/// Entry by entry, where W couples none.
+std::optional<Balance> balance_of_entries(const Prox& at, const Metric& W) {
+  if (at.x.size() < 2 || (W.kind() != MetricKind::identity && W.kind() != MetricKind::diagonal))
+    return std::nullopt;
+  constexpr double farthest = 0x1p40;  // from W: what is smaller beside the other is 0
+  Balance made{W, 1, {}};
+  Vector weights = W.diagonal();
+  for (Index i = 0; i < at.x.size(); ++i) {
+    const double root = std::sqrt(weights[i]);
+    const double ratio = power_of_ratio(std::abs(at.x[i]) * root, std::abs(at.v[i]) / root, at.error_bound);
+    const double s = std::clamp(ratio, 1 / farthest, farthest);
+    weights[i] *= s;
+    made.distance = std::max({made.distance, s, 1 / s});
+    made.keep_x.push_back(s >= 1);
+  }
+  made.V = Metric::diagonal(weights);
+  return made;
+}
+
+}  // namespace
+
 std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
                            const Metric& W, const Look& look) {
   // Nearer to W the passes converge faster, and in V the result is the most accurate.
   constexpr double towards_W[] = {0x1p-24, 0x1p-18, 0x1p-12, 0x1p-6, 1};
-  constexpr double slow = 0.5;
-  constexpr int most_passes = 3;
   std::vector<Prox> found;
   if (!near || near->v.size() != z.size() || !near->v.allFinite()) return found;
   // What is 0 may be anything within the bound.
-  const double X = std::max(W.norm(near->x), near->error_bound),
-               V = std::max(W.dual_norm(near->v), near->error_bound);
-  const double ratio = std::exp2(std::round(std::log2(V / X)));
-  constexpr double farthest = 0x1p200;  // times and over weights it is a double still
-  if (!(ratio > 1 / farthest && ratio < farthest)) return found;
+  const double ratio = power_of_ratio(W.norm(near->x), W.dual_norm(near->v), near->error_bound);
   Vector x = near->x, v = near->v;
   double last = 0;
   for (const double part : towards_W) {
     const double s = ratio >= 1 ? std::max(1.0, part * ratio) : std::min(1.0, ratio / part);
     if (s == last) continue;
     last = s;
-    double least = INFINITY;
-    for (int pass = 0; pass < most_passes && !WorkLimit::passed(); ++pass) {
-      if (ratio >= 1)
-        v = metric_difference(W, z, x);
-      else
-        x = z - refined_solve(W, v);
-      Prox made = f.prox(x + W.solve(v) / s, W.scaled(s), look);
-      if (made.x.size() != z.size() || made.v.size() != z.size() || !made.v.allFinite()) return found;
-      x = made.x;
-      v = made.v;
-      // The exact prox there is that of another point in W: of x + W⁻¹v, as far as x and v are right.
-      made.error_bound = 2 * made.error_bound * (std::sqrt(s) + 1 / std::sqrt(s)) +
-                         W.dual_norm(metric_difference(W, x, z) + v) +
-                         roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(x));
-      const bool converging = made.error_bound < slow * least;
-      least = std::min(least, made.error_bound);
-      if (pass > 0 && made.error_bound < found.back().error_bound)
-        found.back() = std::move(made);
-      else if (pass == 0)
-        found.push_back(std::move(made));
-      if (!converging) break;
-    }
+    const std::vector<bool> keep_x(static_cast<std::size_t>(z.size()), ratio >= 1);
+    auto made = passes(f, {W.scaled(s), std::max(s, 1 / s), keep_x}, x, v, z, W, look);
+    if (!made) break;
+    found.push_back(*std::move(made));
+  }
+  if (const auto by_entries = balance_of_entries(*near, W)) {
+    x = near->x;
+    v = near->v;
+    if (auto made = passes(f, *by_entries, x, v, z, W, look)) found.push_back(*std::move(made));
   }
   std::reverse(found.begin(), found.end());
   return found;

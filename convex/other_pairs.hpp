@@ -27,6 +27,7 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 /// V = s W, s = ||v||_(W⁻¹) / ||x||_W, the two are of one size, so that neither drowns the other. The smaller
 /// of the two is kept from pass to pass, the larger follows from z. Passes in a V far from W converge slowly
 /// where f is much flatter or steeper than s: one comes for each of some metrics between the two, V's first.
+/// Before them, where W is diagonal, one with an s for each entry.
 std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
                            const Metric& W, const Look& look);
 

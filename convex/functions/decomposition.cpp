@@ -6,6 +6,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/functions/closed_form.hpp"
 #include "convex/functions/split_candidate.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
@@ -108,6 +109,13 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     const WorkLimit part(most);
     way();
   };
+  attempt(part_of_a_way, [&] {
+    for (const Vector& point : {Vector(Vector::Zero(z.size())), z}) {
+      if (ended()) return;
+      SplitCandidate other = at_zero(of, point, z, W);
+      if (is_borne_out(other)) best = std::move(other);
+    }
+  });
   attempt(part_of_a_way, [&] {
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);

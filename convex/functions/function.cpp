@@ -11,6 +11,9 @@
 namespace convex::inline named_functions {
 namespace {
 
+/// Of the work of a question, what a value by itself may take.
+constexpr double part_of_a_value_alone = 0.25;
+
 /// Throws InvalidInput unless x can be an argument of f.
 void check(const Function& f, const Vector& x, const char* what) {
   const Index n = f.dimension();
@@ -52,13 +55,13 @@ Call Function::call() const { return node_->call(); }
 
 double Function::operator()(const Vector& x) const {
   check(*this, x, "x");
-  const WorkLimit question;
+  const WorkLimit question(part_of_a_value_alone);
   return node_->value(x);
 }
 
 Value Function::evaluate(const Vector& x) const {
   check(*this, x, "x");
-  const WorkLimit question;
+  const WorkLimit question(part_of_a_value_alone);
   return node_->evaluate(x);
 }
 

@@ -181,6 +181,18 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   return made;
 }
 
+SplitCandidate at_zero(const SplitFunctions& of, const Vector& x, const Vector& z, const Metric& W) {
+  const auto point = [](const Vector& p, const Vector& other) {
+    return Prox{.x = p, .v = other, .route = ProxRoute::iterative, .method = "values at 0"};
+  };
+  const Vector y = z - x;
+  SplitCandidate made = at_points(of, point(x, W.multiply(y)), point(y, W.multiply(x)), z, W);
+  const double slack = membership_tolerance * W.norm(z);
+  made.rounding += slack * slack / 2;
+  made.split.x.error_bound = made.split.y.error_bound = made.split.error_bound = made.proved();
+  return made;
+}
+
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W) {
   const Vector &x = split.x.x, &y = split.y.x;

@@ -48,6 +48,11 @@ SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, con
 SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                            const Metric& W, double tolerance);
 
+/// The right side at x and z - x, one of which is 0, so that (x|y) is 0 and has no rounding: however the
+/// point was found, the values prove it. The bound is what they prove, and the slack by which a point of
+/// doubles counts as inside a domain.
+SplitCandidate at_zero(const SplitFunctions& of, const Vector& x, const Vector& z, const Metric& W);
+
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include "convex/functions/decomposition.hpp"
@@ -53,6 +54,21 @@ const Question questions[] = {
     {"inf_convolution(pointwise_max(huber(0.5), squared_hinge()), elastic_net(3, 0.125))",
      {2e8, 1, -3e8},
      {}},
+    {"inf_convolution(hinge(), inverse_power(0.5))", {3e8, 3e8, 2}, {10, 0, 0, 0, 0.5, 0, 0, 0, 2}},
+    {"perspective(pointwise_max(envelope(power(2), 1024), inf_convolution(max_affine([[2,1],[0,1]], "
+     "[-1,-3]), "
+     "kullback_leibler(2))))",
+     {-2e8, -2e8, -3e8},
+     {4, 0, -16, 0, 1, 0, -16, 0, 68}},
+    {"pointwise_max(sum_largest(1), entropy())", {-1, -2e8, -2e8, -2e8}, {}},
+    {"perspective(pointwise_max(quadratic([[1,1],[1,1]], [-1,2]), dilate(huber(3), 0.0009765625)))",
+     {2e8, 1, -3e8},
+     {0.03125, 0, 0, 0, 0.03125, 0, 0, 0, 0.03125}},
+    {"pointwise_max(pointwise_max(separable(distance(polyhedron([[-2,0],[3,-1]], [4,4]), 1), 2, power(3), "
+     "1), "
+     "indicator(orthant())), conjugate(perspective(power(2))))",
+     {2, -2, -2},
+     {0.03125, 0, 0, 0, 2, 0, 0, 0, 1}},
     {"perspective(pointwise_max(entropy(), exponential()))",
      {2.019308175375862, 9.922587492261805, -0.10601748343867712, -0.710620986652339},
      {1, -1, 0, 0, -1, 10, 9, 9, 0, 9, 13, 7, 0, 9, 7, 19}},
@@ -108,6 +124,14 @@ TEST_CASE("a conjugate far out keeps the part of its function that is small besi
     CHECK(std::abs(found.value - (2 * v - 8)) <= found.error + 1e-15 * v);
     CHECK(found.error <= 1e-9 * v);
   }
+}
+
+TEST_CASE("the value of a convolution by entries is that of each") {
+  // inf over w of max(0, 1 - w) + 1/sqrt(x - w): w = 1 where the slope of the root beyond it is below 1.
+  const auto f = samples::function("sum(inf_convolution(hinge(), inverse_power(0.5)), constant(7))", 3);
+  const convex::Value found = f.evaluate(Eigen::Vector3d(1e4, 1e4, 2));
+  CHECK(std::abs(found.value - (8 + 2 / std::sqrt(1e4 - 1))) <= found.error + 1e-15);
+  CHECK(found.error <= 1e-12);
 }
 
 TEST_CASE("roots in roots end, and what they leave is said") {
