@@ -28,6 +28,11 @@ void WorkLimit::count(long done) {
   if (innermost) evaluations += done;
 }
 
+double WorkLimit::rest() {
+  if (!innermost) return 1;
+  return static_cast<double>(std::max(0L, innermost->end_ - evaluations)) / most_evaluations;
+}
+
 bool WorkLimit::passed() { return innermost && evaluations > innermost->end_; }
 
 }  // namespace convex::inline composite

@@ -14,17 +14,22 @@ namespace convex::inline composite {
 class WorkLimit {
  public:
   explicit WorkLimit(double part = 1);
+  /// For one of several ways, whose others are to have some: a half of what is left.
+  static WorkLimit half_of_the_rest() { return WorkLimit(rest() / 2); }
   ~WorkLimit();
   WorkLimit(const WorkLimit&) = delete;
   WorkLimit& operator=(const WorkLimit&) = delete;
   /// What one evaluation of a saddle problem counts as.
   static constexpr long of_a_saddle_point = 4;
-  /// And a search for the nearest point of a domain, whose program is made and solved, often by others within.
+  /// And a search for the nearest point of a domain, whose program is made and solved, often by others
+  /// within.
   static constexpr long of_a_nearest_point = 1000;
   static void count(long evaluations = 1);
   static bool passed();
 
  private:
+  /// What is left, as a part of the whole.
+  static double rest();
   const WorkLimit* outer_;
   long end_;
 };

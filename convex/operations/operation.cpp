@@ -154,7 +154,13 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W, const 
 }
 
 Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
-  std::optional<Prox> best = own_prox(z, W, look);
+  // A maximum has another way, by its dual, which is left as much work as its programs may take.
+  const bool is_maximum = !facts().piecewise_quadratic && !maximum_of().empty();
+  std::optional<Prox> best = [&] {
+    if (!is_maximum) return own_prox(z, W, look);
+    const auto part = WorkLimit::half_of_the_rest();
+    return own_prox(z, W, look);
+  }();
   if (!best) refuse(*this, "prox in this metric");
   if (WorkLimit::passed()) return *std::move(best);
   if (!is_settled(*best, z, W))

@@ -11,6 +11,7 @@ namespace convex::inline operations {
 namespace {
 
 constexpr double least_weight = 1e-30;
+constexpr double end_weight = 0x1p-20;  ///< of the other one; a bracket from there on decides nothing
 constexpr int most_halvings = 80;
 /// Brackets shorter than this part of t, or of 1 - t, have ended.
 constexpr double shortest = 2 * unit_roundoff;
@@ -21,6 +22,7 @@ constexpr double above_noise = 1e3, safety = 4;
 /// The prox at a weight, and g - f there.
 struct At {
   double t = 0;
+  Function mean;
   Prox prox;
   double difference = 0;
   double noise = 0;  ///< of the difference
@@ -43,7 +45,8 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   std::vector<Function> terms;
   if (of_f > 0) terms.push_back(weighted(f, of_f));
   if (of_g > 0) terms.push_back(weighted(g, of_g));
-  At found{t, proper_sum(terms).prox(z, W, look), 0, 0, {}};
+  const Function mean = proper_sum(terms);
+  At found{t, mean, mean.prox(z, W, look), 0, 0, {}};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
@@ -58,17 +61,24 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look) {
-  std::optional<At> low = at(f, g, 0, z, W, look), high = at(f, g, 1, z, W, look);
-  if (!low || !high) return std::nullopt;
+  std::optional<At> low = at(f, g, 0, z, W, look);
   // The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
   const auto named = [](const At& at_weight) {
     Prox made = at_weight.prox;
+    const Function& mean = at_weight.mean;
+    if (!made.values && mean.facts().piecewise_quadratic)
+      made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
     made = with_values(made, made.values, at_weight.above);
     made.method = "dual of a maximum, " + made.method;
     return made;
   };
-  if (low->difference <= 0) return named(*low);  // f alone is above g at its prox
-  if (high->difference >= 0) return named(*high);
+  if (low && low->difference <= 0) return named(*low);  // f alone is above g at its prox
+  std::optional<At> high = at(f, g, 1, z, W, look);
+  if (high && high->difference >= 0) return named(*high);
+  // Where the prox of one of the two is not found, that of a mean with little of the other may be.
+  if (!low) low = at(f, g, end_weight, z, W, look);
+  if (!high) high = at(f, g, 1 - end_weight, z, W, look);
+  if (!low || !high || low->difference < 0 || high->difference > 0) return std::nullopt;
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
   double low_value = low->difference, high_value = high->difference;
   for (int step = 0; step < most_halvings && !WorkLimit::passed(); ++step) {
