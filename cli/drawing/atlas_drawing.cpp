@@ -145,12 +145,19 @@ Drawing atlas_drawing(const SolvedAtlas& solved, const Scene& scene) {
     longest = longest.cwiseMax(pair.free.cwiseAbs()).cwiseMax(pair.truth.cwiseAbs());
   for (double& length : longest) length = length > 0 ? length : 1;
   std::string arrows;
+  const Eigen::Vector2d low(bound(map.over[0].low), bound(map.over[1].low)),
+      high(bound(map.over[0].high), bound(map.over[1].high));
   const auto arrow = [&](const ArrowPair& pair, const Eigen::Vector2d& vector, const char* style) {
     const Eigen::Vector2d drawn = longest_arrow * vector.cwiseQuotient(longest);
     constexpr double seen = 1e-3;
     if (drawn.norm() < seen) return;
-    arrows += fmt::format("set arrow from {},{} rto graph {},{} front {}\n", pair.at.x(), pair.at.y(),
-                          drawn.x(), drawn.y(), style);
+    // Where the tip would leave the frame, it stands at the point instead.
+    const Eigen::Vector2d tip = (pair.at - low).cwiseQuotient(high - low) + drawn;
+    const bool is_inside = tip.minCoeff() > 0 && tip.maxCoeff() < 1;
+    const Eigen::Vector2d from =
+        is_inside ? pair.at : Eigen::Vector2d(pair.at - drawn.cwiseProduct(high - low));
+    arrows += fmt::format("set arrow from {},{} rto graph {},{} front {}\n", from.x(), from.y(), drawn.x(),
+                          drawn.y(), style);
   };
   for (const ArrowPair& pair : pairs) {
     arrow(pair, pair.free, "lc rgb \"#d55e00\" lw 1.6 size screen 0.012,20");
