@@ -61,7 +61,7 @@ std::optional<ExactProgram> of_operation(const Call& call, const ExactArguments&
     const auto set = part("set", W);
     return set ? std::optional(conjugate(*set, W)) : std::nullopt;
   }
-  if (name == "distance" || !a.given("f")) return std::nullopt;
+  if (!a.given("f")) return std::nullopt;
   const auto f = part("f", W);
   if (!f) return std::nullopt;
   if (name == "conjugate") return conjugate(*f, W);
@@ -87,9 +87,13 @@ std::optional<ExactProgram> exact_program(const Call& call, const ExactGram& W) 
   const ExactArguments a(call, n);
   if (call.name == "sum" || call.name == "intersection" || call.name == "pointwise_max") {
     const auto parts = parts_of(a, W);
-    if (!parts) return std::nullopt;
-    return call.name == "pointwise_max" ? pointwise_max(*parts) : std::optional(sum(*parts));
+    if (call.name == "pointwise_max") {
+      auto made = parts ? pointwise_max(*parts) : std::nullopt;
+      return made ? made : of_one_variable(call, W);
+    }
+    return parts ? std::optional(sum(*parts)) : std::nullopt;
   }
+  if (call.name == "distance") return of_one_variable(call, W);
   return of_operation(call, a, W);
 }
 

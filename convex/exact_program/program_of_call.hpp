@@ -29,6 +29,10 @@ struct ExactPiece {
 /// Σ_i p(x_i); none when the pieces do not meet, or the slope falls.
 std::optional<ExactProgram> of_pieces(std::size_t n, const std::vector<ExactPiece>& pieces);
 
+/// Of one entry: a distance, and a maximum of parts of which none is polyhedral beside the others, in pieces
+/// that meet at fractions; none of anything else.
+std::optional<ExactProgram> of_one_variable(const Call& call, const ExactGram& W);
+
 /// Whether a symmetric matrix, by rows, is positive semidefinite.
 bool is_semidefinite(std::vector<ExactRow> Q);
 

@@ -109,6 +109,25 @@ TEST_CASE("the value of a conjugate is proved where no point attains it, and whe
   }
 }
 
+TEST_CASE("of one variable distances and maxima of parabolas are proved in fractions, at their corners too") {
+  for (const auto& [f, z, x] : std::vector<std::array<const char*, 3>>{
+           {"distance(box(4,5))", "[1]", "2"},
+           {"distance(box(4,5), 1/3)", "[9/2]", "9/2"},
+           // 1 - x and 2x² meet at 1/2, with the slopes -1 and 2.
+           {"pointwise_max(hinge(), squared_norm2(4))", "[1/2]", "1/2"},
+           {"pointwise_max(hinge(), squared_norm2(4))", "[5/2]", "1/2"},
+           {"pointwise_max(hinge(), squared_norm2(4))", "[5]", "1"},
+           {"precompose(distance(box(-1,1)), [[-2]], [0])", "[1/2]", "1/2"}}) {
+    CAPTURE(f);
+    CAPTURE(z);
+    const Json exact = json_of({"prox", f, "--at", z, "--method", "exact", "--json"});
+    CHECK(exact["exact"]["x"][0] == x);
+    const Json proved = json_of({"prox", f, "--at", z, "--certify", "--json"});
+    CHECK(proved["certificate"]["level"] == "exact");
+    CHECK(proved["certificate"]["error_bound"].get<double>() <= 1e-15);
+  }
+}
+
 TEST_CASE("in a full metric a polyhedral function is proved in fractions as long as these are quick") {
   const auto level = [](int n) {
     std::string metric = "[", z = "[";
