@@ -5,6 +5,7 @@ import unittest
 from fractions import Fraction
 
 import numpy as np
+from scipy.stats import multivariate_normal
 
 import moreau
 from moreau import ball2, box, group_norm, norm1, norm2
@@ -35,6 +36,17 @@ class Atlases(unittest.TestCase):
         self.assertIn("probability", atlas._repr_html_())
         picture = atlas._repr_svg_()
         self.assertTrue(picture is None or "<svg" in picture)
+
+    def test_probabilities_of_four_contacts_in_four_dimensions_are_the_orthants_that_scipy_integrates(self):
+        random = np.random.default_rng(7)
+        B, U = random.integers(-3, 4, size=(4, 4)), random.integers(-2, 3, size=(4, 4)) + 4*np.eye(4, dtype=int)
+        A = B @ B.T + 2*np.eye(4, dtype=int)
+        atlas = moreau.atlas(A=A, U=U)
+        slack = U @ np.linalg.solve(A, U.T)  # the covariance of Uq'' of the free motion
+        slack = (slack + slack.T) / 2
+        normal = lambda covariance: multivariate_normal.cdf(np.zeros(4), cov=covariance, maxpts=1_000_000, abseps=1e-6)
+        self.assertAlmostEqual(atlas.cell().probability, normal(slack), delta=2e-5)
+        self.assertAlmostEqual(atlas.cell(*(f"c[{a}]" for a in range(4))).probability, normal(np.linalg.inv(slack)), delta=2e-5)
 
     def test_contacts_that_exclude_each_other_are_named(self):
         atlas = moreau.atlas(U=[[1], [-1], [2]], s=[1, 0, 0])

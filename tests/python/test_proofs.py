@@ -7,6 +7,13 @@ from fractions import Fraction
 
 import numpy as np
 
+try:
+    import sympy
+    from sympy.parsing.sympy_parser import rationalize, standard_transformations
+    sympy_fractions = (*standard_transformations, rationalize)
+except ImportError:
+    sympy = None
+
 import moreau
 from moreau import ball2, box, entropy, huber, indicator, norm1, norm2, simplex
 
@@ -98,6 +105,32 @@ class Symbols(unittest.TestCase):
                 self.assertAlmostEqual(made.prox(z), moreau.prox(f, [z])[0], delta=1e-9)
                 x, y = float(made.prox(z)), z - float(made.prox(z))
                 self.assertAlmostEqual(made.f(x) + made.conjugate(y), x * y, delta=1e-9)
+
+    @unittest.skipIf(sympy is None, "sympy is not installed")
+    def test_the_derivatives_that_sympy_takes_of_the_formulas_satisfy_the_equation_of_the_prox(self):
+        names = {"W": sympy.LambertW, "log": sympy.log, "exp": sympy.exp, "sqrt": sympy.sqrt, "abs": sympy.Abs,
+                 "sign": sympy.sign}
+        read = lambda text: sympy.parse_expr(text.replace("^", "**"), names, transformations=sympy_fractions)
+        compared = 0
+        for text in ("sum(exponential(), norm1())", "sum(log_barrier(), indicator(box(1/3, 2)))", "entropy()",
+                     "sum(entropy(), huber(1/2))", "sum(norm1(2), translate(exponential(), [1]), hinge())",
+                     "sum(kullback_leibler(2), translate(norm1(), [1]))", "huber(1/3)"):
+            made = moreau.symbolic(moreau.function(text))
+            for piece in made.prox.cases:
+                p = read(piece["formula"])
+                ends = [None if piece[end] is None else float(piece[end]) for end in ("low", "high")]
+                at = sum(end for end in ends if end is not None) / max(1, 2 - ends.count(None))
+                at += 0 if None not in ends else 1.5 if ends[1] is None else -1.5
+                exact = sympy.Rational(Fraction(at).limit_denominator(1000))
+                value = sympy.N(p.subs(sympy.Symbol("z"), exact), 50)
+                inside = [case for case in made.f.cases if (case["low"] is None or case["low"] < value)
+                          and (case["high"] is None or value < case["high"])]
+                if len(inside) != 1:  # at a corner: the slope lies between those beside it
+                    continue
+                slope = sympy.diff(read(inside[0]["formula"]), sympy.Symbol("x")).subs(sympy.Symbol("x"), value)
+                self.assertLess(abs(sympy.N(exact - value - slope, 50)), 1e-40, (text, piece["formula"]))
+                compared += 1
+        self.assertGreater(compared, 12)
 
     def test_crossings_that_are_roots_are_told_as_roots(self):
         made = moreau.symbolic(moreau.pointwise_max(moreau.squared_norm2(2), moreau.linear([1]) + 1))

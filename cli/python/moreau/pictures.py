@@ -100,6 +100,14 @@ def _solution_result(solution):
     return Result(_moreau.document_of(solution), {"method": solution.method})
 
 
+def _table_and_picture(result):
+    """For IPython: of a table and a picture in one answer a notebook shows the table alone, so they are two."""
+    from IPython.display import display
+    display({"text/plain": repr(result), "text/html": result._repr_html_()}, raw=True)
+    if (picture := result._repr_svg_()) is not None:
+        display({"text/plain": "the picture", "image/svg+xml": picture}, raw=True)
+
+
 def attach():
     """Gives the results their looks in a notebook."""
     solution, split, report = _moreau.Solution, _moreau.Decomposition, _moreau.LawReport
@@ -115,6 +123,8 @@ def attach():
     Motion._repr_html_ = _motion_html
     Atlas._repr_html_ = _atlas_html
     Atlas._repr_svg_ = lambda self: _svg_of(self.plot)
+    for drawn in (solution, split, Result, Atlas):
+        drawn._ipython_display_ = _table_and_picture
     _moreau.Subdifferential._repr_html_ = lambda self: f"<pre>{html.escape(repr(self))}</pre>"
 
 
