@@ -183,9 +183,11 @@ void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
   });
   constexpr double digits = 1e-9;
   const auto across = static_cast<long>(made.cells);
-  made.error_bound = mechanics::liquid::error_by_differences(scene, differences, across) +
-                     largest_of_all(mechanics::liquid::error_by_bends(
-                         scene, cells, across, [&](Index k) { return p[index_of(k)]; })) +
+  mechanics::liquid::Bends bends =
+      mechanics::liquid::largest_bends(scene, cells, across, [&](Index k) { return p[index_of(k)]; });
+  bends = {largest_of_all(bends.singular), largest_of_all(bends.beside)};
+  made.error_bound = mechanics::liquid::error_by(
+                         mechanics::liquid::error_by_differences(scene, differences, across), bends) +
                      largest_of_all(cells.hidden) + digits * made.largest;
 }
 

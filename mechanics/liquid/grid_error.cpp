@@ -196,9 +196,13 @@ double error_by_differences(const LiquidScene& scene, const std::vector<double>&
   return safety * left / (std::exp2(order) - 1);
 }
 
-double error_by_bends(const LiquidScene& scene, const CutCells& cells, long across, const NodeValue& value) {
-  const double beside = largest_bend_at_pressures(cells, value) / (across < few_cells ? 1 : 8);
-  return std::max(beside, SingularNodes(scene, cells).largest_bend(value));
+Bends largest_bends(const LiquidScene& scene, const CutCells& cells, long across, const NodeValue& value) {
+  return {SingularNodes(scene, cells).largest_bend(value),
+          largest_bend_at_pressures(cells, value) / (across < few_cells ? 1 : 8)};
+}
+
+double error_by(double differences, const Bends& bends) {
+  return std::max(differences + bends.singular, bends.beside);
 }
 
 double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
@@ -211,8 +215,9 @@ double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,
   const auto value = [&](Index k) {
     return finest.grid.is_unknown(k) ? found[0].q[entry_of(k)] : finest.given[entry_of(k)];
   };
-  return error_by_differences(scene, differences, levels.cells()) +
-         error_by_bends(scene, finest, levels.cells(), value) + finest.hidden + digits * largest;
+  return error_by(error_by_differences(scene, differences, levels.cells()),
+                  largest_bends(scene, finest, levels.cells(), value)) +
+         finest.hidden + digits * largest;
 }
 
 }  // namespace mechanics::liquid

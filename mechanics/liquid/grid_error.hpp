@@ -15,15 +15,20 @@ namespace mechanics::liquid {
 /// of free parts and walls, and at corners, p has a term K r^α
 /// (Grisvard 1985, section 4.4: α = π/ω, and π/(2ω) where a wall meets a free part), of which a grid misses a
 /// part of K h^α whatever others say: there the largest second difference of nodes next to each other, which
-/// is O(h²) where p is smooth and of the size of K h^α where it is not, is added. So is, or counts if it is
-/// larger, what p bends beside given pressures, which nodes in a cavity alone do not see.
+/// is O(h²) where p is smooth and of the size of K h^α where it is not, is added. What p bends beside given
+/// pressures, which nodes in a cavity alone do not see, counts where it is larger than all that.
 ///
 /// `differences`: of p on each grid and the next coarser one, finest first.
 double error_by_differences(const LiquidScene&, const std::vector<double>& differences, long cells);
-/// What second differences say. `value`: p at a node, NaN where it is none or not known.
-double error_by_bends(const LiquidScene&, const CutCells&, long cells,
-                      const std::function<double(convex::Index)>& value);
-/// Both.
+/// What second differences say: at junctions and corners, and beside given pressures.
+struct Bends {
+  double singular = 0, beside = 0;
+};
+/// `value`: p at a node, NaN where it is none or not known.
+Bends largest_bends(const LiquidScene&, const CutCells&, long cells,
+                    const std::function<double(convex::Index)>& value);
+double error_by(double differences, const Bends&);
+/// All of it.
 double estimated_grid_error(const LiquidScene&, const GridLevels&, const std::vector<convex::CutSolution>&,
                             double largest);
 

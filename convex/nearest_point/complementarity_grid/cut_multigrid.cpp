@@ -254,7 +254,14 @@ void CutMultigrid::relax(std::vector<double>& q, int sweeps) const {
     });
 }
 
-Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, double part) {
+double CutMultigrid::energy(const std::vector<double>& q) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < q.size(); ++k)
+    if (levels_.front().free[k] != 0) sum += std::abs(load_[k] * q[k]);
+  return std::isfinite(sum) ? std::sqrt(sum) : 0;
+}
+
+Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, double part, double least) {
   Level& level = levels_.front();
   const CutGrid& grid = *level.grid;
   const Index n = slabs(grid), row = grid.points[0];
@@ -272,7 +279,7 @@ Index CutMultigrid::correct(std::vector<double>& q, std::vector<double>& r, doub
     });
     if (!(of_r > 0)) break;
     if (step == 0) first = of_r;
-    if (step > 0 && of_r <= part * part * first) break;
+    if (step > 0 && of_r <= std::max(part * part * first, least * least)) break;
     // Polak and Ribière's direction; Ap holds the last one times its step.
     const double beta = step == 0 ? 0 : -of_Ap / before;
     double curvature = 0;

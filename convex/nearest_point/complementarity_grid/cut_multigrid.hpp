@@ -20,8 +20,11 @@ class CutMultigrid {
   void set_free(const std::vector<std::uint8_t>& held, const std::vector<std::uint8_t>& taut);
   /// The residual of q on the free points, 0 elsewhere; its largest entry over the diagonal's root.
   double residual(const std::vector<double>& q, std::vector<double>& r) const;
-  /// q += the correction for the residual r, to `part` of its energy norm. Steps taken.
-  Index correct(std::vector<double>& q, std::vector<double>& r, double part);
+  /// q += the correction for the residual r, to `part` of its energy norm, or until what is left of it is
+  /// about `least`. Steps taken.
+  Index correct(std::vector<double>& q, std::vector<double>& r, double part, double least = 0);
+  /// The root of Σ |load q| on the free points: the energy norm of a solution q; 0 beyond doubles.
+  double energy(const std::vector<double>& q) const;
   /// Projected red-black sweeps on the finest grid, with the pendants that are taut: each point in turn to
   /// its own minimum, not below its bound. A bound is met exactly, by 0.
   void relax(std::vector<double>& q, int sweeps) const;

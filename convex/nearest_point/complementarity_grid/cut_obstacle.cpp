@@ -16,6 +16,8 @@ constexpr int most_set_changes = 200;
 constexpr int sweeps_of_edge = 4, changes_with_sweeps = 20;
 /// Of the correction, while the set still changes, and at the end.
 constexpr double rough = 1e-3, fine_part = 1e-7;
+/// Of the energy norm of q: what is left of a correction below it is rounding.
+constexpr double least_part = 1e-13;
 /// Values and multipliers this far below 0, relative to the largest, are 0 for all that the solve tells.
 constexpr double digits = 1e-11;
 
@@ -49,7 +51,7 @@ class CutLevel {
         if (found.held[k] != 0) found.q[k] = 0;
       multigrid_.set_free(found.held, found.taut);
       multigrid_.residual(found.q, r);
-      found.steps += multigrid_.correct(found.q, r, part);
+      found.steps += multigrid_.correct(found.q, r, part, least_part * multigrid_.energy(found.q));
       if (one_sided_ && update()) {
         part = rough;
         if (change < changes_with_sweeps) move_edge();
