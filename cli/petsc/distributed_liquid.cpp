@@ -211,15 +211,7 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
       return;
     }
     ++unknowns;
-    const bool is_bounded = cells.grid.kind[index_of(k)] == CutPoint::bounded;
-    if (is_bounded && p <= 0 && cells.h[index_of(k)] < 0) {
-      cavity += cells.volume[index_of(k)];
-      for (std::size_t i = 0; i < scene.dimension(); ++i) {
-        low[i] = std::min(low[i], cells.at(k)[i] - 0.5 * cells.step[i]);
-        high[i] = std::max(high[i], cells.at(k)[i] + 0.5 * cells.step[i]);
-      }
-    }
-    if (is_bounded && p > best.value) {
+    if (cells.grid.kind[index_of(k)] == CutPoint::bounded && p > best.value) {
       best.value = p;
       at = cells.at(k);
     }
@@ -237,6 +229,17 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
   MPI_Bcast(at.data(), static_cast<int>(at.size()), MPI_DOUBLE, first.rank, PETSC_COMM_WORLD);
   made.largest = first.value;
   made.largest_at = at;
+  constexpr double zero_part = 1e-10;  // of the largest p: what Newton's steps leave where it is 0
+  part.for_own([&](Index k, PetscInt there, PetscInt) {
+    if (cells.grid.kind[index_of(k)] != CutPoint::bounded || !(cells.h[index_of(k)] < 0) ||
+        ghosted.values()[there] > zero_part * made.largest)
+      return;
+    cavity += cells.volume[index_of(k)];
+    for (std::size_t i = 0; i < scene.dimension(); ++i) {
+      low[i] = std::min(low[i], cells.at(k)[i] - 0.5 * cells.step[i]);
+      high[i] = std::max(high[i], cells.at(k)[i] + 0.5 * cells.step[i]);
+    }
+  });
   made.unknowns = static_cast<Index>(sum_of_all(unknowns));
   made.cavity_measure = sum_of_all(cavity);
   made.volume = sum_of_all(volume);

@@ -146,6 +146,15 @@ int answer(const Request& request) {
   return wrong_input;
 }
 
+/// The first argument that `moreau solve` alone takes.
+std::string option_of_moreau(const std::vector<char*>& arguments) {
+  for (const std::string given : arguments)
+    for (const std::string name :
+         {"--probe", "--onset", "--certify", "--plot", "--velocity", "--animate", "--over"})
+      if (given == name || given.rfind(name + "=", 0) == 0) return name;
+  return "";
+}
+
 }  // namespace
 
 /// Arguments after --petsc are PETSc's own.
@@ -157,6 +166,10 @@ int main(int argc, char** argv) {
       petsc.insert(petsc.end(), argv + i + 1, argv + argc);
       break;
     }
+  if (const std::string name = option_of_moreau(own); !name.empty()) {
+    std::fprintf(stderr, "moreau_petsc: %s: not on many processors; `moreau solve` takes it\n", name.c_str());
+    return wrong_input;
+  }
   Request request;
   CLI::App app("The pressure of a liquid that may part, on many processors, by PETSc", "moreau_petsc");
   app.require_subcommand(1);

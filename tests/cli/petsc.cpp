@@ -145,4 +145,15 @@ TEST_SUITE("petsc") {
     text << std::ifstream(said).rdbuf();
     CHECK(text.str().find("has no [liquid]") != std::string::npos);
   }
+
+  TEST_CASE("what only the embedded solver does is refused with its name") {
+    const Folder folder;
+    const std::string file = folder.write("corner.toml", corner), said = folder.path("said");
+    for (const std::string option : {"--onset w", "--probe=x=1", "--certify"}) {
+      CHECK(run_petsc(1, "solve " + file + " " + option + " > /dev/null 2> " + said) != 0);
+      std::ostringstream text;
+      text << std::ifstream(said).rdbuf();
+      CHECK(text.str().find("`moreau solve` takes it") != std::string::npos);
+    }
+  }
 }
