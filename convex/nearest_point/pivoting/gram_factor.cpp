@@ -2,7 +2,21 @@
 
 #include <cmath>
 
+#include "convex/processor.hpp"
+
 namespace convex::inline pivoting {
+namespace {
+
+/// y := (from + sine x) inverse, x := cosine x - sine y.
+MOREAU_CLONES void rotate(Index count, const double* __restrict from, double sine, double inverse,
+                          double cosine, double* __restrict y, double* __restrict x) {
+  for (Index i = 0; i < count; ++i) {
+    y[i] = (from[i] + sine * x[i]) * inverse;
+    x[i] = cosine * x[i] - sine * y[i];
+  }
+}
+
+}  // namespace
 
 GramFactor::GramFactor(const GramRows& rows, Arena& arena, Index capacity)
     : rows_(rows), kernels_(dense_kernels()), capacity_(capacity), ld_(padded(capacity)) {
@@ -80,15 +94,6 @@ void GramFactor::append(Index place, const double* x, double distance) {
   L_[k * (ld_ + 1)] = std::sqrt(distance);
   const Index first = k / 8 * 8;
   kernels_.invert_blocks(size_ - first, ld_, L_ + first * (ld_ + 1), inverse_ + 16 * first);
-}
-
-/// y := (from + sine x) inverse, x := cosine x - sine y.
-static void rotate(Index count, const double* __restrict from, double sine, double inverse, double cosine,
-                   double* __restrict y, double* __restrict x) {
-  for (Index i = 0; i < count; ++i) {
-    y[i] = (from[i] + sine * x[i]) * inverse;
-    x[i] = cosine * x[i] - sine * y[i];
-  }
 }
 
 /// Without row j, L₃₃ of the rows behind it becomes L' with L'L'ᵀ = L₃₃L₃₃ᵀ + x xᵀ, x what they had in its

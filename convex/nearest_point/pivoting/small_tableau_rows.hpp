@@ -95,21 +95,31 @@ struct SmallTableauRows : Kernels<W, Fused> {
         }
         ++count;
       }
+    double* const fresh = t.swept + before * step;
+    const auto take_held_from = [&](Index r, auto factor) __attribute__((always_inline)) {
+      Pack x[8];
+#pragma GCC unroll 8
+      for (int l = 0; l < 8; ++l) x[l] = P::load(fresh + l * step + r);
+      for (Index k = 0; k < count; ++k) factor(k, x);
+#pragma GCC unroll 8
+      for (int l = 0; l < 8; ++l) P::store(fresh + l * step + r, x[l]);
+    };
+    for (Index r = 0; r < before; r += 8)
+      take_held_from(
+          r, [&](Index k, Pack(&x)[8]) __attribute__((always_inline)) {
+            const Pack column = P::load(t.swept + held[k] * step + r);
+#pragma GCC unroll 8
+            for (int l = 0; l < 8; ++l) P::subtract_product(x[l], column, products[8 * k + l]);
+          });
+    take_held_from(
+        before, [&](Index k, Pack(&x)[8]) __attribute__((always_inline)) {
+          const Pack product = P::load(products + 8 * k);
+#pragma GCC unroll 8
+          for (int l = 0; l < 8; ++l) P::subtract_product(x[l], product, fresh[l * step + held[k]]);
+        });
     for (Index l = 0; l < 8; ++l) {
-      double *const column = t.swept + (before + l) * step, load = t.load[before + l];
-      for (Index r = 0; r < before; r += 8) {
-        Pack x = P::load(column + r);
-        for (Index k = 0; k < count; ++k)
-          P::subtract_product(x, P::load(t.swept + held[k] * step + r), products[8 * k + l]);
-        P::store(column + r, x);
-      }
-      Pack own = P::load(column + before);
-      for (Index k = 0; k < count; ++k) {
-        P::subtract_product(own, P::load(products + 8 * k), column[held[k]]);
-        load -= t.load[held[k]] * column[held[k]];
-      }
-      P::store(column + before, own);
-      t.b[before + l] = load;
+      double& b = t.b[before + l] = t.load[before + l];
+      for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
       t.two_sided[before + l] = false;
       t.lambda[before + l] = 0;
       set_state(t, before + l, false);

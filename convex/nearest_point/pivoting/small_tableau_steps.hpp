@@ -47,13 +47,15 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     alignas(64) double part[SmallTableau::most];
     Pack c[packs], scaled[packs];
     const double load = t.b[k] * inverse;
-    for (Index r = 0; r < step; r += 8) {
-      c[r / 8] = P::load(column + r);
-      scaled[r / 8] = P::times(c[r / 8], inverse);
-      P::store(part + r, scaled[r / 8]);
-      Pack b = P::load(t.b + r);
-      P::subtract_product(b, c[r / 8], load);
-      P::store(t.b + r, b);
+#pragma GCC unroll 8
+    for (int r = 0; r < packs; ++r) {
+      if (8 * r == step) break;
+      c[r] = P::load(column + 8 * r);
+      scaled[r] = P::times(c[r], inverse);
+      P::store(part + 8 * r, scaled[r]);
+      Pack b = P::load(t.b + 8 * r);
+      P::subtract_product(b, c[r], load);
+      P::store(t.b + 8 * r, b);
     }
     for (Index j = 0; j < t.m; ++j) {
       double* const other = t.swept + j * step;
@@ -66,7 +68,11 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
       }
       other[k] = sign * part[j];
     }
-    for (Index r = 0; r < step; r += 8) P::store(column + r, P::times(scaled[r / 8], sign));
+#pragma GCC unroll 8
+    for (int r = 0; r < packs; ++r) {
+      if (8 * r == step) break;
+      P::store(column + 8 * r, P::times(scaled[r], sign));
+    }
     column[k] = -inverse;
     t.b[k] = sign * load;
     set_state(t, k, !t.held[k]);
