@@ -199,6 +199,13 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   return solution;
 }
 
+/// Whether lambda pulls as the solution's multipliers do; what was found from no vertex may not.
+bool is_same_reaction(const NearestPointProblem& problem, const Solution& solution, const Vector& lambda,
+                      double tolerance) {
+  return problem.A.dual_norm(problem.U.transpose_times(lambda - solution.lambda)) <=
+         tolerance * std::max(solution.force_norm, solution.acceleration_norm);
+}
+
 /// The solution without what rounding left of the multipliers of rows that open.
 Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
   Vector lambda = Vector::Zero(solution.lambda.size());
@@ -237,8 +244,9 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
     found.unique = sparse_rows_are_independent(problem, loaded);
     if (found.unique)
       found.ranges = std::move(ranges);
-    else
-      least_norm_multipliers(problem, found.tight, found.least_norm);
+    else if (!least_norm_multipliers(problem, found.tight, found.least_norm) ||
+             !is_same_reaction(problem, solution, found.least_norm, tolerance))
+      found.least_norm = solution.lambda;
     return found;
   }
 
@@ -269,6 +277,7 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     least_norm(rows, is_free, found.least_norm);
   }
+  if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) found.least_norm = solution.lambda;
   const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {
     return std::isnan(range.low) || std::isnan(range.high);
   });

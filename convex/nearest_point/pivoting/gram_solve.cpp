@@ -20,32 +20,13 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
   arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 14) * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
-  z_ = arena.take_filled(n_, 0.0);
-  w_free_ = arena.take<double>(n_);
-  w_ = arena.take<double>(n_);
-  q_ = arena.take<double>(n_);
-  q_low_ = arena.take_filled(n_, 0.0);
-  r_ = arena.take<double>(n_);
-  dw_ = arena.take<double>(n_);
-  dq_ = arena.take<double>(n_);
-  inverse_diagonal_ = arena.take_filled(n_, 0.0);
-  unit_ = arena.take<double>(n_);
-  row_scale_ = arena.take<double>(m_);
-  slack_ = arena.take<double>(m_);
-  load_ = arena.take<double>(k);
+  for (double** x : {&z_, &w_free_, &w_, &q_, &q_low_, &r_, &dw_, &dq_, &inverse_diagonal_, &unit_})
+    *x = arena.take_filled(n_, 0.0);
+  for (double** x : {&row_scale_, &slack_, &touched_slack_}) *x = arena.take<double>(m_);
+  for (double** x : {&load_, &lambda_, &change_, &length_, &pull_}) *x = arena.take<double>(k);
+  for (double** x : {&y_, &held_slack_, &total_, &rest_}) *x = arena.take_filled(places, 0.0);
+  for (Index** x : {&touched_, &close_, &fresh_}) *x = arena.take<Index>(m_);
   rows_ = arena.take<Index>(k);
-  lambda_ = arena.take<double>(k);
-  change_ = arena.take<double>(k);
-  length_ = arena.take<double>(k);
-  pull_ = arena.take<double>(k);
-  y_ = arena.take_filled(places, 0.0);
-  held_slack_ = arena.take<double>(places);
-  total_ = arena.take_filled(places, 0.0);
-  rest_ = arena.take<double>(places);
-  touched_ = arena.take<Index>(m_);
-  close_ = arena.take<Index>(m_);
-  fresh_ = arena.take<Index>(m_);
-  touched_slack_ = arena.take<double>(m_);
   pack_ = arena.take<double>(8 * n_ + 8);  // two vectors at least
   dual_ = arena.take<double>(n_ * padded(k));
   products_ = arena.take<double>(8 * padded(k));

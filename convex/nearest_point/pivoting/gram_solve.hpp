@@ -50,7 +50,6 @@ class GramSolve {
   Slacks decide_degenerate_rows();
   Index measure_touched_slacks();
   double slack_noise(Index a) const;
-  double rise(Index a) const;
   std::optional<double> slack_by_parallel_row(Index a) const;
   bool are_independent(const Index* rows, Index count, double part);
   void find_dual_rows();

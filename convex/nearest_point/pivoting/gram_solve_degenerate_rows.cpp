@@ -225,9 +225,10 @@ bool GramSolve::find_way_up(Index count) {
   kernels_.combine(n_, blocks, set_->rows().whitened(), y_, dw_);
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
-  double t = 0, length = 0;  // ||e||_D, D the diagonal of A
+  constexpr double zero = 0;
+  double t = 0, up = 0, length = 0;  // ||e||_D, D the diagonal of A
   for (Index l = 0; l < count; ++l) {
-    const double up = rise(close_[l]);
+    kernels_.slacks(1, n_, problem_.U.dense().data() + close_[l] * n_, dq_, &zero, &up);
     if (!(up > least_rise * row_scale_[close_[l]])) return false;
     t = std::max(t, slack_noise(close_[l]) / up);
   }
@@ -237,13 +238,6 @@ bool GramSolve::find_way_up(Index count) {
   for (Index a = 0; a < m_; ++a)
     if (slack_[a] > 0 && slack_[a] < t * row_scale_[a] * length) return false;
   return true;
-}
-
-double GramSolve::rise(Index a) const {
-  constexpr double zero = 0;
-  double up = 0;
-  kernels_.slacks(1, n_, problem_.U.dense().data() + a * n_, dq_, &zero, &up);
-  return up;
 }
 
 /// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds

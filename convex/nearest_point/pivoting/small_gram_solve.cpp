@@ -19,10 +19,6 @@ constexpr double at_most_longer = 1.01;
 
 }  // namespace
 
-bool SmallGramSolve::fits(const NearestPointProblem& problem) {
-  return problem.dimension() <= SmallTableau::most_coordinates;
-}
-
 SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau& tableau)
     : problem_(problem),
       tableau_(tableau),

@@ -19,7 +19,9 @@ namespace convex::inline pivoting {
 /// the rows held are handed on.
 class SmallGramSolve {
  public:
-  static bool fits(const NearestPointProblem&);
+  static bool fits(const NearestPointProblem& problem) {
+    return problem.dimension() <= SmallTableau::most_coordinates;
+  }
 
   /// The problem is referred to; its z and s may change from one solve to the next.
   SmallGramSolve(const NearestPointProblem& problem, SmallTableau& tableau);
@@ -69,7 +71,6 @@ class SmallGramSolve {
   bool leave_sums_of_rows_held();
   bool keeps_touched_rows() const;
   std::span<const Index> touched() const { return {close_, close_ + touched_count_}; }
-  void find_magnitude();
   bool is_clear(double size);
   Index close_rows(double absolute, double by_length);
   bool doubles_do(double close);

@@ -14,17 +14,13 @@ constexpr Index few_where_sums = 8;
 
 }  // namespace
 
-void SmallGramSolve::find_magnitude() {
-  double square = 0;
-  for (Index i = 0; i < tableau_.n; ++i) square += problem_.A.diagonal()[i] * tableau_.q[i] * tableau_.q[i];
-  magnitude_ = std::sqrt(square);
-}
-
 /// Slacks of all rows and what is missing of the equations of motion, in doubles.
 void SmallGramSolve::measure() {
   SmallTableau& t = tableau_;
   small_kernels().measure(t);
-  find_magnitude();
+  double square = 0;
+  for (Index i = 0; i < t.n; ++i) square += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
+  magnitude_ = std::sqrt(square);
   if (looks_at_all()) return;
   dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
   for (Index p = 0; p < t.m; ++p)

@@ -96,27 +96,21 @@ struct SmallTableauRows : Kernels<W, Fused> {
         ++count;
       }
     double* const fresh = t.swept + before * step;
-    const auto take_held_from = [&](Index r, auto factor) __attribute__((always_inline)) {
+    for (Index r = 0; r <= before; r += 8) {
+      const bool is_own = r == before;
+      const Index stride = is_own ? step : 1;
       Pack x[8];
 #pragma GCC unroll 8
       for (int l = 0; l < 8; ++l) x[l] = P::load(fresh + l * step + r);
-      for (Index k = 0; k < count; ++k) factor(k, x);
+      for (Index k = 0; k < count; ++k) {
+        const Pack column = P::load(is_own ? products + 8 * k : t.swept + held[k] * step + r);
+        const double* const factor = is_own ? fresh + held[k] : products + 8 * k;
+#pragma GCC unroll 8
+        for (int l = 0; l < 8; ++l) P::subtract_product(x[l], column, factor[l * stride]);
+      }
 #pragma GCC unroll 8
       for (int l = 0; l < 8; ++l) P::store(fresh + l * step + r, x[l]);
-    };
-    for (Index r = 0; r < before; r += 8)
-      take_held_from(
-          r, [&](Index k, Pack(&x)[8]) __attribute__((always_inline)) {
-            const Pack column = P::load(t.swept + held[k] * step + r);
-#pragma GCC unroll 8
-            for (int l = 0; l < 8; ++l) P::subtract_product(x[l], column, products[8 * k + l]);
-          });
-    take_held_from(
-        before, [&](Index k, Pack(&x)[8]) __attribute__((always_inline)) {
-          const Pack product = P::load(products + 8 * k);
-#pragma GCC unroll 8
-          for (int l = 0; l < 8; ++l) P::subtract_product(x[l], product, fresh[l * step + held[k]]);
-        });
+    }
     for (Index l = 0; l < 8; ++l) {
       double& b = t.b[before + l] = t.load[before + l];
       for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
