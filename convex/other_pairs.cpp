@@ -98,11 +98,11 @@ std::optional<Prox> passes(const Function& f, const Balance& balance, Vector& x,
   return best;
 }
 
-/// The power of 2 next to |v| over |x|, each at least `least`; 1 where there is none in range.
-double power_of_ratio(double x, double v, double least) {
+/// The power of 2 next to |v| over |x|, each at least `least`; none where it is out of range.
+std::optional<double> power_of_ratio(double x, double v, double least) {
   constexpr double farthest = 0x1p200;  // times and over weights it is a double still
   const double ratio = std::exp2(std::round(std::log2(std::max(v, least) / std::max(x, least))));
-  return ratio > 1 / farthest && ratio < farthest ? ratio : 1;
+  return ratio > 1 / farthest && ratio < farthest ? std::optional(ratio) : std::nullopt;
 }
 
 /// Entry by entry, where W couples none.
@@ -114,8 +114,9 @@ std::optional<Balance> balance_of_entries(const Prox& at, const Metric& W) {
   Vector weights = W.diagonal();
   for (Index i = 0; i < at.x.size(); ++i) {
     const double root = std::sqrt(weights[i]);
-    const double ratio = power_of_ratio(std::abs(at.x[i]) * root, std::abs(at.v[i]) / root, at.error_bound);
-    const double s = std::clamp(ratio, 1 / farthest, farthest);
+    const auto ratio = power_of_ratio(std::abs(at.x[i]) * root, std::abs(at.v[i]) / root, at.error_bound);
+    if (!ratio) return std::nullopt;
+    const double s = std::clamp(*ratio, 1 / farthest, farthest);
     weights[i] *= s;
     made.distance = std::max({made.distance, s, 1 / s});
     made.keep_x.push_back(s >= 1);
@@ -133,7 +134,9 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
   std::vector<Prox> found;
   if (!near || near->v.size() != z.size() || !near->v.allFinite()) return found;
   // What is 0 may be anything within the bound.
-  const double ratio = power_of_ratio(W.norm(near->x), W.dual_norm(near->v), near->error_bound);
+  const auto in_range = power_of_ratio(W.norm(near->x), W.dual_norm(near->v), near->error_bound);
+  if (!in_range) return found;
+  const double ratio = *in_range;
   Vector x = near->x, v = near->v;
   double last = 0;
   for (const double part : towards_W) {

@@ -109,11 +109,11 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     const WorkLimit part(most);
     way();
   };
-  attempt(part_of_a_way, [&] {
+  attempt(part_of_a_move, [&] {
     for (const Vector& point : {Vector(Vector::Zero(z.size())), z}) {
       if (ended()) return;
-      SplitCandidate other = at_zero(of, point, z, W);
-      if (is_borne_out(other)) best = std::move(other);
+      auto other = at_zero(of, point, z, W, enough);
+      if (other && is_borne_out(*other)) best = *std::move(other);
     }
   });
   attempt(part_of_a_way, [&] {

@@ -181,7 +181,11 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   return made;
 }
 
-SplitCandidate at_zero(const SplitFunctions& of, const Vector& x, const Vector& z, const Metric& W) {
+std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x, const Vector& z,
+                                      const Metric& W, double enough) {
+  const Value first = split_value_of(x.isZero(0) ? of.f : of.g, Vector::Zero(z.size()));
+  const double least = first.error + roundings_of_a_term * unit_roundoff * std::abs(first.value);
+  if (!(std::sqrt(2 * least) <= enough)) return std::nullopt;
   const auto point = [](const Vector& p, const Vector& other) {
     return Prox{.x = p, .v = other, .route = ProxRoute::iterative, .method = "values at 0"};
   };

@@ -50,8 +50,9 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
 
 /// The right side at x and z - x, one of which is 0, so that (x|y) is 0 and has no rounding: however the
 /// point was found, the values prove it. The bound is what they prove, and the slack by which a point of
-/// doubles counts as inside a domain.
-SplitCandidate at_zero(const SplitFunctions& of, const Vector& x, const Vector& z, const Metric& W);
+/// doubles counts as inside a domain. None where the value at 0 alone leaves more open than `enough`.
+std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x, const Vector& z,
+                                      const Metric& W, double enough);
 
 /// Is (x|y) that of the points x and y, as far as the tolerance and their rounding leave it?
 bool is_inner_of_points(const Decomposition& split, double tolerance, const Metric& W);
