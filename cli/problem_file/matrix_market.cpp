@@ -61,10 +61,14 @@ class Reader {
       if (symmetric && i != j) entries.emplace_back(static_cast<int>(j), static_cast<int>(i), value);
     };
     if (coordinate) {
+      bool has_lower = false, has_upper = false;
       for (Index k = 0; k < count; ++k) {
         start(next_line());
         const Index i = integer() - 1, j = integer() - 1;
         if (i < 0 || i >= rows || j < 0 || j >= columns) fail("an index outside the matrix");
+        (i > j ? has_lower : has_upper) |= i != j;
+        if (symmetric && has_lower && has_upper)
+          fail("an entry on the other side of the diagonal; a symmetric matrix lists one triangle");
         put(i, j, number());
         end_line();
       }

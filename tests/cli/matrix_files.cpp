@@ -66,6 +66,7 @@ TEST_CASE("a wrong matrix file is named with its line") {
       {header + "coordinate real general\n2 -2 1\n1 1 2\n", "line 2"},
       {header + "coordinate real general\n2 99999999999999999999 1\n", "line 2"},
       {header + "coordinate real symmetric\n2 3 1\n1 1 2\n", "line 2"},
+      {header + "coordinate real symmetric\n2 2 3\n1 1 2\n2 1 1\n1 2 1\n", "line 5"},
       {header + "array real general\n1000000000 1000000000\n1\n", "1000000000 x 1000000000"},
   };
   for (const auto& [bytes, words] : table) {
