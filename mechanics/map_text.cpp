@@ -34,7 +34,16 @@ class MapExpressions {
       if ((tape_.depends(nodes_.back()) & (on_time | on_velocities)) != 0)
         source.fail(0, "it uses t or a time derivative; a map is one of points, write it in its coordinates");
     }
-    program_ = Program(tape_, n_, {nodes_});
+    std::vector<NodeId> arguments;
+    for (NodeId node = 0; n_ == 1 && node < tape_.size(); ++node) {
+      const Operation operation = tape_.operation(node);
+      const bool is_difference = operation == Operation::min || operation == Operation::max;
+      if (operation != Operation::abs && !is_branch(operation)) continue;
+      branches_.push_back({arguments.size(), is_difference});
+      arguments.push_back(tape_.a(node));
+      if (is_difference) arguments.push_back(tape_.b(node));
+    }
+    program_ = Program(tape_, n_, {nodes_, arguments});
     constants_ = rounded_nodes(tape_);
   }
   MapExpressions(const MapExpressions&) = delete;
@@ -79,7 +88,85 @@ class MapExpressions {
     return by_fractions ? by_fractions : by_balls;
   }
 
+  /// Where the argument of abs, the difference of those of min and max, or a condition changes its sign:
+  /// found between points of a grid that takes in what is found, and beyond it where the argument is affine.
+  /// None where there are very many.
+  std::vector<convex::Fraction> kinks(double low, double high) const {
+    constexpr int intervals = 256, most_rounds = 4;
+    std::vector<double> grid, found;
+    for (int k = 0; k <= intervals; ++k) grid.push_back(low + (high - low) * k / intervals);
+    for (int round = 0; round < most_rounds; ++round) {
+      const std::size_t before = found.size();
+      for (const Branch& branch : branches_)
+        for (std::size_t k = 0; k + 1 < grid.size(); ++k) {
+          const double left = argument(branch, grid[k]), right = argument(branch, grid[k + 1]);
+          if (left == 0) found.push_back(grid[k]);
+          if (right == 0) found.push_back(grid[k + 1]);
+          if (left * right < 0) found.push_back(crossing(branch, grid[k], grid[k + 1]));
+          if (k > 0 && k + 2 < grid.size()) continue;
+          const double beyond = grid[k] - left * (grid[k + 1] - grid[k]) / (right - left);
+          const double miss = argument(branch, beyond),
+                       rounding = 0x1p-40 * (std::abs(left) + std::abs(right));
+          if (std::isfinite(beyond) && (beyond < low || beyond > high) && std::abs(miss) <= rounding)
+            found.push_back(beyond);
+        }
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+      if (found.size() == before) break;
+      grid.insert(grid.end(), found.begin(), found.end());
+      std::sort(grid.begin(), grid.end());
+      grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+    }
+    std::vector<convex::Fraction> kinks;
+    for (const double x : found)
+      if (const convex::Fraction kink = simple_near(x); kinks.empty() || kinks.back() < kink)
+        kinks.push_back(kink);
+    constexpr std::size_t most_kinks = 24;  // of more, points of a grid tell as much
+    if (kinks.size() > most_kinks) return {};
+    return kinks;
+  }
+
  private:
+  struct Branch {
+    std::size_t argument;  ///< the first one's place among the roots of the second group
+    bool is_difference;
+  };
+
+  double argument(const Branch& branch, double x) const {
+    bool is_finite = true;
+    const auto values =
+        program_.values({0, convex::Vector::Constant(1, x), convex::Vector::Zero(1)}, 1, is_finite);
+    const double a = values[program_.roots(1)[branch.argument]];
+    return branch.is_difference ? a - values[program_.roots(1)[branch.argument + 1]] : a;
+  }
+
+  double crossing(const Branch& branch, double low, double high) const {
+    const bool rises = argument(branch, low) < 0;
+    for (;;) {
+      const double middle = low + (high - low) / 2, value = argument(branch, middle);
+      if (value == 0 || middle <= low || middle >= high) return middle;
+      ((value < 0) == rises ? low : high) = middle;
+    }
+  }
+
+  /// The first convergent of its continued fraction that is within rounding of a double.
+  static convex::Fraction simple_near(double x) {
+    const convex::Fraction value = convex::fraction(x),
+                           within = convex::fraction(8 * convex::unit_roundoff * std::max(1.0, std::abs(x)));
+    convex::Integer p0 = 0, q0 = 1, p1 = 1, q1 = 0;
+    convex::Fraction rest = value;
+    for (;;) {
+      const convex::Integer whole = truncated_quotient(rest.numerator, rest.denominator);
+      const convex::Integer p2 = whole * p1 + p0, q2 = whole * q1 + q0;
+      const convex::Fraction convergent =
+          q2.sign() < 0 ? convex::Fraction{-p2, -q2} : convex::Fraction{p2, q2};
+      const convex::Fraction off = convergent - value;
+      if (!(within < (sign(off) < 0 ? -off : off))) return convergent;
+      rest = convex::Fraction{1, 1} / (rest - convex::Fraction{whole, 1});
+      p0 = p1, q0 = q1, p1 = p2, q1 = q2;
+    }
+  }
+
   std::optional<convex::MapDerivative> derivative(const convex::ExactVector& z, long precision,
                                                   bool as_ball) const {
     ExactState state{Number(0), {}, {}};
@@ -134,6 +221,7 @@ class MapExpressions {
   Expansion expansion_;
   std::size_t n_;
   std::vector<NodeId> nodes_;
+  std::vector<Branch> branches_;
   Program program_;
   std::vector<Rounded> constants_;
 };
@@ -145,7 +233,8 @@ convex::Map map_of_text(const std::vector<Text>& components) {
   return {static_cast<convex::Index>(components.size()),
           [expressions](const convex::ExactVector& z) { return expressions->at(z); },
           [expressions](const convex::Vector& z) { return expressions->in_doubles(z); },
-          [expressions](const convex::ExactVector& z) { return expressions->derivative(z); }};
+          [expressions](const convex::ExactVector& z) { return expressions->derivative(z); },
+          [expressions](double low, double high) { return expressions->kinks(low, high); }};
 }
 
 }  // namespace mechanics

@@ -139,6 +139,7 @@ JudgedMap judged(const MapOptions& options, Source& source) {
     source = {"--metric", *options.metric};
     W = convex::exact_metric(parse_metric(*options.metric));
   }
+  answer.seen = convex::seen_range(*T, samples.low, samples.high);
   answer.verdict = laws(*T, W, samples);
   if (answer.verdict.points == 0)
     throw InvalidInput("the map has no value at any point tried; give another --box");

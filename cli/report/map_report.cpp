@@ -96,6 +96,12 @@ std::string map_json(const JudgedMap& judged) {
   json.begin_object().key("kind").value("map").key("map").value(judged.source);
   json.key("status").value(judged.is_refuted() ? "refuted" : "not-refuted");
   json.key("points").value(verdict.points).key("undefined").value(verdict.undefined);
+  if (!judged.is_table)
+    json.key("seen")
+        .begin_array()
+        .value(convex::nearest_double(judged.seen.first))
+        .value(convex::nearest_double(judged.seen.second))
+        .end_array();
   json.key("polygons").value(verdict.polygons).key("symmetric_at").value(verdict.symmetric_at);
   json.key("asymmetry").value(verdict.asymmetry);
   json.key("counterexample");
@@ -131,7 +137,11 @@ std::string map_json(const JudgedMap& judged) {
 std::string map_text(const JudgedMap& judged) {
   const convex::MapVerdict& verdict = judged.verdict;
   if (verdict.counterexample) return counterexample_text(*verdict.counterexample);
-  std::string text = fmt::format("Not refuted at {} points, on cycles through them", verdict.points);
+  const std::string range = judged.is_table ? ""
+                                            : fmt::format("[{}, {}]", fraction_text(judged.seen.first),
+                                                          fraction_text(judged.seen.second));
+  std::string text = fmt::format("Not refuted at {} points{}, on cycles through them", verdict.points,
+                                 judged.is_table ? "" : " of " + range);
   if (verdict.polygons > 0) text += fmt::format(" and on {} polygons", verdict.polygons);
   text += ". Sampling can only refute: this is no proof.\n";
   if (verdict.undefined > 0) text += fmt::format("At {} points the map has no value.\n", verdict.undefined);
@@ -141,8 +151,9 @@ std::string map_text(const JudgedMap& judged) {
   else if (verdict.asymmetry > 0)
     text += fmt::format("Jacobian times metric: symmetric to {:.1e}, by differences.\n", verdict.asymmetry);
   if (judged.function) {
-    text += judged.is_table ? "Joined by straight lines it is the prox of, up to a constant,\n"
-                            : "As far as it was seen it is the prox of, up to a constant,\n";
+    text += judged.is_table
+                ? "Joined by straight lines it is the prox of, up to a constant,\n"
+                : "As far as it was seen, on " + range + ", it is the prox of, up to a constant,\n";
     text += cases_text("f(x)", "x", convex::symbolic::formula(*judged.function));
   } else if (!judged.grid.empty()) {
     text += fmt::format("f is known at {} points T z, if it is a prox; --data F.csv writes them.\n",

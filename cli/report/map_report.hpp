@@ -10,6 +10,8 @@ namespace cli::inline reports {
 struct JudgedMap {
   std::string source;  ///< the map as it was given
   bool is_table = false;
+  std::pair<convex::Fraction, convex::Fraction>
+      seen;  ///< the box of an expression, in one variable with its kinks
   convex::MapVerdict verdict;
   std::optional<convex::symbolic::ExactCurve> function;  ///< of one variable
   std::vector<convex::PotentialPoint> grid;

@@ -62,7 +62,18 @@ class MapSearch {
     else
       for (Index k = 0; k < samples_.points; ++k) points.push_back(exact_vector(random_point()));
     points.push_back(exact_vector(Vector::Zero(T_.n)));
+    if (T_.n == 1 && T_.kinks) add_around(T_.kinks(samples_.low, samples_.high), points);
     return points;
+  }
+
+  /// Each kink, both sides of it at several distances, and the middle between two.
+  static void add_around(const std::vector<Fraction>& kinks, std::vector<ExactVector>& points) {
+    for (std::size_t k = 0; k < kinks.size(); ++k) {
+      points.push_back(exact_vector({kinks[k]}));
+      for (const double away : {1.0, 0x1p-10, 0x1p-20, 0x1p-40})
+        for (const double side : {-away, away}) points.push_back(exact_vector({kinks[k] + fraction(side)}));
+      if (k > 0) points.push_back(exact_vector({(kinks[k - 1] + kinks[k]) * Fraction{1, 2}}));
+    }
   }
 
   /// Where the map stretches a little, or turns: steps of several lengths from some points.

@@ -28,6 +28,9 @@ struct Map {
   std::function<Vector(const Vector&)> in_doubles = {};
   /// Where T is known to be continuously differentiable; empty: unknown.
   std::function<std::optional<MapDerivative>(const ExactVector&)> derivative = {};
+  /// Of one variable: points at or next to which its formula changes, increasing, those found between two
+  /// bounds and beyond; empty: unknown.
+  std::function<std::vector<Fraction>(double low, double high)> kinks = {};
 };
 
 /// A map in doubles, as C++ has it. `relative_error`: of its values, at most; a few roundings unless told.

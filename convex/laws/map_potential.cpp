@@ -22,7 +22,52 @@ Fraction slope_between(const Fraction& a, const Fraction& Ta, const Fraction& b,
   return (Tb - Ta) / (b - a);
 }
 
+/// Affine between kinks that are known: on each interval through points inside of it.
+std::optional<std::vector<AffinePiece>> pieces_between(const Map& T, const std::vector<Fraction>& kinks,
+                                                       const std::pair<Fraction, Fraction>& range) {
+  std::vector<Fraction> ends{range.first};
+  ends.insert(ends.end(), kinks.begin(), kinks.end());
+  ends.push_back(range.second);
+  std::vector<AffinePiece> pieces;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const Fraction &low = ends[k], &high = ends[k + 1];
+    if (!(low < high)) continue;
+    constexpr int inside = 17;  // a prime: no points of symmetry
+    const auto at = [&](int i) { return low + (high - low) * Fraction{i, inside}; };
+    const auto first = value_on_line(T, at(1)), second = value_on_line(T, at(2));
+    if (!first || !second) return std::nullopt;
+    const Fraction slope = slope_between(at(1), *first, at(2), *second), offset = *first - slope * at(1);
+    for (int i = 0; i <= inside; ++i) {
+      const auto value = value_on_line(T, at(i));
+      const bool is_end = i == 0 || i == inside;  // at a kink doubles may be all there is
+      if (value ? !(*value == slope * at(i) + offset) : !is_end) return std::nullopt;
+    }
+    if (!pieces.empty() &&
+        !(pieces.back().slope * low + pieces.back().offset == Fraction(slope * low + offset)))
+      return std::nullopt;
+    if (!pieces.empty() && rational(pieces.back().slope) == slope)
+      pieces.back().high = high;
+    else
+      pieces.push_back({low, high, slope, offset});
+  }
+  if (pieces.empty()) return std::nullopt;
+  pieces.front().low.reset();
+  pieces.back().high.reset();
+  return pieces;
+}
+
 }  // namespace
+
+std::pair<Fraction, Fraction> seen_range(const Map& T, double low, double high) {
+  std::pair<Fraction, Fraction> range{fraction(low), fraction(high)};
+  const Fraction length = range.second - range.first;
+  if (T.n != 1 || !T.kinks) return range;
+  for (const Fraction& kink : T.kinks(low, high)) {
+    if (kink - length < range.first && kink < fraction(low)) range.first = kink - length;
+    if (range.second < kink + length && fraction(high) < kink) range.second = kink + length;
+  }
+  return range;
+}
 
 std::vector<AffinePiece> joined_pieces(const std::vector<Fraction>& z, const std::vector<Fraction>& Tz) {
   std::vector<AffinePiece> pieces;
@@ -40,6 +85,9 @@ std::vector<AffinePiece> joined_pieces(const std::vector<Fraction>& z, const std
 }
 
 std::optional<std::vector<AffinePiece>> seen_pieces(const Map& T, double low, double high) {
+  if (T.kinks)
+    if (const std::vector<Fraction> kinks = T.kinks(low, high); !kinks.empty())
+      return pieces_between(T, kinks, seen_range(T, low, high));
   constexpr int intervals = 96;
   const Fraction first = fraction(low), step = (fraction(high) - first) / Fraction{intervals, 1};
   std::vector<Fraction> z, Tz;

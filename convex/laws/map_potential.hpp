@@ -5,9 +5,12 @@
 
 namespace convex::inline law_checks {
 
+/// From where to where a map of one variable is looked at: the box, and a box's length beyond each kink.
+std::pair<Fraction, Fraction> seen_range(const Map& T, double low, double high);
+
 /// The pieces of a map of one variable that is affine between a few points, where fractions show it to be
 /// that at points of a grid and at others between them; the first and the last go on for ever. None where it
-/// is not so seen: sampling proves nothing, and a bend may hide between two points.
+/// is not so seen: sampling proves nothing, and where kinks are not known a bend may hide between two points.
 std::optional<std::vector<symbolic::AffinePiece>> seen_pieces(const Map& T, double low, double high);
 
 /// The map through points of increasing z, affine between them and beyond.

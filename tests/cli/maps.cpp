@@ -189,6 +189,24 @@ TEST_CASE("of a map that bends the entries of its derivative are enclosed, and t
   CHECK(std::min(value, mirrored) == doctest::Approx(std::min(of_first, of_second)).epsilon(1e-12));
 }
 
+TEST_CASE("kinks of a text are looked at, however narrow they are or far out") {
+  for (const char* map : {"x/2 + max(0, 0.001-abs(x-0.3333))*5", "if(x<77.123, x/2, x/2+0.001)",
+                          "if(x<-1/3, x/2, x/2+1/10^9)"}) {
+    CAPTURE(map);
+    CHECK(run({"check", "--map", map}).code == 1);
+  }
+  const Json far = Json::parse(run({"check", "--map", "max(x, 100)", "--json"}).out);
+  REQUIRE(far.at("f").size() == 1);
+  CHECK(far.at("f")[0].at("low") == "100");
+  CHECK(far.at("f")[0].at("high").is_null());
+  CHECK(far.at("seen")[0] == -4);
+  CHECK(far.at("seen")[1] == 108);
+  const Json narrow =
+      Json::parse(run({"check", "--map", "x/2 + max(0, 0.001-abs(x-0.3333))/4", "--json"}).out);
+  CHECK(narrow.at("status") == "not-refuted");
+  CHECK(narrow.at("f").size() > 2);
+}
+
 TEST_CASE("at a kink no derivative is taken, however its branches are written") {
   // The projection on x1 <= x2; at 0, where all points of this box lie, one row would be that of either side.
   const Outcome outcome = run(
