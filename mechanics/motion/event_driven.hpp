@@ -85,6 +85,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
   std::vector<bool> is_held_;     // on the next arc
   State there_;                   // the end of the step
+  Vector q2_, expected_q2_;       // there, by the equations and by the series
   double reach_;                  // of arguments in a step
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
   double step_ahead_ = 0;

@@ -9,28 +9,12 @@ namespace mechanics::inline motions {
 
 using expression::Slot;
 
-namespace {
-
-TaylorRows::Asked asked_of(const LagrangeEquations& equations, const TaylorSteps& steps) {
-  TaylorRows::Asked asked{equations.rate, {}, equations.momentum};
-  asked.at_rest.insert(asked.at_rest.end(), equations.rate.begin(), equations.rate.end());
-  for (std::size_t i = 0; i < equations.program.coordinates(); ++i)
-    asked.series.push_back(equations.program.coordinate(i));
-  for (const auto& row : equations.row)
-    for (const auto& [i, u] : row) asked.series.push_back(u);
-  for (const FunctionArgument& one : steps.arguments) asked.series.push_back(one.argument);
-  for (const auto& [i, F] : equations.force) asked.of_order.push_back(F);
-  return asked;
-}
-
-}  // namespace
-
 Expansion::Expansion(const LagrangianSystem& system, int order)
     : system_(system),
       equations_(system.equations_of_motion().equations),
-      steps_(system.equations_of_motion().steps),
+      steps_(system.equations_of_motion().series.steps),
       order_(order),
-      series_(steps_, asked_of(equations_, steps_), order, {equations_.momentum, equations_.force, {}}),
+      series_(system.equations_of_motion().series, order),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))),
       magnitude_(series_) {

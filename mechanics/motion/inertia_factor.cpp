@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "convex/processor.hpp"
@@ -27,28 +28,39 @@ void solve_factored(Count count, const double* M, const double* inverse, double*
 template <std::size_t n>
 using Fixed = std::integral_constant<std::size_t, n>;
 
+#pragma GCC push_options
+#pragma GCC optimize("no-math-errno")
 /// Squares may be too large for doubles, so that the largest entry is divided by first. Eight at a time.
 MOREAU_CLONES void norms_by(const double* M, const double* root, std::size_t n, const double* const* x,
                             double* of, std::size_t count) {
-  constexpr std::size_t width = Eight::count;
-  for (std::size_t first = 0; first < count; first += width) {
-    double most[width] = {}, scale[width], squares[width] = {}, entry[width];
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t k = 0; k < width; ++k) most[k] = std::max(most[k], std::abs(x[i][first + k]));
-    for (std::size_t k = 0; k < width; ++k)
-      scale[k] = most[k] >= std::numeric_limits<double>::min() ? 1 / most[k] : 0;
-    for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t k = 0; k < width; ++k) entry[k] = x[j][first + k];
-      for (std::size_t i = j + 1; i < n; ++i)
-        for (std::size_t k = 0; k < width; ++k) entry[k] += M[i * n + j] * x[i][first + k];
-      for (std::size_t k = 0; k < width; ++k) {
-        const double part = root[j] * (entry[k] * scale[k]);
-        squares[k] += part * part;
-      }
+  for (std::size_t first = 0; first < count; first += Eight::count) {
+    Wide most{}, squares{}, entry, other;
+    const auto get = [&](std::size_t i, Wide& to) { std::memcpy(&to, x[i] + first, sizeof(Wide)); };
+    for (std::size_t i = 0; i < n; ++i) {
+      get(i, entry);
+      entry = entry < 0 ? -entry : entry;
+      most = most < entry ? entry : most;
     }
-    for (std::size_t k = 0; k < width; ++k) of[first + k] = most[k] * std::sqrt(squares[k]);
+    const Wide is_normal = most >= std::numeric_limits<double>::min() ? Wide{} + 1 : Wide{};
+    const Wide scale = is_normal / (is_normal > 0 ? most : Wide{} + 1);
+    for (std::size_t j = 0; j < n; ++j) {
+      get(j, entry);
+      for (std::size_t i = j + 1; i < n; ++i) {
+        get(i, other);
+        entry += M[i * n + j] * other;
+      }
+      const Wide part = root[j] * (entry * scale);
+      squares += part * part;
+    }
+    Eight norm;
+    std::memcpy(norm.of, &squares, sizeof norm);
+    for (double& each : norm.of) each = std::sqrt(each);
+    std::memcpy(&squares, norm.of, sizeof norm);
+    most *= squares;
+    std::memcpy(of + first, &most, sizeof most);
   }
 }
+#pragma GCC pop_options
 
 }  // namespace
 
@@ -84,8 +96,8 @@ bool InertiaFactor::make(const convex::Matrix& A) {
   return true;
 }
 
-void InertiaFactor::solve(Vector& x) const {
-  const auto with = [&](auto count) { solve_factored(count, M_.data(), inverse_.data(), x.data()); };
+void InertiaFactor::solve(double* x) const {
+  const auto with = [&](auto count) { solve_factored(count, M_.data(), inverse_.data(), x); };
   switch (n_) {
     case 1:
       return with(Fixed<1>());

@@ -15,7 +15,8 @@ class InertiaFactor {
   bool is_made() const { return is_made_; }
 
   /// x becomes A⁻¹x.
-  void solve(Vector& x) const;
+  void solve(Vector& x) const { solve(x.data()); }
+  void solve(double* x) const;
   /// ||x||_A = |sqrt(D) Mᵀx|.
   double norm(std::span<const double> x) const;
   /// ||x_k||_A for vectors x_k, k < count, with zeros up to a multiple of eight. x: n rows of so many

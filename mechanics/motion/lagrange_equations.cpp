@@ -87,4 +87,27 @@ LagrangeEquations::LagrangeEquations(const LagrangianModel& model) : tape(model.
   if (has_steps) branching_lagrangian = program.roots(1).back();
 }
 
+namespace {
+
+TaylorRows::Asked asked_of(const LagrangeEquations& equations, const TaylorSteps& steps) {
+  TaylorRows::Asked asked{equations.rate, {}, equations.momentum};
+  asked.at_rest.insert(asked.at_rest.end(), equations.rate.begin(), equations.rate.end());
+  for (std::size_t i = 0; i < equations.program.coordinates(); ++i)
+    asked.series.push_back(equations.program.coordinate(i));
+  for (const auto& row : equations.row)
+    for (const auto& [i, u] : row) asked.series.push_back(u);
+  for (const FunctionArgument& one : steps.arguments) asked.series.push_back(one.argument);
+  for (const auto& [i, F] : equations.force) asked.of_order.push_back(F);
+  return asked;
+}
+
+}  // namespace
+
+EquationsOfMotion::EquationsOfMotion(const expression::LagrangianModel& model)
+    : equations(model), series([&] {
+        TaylorSteps steps(equations.tape, equations.program);
+        const TaylorRows::Asked asked = asked_of(equations, steps);
+        return TaylorProgram(std::move(steps), asked, equations.momentum, equations.force);
+      }()) {}
+
 }  // namespace mechanics::inline motions

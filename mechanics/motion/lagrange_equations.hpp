@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanics/expression/lagrangian_model.hpp"
-#include "mechanics/motion/taylor_steps.hpp"
+#include "mechanics/motion/taylor_matrix.hpp"
 
 namespace mechanics::inline motions {
 
@@ -34,11 +34,10 @@ struct LagrangeEquations {
 
 /// The same with the recurrences for its Taylor series.
 struct EquationsOfMotion {
-  explicit EquationsOfMotion(const expression::LagrangianModel& model)
-      : equations(model), steps(equations.tape, equations.program) {}
+  explicit EquationsOfMotion(const expression::LagrangianModel& model);
 
   LagrangeEquations equations;
-  TaylorSteps steps;
+  TaylorProgram series;
 };
 
 }  // namespace mechanics::inline motions

@@ -105,7 +105,7 @@ class KeptEnergy {
     const auto keeps = [&](Index a) {
       return question.motion.restitution.size() > 0 && question.motion.restitution[a] == 1;
     };
-    is_kept_ = question.is_free && !system.equations_of_motion().steps.uses_time &&
+    is_kept_ = question.is_free && !system.equations_of_motion().series.steps.uses_time &&
                std::all_of(model.forces.begin(), model.forces.end(),
                            [](expression::NodeId Q) { return Q == expression::no_node; });
     for (const MotionEvent& event : first.events())
@@ -252,7 +252,7 @@ std::vector<std::complex<double>> multipliers_across(const Orbit& orbit, bool is
 }
 
 Orbit find_orbit(const LagrangianSystem& system, const State& guess, const OrbitQuestion& question) {
-  if (question.is_free && system.equations_of_motion().steps.uses_time)
+  if (question.is_free && system.equations_of_motion().series.steps.uses_time)
     throw convex::InvalidInput(
         "an orbit of unknown period belongs to a system without t, which here stands in the expressions: the "
         "same state at another time goes on otherwise; give the period of what drives it, or a multiple");

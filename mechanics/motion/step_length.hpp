@@ -32,10 +32,10 @@ double trusted_length(std::span<const double> c, double tolerance);
 /// is less than tol where |δu|^N/N! <= tol; with a little room, since series themselves tell that too.
 double reach_of_argument(int order, double tolerance);
 
-/// The largest h <= step in which the argument Σ u_k τ^k moves by at most its reach, or the function is
+/// The largest h <= step in which the argument u = Σ u_k τ^k moves by at most its reach, or the function is
 /// constant to the last digit (exp of what stays below the logarithm of the least double). Coefficients at
 /// the beginning do not tell what lies further: all those of exp(-(t - 2)²/w²) are 0 there. The reach of tan
 /// and tanh, which have poles, is 1.
-double seen_length(std::span<const double> u, TaylorStep::Kind of, double step, double reach);
+double seen_length(std::span<const double> argument, TaylorStep::Kind of, double step, double reach);
 
 }  // namespace mechanics::inline motions

@@ -25,7 +25,7 @@ TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
 
 void TaylorMagnitude::begin() {
   const TaylorRows& rows = of_.rows_;
-  for (std::size_t t = 0; t < slopes_.size(); ++t) slopes_[t] = std::abs(rows.terms[t].c);
+  for (std::size_t t = 0; t < slopes_.size(); ++t) slopes_[t] = std::abs(of_.terms_[t].c);
   for (std::size_t slot = 0; slot < of_.steps_->variables; ++slot)
     at(static_cast<Slot>(slot), 0) = std::abs(of_[static_cast<Slot>(slot)][0]);
   for (const auto& [slot, value] : of_.steps_->constants) at(slot, 0) = std::abs(value);
@@ -133,7 +133,7 @@ void TaylorMagnitude::find(std::size_t group, int k) {
   for (std::size_t r = group == 0 ? 0 : rows.ends[group - 1].rows; r < rows.ends[group].rows; ++r) {
     const TaylorRows::Row& row = rows.rows[r];
     double sum = std::abs(of_.factor_[r]) * rest(row, k);
-    for (std::uint32_t t = row.first; t < row.end; ++t) sum += slopes_[t] * at(rows.terms[t].series, k);
+    for (std::uint32_t t = row.first; t < row.end; ++t) sum += slopes_[t] * at(of_.terms_[t].series, k);
     at(row.out, k) = sum;
   }
 }

@@ -12,43 +12,27 @@ using expression::Operation;
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
-/// Momenta and rates; forces and rows. Of constraints themselves only the values are looked for.
-constexpr std::size_t most_groups = 2;
-
 std::span<const TaylorRows::Product> first_products(const TaylorRows& rows, std::size_t groups) {
   return {rows.products.data(), rows.ends[groups - 1].products};
 }
 
-std::vector<Slot> kept_series(const TaylorSteps& steps, const TaylorRows::Asked& asked) {
-  std::vector<Slot> kept = asked.series;
-  for (const Switch& one : steps.switches) kept.push_back(one.argument);
-  std::sort(kept.begin(), kept.end());
-  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
-  return kept;
-}
-
-TaylorRecurrence::Equations with_kept(TaylorRecurrence::Equations equations, const std::vector<Slot>& kept) {
-  equations.kept = kept;
-  return equations;
-}
-
 }  // namespace
 
-TaylorSeries::TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order,
-                           TaylorRecurrence::Equations equations)
-    : steps_(&steps),
-      rows_(steps, asked),
+TaylorSeries::TaylorSeries(const TaylorProgram& of, int order)
+    : steps_(&of.steps),
+      rows_(of.rows),
+      terms_(of.rows.terms),
       order_(order),
-      groups_(std::min(most_groups, steps.ends.size())),
+      groups_(groups_with_orders(of.steps)),
       products_(first_products(rows_, groups_), order),
-      kept_(kept_series(steps, asked)),
-      free_(steps, rows_, groups_, with_kept(std::move(equations), kept_), order),
+      kept_(of.kept),
+      free_(of.matrix, order),
       width_(blocks_of(static_cast<std::size_t>(order) + 1) * Eight::count),
       c_(rows_.series * width_),
       factor_(rows_.rows.size(), 1.0),
       now_(rows_.series),
-      branches_(steps.switches.size(), 1.0) {
-  for (const auto& [series, value] : steps.constants) at(series)[0] = value;
+      branches_(of.steps.switches.size(), 1.0) {
+  for (const auto& [series, value] : of.steps.constants) at(series)[0] = value;
 }
 
 void TaylorSeries::begin(std::size_t group) {
@@ -128,7 +112,7 @@ double TaylorSeries::value(const TaylorStep& step) {
 void TaylorSeries::differentiate(const TaylorStep& step, std::uint32_t row) {
   const double a = at(step.a)[0], b = step.kind == Kind::arc ? 0 : at(step.b)[0];
   const double f = at(step.out)[0], p = at(step.partner)[0];
-  TaylorRows::Term* by = rows_.terms.data() + rows_.rows[row].first;
+  TaylorRows::Term* by = terms_.data() + rows_.rows[row].first;
   TaylorRows::Term& of_partner = by[1];  // the first one of the next row, where that belongs to the step
   double* factor = factor_.data() + row;
   switch (step.kind) {
@@ -220,7 +204,7 @@ double TaylorSeries::of_row(std::size_t number) const {
   for (std::uint32_t p = row.first_product; p < row.end_product; ++p)
     sum += rows_.products[p].scale * products_.rest()[p];
   sum *= factor_[number];
-  for (std::uint32_t t = row.first; t < row.end; ++t) sum += rows_.terms[t].c * now_[rows_.terms[t].series];
+  for (std::uint32_t t = row.first; t < row.end; ++t) sum += terms_[t].c * now_[terms_[t].series];
   return sum;
 }
 
@@ -252,17 +236,18 @@ bool TaylorSeries::find_free(const InertiaFactor& A, std::span<const double> for
   const std::size_t n = force.size();
   velocity_.resize(n);
   for (std::size_t i = 0; i < n; ++i) velocity_[i] = at(static_cast<Slot>(n + i))[0];
-  if (!free_.find(rows_, factor_, A, velocity_.data(), force.data())) return false;
+  if (!free_.find(rows_, terms_.data(), factor_.data(), A, velocity_.data(), force.data())) return false;
   const int end = free_.end();
   found_ = end;
   for (std::size_t which = 0; which < kept_.size(); ++which) {
+    if (kept_[which] < n) continue;  // a coordinate
     double* c = at(kept_[which]);
     for (int k = 1; k < end; ++k) c[k] = free_.kept(which, k);
     std::fill(c + end, c + width_, 0.0);
   }
   for (std::size_t i = 0; i < n; ++i) {
     double* q = at(static_cast<Slot>(i));
-    for (int k = 0; k < end; ++k) q[k + 1] = free_.velocity(static_cast<Index>(i), k) / (k + 1);
+    free_.positions(i, q);
     std::fill(q + end + 1, q + width_, 0.0);
     now_[n + i] = free_.velocity(static_cast<Index>(i), 1);
   }
@@ -275,7 +260,7 @@ void TaylorSeries::carry(std::vector<double>& change, std::size_t count) const {
     double* f = change.data() + row.out * count;
     std::fill(f, f + count, 0.0);
     for (std::uint32_t t = row.first; t < row.end; ++t) {
-      const TaylorRows::Term& term = rows_.terms[t];
+      const TaylorRows::Term& term = terms_[t];
       const double* a = change.data() + term.series * count;
       for (std::size_t l = 0; l < count; ++l) f[l] += term.c * a[l];
     }

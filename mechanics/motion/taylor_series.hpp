@@ -12,14 +12,13 @@ namespace mechanics::inline motions {
 ///
 /// An order has two stages: what the lower orders and the coordinates make of it, and what velocities add.
 /// The factors of products are kept by product (`TaylorProducts`). The rows of an order are gone through one
-/// after the other, or, where there are few series, are one matrix (`TaylorMatrix`).
+/// after the other, or, where there are few series, are one matrix (`TaylorRecurrence`).
 class TaylorSeries {
  public:
   using Slot = expression::Slot;
 
-  /// Coefficients 0 to `order` of what is asked for among the slots that `steps` computes.
-  TaylorSeries(const TaylorSteps& steps, const TaylorRows::Asked& asked, int order,
-               TaylorRecurrence::Equations equations = {});
+  /// Coefficients 0 to `order` of what `of` asks for; it must outlive them.
+  TaylorSeries(const TaylorProgram& of, int order);
 
   int order() const { return order_; }
   std::span<const double> operator[](Slot series) const {
@@ -73,11 +72,12 @@ class TaylorSeries {
   bool order_is_zero(int k) const;
 
   const TaylorSteps* steps_;
-  TaylorRows rows_;
+  const TaylorRows& rows_;
+  std::vector<TaylorRows::Term> terms_;  // with the coefficients at a state
   int order_;
   std::size_t groups_;  // with orders above 0
   TaylorProducts products_;
-  std::vector<Slot> kept_;  // with all coefficients, but for variables
+  const std::vector<Slot>& kept_;  // with all coefficients, but for variables
   TaylorRecurrence free_;
   std::size_t width_;
   std::vector<double> c_;       // by series

@@ -82,7 +82,7 @@ Variation::Variation(const LagrangianSystem& system) : system_(system) {
   last_roots_ = static_cast<Index>(roots.size());
   for (const Slot f : equations.constraint) roots.push_back(node(f));
   switch_roots_ = static_cast<Index>(roots.size());
-  for (const Switch& one : system.equations_of_motion().steps.switches) {
+  for (const Switch& one : system.equations_of_motion().series.steps.switches) {
     const Operation operation = tape.operation(one.node);
     const NodeId a = tape.a(one.node), b = tape.b(one.node);
     const bool compares = operation == Operation::max || operation == Operation::min;

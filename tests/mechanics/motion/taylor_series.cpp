@@ -22,9 +22,9 @@ double value_of(const LagrangianSystem& system, double x, double t) {
 /// The series of f along x = 0.4 + 0.3 τ - 0.2 τ² + 0.1 τ³, t = 0.7 + τ.
 std::vector<double> series_of(const LagrangianSystem& system, int order) {
   const expression::Program& program = system.model().contacts;
-  const TaylorSteps steps(system.model().tape, program);
   const expression::Slot f = program.roots(0)[0], position = program.coordinate(0);
-  TaylorSeries series(steps, {{f}, {}, {}}, order);
+  const TaylorProgram of(TaylorSteps(system.model().tape, program), {{f}, {}, {}}, {}, {});
+  TaylorSeries series(of, order);
   const double x[] = {0.4, 0.3, -0.2, 0.1};
   series.start(position) = x[0];
   series.start(program.time()) = 0.7;
