@@ -136,6 +136,15 @@ class MotionFiles {
   std::optional<Animation> animation_;
 };
 
+/// Whether a second motion, which tells what a rounding grows to, costs little: a part of a second.
+bool is_followed_twice(const mechanics::LagrangianSystem& system, const mechanics::Motion& motion) {
+  constexpr double little_work = 2e5;
+  const auto size = static_cast<double>(system.coordinates().size() + system.constraints().size());
+  return motion.method() == mechanics::MotionMethod::event_driven &&
+         motion.status() == mechanics::MotionStatus::done &&
+         static_cast<double>(motion.record().steps) * size * size <= little_work;
+}
+
 Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const Problem problem = read_problem_file(file, options);
   const auto* text = std::get_if<SystemProblem>(&problem.content);
@@ -158,7 +167,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   mechanics::Motion& motion = *begun;
 
   MotionFiles files(problem, *system, state.t, until, options);
-  FollowedMotion followed{file, problem.title, *system, motion, {}, until};
+  FollowedMotion followed{file, problem.title, *system, motion, {}, until, false, 0, {}};
   const auto remember = [&] {
     for (const mechanics::MotionEvent& event : motion.events())
       if (followed.first_events.size() < events_in_text) followed.first_events.push_back(event);
@@ -180,6 +189,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     return {motion.record().first_impact ? Exit::solved : Exit::inaccurate, laws};
   }
   followed.interrupted = interrupted != 0 && motion.state().t < until;
+  if (!followed.interrupted && is_followed_twice(*system, motion))
+    followed.growth = mechanics::rounding_growth(*system, state, chosen, motion);
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};

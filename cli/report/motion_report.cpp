@@ -34,6 +34,26 @@ std::string joined(const std::vector<Index>& constraints, const std::vector<std:
   return text;
 }
 
+/// The digits that a text prints.
+constexpr double part_of_printed_digits = 1e-6;
+
+/// What rounding alone makes of digits that are printed; nothing where it leaves them.
+std::optional<mechanics::MotionRemark> remark_on_growth(const FollowedMotion& followed) {
+  if (!followed.growth || !(followed.growth->part > part_of_printed_digits)) return std::nullopt;
+  const mechanics::RoundingGrowth& growth = *followed.growth;
+  return mechanics::MotionRemark{
+      followed.motion.state().t,
+      "an error of one rounding at the start has grown to " + number_text(growth.change) + " in " +
+          followed.system.coordinates()[static_cast<std::size_t>(growth.coordinate)] +
+          (growth.of_velocity ? "'" : "") + ", so that digits beyond that are not determined by the data"};
+}
+
+std::vector<mechanics::MotionRemark> all_remarks(const FollowedMotion& followed) {
+  std::vector<mechanics::MotionRemark> remarks = followed.motion.record().remarks;
+  if (const auto remark = remark_on_growth(followed)) remarks.push_back(*remark);
+  return remarks;
+}
+
 }  // namespace
 
 Exit motion_exit(const FollowedMotion& followed) {
@@ -74,8 +94,9 @@ std::string motion_json(const FollowedMotion& followed) {
         .key("correction_energy")
         .value(record.correction_energy);
   json.key("impact_energy").value(record.impact_energy).key("ledger_energy").value(record.ledger_energy);
+  if (followed.growth) json.key("rounding_growth").value(followed.growth->part);
   json.key("remarks").begin_array();
-  for (const mechanics::MotionRemark& remark : record.remarks)
+  for (const mechanics::MotionRemark& remark : all_remarks(followed))
     json.begin_object().key("t").value(remark.t).key("message").value(remark.what).end_object();
   json.end_array().key("seconds").value(followed.seconds);
   return json.end_object().text();
@@ -156,7 +177,7 @@ std::string motion_text(const FollowedMotion& followed) {
         "most; "
         "T + V changed by {} with it.\n",
         number_text(record.corrected_penetration), number_text(record.correction_energy));
-  return text + remarks_text(record.remarks);
+  return text + remarks_text(all_remarks(followed));
 }
 
 }  // namespace cli::inline reports

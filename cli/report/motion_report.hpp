@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/options.hpp"
-#include "mechanics/motion/motion.hpp"
+#include "mechanics/motion/rounding_growth.hpp"
 
 namespace cli::inline reports {
 
@@ -17,6 +18,7 @@ struct FollowedMotion {
   double until = 0;
   bool interrupted = false;
   double seconds = 0;
+  std::optional<mechanics::RoundingGrowth> growth;  ///< where it was looked for
 };
 
 /// 0 done, 1 infeasible, 3 stopped.

@@ -1,0 +1,55 @@
+#include "mechanics/motion/rounding_growth.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/mechanics/motion/followed.hpp"
+
+using namespace mechanics;
+using namespace tests;
+
+namespace {
+
+std::optional<RoundingGrowth> growth(const SystemText& text, const State& start, double until,
+                                     const MotionOptions& options = {}) {
+  const Followed found = followed(text, start, until, options);
+  return rounding_growth(*found.system, start, options, found.motion);
+}
+
+}  // namespace
+
+TEST_CASE("a rounding at the start of an unstable motion grows with the exponential of its rate") {
+  // x'' = x: what a state is off by along x = x', (dx + dv) / 2, grows with e^t.
+  // both.
+  const SystemText saddle{{"x", "y"}, "x'^2/2 + y'^2/2", "-x^2/2 + 1000*y^2", {}, {}, {}, {}};
+  const double T = 20;
+  const auto found = growth(saddle, state({1, 1}, {-0.999999, 0}), T);
+  REQUIRE(found);
+  CHECK(found->coordinate == 0);
+  const double dx = std::nextafter(1.0, 2.0) - 1, dv = std::nextafter(-0.999999, -2.0) + 0.999999;
+  CHECK(found->change > 0.1 * 0.5 * (dx + dv) * std::exp(T));
+  CHECK(found->change < 10 * 0.5 * (dx - dv) * std::exp(T));
+}
+
+TEST_CASE("no rounding grows in an oscillation, in rest after bounces, and in numbers that are rounding") {
+  const SystemText oscillator{{"x"}, "x'^2/2", "x^2/2", {}, {}, {}, {}};
+  const auto swinging = growth(oscillator, state({1}, {0.3}), 100);
+  REQUIRE(swinging);
+  CHECK(swinging->part == 0);
+  const auto resting = growth(ball(), state({1}, {0}), 20, restitution(ball(), 0.5));
+  REQUIRE(resting);
+  CHECK(resting->part == 0);
+  const auto tiny = growth({{"x", "y"}, "x'^2/2 + y'^2/2", "x^2/2 + y^2/2", {}, {}, {}, {}},
+                           state({1, 1e-17}, {0, 1e-17}), 100);
+  REQUIRE(tiny);
+  CHECK(tiny->part == 0);
+}
+
+TEST_CASE("of a chaotic motion no digit is left after a minute") {
+  const SystemText pendulum{
+      {"a", "b"}, "a'^2 + b'^2/2 + a'*b'*cos(a - b)", "-9.81*(2*cos(a) + cos(b))", {}, {}, {}, {}};
+  const auto found = growth(pendulum, state({2, 2.5}, {0, 0}), 60);
+  REQUIRE(found);
+  CHECK(found->part > 1e-3);
+}
