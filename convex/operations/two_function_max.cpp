@@ -11,7 +11,6 @@ namespace convex::inline operations {
 namespace {
 
 constexpr double least_weight = 1e-30;
-constexpr double end_weight = 0x1p-20;  ///< of the other one; a bracket from there on decides nothing
 constexpr int most_halvings = 80;
 /// Brackets shorter than this part of t, or of 1 - t, have ended.
 constexpr double shortest = 2 * unit_roundoff;
@@ -75,10 +74,7 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   if (low && low->difference <= 0) return named(*low);  // f alone is above g at its prox
   std::optional<At> high = at(f, g, 1, z, W, look);
   if (high && high->difference >= 0) return named(*high);
-  // Where the prox of one of the two is not found, that of a mean with little of the other may be.
-  if (!low) low = at(f, g, end_weight, z, W, look);
-  if (!high) high = at(f, g, 1 - end_weight, z, W, look);
-  if (!low || !high || low->difference < 0 || high->difference > 0) return std::nullopt;
+  if (!low || !high) return std::nullopt;
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
   double low_value = low->difference, high_value = high->difference;
   for (int step = 0; step < most_halvings && !WorkLimit::passed(); ++step) {
