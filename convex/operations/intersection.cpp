@@ -3,6 +3,7 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/exact_program/exact_minimum.hpp"
 #include "convex/exact_program/program_of_call.hpp"
+#include "convex/exact_program/program_operations.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/sum.hpp"
@@ -48,18 +49,18 @@ std::optional<Vector> touching_point(std::span<const Set> sets, const std::vecto
     const double size = *radius + center->norm();
     if (!(std::abs((nearest.x - *center).norm() - *radius) <= doubtful * size)) continue;
     const ExactGram plain = identity_gram(static_cast<std::size_t>(n));
-    ExactProgram rest(static_cast<std::size_t>(n), 0);
+    std::vector<ExactProgram> rest;
     bool is_known = true;
     for (std::size_t j = 0; j < sets.size() && is_known; ++j) {
       if (j == k) continue;
       const auto program = exact_program(sets[j].call, plain);
       is_known = program.has_value();
-      if (program) rest = add_joint(std::move(rest), *program);
+      if (program) rest.push_back(*program);
     }
     if (!is_known) continue;
     Fractions c;
     for (const double part : *center) c.push_back(fraction(part));
-    const ExactMinimum exact = exact_prox(rest, plain, c);
+    const ExactMinimum exact = exact_prox(exact_programs::sum(rest), plain, c);
     if (!exact.at) continue;
     const Fraction r = fraction(*radius);
     Fraction beyond = -(r * r);
