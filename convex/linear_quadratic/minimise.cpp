@@ -70,7 +70,10 @@ class ProximalPoint {
   }
 
   ProgramPoint run() {
-    soften();
+    if (!soften()) {
+      point_.status = Status::gave_up;
+      return point_;
+    }
     std::vector<Index> guess;
     for (point_.rounds = 1; point_.rounds <= most_rounds; ++point_.rounds) {
       const Solution solution = round(guess);
@@ -110,15 +113,17 @@ class ProximalPoint {
     soft_.curvature *= (cost > 0 ? cost : 1) / (bounds_ > 0 ? bounds_ : 1) / soft_.curvature.maxCoeff();
   }
 
-  void soften() {
+  /// False where no softness makes the program definite: the metric is lost in the rounding of H.
+  bool soften() {
     while (true) {
       try {
         problem_.A = curvature_metric(f_, W_, softness_ * soft_.curvature);
-        return;
+        return true;
       } catch (const InvalidInput&) {  // as a sum of rounded numbers it is not definite: hold faster
-        if (!soft_.any || softness_ > 1)
+        if (!soft_.any)
           throw InvalidInput(
               "piecewise linear-quadratic function: H is not positive semidefinite; give H >= 0");
+        if (softness_ > 1) return false;
         softness_ /= softness_step;
         least_ = softness_;
       }
@@ -192,8 +197,9 @@ class ProximalPoint {
 
   void shrink() {
     if (!soft_.any || softness_ <= least_) return;
+    const double before = softness_;
     softness_ *= softness_step;
-    soften();
+    if (!soften()) softness_ = before;
   }
 
   /// After a round that was not solved well: holds the soft variables faster, for good. False when there are
@@ -202,8 +208,7 @@ class ProximalPoint {
     if (!soft_.any || softness_ > 1) return false;
     softness_ /= softness_step;
     least_ = std::max(least_, softness_);
-    soften();
-    return true;
+    return soften();
   }
 
   /// Sharpens a settled point with its rows held.

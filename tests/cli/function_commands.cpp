@@ -37,6 +37,18 @@ TEST_CASE("the domain of a conjugate of pieces lies between the slopes at both e
   }
 }
 
+TEST_CASE("outside the sum of two domains a conjugate is infinite, also where a program has no scale there") {
+  // Slopes of |x| + |x| smoothed lie in [-2, 2]; in the metric 4 those of y in [-1/2, 1/2].
+  for (const auto& [at, value] :
+       {std::pair("[-1]", Json("inf")), {"[0.125]", Json(0)}, {"[0.6]", Json("inf")}}) {
+    const Outcome outcome =
+        run({"conjugate", "sum(envelope(norm1(),1),norm1())", "--metric", "[[4]]", "--at", at, "--json"});
+    CAPTURE(at);
+    CHECK(outcome.code == 0);
+    CHECK(Json::parse(outcome.out)["value"] == value);
+  }
+}
+
 TEST_CASE("the conjugate prints as an expression that reads back, with its domain and its value") {
   const Json norm = Json::parse(run({"conjugate", "norm2(weight=2)", "--json"}).out);
   CHECK(norm["g"] == "indicator(ball2(radius=2))");

@@ -138,6 +138,8 @@ TEST_CASE("a ball that touches a polyhedron meets it in the point of contact") {
   for (const Touching& at : {
            Touching{"indicator(intersection(box(-1,2), ball2(1,[3,-1])))", {-6, 0}, {2, -1}},
            {"indicator(intersection(orthant(), ball2(1,[2,-1,3])))", {-0.3, -7, -6}, {2, 0, 3}},
+           {"indicator(intersection(ball1(1), ball2(1,[2,0])))", {-1, 3}, {1, 0}},
+           {"indicator(intersection(ball1(1), ball2(1,[2])))", {-1}, {1}},
            {"indicator(intersection(simplex(1), ball2(0.5)))", {-3, 2, 2, -3}, {0.25, 0.25, 0.25, 0.25}},
        }) {
     CAPTURE(at.f);
