@@ -8,6 +8,7 @@
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -174,13 +175,6 @@ bool is_no_vertex(const std::vector<Dependence>& groups, const Vector& lambda) {
   });
 }
 
-/// Whether a dense factor of so many tight rows is affordable.
-bool has_dense_factor(Index coordinates, std::size_t rows) {
-  constexpr double most_numbers = 4e6;
-  const double n = static_cast<double>(coordinates);
-  return n * std::min(n, static_cast<double>(rows)) <= most_numbers;
-}
-
 /// The same answer with the multipliers of a vertex of the dual optima: q is the nearest point of the tight
 /// rows alone, too. The answer as it is where they do not give it.
 Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>& tight, Solution solution) {
@@ -188,6 +182,7 @@ Solution at_vertex(const NearestPointProblem& problem, const std::vector<Index>&
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   for (std::size_t k = 0; k < tight.size(); ++k)
     if (is_free[static_cast<std::size_t>(tight[k])]) held.two_sided.push_back(static_cast<Index>(k));
+  if (!is_dense_size(held)) return solution;
   const Solution vertex = active_set(held, {});
   if (vertex.status != Status::solved ||
       !(problem.A.norm(vertex.q - solution.q) <= 2 * (vertex.error_bound + solution.error_bound)))
@@ -225,11 +220,9 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
   // A point may be right and the multipliers that led to it not: those of Delassus' rule, where it hits.
   const bool is_unbalanced = given.residuals.stationarity > tolerance;
   if (groups && (is_unbalanced || is_no_vertex(*groups, solution.lambda))) {
-    const bool is_small = has_dense_factor(problem.dimension(), found.tight.size());
-    if (is_small) solution = at_vertex(problem, found.tight, std::move(solution));
+    solution = at_vertex(problem, found.tight, std::move(solution));
     groups = dependences(problem, solution.basis, found.tight);
-    if (!is_small || is_no_vertex(*groups, solution.lambda))
-      groups.reset();  // there is no table to begin with
+    if (is_no_vertex(*groups, solution.lambda)) groups.reset();  // there is no table to begin with
   }
   found.least_norm = solution.lambda;
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
