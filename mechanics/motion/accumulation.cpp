@@ -4,20 +4,16 @@
 #include <cmath>
 
 namespace mechanics::inline motions {
-namespace {
 
-/// Of the speed and of the interval after it.
-constexpr double roundings_of_interval = 2;
-
-}  // namespace
-
-void ImpactHistory::add(double since, double speed, double t, double noise) {
+void ImpactHistory::add(double since, double speed, double t, double noise, double speed_noise) {
   interval_[2] = interval_[1];
   interval_[1] = interval_[0];
   interval_[0] = since;
   speed_ = speed;
   highest_ = std::max(highest_, 0.5 * speed * since);  // a fall from rest, or a bounce
-  if (++count_ == 1) begin_ = t;
+  noise_ += noise;
+  speed_noise_ += speed_noise;
+  ++count_;
   if (!shrinks()) {
     if (t > end_ + end_error_) end_error_ = std::numeric_limits<double>::infinity();
     return;
@@ -28,12 +24,13 @@ void ImpactHistory::add(double since, double speed, double t, double noise) {
   const double uncertain = 2 * noise / interval_[0];
   const double highest = r + std::abs(r - before) * r / (1 - r) + uncertain;
   const double end = t + remaining();
-  // Every impact rounds the speed that all later intervals are multiples of.
-  const double by_speeds = roundings_of_interval * std::numeric_limits<double>::epsilon() *
-                           static_cast<double>(count_) * (end - begin_);
-  const double error = highest < 1
-                           ? interval_[0] * (highest / (1 - highest) - r / (1 - r)) + noise + by_speeds
-                           : std::numeric_limits<double>::infinity();
+  // An impact that is late by τ falls τ times the acceleration g too fast, from where f is -τ times the
+  // speed: the bounces to come keep the excess, and the end moves by (1 + 1/r) τ. What a speed is off by, all
+  // later intervals are multiples of: the end moves by as much of what remained then, which is to what
+  // remains now as the speeds are.
+  const double by_rounding = (1 + 1 / r) * noise_ + remaining() / speed_ * speed_noise_;
+  const double error = highest < 1 ? interval_[0] * (highest / (1 - highest) - r / (1 - r)) + by_rounding
+                                   : std::numeric_limits<double>::infinity();
   if (error > end_error_ && std::abs(end - end_) <= error + end_error_) return;
   end_ = end;
   end_error_ = error;

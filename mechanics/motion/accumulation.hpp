@@ -15,8 +15,8 @@ class ImpactHistory {
  public:
   /// An impact at the time `since` after the last one (differences of times would lose digits), with the
   /// speed -df/dt before it.
-  /// t: when; noise: how far `since` may be off by rounding.
-  void add(double since, double speed, double t, double noise);
+  /// t: when; noise, speed_noise: how far `since` and the speed may be off by rounding.
+  void add(double since, double speed, double t, double noise, double speed_noise);
   void forget() { *this = ImpactHistory(); }
 
   long count() const { return count_; }
@@ -26,8 +26,8 @@ class ImpactHistory {
   /// The time from the last impact to the end.
   double remaining() const;
   /// When it ends, and how far that may be off: the tail Δ r / (1 - r) with r enclosed by what its drift,
-  /// which shrinks as the intervals do, adds up to, and by rounding. Of all that the impacts told so far the
-  /// surest: the last bounces may be so low that rounding of f decides them.
+  /// which shrinks as the intervals do, adds up to, and by the rounding of all impacts so far. Of all that the
+  /// impacts told the surest: the last bounces may be so low that rounding of f decides them.
   double end() const { return end_; }
   double end_error() const { return end_error_; }
   /// A bound on how high, in units of f, the next bounce goes.
@@ -39,7 +39,8 @@ class ImpactHistory {
  private:
   long count_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
-  double speed_ = 0, begin_ = 0, highest_ = 0;
+  double speed_ = 0, highest_ = 0;
+  double noise_ = 0, speed_noise_ = 0;  // of all impacts so far
   double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };
 

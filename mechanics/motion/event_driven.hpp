@@ -32,6 +32,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool is_passed(double tau);
   void move_time(double by);
   void handle(const std::vector<Zero>& zeros);
+  double rounding_of_f(Index a);
   void tell_blur(const std::vector<Index>& closing);
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,

@@ -20,6 +20,9 @@ constexpr double roundings_of_closed = 16;
 /// Bounces lower than so many roundings of f come at times that rounding decides.
 constexpr double roundings_of_bounce = 64;
 
+/// Of a speed, what it is the sum of is rounded so often between two impacts: by the impact, and by the arc.
+constexpr double roundings_of_speed = 2;
+
 /// Impacts of one contact that are followed one by one, however high they bounce.
 constexpr long most_impacts_followed = 100'000;
 
@@ -89,13 +92,20 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   release_event(held, before);
 }
 
+/// Of a contact that closes. Without t, its terms are about as large as those of its differential.
+double Motion::EventDriven::rounding_of_f(Index a) {
+  if (!expansion_.uses_time()) return epsilon * expansion_.position_scale(a);
+  return epsilon * (expansion_.magnitude_of_constraint(a) + std::abs(state.t * expansion_.rate(a)));
+}
+
 /// Near a tangency f falls so slowly through 0 that its rounding leaves the time of the impact uncertain. The
 /// last bounces before rest do so too: their end is told with its own error.
 void Motion::EventDriven::tell_blur(const std::vector<Index>& closing) {
   for (const Index a : closing) {
     const auto k = static_cast<std::size_t>(a);
-    const double blur = epsilon * expansion_.position_scale(a) / -expansion_.rate(a);
-    if (is_blurred_[k] || history_[k].shrinks() || !(blur > options.tolerance * std::abs(state.t))) continue;
+    const double blur = rounding_of_f(a) / -expansion_.rate(a);
+    const bool has_known_end = std::isfinite(history_[k].end_error());
+    if (is_blurred_[k] || has_known_end || !(blur > options.tolerance * std::abs(state.t))) continue;
     is_blurred_[k] = true;
     remark(constraint_name(a) + " closes so slowly that the rounding of f leaves the time uncertain by " +
            number_text(blur) + ", and with it what follows");
@@ -140,9 +150,11 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
   std::vector<ImpactContact> contacts;
-  std::vector<double> position_scales;
+  std::vector<double> roundings_of_f, rate_scales;
   for (const Index a : present) {
-    position_scales.push_back(expansion_.position_scale(a));
+    roundings_of_f.push_back(rounding_of_f(a));
+    rate_scales.push_back(expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
+                                                 : expansion_.rate_scale(a));
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
     const bool turns = contains(closing, a), is_free = !is_two_sided(a);
@@ -189,8 +201,8 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0)
       history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
-                  epsilon * (elapsed_[static_cast<std::size_t>(a)] + position_scales[k] / -rate_before +
-                             (expansion_.uses_time() ? std::abs(state.t) : 0)));
+                  epsilon * elapsed_[static_cast<std::size_t>(a)] + roundings_of_f[k] / -rate_before,
+                  roundings_of_speed * epsilon * std::max(-rate_before, rate_scales[k]));
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
   event(EventKind::impact, hit, before);
@@ -215,11 +227,13 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
       endings_.push_back({end, ending});
       std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (time_stands_still()) return;
-      if (last.next_height() > options.tolerance || last.end_error() > options.tolerance * std::abs(end))
+      // The last impacts may have come, by rounding, after the end that the surer ones before them tell.
+      const double error = last.end_error() + (end - last.end());
+      if (last.next_height() > options.tolerance || error > options.tolerance * std::abs(end))
         remark("impacts of " + constraint_name(ending.front()) +
                " that bounce up to f = " + number_text(last.next_height()) +
                " are not followed one by one; they end at t = " + number_text(end) + " within " +
-               number_text(std::max(last.end_error(), epsilon * std::abs(end))));
+               number_text(std::max(error, epsilon * std::abs(end))));
       return;
     }
     if (status != MotionStatus::done) return;

@@ -111,6 +111,9 @@ class Expansion {
   std::span<const double> argument(const FunctionArgument& one) const { return series_[one.argument]; }
   /// Up to here rounding may have made df_a/dt, and the multipliers of contacts held.
   double rounding_of_rate(Index a);
+  /// What df/dt, and what f, is the sum of.
+  double magnitude_of_rate(Index a);
+  double magnitude_of_constraint(Index a);
   Vector rounding_of_multipliers(const std::vector<Index>& held);
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
@@ -132,6 +135,7 @@ class Expansion {
   void take_branches();
   void check_finite() const;
   void begin_order(int k);
+  double magnitude_of(expression::Slot series);
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
   Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
   /// What df/dt of these constraints and v are the sums of, at order k of the question.

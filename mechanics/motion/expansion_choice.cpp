@@ -74,11 +74,17 @@ double Expansion::rounding(int k) const {
          convex::unit_roundoff;
 }
 
-double Expansion::rounding_of_rate(Index a) {
+double Expansion::magnitude_of(expression::Slot series) {
   if (!magnitude_is_begun_) magnitude_.begin();
   magnitude_is_begun_ = true;
-  return rounding(0) * magnitude_.at(equations_.rate[index(a)], 0);
+  return magnitude_.at(series, 0);
 }
+
+double Expansion::magnitude_of_rate(Index a) { return magnitude_of(equations_.rate[index(a)]); }
+
+double Expansion::magnitude_of_constraint(Index a) { return magnitude_of(equations_.constraint[index(a)]); }
+
+double Expansion::rounding_of_rate(Index a) { return rounding(0) * magnitude_of_rate(a); }
 
 Vector Expansion::rounding_of_multipliers(const std::vector<Index>& held) {
   const Magnitudes of = magnitudes(held, 0);
