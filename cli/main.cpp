@@ -77,9 +77,7 @@ std::string in_own_words(const std::string& said) {
          "\" is no number here";
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app{"moreau: convex analysis and the mechanics of one-sided constraints (J. J. Moreau 1966)",
                "moreau"};
   app.set_version_flag("--version", version);
@@ -114,4 +112,13 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return wrong(std::string("a defect of this program: ") + error.what() + "; please report it");
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int exit = run(argc, argv);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return wrong("cannot write to standard output; check that the disk has room");
+  return exit;
 }

@@ -1,10 +1,29 @@
 #include "cli/report/json_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 namespace cli::inline reports {
+namespace {
+
+/// Bytes of the first character, 0 where they are no UTF-8 (RFC 3629, section 4).
+std::size_t length_of_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80U) return 1;
+  if (first < 0xc2U || first > 0xf4U) return 0;
+  const std::size_t length = first < 0xe0U ? 2 : first < 0xf0U ? 3 : 4;
+  if (text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xc0U) != 0x80U) return 0;
+  const bool overlong = (first == 0xe0U && byte(1) < 0xa0U) || (first == 0xf0U && byte(1) < 0x90U);
+  const bool no_character = (first == 0xedU && byte(1) > 0x9fU) || (first == 0xf4U && byte(1) > 0x8fU);
+  return overlong || no_character ? 0 : length;
+}
+
+}  // namespace
 
 void JsonWriter::separate() {
   if (needs_comma_) text_ += ',';
@@ -80,10 +99,15 @@ JsonWriter& JsonWriter::numbers(const convex::Vector& x) {
 }
 
 void JsonWriter::quote(std::string_view text) {
+  constexpr std::string_view replacement = "\ufffd";  // for what is no UTF-8, as names of files may be
   text_ += '"';
-  for (char c : text) {
+  while (!text.empty()) {
+    const std::size_t length = length_of_character(text);
+    const char c = text[0];
     const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
+    if (length != 1) {
+      text_ += length == 0 ? replacement : text.substr(0, length);
+    } else if (c == '"' || c == '\\') {
       text_ += '\\';
       text_ += c;
     } else if (code < 0x20U) {
@@ -94,6 +118,7 @@ void JsonWriter::quote(std::string_view text) {
     } else {
       text_ += c;
     }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   text_ += '"';
 }

@@ -1,5 +1,7 @@
 #include <cstdint>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/cli/error_form.hpp"
 
 using namespace tests;
@@ -110,4 +112,19 @@ TEST_CASE("families and sums that are too large are refused before they fill the
   for (const std::string V : {"sum(i in 1..20000000, y)", "sum(i in 1..10000, sum(j in 1..10000, i*j*y))",
                               "sum(i in 1..9e15, y)", "sum(i in 1..1e7, j in 1..i, 1)"})
     refused(potential(V));
+}
+
+TEST_CASE("an answer that standard output does not take is told, and is no success") {
+  const Outcome outcome = run_by_shell("\"$0\" \"$@\" > /dev/full", {"functions"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("standard output") != std::string::npos);
+}
+
+TEST_CASE("a file whose name is no UTF-8 has its answer in JSON that is") {
+  const Folder folder;
+  const std::string bad = folder.write("\xff\xc0\xaf \xe2\x82\xac \xed\xa0\x80.toml", point_on_floor({}));
+  const Outcome outcome = run({"solve", "--json", bad});
+  CHECK(outcome.code == 0);
+  const auto json = nlohmann::json::parse(outcome.out);  // throws where a byte is no UTF-8
+  CHECK(json["file"].get<std::string>().ends_with("\ufffd\ufffd\ufffd € \ufffd\ufffd\ufffd.toml"));
 }

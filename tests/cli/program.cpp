@@ -90,10 +90,14 @@ Outcome run(const std::vector<std::string>& arguments, const std::string& input)
   return start(words, input);
 }
 
-Outcome run_within(int megabytes, std::vector<std::string> arguments) {
-  const std::string limited = "ulimit -v " + std::to_string(megabytes * 1024) + " && exec \"$0\" \"$@\"";
-  arguments.insert(arguments.begin(), {"/bin/sh", "-c", limited, program()});
+Outcome run_by_shell(const std::string& command, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"/bin/sh", "-c", command, program()});
   return start(arguments, "");
+}
+
+Outcome run_within(int megabytes, std::vector<std::string> arguments) {
+  return run_by_shell("ulimit -v " + std::to_string(megabytes * 1024) + " && exec \"$0\" \"$@\"",
+                      std::move(arguments));
 }
 
 Folder::Folder() {

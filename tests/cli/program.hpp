@@ -17,7 +17,10 @@ struct Outcome {
 /// variable MOREAU_PROGRAM, or the program of this build. A run that hangs fails the test.
 Outcome run(const std::vector<std::string>& arguments, const std::string& input = "");
 
-/// The same with so much memory and no more.
+/// A command of the shell in which "$0" "$@" stands for the program with its arguments.
+Outcome run_by_shell(const std::string& command, std::vector<std::string> arguments);
+
+/// The same as `run` with so much memory and no more.
 Outcome run_within(int megabytes, std::vector<std::string> arguments);
 
 /// A folder of its own for one test, gone with it.
