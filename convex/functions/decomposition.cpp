@@ -168,7 +168,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   if (proved < split.error_bound) {
     split.x.error_bound = std::min(split.x.error_bound, proved);
     split.y.error_bound = std::min(split.y.error_bound, proved + split.residual);
-    split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
+    split.error_bound = bound_with_residual(split);
   }
   split.status = best.known(tolerance) ? Status::solved : Status::inaccurate;
   return std::move(best.split);

@@ -69,7 +69,7 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
   split.f_x = f_x.value;
   split.g_y = g_y.value;
   split.fenchel_gap = split.f_x + split.g_y - split.inner;
-  split.error_bound = std::max({split.x.error_bound, split.y.error_bound, split.residual / 2});
+  split.error_bound = bound_with_residual(split);
   made.right = split.fenchel_gap + 0.5 * residual * residual;
   made.error = f_x.error + g_y.error;
   const Vector &x = split.x.x, &y = split.y.x;
@@ -114,6 +114,11 @@ ChosenValues values_at(const SplitFunctions& of, const Prox& at, double product)
 }
 
 }  // namespace
+
+double bound_with_residual(const Decomposition& split) {
+  const double x = split.x.error_bound, y = split.y.error_bound;
+  return split.residual <= x + y ? std::max(x, y) : split.residual + std::max(x, y);
+}
 
 double SplitCandidate::excess() const {
   const double square = split.error_bound * split.error_bound;

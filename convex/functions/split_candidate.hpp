@@ -34,6 +34,10 @@ struct SplitFunctions {
   const Function &f, g, plain;
 };
 
+/// ||x - x*|| and ||y - y*|| are at most this: by their own bounds, and where these add up to less than the
+/// residual ||z - x - y||, so that one of them is wrong, by the other and the residual.
+double bound_with_residual(const Decomposition& split);
+
 /// The right side at x and y themselves.
 SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                          const Metric& W);
