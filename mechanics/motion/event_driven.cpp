@@ -11,8 +11,6 @@
 namespace mechanics::inline motions {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// Times within so many roundings of each other are one: several events at once.
 constexpr double roundings_of_time = 64;
 

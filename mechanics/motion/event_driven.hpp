@@ -1,11 +1,15 @@
 #pragma once
 
+#include <limits>
+
 #include "mechanics/motion/accumulation.hpp"
 #include "mechanics/motion/course.hpp"
 #include "mechanics/motion/expansion.hpp"
 #include "mechanics/motion/zero_search.hpp"
 
 namespace mechanics::inline motions {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// A motion followed from event to event. A step ends at the first event of its arc; the event changes the
 /// velocity, and the right limit of the motion chooses the contacts of the next arc.

@@ -9,8 +9,6 @@
 namespace mechanics::inline motions {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 /// A product of gradients that do not move each other is left by so many roundings of their lengths.
 constexpr double roundings_of_product = 64;
 

@@ -22,7 +22,6 @@ Solution active_set(const NearestPointProblem& problem, const Accuracy& accuracy
 }
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::string_view method = "active-set";
 
 /// Rounding q to doubles leaves `lo` behind: ||lo||_A² <= n Σ a_ii lo_i².
@@ -93,7 +92,7 @@ Solution infeasible_answer(const NearestPointProblem& problem, const Vector& wei
     solution.undecided = open_question::contradiction;
   }
   // The smallest weight is 1: combinations of whole rows read as whole numbers.
-  solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), infinity).minCoeff();
+  solution.farkas = weights / (weights.array() != 0).select(weights.cwiseAbs(), INFINITY).minCoeff();
   return solution;
 }
 

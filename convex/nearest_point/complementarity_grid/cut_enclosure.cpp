@@ -11,8 +11,6 @@ namespace {
 
 constexpr double nothing_proved = std::numeric_limits<double>::infinity();
 
-std::size_t entry(Index k) { return static_cast<std::size_t>(k); }
-
 /// A sum of products, and how far it may be from the exact one: each term is rounded when it is made (a
 /// difference, a product) and once by every addition that follows (Higham 2002, section 3.1).
 class RoundedSum {
@@ -38,22 +36,22 @@ class RoundedSum {
 /// (L q)_k.
 RoundedSum linear_part(const CutGrid& grid, const std::vector<double>& q, Index k) {
   RoundedSum sum;
-  sum.add(grid.pull[entry(k)] * q[entry(k)]);
+  sum.add(grid.pull[at(k)] * q[at(k)]);
   for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
     const Index s = grid.stride(axis);
-    sum.add(grid.link[axis][entry(k)] * (q[entry(k)] - q[entry(k + s)]));
-    sum.add(grid.link[axis][entry(k - s)] * (q[entry(k)] - q[entry(k - s)]));
+    sum.add(grid.link[axis][at(k)] * (q[at(k)] - q[at(k + s)]));
+    sum.add(grid.link[axis][at(k - s)] * (q[at(k)] - q[at(k - s)]));
   }
   return sum;
 }
 
 /// The sums of the links of each unknown: what L w is to be, near the scale of its rounding at any cell.
 std::vector<double> link_sums(const CutGrid& grid) {
-  std::vector<double> sums(entry(grid.size()));
+  std::vector<double> sums(at(grid.size()));
   for (Index k = 0; k < grid.size(); ++k)
     if (grid.is_unknown(k))
       for (std::size_t axis = 0; axis < grid.dimension; ++axis)
-        sums[entry(k)] += grid.link[axis][entry(k)] + grid.link[axis][entry(k - grid.stride(axis))];
+        sums[at(k)] += grid.link[axis][at(k)] + grid.link[axis][at(k - grid.stride(axis))];
   return sums;
 }
 
@@ -70,9 +68,9 @@ std::vector<double> barrier(const std::vector<const CutGrid*>& grids) {
   std::vector<double> w = std::move(solve_cut_grids(loaded, false).front().q);
   double largest = 0;
   for (Index k = 0; k < grids.front()->size(); ++k)
-    if (grids.front()->is_unknown(k)) largest = std::max(largest, w[entry(k)]);
+    if (grids.front()->is_unknown(k)) largest = std::max(largest, w[at(k)]);
   for (Index k = 0; k < grids.front()->size(); ++k)
-    w[entry(k)] = grids.front()->is_unknown(k) ? w[entry(k)] + largest : 0;
+    w[at(k)] = grids.front()->is_unknown(k) ? w[at(k)] + largest : 0;
   return w;
 }
 
@@ -91,9 +89,9 @@ std::vector<double> polished(const std::vector<const CutGrid*>& grids, const Cut
   }
   for (Index k = 0; k < grid.size(); ++k)
     if (!grid.is_unknown(k))
-      q[entry(k)] = 0;
-    else if (grid.kind[entry(k)] == CutPoint::bounded)
-      q[entry(k)] = std::max(0.0, q[entry(k)]);
+      q[at(k)] = 0;
+    else if (grid.kind[at(k)] == CutPoint::bounded)
+      q[at(k)] = std::max(0.0, q[at(k)]);
   return q;
 }
 
@@ -107,34 +105,33 @@ double enclosed_error(const std::vector<const CutGrid*>& grids, const CutSolutio
   double moved = 0;
   for (Index k = 0; k < grid.size(); ++k) {
     if (!grid.is_unknown(k)) continue;
-    const double difference = std::abs(q[entry(k)] - found.q[entry(k)]);
+    const double difference = std::abs(q[at(k)] - found.q[at(k)]);
     if (!std::isfinite(difference)) return nothing_proved;
     moved = std::max(moved, difference);
   }
   const std::vector<double> w = barrier(grids);
-  std::vector<RoundedSum> pendants(entry(grid.pendants.empty() ? 0 : grid.size()));
+  std::vector<RoundedSum> pendants(at(grid.pendants.empty() ? 0 : grid.size()));
   for (const Pendant& pendant : grid.pendants) {
-    const double here = q[entry(pendant.point)], y = here + pendant.shift;
+    const double here = q[at(pendant.point)], y = here + pendant.shift;
     if (y < 0)
-      pendants[entry(pendant.point)].add(pendant.conductance * y,
-                                         pendant.conductance * (std::abs(here) + std::abs(pendant.shift)));
+      pendants[at(pendant.point)].add(pendant.conductance * y,
+                                      pendant.conductance * (std::abs(here) + std::abs(pendant.shift)));
   }
   double delta = 0, highest = 0;
   for (Index k = 0; k < grid.size(); ++k) {
     if (!grid.is_unknown(k)) continue;
     RoundedSum slope = linear_part(grid, q, k);
-    slope.add(-grid.load[entry(k)]);
+    slope.add(-grid.load[at(k)]);
     double low = slope.low(), high = slope.high();
     if (!pendants.empty()) {
-      low += pendants[entry(k)].low();
-      high += pendants[entry(k)].high();
+      low += pendants[at(k)].low();
+      high += pendants[at(k)].high();
     }
     const double lift = linear_part(grid, w, k).low();
-    if (!(lift > 0) || !(w[entry(k)] > 0) || !std::isfinite(low) || !std::isfinite(high))
-      return nothing_proved;
-    const bool is_at_bound = grid.kind[entry(k)] == CutPoint::bounded && q[entry(k)] == 0;
+    if (!(lift > 0) || !(w[at(k)] > 0) || !std::isfinite(low) || !std::isfinite(high)) return nothing_proved;
+    const bool is_at_bound = grid.kind[at(k)] == CutPoint::bounded && q[at(k)] == 0;
     delta = std::max({delta, -low / lift, is_at_bound ? 0 : high / lift});
-    highest = std::max(highest, w[entry(k)]);
+    highest = std::max(highest, w[at(k)]);
   }
   constexpr double upwards = 1 + 0x1p-48;  // the few roundings of the bound itself
   return (delta * highest + moved) * upwards;

@@ -8,6 +8,8 @@
 
 namespace convex::inline complementarity_grid {
 
+inline std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+
 /// What a point of a grid is.
 enum class CutPoint : std::uint8_t {
   beyond,   ///< no unknown, and nothing is known there: beyond a wall

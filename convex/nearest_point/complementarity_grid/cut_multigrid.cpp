@@ -11,8 +11,6 @@ namespace {
 
 constexpr Index most_steps = 200;
 
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
 /// Σ a_i b_i in eight sums, which need not wait for each other.
 double dot(const double* a, const double* b, Index n) {
   std::array<double, 8> sum{};

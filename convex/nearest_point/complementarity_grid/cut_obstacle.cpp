@@ -8,8 +8,6 @@
 namespace convex::inline complementarity_grid {
 namespace {
 
-std::size_t at(Index k) { return static_cast<std::size_t>(k); }
-
 constexpr int most_set_changes = 200;
 /// After a change of the set its edge moves on by projected sweeps, a point each, for much less than a solve
 /// costs; after so many changes the signs alone decide, for which an end is proved.

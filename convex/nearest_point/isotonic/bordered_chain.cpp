@@ -13,8 +13,6 @@
 namespace convex::inline isotonic {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// Rows that may be left over, and coordinates that there must be for each: with fewer, other methods are as
 /// fast.
 constexpr Index most_border = 16, coordinates_per_row = 24;

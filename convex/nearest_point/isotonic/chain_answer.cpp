@@ -15,8 +15,6 @@ namespace {
 
 using namespace chain_kernels;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double root_of_sum(const std::array<double, lanes>& part) {
   return std::sqrt((part[0] + part[1]) + (part[2] + part[3]));
 }

@@ -8,11 +8,7 @@
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline isotonic {
-namespace {
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
+namespace {}  // namespace
 
 Pooling::Pooling(const NearestPointProblem& problem, const Strings& strings)
     : mass_(problem.A.diagonal()),

@@ -6,8 +6,6 @@
 namespace convex::inline isotonic {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 /// What a row is to a string: from `low` up to `high`, a floor under `high` (low = -1), or nothing (high =
 /// -1).
 struct Link {

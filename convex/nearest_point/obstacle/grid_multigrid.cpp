@@ -8,7 +8,7 @@
 namespace convex::inline obstacle {
 namespace {
 
-constexpr Index smallest = 3, most_steps = 200;
+constexpr Index smallest_grid = 3, most_steps = 200;
 /// Sweeps in each direction that solve the coarsest grid well enough.
 constexpr int coarsest_sweeps = 12;
 
@@ -36,7 +36,7 @@ GridMultigrid::Level GridMultigrid::level(const GridOperator& A) {
 GridMultigrid::GridMultigrid(const GridOperator& finest) : finest_(finest) {
   GridOperator grid = finest;
   levels_.push_back(level(grid));
-  while (std::min(grid.width, grid.height) > smallest) {
+  while (std::min(grid.width, grid.height) > smallest_grid) {
     grid = coarsened(grid);
     levels_.push_back(level(grid));
   }

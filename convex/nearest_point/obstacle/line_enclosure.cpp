@@ -15,7 +15,7 @@ using Kind = LineEnd::Kind;
 
 /// Halved until remainders are below this part of the largest value, a piece by its part of the line.
 constexpr double remainder_part = 0x1p-52;
-constexpr double shortest_part = 0x1p-46;
+constexpr double shortest_piece = 0x1p-46;
 constexpr std::size_t most_pieces = 100000;
 /// What the evaluation of a piece in doubles rounds, of the sum of its terms' sizes.
 constexpr double rounding_of_value = 64 * unit_roundoff;
@@ -82,7 +82,7 @@ class Enclosure {
       piece.integrate(w_);
       const bool is_pulled = !is_liquid && piece.h_range().high <= 0;  // all that the cavity asks for
       if (is_pulled || piece.remainder() <= remainder_part * scale_ * (width / line) ||
-          !(width > line * shortest_part)) {
+          !(width > line * shortest_piece)) {
         if (!piece.is_finite() || pieces_.size() == most_pieces) return false;
         pieces_.push_back(piece);
         continue;

@@ -14,7 +14,7 @@ constexpr Index first_cells = 64;
 constexpr double shortest_part = 0x1p-44;
 /// What a sum of terms of this absolute size may be off.
 constexpr double rounding = 16 * unit_roundoff;
-constexpr int most_rounds = 400, most_steps = 1000;
+constexpr int most_rounds = 400, most_active_sets = 1000;
 /// An h that varies faster than so many cells resolve is given up; the error bound says so.
 constexpr std::size_t most_cells = 20000;
 
@@ -123,7 +123,7 @@ class LineCells {
 
   /// Primal-dual active sets; ends after finitely many steps, for the equations have an M-matrix.
   void solve_obstacle() {
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_active_sets; ++step) {
       solve();
       if (!one_sided_) return;
       bool changed = false;

@@ -12,8 +12,6 @@
 namespace convex::inline obstacle {
 namespace {
 
-constexpr double none = -std::numeric_limits<double>::infinity();
-
 Vector all_points(const GridOperator& A) {
   Vector all = A.field();
   for (Index j = 0; j < A.height; ++j) all.segment(A.at(0, j), A.width).setOnes();
@@ -73,7 +71,7 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
     if (expected != 0) return std::nullopt;
   }
   grid.z = on_grid(grid.A, problem.z);
-  grid.lower = Vector::Constant(grid.A.size(), none);
+  grid.lower = Vector::Constant(grid.A.size(), no_bound);
   if (!problem.two_sided.empty()) grid.held = grid.A.field();
   auto next_two_sided = problem.two_sided.begin();
   GridPlace place(grid.A);
@@ -86,7 +84,7 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
       ++next_two_sided;
     }
     double& lower = grid.lower[point];
-    if (lower > none) return std::nullopt;
+    if (lower > no_bound) return std::nullopt;
     lower = problem.s[a] / it.value();
     if (lower * it.value() != problem.s[a]) return std::nullopt;
     ++it;

@@ -10,8 +10,6 @@
 namespace convex::inline obstacle {
 namespace {
 
-constexpr double none = -std::numeric_limits<double>::infinity();
-
 /// Active sets tried on one grid; the part of a residual left while these are sought, and in a refinement.
 constexpr int most_sets = 80, most_refinements = 12;
 constexpr double rough = 2e-1, fine = 1e-4;
@@ -58,7 +56,7 @@ class GridSolver {
       ObstacleGrid coarse{coarsened(A_), {}, {}, {}};
       coarse.z = coarse.A.field();
       restrict_to(A_, grid_.z, coarse.A, coarse.z);
-      coarse.lower = Vector::Constant(coarse.A.size(), none);
+      coarse.lower = Vector::Constant(coarse.A.size(), no_bound);
       if (grid_.held.size() > 0) coarse.held = coarse.A.field();
       for (Index j = 0; j < coarse.A.height; ++j)
         for (Index i = 0; i < coarse.A.width; ++i) {

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <limits>
+
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/obstacle/grid_multigrid.hpp"
 
 namespace convex::inline obstacle {
+
+inline constexpr double no_bound = -std::numeric_limits<double>::infinity();
 
 /// An obstacle problem on one grid, fields with frames: minimise ½ q·Aq - z·q over q >= lower, which is -inf
 /// where there is no bound, with q = lower on the points `held`: 1 there, else 0; empty when none is.
