@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "convex/dense/dense_kernels.hpp"
+
 namespace convex::inline exact_arithmetic {
 namespace {
 
@@ -55,29 +57,20 @@ GridSum::GridSum(const Eigen::Ref<const Vector>& q) : q_(q.data()), n_(q.size())
 std::optional<double> GridSum::value(const double* u, double s) const {
   if (is_zero_) return -s;
   if (step_ == 0) return std::nullopt;
-  // Four sums at a time: where they are exact, their order does not matter.
-  const Index n = n_, whole_fours = n / 4 * 4;
-  double most[4] = {}, sums[4] = {}, off[4] = {};
-  const auto over_entries = [&](auto work) {
-    for (Index i = 0; i < whole_fours; i += 4)
-      for (Index k = 0; k < 4; ++k) work(i + k, k);
-    for (Index i = whole_fours; i < n; ++i) work(i, i - whole_fours);
-  };
-  over_entries([&](Index i, Index k) { most[k] = std::max(most[k], std::abs(u[i])); });
-  const double largest = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  const DenseKernels& kernels = dense_kernels();
+  const double largest = kernels.largest_size(n_, u);
   if (largest == 0) return -s;
   // The finest grid on which the sum has no more than `whole` steps.
   const double step = power_above(largest * steps_ / whole);
   const double shift = 1.5 * whole * step;
   if (!std::isnormal(step) || !std::isnormal(step * step_) || !std::isfinite(shift) ||
-      !is_multiple(s, step * step_))
+      !is_multiple(s, step * step_) || !kernels.is_on_grid(n_, u, shift))
     return std::nullopt;
-  over_entries([&](Index i, Index k) {
-    off[k] += std::abs((u[i] + shift) - shift - u[i]);
-    sums[k] += u[i] * q_[i];
-  });
-  if (!((off[0] + off[1]) + (off[2] + off[3]) == 0)) return std::nullopt;
-  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) - s;
+  // Where sums are exact, their order does not matter.
+  const Index whole_packs = n_ / 8 * 8;
+  double sum = kernels.dot(whole_packs, u, q_);
+  for (Index i = whole_packs; i < n_; ++i) sum += u[i] * q_[i];
+  return sum - s;
 }
 
 }  // namespace convex::inline exact_arithmetic
