@@ -177,8 +177,7 @@ struct Kernels : TriangleKernels<W, Fused> {
     for (Index k = 0; k < count; ++k)
       P::add_precisely(hi, lo, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
     for (Index j = 0; j < n; ++j) P::add_precisely(hi, lo, P::load_before(A + j * n + i, end_of_A), -q[j]);
-    P::store(into + i, P::plus(hi, lo));
-    for (i = n; i < padded(n); ++i) into[i] = 0;
+    P::store(into + i, P::first(P::plus(hi, lo), n - i));
   }
 
   MOREAU_INLINE void residual(Index n, const double* A, const double* q, Index m, const double* U,
@@ -190,9 +189,8 @@ struct Kernels : TriangleKernels<W, Fused> {
       for (Index k = 0; k < count; ++k)
         P::add_product(applied, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
       for (Index j = 0; j < n; ++j) P::add_product(product, P::load_before(A + j * n + i, end_of_A), q[j]);
-      P::store(into + i, P::minus(applied, product));
+      P::store(into + i, P::first(P::minus(applied, product), n - i));
     }
-    for (Index i = n; i < padded(n); ++i) into[i] = 0;
   }
 
   MOREAU_INLINE void precise_slacks(Index n, const double* X, const double* q, const double* s,

@@ -55,9 +55,22 @@ struct Packs {
   /// Only what lies before `end` may be read; zeros stand for the rest.
   MOREAU_INLINE Pack load_before(const double* x, const double* end) {
     if (end - x >= 8) return load(x);
+    if constexpr (W == 8) {  // what a mask leaves out is not read
+      Pack pack;
+      const auto mask = static_cast<unsigned short>(end > x ? (1U << (end - x)) - 1 : 0);
+      asm("vmovupd %2, %0%{%1%}%{z%}"
+          : "=v"(pack.part[0])
+          : "Yk"(mask), "m"(*reinterpret_cast<const double(*)[]>(x)));
+      return pack;
+    }
     double tail[8] = {};
     for (Index i = 0; i < end - x; ++i) tail[i] = x[i];
     return load(tail);
+  }
+  /// The first `count` entries of x, then zeros.
+  MOREAU_INLINE Pack first(const Pack& x, Index count) {
+    alignas(64) static constexpr double inside[16] = {1, 1, 1, 1, 1, 1, 1, 1};
+    return count >= 8 ? x : where_larger(load(inside + 8 - count), 0, x, 0);
   }
   /// Sets each of an array of packs to 0; `Pack sum[8] = {}` would go through memory.
   template <int count>
@@ -90,6 +103,11 @@ struct Packs {
     Pack most;
     for (int k = 0; k < parts; ++k) most.part[k] = x.part[k] > y.part[k] ? x.part[k] : y.part[k];
     return most;
+  }
+  MOREAU_INLINE Pack smaller(const Pack& x, const Pack& y) {
+    Pack least;
+    for (int k = 0; k < parts; ++k) least.part[k] = x.part[k] < y.part[k] ? x.part[k] : y.part[k];
+    return least;
   }
   MOREAU_INLINE Pack plus(const Pack& x, double c) {
     Pack sum;
@@ -209,6 +227,17 @@ struct Packs {
     else
       asm("vfmsub132pd %2, %1, %0" : "+x"(a) : "x"(b), "x"(c));
     return a;
+  }
+
+  /// x := x + y rounded; what rounding takes away (Knuth 1969).
+  MOREAU_INLINE Pack two_sum(Pack& x, const Pack& y) {
+    Pack rest;
+    for (int k = 0; k < parts; ++k) {
+      const Part sum = x.part[k] + y.part[k], grown = sum - x.part[k];
+      rest.part[k] = (x.part[k] - (sum - grown)) + (y.part[k] - grown);
+      x.part[k] = sum;
+    }
+    return rest;
   }
 
   /// hi + lo += x c in twice the working precision (Ogita, Rump and Oishi 2005; Dekker 1971 for the product).

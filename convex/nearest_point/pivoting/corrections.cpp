@@ -30,8 +30,9 @@ bool Corrections::note(double step, bool is_fresh, double factor_condition, doub
       inverse_error,
       is_fresh ? std::max(seen, expected_contraction(factor_condition, gram_condition, true)) : usual);
   if (!(contraction <= slowest_contraction)) return false;
-  remaining = step * contraction / (1 - contraction) + floor_of_residuals();
-  likely_ = std::min(remaining, step * usual + floor_of_residuals());
+  const double floor = floor_of_residuals();
+  remaining = step * contraction / (1 - contraction) + floor;
+  likely_ = std::min(remaining, step * usual + floor);
   return true;
 }
 
@@ -50,27 +51,33 @@ bool Corrections::take_noise_for_zero(const Point& point, bool more) {
                of_unit = is_fresh_ ? std::max(missing, count_ > 1 ? floor : 0) : floor,
                of_multiplier = is_fresh_ ? missing : floor_of_residuals(),
                of_step = is_fresh_ ? cancelled : 2;
-  Index unclear = 0;
+  const auto is_noise = [&](Index i) {
+    return std::abs(point.q[i]) <= std::max(of_unit * point.unit[i], of_step * std::abs(point.dq[i]));
+  };
+  Index noisy = 0, unclear = 0;
   double rounded = 0, zeroed = 0, let_pull = 0;
-  for (Index i = 0; i < point.n && more; ++i) {
-    const double unit = point.unit[i], size = std::abs(point.q[i]), step = std::abs(point.dq[i]);
-    unclear += size <= std::max(of_unit * unit, of_step * step) &&
-               !(size <= std::max(16 * usual * step, floor * unit));
-  }
-  if (unclear > 0) return false;
   for (Index i = 0; i < point.n; ++i) {
-    const double q = point.q[i], low = point.q_low[i], weight = point.diagonal[i];
-    const bool is_noise = std::abs(q) <= std::max(of_unit * point.unit[i], of_step * std::abs(point.dq[i]));
-    zeroed += is_noise ? weight * q * q : 0;
-    rounded += is_noise ? 0 : weight * low * low;
-    point.q[i] = is_noise ? 0 : q;
-    point.q_low[i] = is_noise ? 0 : low;
+    noisy += is_noise(i);
+    rounded += point.diagonal[i] * point.q_low[i] * point.q_low[i];
+  }
+  if (noisy > 0) {
+    for (Index i = 0; i < point.n && more; ++i)
+      unclear += is_noise(i) && !(std::abs(point.q[i]) <=
+                                  std::max(16 * usual * std::abs(point.dq[i]), floor * point.unit[i]));
+    if (unclear > 0) return false;
+    rounded = 0;
+    for (Index i = 0; i < point.n; ++i) {
+      const bool is_zero = is_noise(i);
+      (is_zero ? zeroed : rounded) +=
+          point.diagonal[i] * (is_zero ? point.q[i] * point.q[i] : point.q_low[i] * point.q_low[i]);
+      if (is_zero) point.q[i] = point.q_low[i] = 0;
+    }
   }
   const double rows = std::sqrt(gram_condition_);
   for (Index j = 0; j < point.k; ++j) {
     // Rows may be told in units far apart: each multiplier is measured by the length of its own.
-    const double unit = rows / point.length[j], lambda = point.lambda[j], pull = -lambda * point.pull[j];
-    if (std::abs(lambda) <= std::max(of_multiplier * unit, of_step * std::abs(point.change[j]))) {
+    const double size = std::abs(point.lambda[j]), pull = -point.lambda[j] * point.pull[j];
+    if (size * point.length[j] <= of_multiplier * rows || size <= of_step * std::abs(point.change[j])) {
       point.lambda[j] = 0;
       let_pull += std::max(0.0, pull);
     } else {

@@ -36,8 +36,10 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
   tableau.inverse = factor.inverse;
   tableau.A = problem.A.dense_gram().data();
   tableau.U = problem.U.dense().data();
+  fill_packs(tableau.ld, 0, tableau.diagonal);
   fill_packs(tableau.ld, 0, tableau.inverse_diagonal);
   const auto diagonal = problem.A.diagonal().array();
+  Eigen::Map<Eigen::ArrayXd>(tableau.diagonal, tableau.n) = diagonal;
   Eigen::Map<Eigen::ArrayXd>(tableau.inverse_diagonal, tableau.n) = diagonal.inverse();
   Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = diagonal.sqrt().inverse();
   if (tableau.all <= SmallTableau::few_rows) return;
@@ -200,6 +202,7 @@ double SmallGramSolve::near_scale(double part) {
       if (slack_[a] <= row_scale_[a] * small && place(a) < 0) close_[count++] = a;
     if (count > few_touched || !look_at_fresh({close_, close_ + count}, count)) return 0;
   }
+  if (small_kernels().margin(t) > small) return 0;
   bool any = false;
   for (Index a = 0; a < t.m; ++a) {
     if (!t.held[a]) t.slack[a] = -t.b[a];
@@ -231,33 +234,21 @@ void SmallGramSolve::mark_weak(double small) {
 
 bool SmallGramSolve::correct(bool is_first, double small) {
   SmallTableau& t = tableau_;
-  if (is_first) fill_packs(t.ld, 0, t.q_low);
   mark_weak(small);
   t.is_first = is_first;
   const Index steps = t.steps;
   if (!small_kernels().correct(t)) return false;
-  for (Index k = 0; k < t.size; ++k) {
-    t.length[k] = std::sqrt(t.square[t.place[k]]);
-    t.pull[k] = t.two_sided[t.place[k]] ? 0 : t.length[k];
-  }
   // An inverse loses as much again as a factor: where it is small, it is the difference of large entries.
   const double grown = std::max(t.gram_condition, t.growth), inverse_error = unit_roundoff * grown * grown;
-  if (!known_.note(t.first + zeroed_, is_first || small > 0 || t.steps > steps, t.factor_condition,
-                   t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.z_norm)))
-    return false;
-  for (Index i = 0; i < t.n; ++i) {
-    const DoubleDouble sum = two_sum(t.q[i], t.q_low[i] + t.dq[i]);
-    t.q[i] = sum.hi;
-    t.q_low[i] = sum.lo;
-  }
-  return true;
+  return known_.note(t.first + zeroed_, is_first || small > 0 || t.steps > steps, t.factor_condition,
+                     t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.z_norm));
 }
 
 bool SmallGramSolve::take_noise_for_zero(bool more) {
   SmallTableau& t = tableau_;
-  const bool told = known_.take_noise_for_zero({t.n, t.q, t.q_low, t.dq, problem_.A.diagonal().data(), t.unit,
-                                                t.size, t.held_lambda, t.correction, t.length, t.pull},
-                                               more);
+  const bool told = known_.take_noise_for_zero(
+      {t.n, t.q, t.q_low, t.dq, t.diagonal, t.unit, t.size, t.held_lambda, t.correction, t.length, t.pull},
+      more);
   for (Index k = 0; k < t.size; ++k) t.lambda[t.place[k]] = t.held_lambda[k];
   return told;
 }
@@ -273,13 +264,13 @@ bool SmallGramSolve::doubles_do(double close) {
   double missing = 0;
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.place[k];
-    weak += !t.two_sided[a] && !(t.held_lambda[k] * std::sqrt(t.square[a]) > near_zero * known_.scale);
+    weak += !t.two_sided[a] && !(t.held_lambda[k] * t.length[k] > near_zero * known_.scale);
     missing += t.slack[a] * t.slack[a];
   }
   if (weak > 0 || !is_clear(known_.scale)) return false;
   const double condition = t.factor_condition * (1 + std::sqrt(t.gram_condition));
   known_.bound = bound_of_doubles(t.n, t.size, t.stationarity, t.inverse_norm * std::sqrt(missing),
-                                  condition * (known_.scale + magnitude_));
+                                  condition * (known_.scale + t.magnitude));
   return known_.bound <= close;
 }
 
@@ -328,7 +319,7 @@ Residuals SmallGramSolve::residuals() const {
   HeldResiduals held(t.stationarity, t.acceleration_norm, known_.scale, most);
   for (Index k = 0; k < t.size; ++k) {
     const Index a = t.place[k];
-    held.add(t.level[a], std::sqrt(t.square[a]), t.held_lambda[k], t.slack[a], t.two_sided[a]);
+    held.add(t.level[a], t.length[k], t.held_lambda[k], t.slack[a], t.two_sided[a]);
   }
   Residuals found = held.all();
   found.feasibility = std::max(found.feasibility, touched_violation_);

@@ -88,7 +88,7 @@ class SmallGramSolve {
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
   double zeroed_ = 0;  ///< the multipliers of weak rows, times their lengths
-  double magnitude_ = 0, touched_violation_ = 0;
+  double touched_violation_ = 0;
 };
 
 }  // namespace convex::inline pivoting

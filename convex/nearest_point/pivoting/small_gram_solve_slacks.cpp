@@ -18,9 +18,6 @@ constexpr Index few_where_sums = 8;
 void SmallGramSolve::measure() {
   SmallTableau& t = tableau_;
   small_kernels().measure(t);
-  double square = 0;
-  for (Index i = 0; i < t.n; ++i) square += problem_.A.diagonal()[i] * t.q[i] * t.q[i];
-  magnitude_ = std::sqrt(square);
   if (looks_at_all()) return;
   dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
   for (Index p = 0; p < t.m; ++p)
@@ -29,7 +26,8 @@ void SmallGramSolve::measure() {
 
 /// Whether no row outside is close, of ||q||_A or that size if it is larger.
 bool SmallGramSolve::is_clear(double size) {
-  const Index close = close_rows(near_zero, near_zero * std::max(size, magnitude_) + known_.missing_slack(1));
+  const Index close =
+      close_rows(near_zero, near_zero * std::max(size, tableau_.magnitude) + known_.missing_slack(1));
   return std::all_of(close_, close_ + close, [&](Index a) { return holds(a); });
 }
 
@@ -58,7 +56,7 @@ Slacks SmallGramSolve::measure_slacks() {
     return Slacks::kept;
   }
   const double rounding = 2 * static_cast<double>(tableau_.n) * unit_roundoff,
-               by_length = rounding * magnitude_ + known_.missing_slack(1);
+               by_length = rounding * tableau_.magnitude + known_.missing_slack(1);
   const Index close = close_rows(rounding, by_length);
   const Index open = std::remove_if(close_, close_ + close, [&](Index a) { return holds(a); }) - close_;
   touched_count_ = std::partition(close_, close_ + open,

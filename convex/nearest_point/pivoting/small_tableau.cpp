@@ -1,6 +1,7 @@
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 
 #include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
+#include "convex/processor.hpp"
 
 namespace convex::inline pivoting {
 namespace {
@@ -19,33 +20,44 @@ struct SmallTableauSizes {
   MOREAU_BY_PACKS(bool, begin)
   MOREAU_BY_PACKS(bool, begin_again)
   MOREAU_BY_PACKS(bool, settle)
+  MOREAU_BY_PACKS(double, margin)
   MOREAU_BY_PACKS(bool, correct)
   MOREAU_BY_PACKS(void, measure_precisely)
   MOREAU_BY_PACKS(void, measure)
 };
 
 template <int W, class All, class Four = typename All::Four>
-constexpr SmallKernels small_table{
-    Compiled<W, &All::begin>::at,       Compiled<W, &Four::append>::at,
-    Compiled<W, &All::begin_again>::at, Compiled<W, &All::settle>::at,
-    Compiled<W, &All::correct>::at,     Compiled<W, &All::measure_precisely>::at,
-    Compiled<W, &All::measure>::at,     Compiled<W, &Four::dual_rows>::at,
-    Compiled<W, &Four::close_rows>::at, Compiled<W, &Four::rough_inverse_roots>::at,
-    Compiled<W, &Four::deepest>::at};
+constexpr SmallKernels small_table{Compiled<W, &All::begin>::at,
+                                   Compiled<W, &Four::append>::at,
+                                   Compiled<W, &All::begin_again>::at,
+                                   Compiled<W, &All::settle>::at,
+                                   Compiled<W, &All::margin>::at,
+                                   Compiled<W, &All::correct>::at,
+                                   Compiled<W, &All::measure_precisely>::at,
+                                   Compiled<W, &All::measure>::at,
+                                   Compiled<W, &Four::dual_rows>::at,
+                                   Compiled<W, &Four::close_rows>::at,
+                                   Compiled<W, &Four::rough_inverse_roots>::at,
+                                   Compiled<W, &Four::deepest>::at};
 
-constexpr const SmallKernels* small_tables[] = {&small_table<2, SmallTableauSizes<2, false>>,
+const SmallKernels* const small_tables[] = {&small_table<2, SmallTableauSizes<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES
-                                                &small_table<4, SmallTableauSizes<4, true>>,
-                                                &small_table<8, SmallTableauSizes<8, true>>
+                                            &small_table<4, SmallTableauSizes<4, true>>,
+                                            &small_table<8, SmallTableauSizes<8, true>>
 #endif
 };
+
+constinit const SmallKernels* chosen_small =
+    &small_table<2, SmallTableauSizes<2, false>>;  // until the choice is made, as the program starts
+[[maybe_unused]] const bool made_small =
+    (chosen_small = small_tables[static_cast<std::size_t>(processor())], true);
 
 }  // namespace
 
 std::span<const SmallKernels* const> all_small_kernels() {
-  return {small_tables, all_dense_kernels().size()};
+  return {small_tables, static_cast<std::size_t>(processor()) + 1};
 }
 
-const SmallKernels& small_kernels() { return *all_small_kernels().back(); }
+const SmallKernels& small_kernels() { return *chosen_small; }
 
 }  // namespace convex::inline pivoting

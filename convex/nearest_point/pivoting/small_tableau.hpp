@@ -30,25 +30,28 @@ struct SmallTableau {
   alignas(64) double b[most];
   alignas(64) double load[most];   ///< s_a - v_a·w_free
   alignas(64) double level[most],  ///< s_a
-      square[most], row_scale[most], inverse_scale[most], inverse_diagonal[most], unit[most];
+      square[most], row_scale[most], inverse_scale[most], diagonal[most], inverse_diagonal[most], unit[most];
   /// Per row, by its state: `leave` is minus the scale of a row that may leave, `enter` the inverse of that
   /// of one that may enter, 0 otherwise; share: 1 for a row held.
   alignas(64) double leave[most], enter[most], share[most];
   alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
   alignas(64) double slack[most];
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
-  alignas(64) double lambda[most];                                       ///< of all places, 0 outside
-  double held_lambda[most], correction[most], length[most], pull[most];  ///< of the rows held
-  bool is_weak[most];                                                    ///< may change sides in a correction
-  Index row[most];                                                       ///< at a place; -1 for none
-  Index close[most];  ///< rows whose slack doubles do not tell from 0, where rows are few
+  alignas(64) double lambda[most];  ///< of all places, 0 outside
+  /// Of the rows held; length: |v_a|, pull: the same, 0 for a two-sided row.
+  double held_lambda[most], correction[most], length[most], pull[most];
+  bool is_weak[most];  ///< may change sides in a correction
+  Index row[most];     ///< at a place; -1 for none
+  Index close[most];   ///< rows whose slack doubles do not tell from 0, where rows are few
   double touched_slack[most];
   Arena all_rows;                           ///< arrays for all rows, where these are many
   Index rows[most], place[most], size = 0;  ///< rows held, their places, and how many
   bool held[most], two_sided[most];
+  bool is_listed = false;  ///< no row has come or gone since those held were listed
 
   Index steps = 0;
   double z_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
+  double magnitude = 0;  ///< ||q||_D, D the diagonal of A
   Index dependent = -1;  ///< the violated row that is nearly dependent on those held, if pivoting met one
   bool is_first = true;  ///< the next correction is; q_low is 0 then
   bool any_weak = false;
@@ -67,13 +70,16 @@ struct SmallKernels {
   bool (*begin_again)(SmallTableau&);
   /// Pivots until no row is violated and no multiplier negative; then q, w, lambda.
   bool (*settle)(SmallTableau&);
-  /// One correction with residuals in twice the working precision, in which weak rows may change sides: dq,
-  /// `correction` of held_lambda, `first`.
+  /// The least multiplier (times the row's length) of a row that may leave and slack (over it) of one that
+  /// may come in, at the point settled on.
+  double (*margin)(SmallTableau&);
+  /// One correction of q + q_low with residuals in twice the working precision, in which weak rows may change
+  /// sides: by dq, `correction` of held_lambda; `first`.
   bool (*correct)(SmallTableau&);
   /// slack: Uq - s in twice the working precision.
   void (*measure_precisely)(SmallTableau&);
-  /// slack = Uq - s where all rows have been looked at, and what is missing of the equations of motion, in
-  /// doubles.
+  /// slack = Uq - s where all rows have been looked at, what is missing of the equations of motion, and
+  /// `magnitude`, in doubles.
   void (*measure)(SmallTableau&);
   /// n runs of `size` in whole packs: combined by a row u of U they are its coefficients over the rows held.
   void (*dual_rows)(const SmallTableau&, double* dual);

@@ -155,11 +155,13 @@ struct SmallTableauRows : Kernels<W, Fused> {
       const Pack level = P::load_before(s + a, end);
       Pack bound = P::times(P::larger(level, P::times(level, -1)), absolute);
       P::add_product(bound, P::load(length + a), by_length);
-      double above[8];
-      P::store(above, P::minus(P::load(slack + a), bound));
+      const Pack above = P::minus(P::load(slack + a), bound);
+      if (P::total(P::where_larger(above, 0, Pack{}, 1)) == 0) continue;
+      double each[8];
+      P::store(each, above);
       for (Index k = 0; k < 8 && a + k < m; ++k) {
         rows[count] = a + k;
-        count += !(above[k] > 0);
+        count += !(each[k] > 0);
       }
     }
     return count;

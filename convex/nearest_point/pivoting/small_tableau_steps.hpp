@@ -75,6 +75,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     }
     column[k] = -inverse;
     t.b[k] = sign * load;
+    t.is_listed = false;
     set_state(t, k, !t.held[k]);
   }
 
@@ -85,6 +86,7 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     }
     whiten_z(t);
     t.growth = 1;
+    t.is_listed = false;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallTableau::most];
     for (Index a = 0; a < stride(t); ++a) {
@@ -107,16 +109,14 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
 
   /// b := the load as the sweeps have changed it.
   MOREAU_INLINE void sweep_load(SmallTableau& t, const double* load) {
-    for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(load + r));
-    for (Index a = 0; a < t.m; ++a)
-      if (t.held[a]) t.b[a] = 0;
-    for (Index a = 0; a < t.m; ++a)
-      if (t.held[a])
-        for (Index r = 0; r < stride(t); r += 8) {
-          Pack b = P::load(t.b + r);
-          P::subtract_product(b, P::load(t.swept + a * stride(t) + r), load[a]);
-          P::store(t.b + r, b);
-        }
+    list_rows_held(t);
+    for (Index r = 0; r < stride(t); r += 8) {
+      Pack b = P::load(load + r);
+      b = P::minus(b, P::times(b, P::load(t.share + r)));
+      for (Index k = 0; k < t.size; ++k)
+        P::subtract_product(b, P::load(t.swept + t.place[k] * stride(t) + r), load[t.place[k]]);
+      P::store(t.b + r, b);
+    }
   }
 
   /// The place of the largest of `count` entries of x, the first if there are several.
@@ -207,26 +207,29 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     return false;
   }
 
-  /// sum += Σ_k weight_k u_k over the rows held.
-  MOREAU_INLINE void add_rows(const SmallTableau& t, const double* weight, double* sum) {
+  /// into := x + Σ_k weight_k u_k over the rows held.
+  MOREAU_INLINE void add_rows(const SmallTableau& t, const double* weight, const double* x, double* into) {
     const double* const end = t.U + t.all * t.n;
-    for (Index k = 0; k < t.size; ++k)
-      for (Index i = 0; i < ld(t); i += 8) {
-        Pack x = P::load(sum + i);
-        P::add_product(x, P::load_before(t.U + t.rows[k] * t.n + i, end), weight[k]);
-        P::store(sum + i, x);
-      }
+    for (Index i = 0; i < ld(t); i += 8) {
+      Pack sum = P::load(x + i);
+      for (Index k = 0; k < t.size; ++k)
+        P::add_product(sum, P::load_before(t.U + t.rows[k] * t.n + i, end), weight[k]);
+      // Beyond n the sums have what stands behind the rows.
+      P::store(into + i, P::first(sum, t.n - i));
+    }
   }
 
-  /// Lists the rows held, and takes what b adds to their multipliers into these.
+  /// Lists the rows held.
   MOREAU_INLINE void list_rows_held(SmallTableau& t) {
+    if (t.is_listed) return;
+    t.is_listed = true;
     t.size = 0;
     double squares = 0;
     t.gram_condition = 0;
     for (Index a = 0; a < t.m; ++a) {
       if (!t.held[a]) continue;
-      t.correction[t.size] = t.b[a];
-      t.held_lambda[t.size] = t.lambda[a] += t.b[a];
+      t.length[t.size] = std::sqrt(t.square[a]);
+      t.pull[t.size] = t.two_sided[a] ? 0 : t.length[t.size];
       t.rows[t.size] = t.row[a];
       t.place[t.size++] = a;
       squares -= t.swept[a * (stride(t) + 1)];
@@ -235,19 +238,41 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     t.inverse_norm = std::sqrt(squares);
   }
 
+  /// Takes what b adds to the multipliers of the rows held into these.
+  MOREAU_INLINE void take_multipliers(SmallTableau& t) {
+    list_rows_held(t);
+    for (Index k = 0; k < t.size; ++k) {
+      const Index a = t.place[k];
+      t.correction[k] = t.b[a];
+      t.held_lambda[k] = t.lambda[a] += t.b[a];
+    }
+  }
+
   MOREAU_INLINE void find_point(SmallTableau& t) {
     for (Index r = 0; r < stride(t); r += 8) P::store(t.lambda + r, Pack{});
-    list_rows_held(t);
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w + i, P::load(t.z + i)); });
-    add_rows(t, t.held_lambda, t.w);
-    // Beyond n the sums have what stands behind the rows.
-    for (Index i = t.n; i < ld(t); ++i) t.w[i] = 0;
+    take_multipliers(t);
+    add_rows(t, t.held_lambda, t.z, t.w);
     K::forward(t.n, ld(t), t.T, t.inverse, t.w);
     t.acceleration_norm = std::sqrt(K::dot(ld(t), t.w, t.w));
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.q + i, P::load(t.w + i)); });
     K::backward(t.n, ld(t), t.T, t.inverse, t.q);
+  }
+
+  MOREAU_INLINE double margin(const SmallTableau& t) {
+    Pack least = P::plus(Pack{}, infinite);
+    for (Index r = 0; r < stride(t); r += 8) {
+      const Pack leave = P::load(t.leave + r), enter = P::load(t.enter + r);
+      // One of them is 0.
+      const Pack scale = P::minus(enter, leave), sign = P::plus(enter, leave);
+      const Pack size = P::where_larger(scale, 0, P::times(P::times(P::load(t.b + r), sign), -1), infinite);
+      least = P::smaller(size, least);
+    }
+    double part[8];
+    P::store(part, least);
+    double found = part[0];
+    for (int k = 1; k < 8; ++k) found = part[k] < found ? part[k] : found;
+    return found;
   }
 
   /// Rows that are not weak stay on their side; `free_all` takes that back.
@@ -296,14 +321,18 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
       free_all(t);
       if (!settled) return false;
     }
-    list_rows_held(t);
-    add_rows(t, t.correction, t.r);
-    for (Index i = t.n; i < ld(t); ++i) t.r[i] = 0;
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
+    take_multipliers(t);
+    add_rows(t, t.correction, t.r, t.dq);
     K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
     t.first = std::sqrt(K::dot(ld(t), t.dq, t.dq));
     K::backward(t.n, ld(t), t.T, t.inverse, t.dq);
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          Pack low = P::load(t.dq + i), q = P::load(t.q + i);
+          if (!t.is_first) low = P::plus(P::load(t.q_low + i), low);
+          P::store(t.q_low + i, P::two_sum(q, low));
+          P::store(t.q + i, q);
+        });
     return true;
   }
 
@@ -322,9 +351,15 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
       P::store(t.slack + r, P::minus(P::load(t.slack + r), P::load(t.level + r)));
     }
     K::residual(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
-    for (Index i = t.n; i < ld(t); ++i) t.r[i] = 0;
     K::forward(t.n, ld(t), t.T, t.inverse, t.r);
     t.stationarity = std::sqrt(K::dot(ld(t), t.r, t.r));
+    Pack square{};
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack q = P::load(t.q + i);
+          P::add_products(square, P::times(q, P::load(t.diagonal + i)), q);
+        });
+    t.magnitude = std::sqrt(P::total(square));
   }
 };
 
