@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "convex/dense/triangle_kernels.hpp"
 
@@ -184,13 +185,29 @@ struct Kernels : TriangleKernels<W, Fused> {
                               Index count, const Index* rows, const double* lambda, const double* z,
                               double* into) {
     const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
-    for (Index i = 0; i < n; i += 8) {
-      Pack applied = P::load(z + i), product{};
+    const auto work = [&](Index i, auto together) __attribute__((always_inline)) {
+      constexpr int packs = decltype(together)::value;
+      Pack applied[packs], product[packs];
+      P::clear(product);
+#pragma GCC unroll 4
+      for (int r = 0; r < packs; ++r) applied[r] = P::load(z + i + 8 * r);
       for (Index k = 0; k < count; ++k)
-        P::add_product(applied, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
-      for (Index j = 0; j < n; ++j) P::add_product(product, P::load_before(A + j * n + i, end_of_A), q[j]);
-      P::store(into + i, P::first(P::minus(applied, product), n - i));
-    }
+#pragma GCC unroll 4
+        for (int r = 0; r < packs; ++r)
+          P::add_product(applied[r], P::load_before(U + rows[k] * n + i + 8 * r, end_of_U), lambda[k]);
+      for (Index j = 0; j < n; ++j)
+#pragma GCC unroll 4
+        for (int r = 0; r < packs; ++r)
+          P::add_product(product[r], P::load_before(A + j * n + i + 8 * r, end_of_A), q[j]);
+#pragma GCC unroll 4
+      for (int r = 0; r < packs; ++r)
+        P::store(into + i + 8 * r, P::first(P::minus(applied[r], product[r]), n - i - 8 * r));
+    };
+    // Sums of several packs wait for themselves alone.
+    constexpr int together = W == 8 ? 4 : 1;
+    Index i = 0;
+    for (; i + 8 * (together - 1) < n; i += 8 * together) work(i, std::integral_constant<int, together>());
+    for (; i < n; i += 8) work(i, std::integral_constant<int, 1>());
   }
 
   MOREAU_INLINE void precise_slacks(Index n, const double* X, const double* q, const double* s,
@@ -301,9 +318,8 @@ struct Kernels : TriangleKernels<W, Fused> {
       P::add_product(even, P::load(x + i), 0);
       P::add_product(odd, P::load(x + i + 8), 0);
     }
-    double rest = 0;
-    for (; i < n; ++i) rest += 0 * x[i];
-    return P::total(P::plus(even, odd)) + rest == 0;
+    for (; i < n; i += 8) P::add_product(even, P::load_before(x + i, x + n), 0);
+    return P::total(P::plus(even, odd)) == 0;
   }
 
   /// By tiles, for the rows of a large matrix are far apart in memory. The difference of numbers that are not

@@ -59,8 +59,13 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
 }
 
 void SmallGramSolve::take_linear_term() {
-  for (Index i = 0; i < tableau_.n; ++i) tableau_.z[i] = problem_.z[i];
-  for (Index i = tableau_.n; i < tableau_.ld; ++i) tableau_.z[i] = 0;
+  std::copy_n(problem_.z.data(), tableau_.n, tableau_.z);
+  std::fill(tableau_.z + tableau_.n, tableau_.z + tableau_.ld, 0);
+  if (looks_at_all()) {
+    std::copy_n(problem_.s.data(), tableau_.m, tableau_.level);
+    std::fill(tableau_.level + tableau_.m, tableau_.level + tableau_.stride, 0);
+    return;
+  }
   for (Index p = 0; p < tableau_.stride; ++p)
     tableau_.level[p] = tableau_.row[p] < 0 ? 0 : problem_.s[tableau_.row[p]];
 }

@@ -41,10 +41,24 @@ struct SmallTableauRows : Kernels<W, Fused> {
     for (Index r = 0; r < stride(t); r += 8) load_block(t, r);
   }
 
+  /// As `side_by_side`; nothing is read beyond `end`.
+  MOREAU_INLINE void gather(Index n, const double* U, const double* end, const Index* rows, Index count,
+                            double* X) {
+    for (Index i = 0; i < n; i += 8) {
+      Pack block[8];
+#pragma GCC unroll 8
+      for (int k = 0; k < 8; ++k) block[k] = k < count ? P::load_before(U + rows[k] * n + i, end) : Pack{};
+      P::transpose(block);
+#pragma GCC unroll 8
+      for (int k = 0; k < 8; ++k)
+        if (i + k < n) P::store(X + 8 * (i + k), block[k]);
+    }
+  }
+
   /// Looks at the rows of the block at r, and at their products with those before.
   MOREAU_INLINE void whiten_block(SmallTableau& t, Index r) {
     double* const raw = t.raw + r * t.n;
-    side_by_side(t.n, t.U, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
+    gather(t.n, t.U, t.U + t.all * t.n, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
     double* const whitened = t.whitened + r * t.n;
     Pack scale{};
     for (Index i = 0; i < t.n; ++i) {
@@ -65,8 +79,14 @@ struct SmallTableauRows : Kernels<W, Fused> {
 
   /// Rows r to r + 7 of the columns before are those of the columns r to r + 7.
   MOREAU_INLINE void mirror_block(SmallTableau& t, Index r) {
-    for (Index other = 0; other < r; ++other)
-      for (Index l = 0; l < 8; ++l) t.swept[other * stride(t) + r + l] = t.swept[(r + l) * stride(t) + other];
+    for (Index other = 0; other < r; other += 8) {
+      Pack block[8];
+#pragma GCC unroll 8
+      for (int l = 0; l < 8; ++l) block[l] = P::load(t.swept + (r + l) * stride(t) + other);
+      P::transpose(block);
+#pragma GCC unroll 8
+      for (int l = 0; l < 8; ++l) P::store(t.swept + (other + l) * stride(t) + r, block[l]);
+    }
   }
 
   /// The loads of the block at r.

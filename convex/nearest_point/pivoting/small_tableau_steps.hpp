@@ -2,82 +2,23 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/pivoting/gram_pivoting.hpp"
-#include "convex/nearest_point/pivoting/small_tableau_rows.hpp"
-#include "convex/zero_tolerances.hpp"
+#include "convex/nearest_point/pivoting/small_tableau_pivots.hpp"
 
 namespace convex::inline pivoting {
-
-/// A row entering of which less than this part, squared, lies outside the span of those held is nearly
-/// dependent, and left to `GramSolve`.
-inline constexpr double nearly_dependent = 1e-6;
-
-/// Roundings, times the growth of the sweeps, that stand for 0 in what a row has outside that span.
-inline constexpr double sweep_roundings = 64;
 
 /// `SmallKernels`, to be compiled for a processor family each. Packs of places at most: 1 when n and they are
 /// at most 8, so that loops over packs vanish; 4 or 8 otherwise.
 template <int W, bool Fused, int packs>
-struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
+struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using Rows = SmallTableauRows<W, Fused, packs>;
+  using Pivots = SmallTableauPivots<W, Fused, packs>;
   using K = Kernels<W, Fused>;
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
+  using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
+      Pivots::sweep_load;
   using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::set_state, Rows::stride,
       Rows::whiten_block, Rows::whiten_z;
-  static constexpr double infinite = __builtin_inf();
-
-  /// Whether row k, outside, lies in the span of those held, as far as doubles tell; or nearly so.
-  MOREAU_INLINE bool is_dependent(const SmallTableau& t, Index k) {
-    const double rounding = sweep_roundings * unit_roundoff * t.growth;
-    return !(t.swept[k * (stride(t) + 1)] >
-             (GramPivoting::dependence > rounding ? GramPivoting::dependence : rounding) * t.square[k]);
-  }
-  MOREAU_INLINE bool is_nearly_dependent(const SmallTableau& t, Index k) {
-    return !(t.swept[k * (stride(t) + 1)] > nearly_dependent * t.square[k]);
-  }
-
-  /// Takes row k in or out.
-  MOREAU_INLINE void sweep(SmallTableau& t, Index k) {
-    const Index step = stride(t);
-    double* const column = t.swept + k * step;
-    const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
-    const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
-    t.growth = growth > t.growth ? growth : t.growth;
-    alignas(64) double part[SmallTableau::most];
-    Pack c[packs], scaled[packs];
-    const double load = t.b[k] * inverse;
-#pragma GCC unroll 8
-    for (int r = 0; r < packs; ++r) {
-      if (8 * r == step) break;
-      c[r] = P::load(column + 8 * r);
-      scaled[r] = P::times(c[r], inverse);
-      P::store(part + 8 * r, scaled[r]);
-      Pack b = P::load(t.b + 8 * r);
-      P::subtract_product(b, c[r], load);
-      P::store(t.b + 8 * r, b);
-    }
-    for (Index j = 0; j < t.m; ++j) {
-      double* const other = t.swept + j * step;
-#pragma GCC unroll 8
-      for (int r = 0; r < packs; ++r) {
-        if (8 * r == step) break;
-        Pack x = P::load(other + 8 * r);
-        P::subtract_product(x, c[r], part[j]);
-        P::store(other + 8 * r, x);
-      }
-      other[k] = sign * part[j];
-    }
-#pragma GCC unroll 8
-    for (int r = 0; r < packs; ++r) {
-      if (8 * r == step) break;
-      P::store(column + 8 * r, P::times(scaled[r], sign));
-    }
-    column[k] = -inverse;
-    t.b[k] = sign * load;
-    t.is_listed = false;
-    set_state(t, k, !t.held[k]);
-  }
 
   MOREAU_INLINE bool begin(SmallTableau& t) {
     for (Index r = 0; r < stride(t); r += 8) {
@@ -107,104 +48,11 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
     return true;
   }
 
-  /// b := the load as the sweeps have changed it.
-  MOREAU_INLINE void sweep_load(SmallTableau& t, const double* load) {
-    list_rows_held(t);
-    for (Index r = 0; r < stride(t); r += 8) {
-      Pack b = P::load(load + r);
-      b = P::minus(b, P::times(b, P::load(t.share + r)));
-      for (Index k = 0; k < t.size; ++k)
-        P::subtract_product(b, P::load(t.swept + t.place[k] * stride(t) + r), load[t.place[k]]);
-      P::store(t.b + r, b);
-    }
-  }
-
-  /// The place of the largest of `count` entries of x, the first if there are several.
-  MOREAU_INLINE Index largest(const double (&x)[SmallTableau::most], Index count) {
-    double top[8], most;
-    Pack best = P::load(x);
-    for (Index r = 8; r < count; r += 8) best = P::larger(best, P::load(x + r));
-    P::store(top, best);
-    for (int half = 4; half > 0; half /= 2)
-      for (int k = 0; k < half; ++k) top[k] = top[k] > top[k + half] ? top[k] : top[k + half];
-    most = top[0];
-    Index at = 0;
-    while (at < count - 1 && !(x[at] >= most)) ++at;
-    return at;
-  }
-
   MOREAU_INLINE bool settle(SmallTableau& t) {
     t.dependent = -1;
     if (t.m > 0 && !pivot(t, t.load, t.z_norm)) return false;
     find_point(t);
     return true;
-  }
-
-  /// The dual method of Goldfarb and Idnani (1983) on the swept tableau: rows whose multiplier b is negative
-  /// go, the most negative first; then the row violated most has its multiplier raised until it holds. Its
-  /// column tells by how much all others change with it; those held whose multiplier comes down to 0 on the
-  /// way go. norm: ||·|| of the whitened linear term that the load is of.
-  MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
-    const Index patience = t.steps + 4 * t.m + 8;
-    alignas(64) double wrong[SmallTableau::most];
-    for (;; ++t.steps) {
-      for (Index r = 0; r < stride(t); r += 8)
-        P::store(wrong + r, P::times(P::load(t.b + r), P::load(t.leave + r)));
-      const Index a = largest(wrong, stride(t));
-      if (!(wrong[a] > 0)) break;
-      if (t.steps == patience) return false;
-      sweep(t, a);
-    }
-    for (;; ++t.steps) {
-      Pack energy{};
-      for (Index r = 0; r < stride(t); r += 8) {
-        const Pack b = P::load(t.b + r);
-        P::store(wrong + r, P::times(b, P::load(t.enter + r)));
-        P::add_products(energy, P::times(b, P::load(t.share + r)), P::load(load + r));
-      }
-      const Index a = largest(wrong, stride(t));
-      if (!(wrong[a] > GramPivoting::least_violation * norm)) return true;
-      if (!(wrong[a] > GramPivoting::least_violation * (norm + std::sqrt(std::abs(P::total(energy))))))
-        return true;
-      if (!raise(t, a, patience)) return false;
-    }
-  }
-
-  /// Takes in row a, which is violated.
-  MOREAU_INLINE bool raise(SmallTableau& t, Index a, Index patience) {
-    const double* const column = t.swept + a * stride(t);
-    alignas(64) double falls[SmallTableau::most];
-    for (double raised = 0; t.steps < patience; ++t.steps) {
-      const bool dependent = is_dependent(t, a);
-      if (!dependent && is_nearly_dependent(t, a)) return false;
-      // What falls fast enough beside the length of row a that it is no rounding comes to 0 after b / column.
-      const double least = zero_coefficient * t.row_scale[a];
-      for (Index r = 0; r < stride(t); r += 8) {
-        const Pack c = P::load(column + r);
-        P::store(falls + r, P::where_larger(P::times(c, P::times(P::load(t.leave + r), -1)), least,
-                                            P::times(P::over(P::load(t.b + r), c), -1), -infinite));
-      }
-      const Index first = largest(falls, stride(t));
-      const double partial = falls[first] < 0 ? -falls[first] : 0;
-      if (!dependent && t.b[a] <= partial * column[a]) {
-        sweep(t, a);
-        t.b[a] += raised;
-        return true;
-      }
-      if (!(partial < infinite)) {
-        t.dependent = a;
-        return false;
-      }
-      raised += partial;
-      for (Index r = 0; r < stride(t); r += 8) {
-        Pack b = P::load(t.b + r);
-        P::subtract_product(b, P::load(column + r), partial);
-        P::store(t.b + r, b);
-      }
-      t.b[first] = 0;
-      sweep(t, first);
-    }
-    return false;
   }
 
   /// into := x + Σ_k weight_k u_k over the rows held.
@@ -217,25 +65,6 @@ struct SmallTableauSteps : SmallTableauRows<W, Fused, packs> {
       // Beyond n the sums have what stands behind the rows.
       P::store(into + i, P::first(sum, t.n - i));
     }
-  }
-
-  /// Lists the rows held.
-  MOREAU_INLINE void list_rows_held(SmallTableau& t) {
-    if (t.is_listed) return;
-    t.is_listed = true;
-    t.size = 0;
-    double squares = 0;
-    t.gram_condition = 0;
-    for (Index a = 0; a < t.m; ++a) {
-      if (!t.held[a]) continue;
-      t.length[t.size] = std::sqrt(t.square[a]);
-      t.pull[t.size] = t.two_sided[a] ? 0 : t.length[t.size];
-      t.rows[t.size] = t.row[a];
-      t.place[t.size++] = a;
-      squares -= t.swept[a * (stride(t) + 1)];
-      t.gram_condition -= t.swept[a * (stride(t) + 1)] * t.square[a];
-    }
-    t.inverse_norm = std::sqrt(squares);
   }
 
   /// Takes what b adds to the multipliers of the rows held into these.
