@@ -164,6 +164,18 @@ double CavityEdge::level(const Point& x) const {
   return weights > 0 ? sum / weights : 1;
 }
 
+/// -1 or 1 where the level around a point, up to the next nodes, has that sign; else 0.
+int CavityEdge::sign_around(Index k) const {
+  bool below = false, above = false;
+  is_near(k, [&](Index there) {
+    const double level = level_[place_of(there)];
+    below = below || !(level >= 0);
+    above = above || !(level < 0);
+    return below && above;
+  });
+  return below && above ? 0 : below ? -1 : 1;
+}
+
 double CavityEdge::measure(const Domain& domain) const {
   if (is_empty_) return 0;
   const convex::CutGrid& grid = cells_.grid;
@@ -179,6 +191,12 @@ double CavityEdge::measure(const Domain& domain) const {
                                 return grid.kind[place_of(there)] == CutPoint::fixed;
                               });
         if (grid.kind[place_of(k)] != CutPoint::bounded && !is_given) continue;
+        const int sign = is_given ? 0 : sign_around(k);
+        if (sign > 0) continue;
+        if (sign < 0 && !is_box) {
+          sum += cells_.volume[place_of(k)];
+          continue;
+        }
         CellLevels cell;
         cell.dimension = grid.dimension;
         bool below = false, above = false;

@@ -25,6 +25,7 @@ class CavityEdge {
  private:
   template <class Such>
   bool is_near(convex::Index, Such) const;
+  int sign_around(convex::Index) const;
   bool is_liquid(const convex::CutSolution&, convex::Index) const;
   std::pair<double, double> edge_beside(const convex::CutSolution&, convex::Index k, convex::Index by,
                                         double curvature, double step) const;

@@ -15,7 +15,7 @@ using convex::Index;
 namespace {
 
 /// What a node takes: links, loads, signs, and the fields of the solver, on all grids.
-double bytes_of_a_node(std::size_t dimension) { return 200 + 16 * static_cast<double>(dimension); }
+double bytes_of_a_node(std::size_t dimension) { return 130 + 16 * static_cast<double>(dimension); }
 
 double nodes(const LiquidScene& scene, long cells) {
   double count = 1;

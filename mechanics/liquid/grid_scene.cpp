@@ -247,7 +247,7 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
   solution.parted_walls = parted_walls(scene, cells, found.front());
-  const auto pressure = std::make_shared<const GridPressure>(cells, found.front().q);
+  const auto pressure = std::make_shared<const GridPressure>(levels.take_finest(), found.front().q);
   const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());
   if (!edge->is_empty()) {
     if (solution.cavity_measure > 0) solution.cavity_extent = edge->extent();

@@ -40,6 +40,8 @@ class GridLevels {
   /// Takes the surplus out of the loads, evenly over the volume.
   void balance();
   const CutCells& finest() const { return *levels_.front(); }
+  /// The finest grid, which is no longer here.
+  CutCells take_finest() { return std::move(*levels_.front()); }
   const CutCells& level(std::size_t l) const { return *levels_[l]; }
   std::size_t count() const { return levels_.size(); }
   long cells() const;

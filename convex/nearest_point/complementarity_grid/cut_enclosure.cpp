@@ -77,16 +77,13 @@ std::vector<double> barrier(const std::vector<const CutGrid*>& grids) {
 /// The equations of the same sets solved to rounding, what is below a bound put on it: rough residuals would
 /// count as if they all had one sign.
 std::vector<double> polished(const std::vector<const CutGrid*>& grids, const CutSolution& found) {
-  constexpr int corrections = 3;
-  constexpr double part = 1e-6;
   const CutGrid& grid = *grids.front();
-  std::vector<double> q = found.q, r;
+  std::vector<double> q = found.q;
+  CutEquations equations(grid);
+  equations.set_taut(found.taut);
   CutMultigrid multigrid(grids);
   multigrid.set_free(found.held, found.taut);
-  for (int k = 0; k < corrections; ++k) {
-    multigrid.residual(q, r);
-    multigrid.correct(q, r, part);
-  }
+  multigrid.correct(equations, q, 0);
   for (Index k = 0; k < grid.size(); ++k)
     if (!grid.is_unknown(k))
       q[at(k)] = 0;

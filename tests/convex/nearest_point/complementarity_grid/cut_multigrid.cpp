@@ -1,0 +1,80 @@
+#include "convex/nearest_point/complementarity_grid/cut_multigrid.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "convex/nearest_point/complementarity_grid/cut_edge.hpp"
+#include "tests/convex/nearest_point/complementarity_grid/random_grid.hpp"
+
+using convex::CutEquations;
+using convex::CutGrid;
+using convex::CutMultigrid;
+using convex::CutPoint;
+using convex::Index;
+
+namespace {
+
+std::size_t at(Index k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+TEST_CASE("corrections in floats end at the rounding of doubles, whatever the sizes of links and loads") {
+  std::mt19937 random(5);
+  for (const double link_size : {1.0, 1e-60, 1e60})
+    for (const double load_size : {1.0, 1e-90, 1e90})
+      for (const auto& [dimension, points] : {std::pair{std::size_t{1}, Index{33}}, {2, 17}, {3, 9}}) {
+        CAPTURE(link_size);
+        CAPTURE(load_size);
+        CAPTURE(dimension);
+        CutGrid fine = tests::random_grid(dimension, points, random);
+        CutGrid coarse = tests::random_grid(dimension, (points + 1) / 2, random);
+        for (CutGrid* grid : {&fine, &coarse}) {
+          for (std::vector<double>* field : {&grid->link[0], &grid->link[1], &grid->link[2], &grid->pull})
+            for (double& one : *field) one *= link_size;
+          for (double& one : grid->load) one *= load_size;
+        }
+        const CutEquations equations(fine);
+        CutMultigrid multigrid({&fine, &coarse});
+        multigrid.set_free(std::vector<std::uint8_t>(at(fine.size())),
+                           std::vector<std::uint8_t>(fine.pendants.size()));
+        std::vector<double> q(at(fine.size()));
+        multigrid.correct(equations, q, 0);
+        double largest = 0;
+        for (const double one : q) largest = std::max(largest, std::abs(one));
+        for (Index k = 0; k < fine.size(); ++k)
+          if (fine.is_unknown(k))
+            CHECK(std::abs(equations.push(q, k)) <= 1e-14 * largest * equations.diagonal(k) + 1e-300);
+      }
+}
+
+TEST_CASE("sweeps around an edge leave points away from it as they are, and hold those that end at 0") {
+  constexpr Index points = 65;
+  constexpr int sweeps = 16;
+  CutGrid grid(2, {points, points, 1});
+  std::vector<double> q(at(grid.size()));
+  std::vector<std::uint8_t> held(at(grid.size()));
+  for (Index j = 0; j < points; ++j)
+    for (Index i = 0; i < points; ++i) {
+      const Index k = grid.at(i, j);
+      grid.kind[at(k)] = CutPoint::bounded;
+      if (i + 1 < points) grid.link[0][at(k)] = 1;
+      if (j + 1 < points) grid.link[1][at(k)] = 1;
+      grid.load[at(k)] = -0.02;
+      held[at(k)] = i < 20;
+      q[at(k)] = i < 20 ? 0 : 1e-3 * static_cast<double>(i - 20);  // too low: its edge is further on
+    }
+  const std::vector<double> before = q;
+  convex::relax_edge(CutEquations(grid), sweeps, held, q);
+  Index moved = 0;
+  for (Index j = 0; j < points; ++j)
+    for (Index i = 0; i < points; ++i) {
+      const auto k = at(grid.at(i, j));
+      if (std::abs(2 * i - 39) > sweeps + 1) CHECK(q[k] == before[k]);
+      CHECK((held[k] != 0) == (q[k] == 0));
+      moved += held[k] != 0 && i >= 20;
+    }
+  CHECK(moved >= 3 * points);
+}
