@@ -145,6 +145,22 @@ double first_beyond(Coefficients c, double end, double level, double sense) {
   return first_below(b, c, 0, end, deepest);
 }
 
+std::size_t first_change(const Coefficients& c) {
+  std::size_t k = 1;
+  while (k < c.size() && c[k] == 0) ++k;
+  return k;
+}
+
+bool rises_at_first(const Coefficients& c) {
+  const std::size_t k = first_change(c);
+  return k == c.size() || c[k] > 0;
+}
+
+/// Where p, which rises at first, comes back to p(0).
+double first_return(const Coefficients& c, double end) {
+  return first_beyond(Coefficients(std::span<const double>(c).subspan(first_change(c))), end, 0, 1);
+}
+
 /// What the Bernstein coefficients of p alone tell: they stay above `rounding`, and so does p; or they come
 /// from there to below -rounding without turning back across either, and p has one zero, at `crossing`.
 struct Outline {
@@ -189,10 +205,13 @@ std::optional<FirstZero> first_zero(std::span<const double> coefficients, double
     begin += enter;
     const double rest = end - begin;
     const double leave = first_beyond(c, rest, 2 * rounding, -1);
-    const double below = first_beyond(c, rest, -rounding, 1);
-    const bool rises = enter == 0 && slope(c, 0) >= 0;
-    if (below < leave && !(rises && below == 0))
-      return FirstZero{begin + (c[0] > 0 ? between(c, 0, below, 0) : 0), false};
+    // A p that rises from a 0 that rounding has put below itself is 0 again where it comes back.
+    const bool rises = enter == 0 && rises_at_first(c);
+    const double below = first_beyond(c, rest, (rises ? std::min(c[0], 0.0) : 0) - rounding, 1);
+    if (below < leave) {
+      if (c[0] > 0) return FirstZero{begin + between(c, 0, below, 0), false};
+      return FirstZero{begin + (rises ? first_return(c, below) : 0), false};
+    }
     if (!(leave <= rest)) {
       if (value(c, rest) > 0 || slope(c, rest) >= 0) return std::nullopt;
       return FirstZero{end, false};

@@ -85,3 +85,14 @@ TEST_CASE("a root at the end of the interval belongs to it, one behind it does n
   CHECK(first_zero(falling, 1, 1e-16));
   CHECK_FALSE(first_zero(falling, 0.999, 1e-16));
 }
+
+TEST_CASE("what rises from a 0 that rounding has put below itself is met where it comes back") {
+  // -s + v x - x²/2 + x³ comes back to -s at x = 2 v, nearly, and is above 0 again from x = 1/2 on.
+  const double v = 1e-8;
+  for (const double s : {0.0, 1e-16, 2.5e-16, 1e-15}) {
+    const auto found = first_zero(std::vector<double>{-s, v, -0.5, 1}, 0.8, 2e-16);
+    REQUIRE(found);
+    CHECK(std::abs(found->at - 2 * v) <= 1e-6 * v);
+    CHECK_FALSE(found->is_touch);
+  }
+}
