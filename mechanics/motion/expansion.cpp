@@ -181,11 +181,8 @@ HeldRows::Answer Expansion::acceleration(const std::vector<Index>& held) {
   pushing_.clear();
   begin_order(0);
   force_ = r_;
-  if (held.empty() && factor_.is_made()) {
-    factor_.solve(r_);
-    return {r_, {}};
-  }
-  return held_rows(held).solve(r_, missing_rate(held));
+  std::optional<HeldRows> rows;
+  return solve_held(held, rows);
 }
 
 /// Whether all coefficients after order k are 0, as in a flight under constant forces. The recurrences are
@@ -208,21 +205,20 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   pushing_ = persist;
   if (persist.empty() && open.empty() && factor_.is_made() && expand_free()) return answer;
   std::optional<HeldRows> rows;
+  magnitudes_found_ = 0;
   for (int k = 0; k <= order_ - 2; ++k) {
     begin_order(k);
     if (k == 0) force_ = r_;
-    if (!open.empty()) {
+    const HeldRows::Answer solved = solve_held(persist, rows);
+    give_multipliers(k, persist, solved.lambda * (k + 1));
+    if (open.empty() || leaves_open(solved.x, persist, rows, open, answer, k)) {
+      give_velocity(k + 1, solved.x);
+    } else {
+      const std::size_t held = persist.size();
       const Vector v = choose(persist, open, answer, k);
       if (!answer.excluding.empty()) return answer;
       give_velocity(k + 1, v);
-    } else if (persist.empty() && factor_.is_made()) {
-      factor_.solve(r_);
-      give_velocity(k + 1, r_);
-    } else {
-      if (!rows) rows.emplace(held_rows(persist));
-      const HeldRows::Answer solved = rows->solve(r_, missing_rate(persist));
-      give_multipliers(k, persist, solved.lambda * (k + 1));
-      give_velocity(k + 1, solved.x);
+      if (persist.size() > held) rows.reset();
     }
     if (ends_by(k)) break;
   }
@@ -232,6 +228,17 @@ ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   answer.persist.insert(answer.persist.end(), open.begin(), open.end());
   find_constraints();
   return answer;
+}
+
+/// The order begun, with these constraints held; their rows are factored once.
+HeldRows::Answer Expansion::solve_held(const std::vector<Index>& held, std::optional<HeldRows>& rows) const {
+  if (held.empty() && factor_.is_made()) {
+    HeldRows::Answer solved{r_, {}};
+    factor_.solve(solved.x);
+    return solved;
+  }
+  if (!rows) rows.emplace(held_rows(held));
+  return rows->solve(r_, missing_rate(held));
 }
 
 /// Without contacts in question.

@@ -136,6 +136,11 @@ class Expansion {
   void check_finite() const;
   void begin_order(int k);
   double magnitude_of(expression::Slot series);
+  HeldRows::Answer solve_held(const std::vector<Index>& held, std::optional<HeldRows>& rows) const;
+  /// Whether no open contact pushes at order k, for v without their multipliers satisfies them: then those
+  /// with a slack are settled.
+  bool leaves_open(const Vector& v, const std::vector<Index>& persist, const std::optional<HeldRows>& rows,
+                   std::vector<Index>& open, ContactAnswer& answer, int k);
   /// Solves order k with complementarity for the open contacts, and settles those that this order decides.
   Vector choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer, int k);
   /// What df/dt of these constraints and v are the sums of, at order k of the question.
@@ -145,6 +150,7 @@ class Expansion {
     double along(const Vector& u) const { return u.cwiseAbs().dot(velocity); }
   };
   Magnitudes magnitudes(const std::vector<Index>& constraints, int k);
+  Magnitudes magnitudes_of_order(const std::vector<Index>& constraints, int k);
   /// What rounding makes of a coefficient of order k, as a part of its magnitude.
   double rounding(int k) const;
   void give_velocity(int k, const Vector& v);
@@ -170,8 +176,9 @@ class Expansion {
   std::vector<double> f_;        // likewise
   TaylorMagnitude magnitude_;    // while it is open who persists
   bool magnitude_is_begun_ = false;
-  convex::Matrix inverse_;  // |A⁻¹| of its entries, for few coordinates
-  Vector unit_norms_;       // ||e_i||_(A⁻¹), for many
+  int magnitudes_found_ = 0;  // orders of the question
+  convex::Matrix inverse_;    // |A⁻¹| of its entries, for few coordinates
+  Vector unit_norms_;         // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };

@@ -18,6 +18,10 @@ constexpr double roundings_of_state = 1 << 10;
 /// the count of roundings is an estimate.
 constexpr double factor_in_doubt = 100;
 
+bool is_in_doubt(double number, double by_rounding) {
+  return number > by_rounding && number < factor_in_doubt * by_rounding;
+}
+
 /// Up to so many coordinates A⁻¹ is found entry by entry.
 constexpr Index inverted_coordinates = 300;
 
@@ -106,6 +110,43 @@ std::vector<double> Expansion::rounding_of_switch(std::size_t k) {
   return of_order;
 }
 
+/// Those of order k, with the lower ones if they were not needed so far.
+Expansion::Magnitudes Expansion::magnitudes_of_order(const std::vector<Index>& constraints, int k) {
+  for (; magnitudes_found_ < k; ++magnitudes_found_) magnitudes({}, magnitudes_found_);
+  magnitudes_found_ = k + 1;
+  return magnitudes(constraints, k);
+}
+
+bool Expansion::leaves_open(const Vector& v, const std::vector<Index>& persist,
+                            const std::optional<HeldRows>& rows, std::vector<Index>& open,
+                            ContactAnswer& answer, int k) {
+  if (rows && rows->independent().size() < persist.size()) return false;  // they may exclude each other
+  const Vector s = missing_rate(open);
+  Vector slack(s.size());
+  for (Index a = 0; a < s.size(); ++a) slack[a] = row(open[index(a)]).dot(v) - s[a];
+  if (slack.isZero(0)) return true;
+  if (k == 0 && slack.minCoeff() < 0) return false;  // as a rule they push
+  std::vector<Index> all = open;
+  all.insert(all.end(), persist.begin(), persist.end());
+  const Magnitudes of = magnitudes_of_order(all, k);
+  const auto by_rounding = [&](Index a) {
+    return rounding(k) * (std::abs(s[a]) + of.rates[a] + of.along(row(open[index(a)])));
+  };
+  for (Index a = 0; a < s.size(); ++a)
+    if (slack[a] < -by_rounding(a)) return false;
+  std::vector<Index> undecided;
+  for (Index a = 0; a < s.size(); ++a) {
+    const Index contact = open[index(a)];
+    if (is_in_doubt(slack[a], by_rounding(a))) in_doubt_.push_back(contact);
+    if (slack[a] > by_rounding(a))
+      answer.open.push_back({contact, k + 2});
+    else
+      undecided.push_back(contact);
+  }
+  open = std::move(undecided);
+  return true;
+}
+
 Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, ContactAnswer& answer,
                          int k) {
   std::vector<Index> rows = persist;
@@ -123,7 +164,7 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
     return Vector::Zero(coordinates());
   }
   give_multipliers(k, rows, solution.lambda * (k + 1));
-  const Magnitudes of = magnitudes(rows, k);
+  const Magnitudes of = magnitudes_of_order(rows, k);
   const double part = rounding(k);
   std::vector<Index> undecided;
   for (std::size_t a = persist.size(); a < rows.size(); ++a) {
@@ -132,10 +173,8 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
     // What the contact's push changes in d²f/dt², and what rounding may have made of that.
     const double push = solution.lambda[at] * u.dot(A.solve(u));
     const double by_rounding = part * (std::abs(problem.s[at]) + of.rates[at] + of.along(u));
-    const auto is_near = [&](double number) {
-      return number > by_rounding && number < factor_in_doubt * by_rounding;
-    };
-    if (is_near(solution.slack[at]) || is_near(push)) in_doubt_.push_back(rows[a]);
+    if (is_in_doubt(solution.slack[at], by_rounding) || is_in_doubt(push, by_rounding))
+      in_doubt_.push_back(rows[a]);
     if (solution.slack[at] > by_rounding) {
       answer.open.push_back({rows[a], k + 2});
     } else if (push > by_rounding) {

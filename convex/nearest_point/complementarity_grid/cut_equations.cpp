@@ -4,7 +4,7 @@
 #include <cmath>
 
 namespace convex::inline complementarity_grid {
-namespace {}  // namespace
+
 
 CutEquations::CutEquations(const CutGrid& grid) : grid_(grid), load_(&grid.load), pull_(&grid.pull) {
   for (const double load : grid.load) largest_load_ = std::max(largest_load_, std::abs(load));
