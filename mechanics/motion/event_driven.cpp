@@ -51,6 +51,7 @@ void Motion::EventDriven::begin(const State& at) {
   std::erase_if(found.closing, [&](Index a) { return found.rates.f[a] > left_by_rounding(a); });
   done.t = state.t;
   done.q = state.q;
+  expansion_.note_reach(state.q);
   expansion_.set(state);
   const std::vector<Index> switches = find_branches();
   std::vector<Index> touching;
@@ -213,6 +214,7 @@ void Motion::EventDriven::take_step(double until) {
   if (tau > 0) last_length_ = tau;
   state.q = there_.q;
   state.v = there_.v;
+  expansion_.note_reach(state.q);
   if (is_last && zeros.empty()) {
     state.t = until;
     low_ = 0;

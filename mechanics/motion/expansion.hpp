@@ -55,6 +55,9 @@ class Expansion {
   void look_at(const State& state);
   const State& state() const { return state_; }
   const convex::Metric& inertia() const;
+  /// Takes note that the motion has come by here: what rounding may have made of a coordinate near 0 is that
+  /// of the sizes that it has had.
+  void note_reach(const Vector& q);
   /// Whether t itself enters something.
   bool uses_time() const { return steps_.uses_time; }
   /// ||x||_A.

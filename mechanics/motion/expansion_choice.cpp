@@ -73,6 +73,11 @@ Expansion::Magnitudes Expansion::magnitudes(const std::vector<Index>& constraint
   return of;
 }
 
+void Expansion::note_reach(const Vector& q) {
+  for (Index i = 0; i < q.size(); ++i)
+    magnitude_.reach(equations_.program.coordinate(index(i)), std::abs(q[i]));
+}
+
 double Expansion::rounding(int k) const {
   return (roundings_of_state + static_cast<double>(series_.operations() * static_cast<std::size_t>(k + 1))) *
          convex::unit_roundoff;

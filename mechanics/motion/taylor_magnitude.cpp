@@ -21,13 +21,16 @@ double of_product(double a, double of_a, double b, double of_b) {
 
 /// Orders above 0 of what never varies stay 0.
 TaylorMagnitude::TaylorMagnitude(const TaylorSeries& series)
-    : of_(series), m_(series.rows_.series * width()), slopes_(series.rows_.terms.size()) {}
+    : of_(series),
+      m_(series.rows_.series * width()),
+      reach_(series.steps_->variables),
+      slopes_(series.rows_.terms.size()) {}
 
 void TaylorMagnitude::begin() {
   const TaylorRows& rows = of_.rows_;
   for (std::size_t t = 0; t < slopes_.size(); ++t) slopes_[t] = std::abs(of_.terms_[t].c);
   for (std::size_t slot = 0; slot < of_.steps_->variables; ++slot)
-    at(static_cast<Slot>(slot), 0) = std::abs(of_[static_cast<Slot>(slot)][0]);
+    at(static_cast<Slot>(slot), 0) = std::max(reach_[slot], std::abs(of_[static_cast<Slot>(slot)][0]));
   for (const auto& [slot, value] : of_.steps_->constants) at(slot, 0) = std::abs(value);
   for (std::size_t s = 0; s < of_.steps_->steps.size(); ++s) {
     begin_step(of_.steps_->steps[s], rows.row_of_step[s]);

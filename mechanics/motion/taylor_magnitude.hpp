@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "mechanics/motion/taylor_series.hpp"
@@ -16,6 +17,9 @@ class TaylorMagnitude {
 
   explicit TaylorMagnitude(const TaylorSeries& series);
 
+  /// A variable that was as large as this on the way has roundings of that size, however small it is now.
+  void reach(Slot variable, double size) { reach_[variable] = std::max(reach_[variable], size); }
+
   /// Order 0 of all series, at the state of the series.
   void begin();
   /// Order k of the series of a group, from those of the variables and from lower orders.
@@ -30,6 +34,7 @@ class TaylorMagnitude {
 
   const TaylorSeries& of_;
   std::vector<double> m_;       // by series and order
+  std::vector<double> reach_;   // by variable
   std::vector<double> slopes_;  // what stands for |c| in each term of the rows
 };
 

@@ -151,3 +151,25 @@ TEST_CASE(
   CHECK(releases == 6);
   CHECK(motion.state().q[0] == doctest::Approx(18.1768772105354).epsilon(1e-12));
 }
+
+TEST_CASE("bodies struck where their springs are at rest part by the third derivative, in one event") {
+  const SystemText text{{"x", "y", "z"},
+                        "(0.754*x'^2 + 1.363*y'^2 + 0.637*z'^2)/2",
+                        "3.022*x^2 + 1.234*z^2",
+                        {},
+                        {},
+                        {},
+                        {{"first", "y >= x"}, {"second", "z >= y"}}};
+  const double T = 2.5, k = 2 * 3.022, c = 2 * 1.234;
+  const Followed found = followed(text, state({-0.5, 0, 0}, {0.328, 0, 0}), T);
+  // The first comes by its circle functions, all go on at one speed, and its spring holds it back more.
+  const double w = std::sqrt(k / 0.754), amplitude = std::hypot(0.5, 0.328 / w);
+  const double struck = std::atan2(0.5 * w, 0.328) / w, v = 0.754 * amplitude * w / (0.754 + 1.363 + 0.637);
+  REQUIRE(found.events.size() == 1);
+  CHECK(found.events[0].kind == EventKind::impact);
+  CHECK(found.events[0].t == doctest::Approx(struck).epsilon(1e-14));
+  const double slow = std::sqrt(c / (1.363 + 0.637)), since = T - struck;
+  CHECK(found.end().q[0] == doctest::Approx(v / w * std::sin(w * since)).epsilon(1e-12));
+  CHECK(found.end().q[1] == doctest::Approx(v / slow * std::sin(slow * since)).epsilon(1e-12));
+  CHECK(found.end().q[2] == doctest::Approx(v / slow * std::sin(slow * since)).epsilon(1e-12));
+}
