@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mechanics/motion/impact.hpp"
+#include "mechanics/motion/polynomial_root.hpp"
 #include "mechanics/motion/step_length.hpp"
 #include "mechanics/number_text.hpp"
 
@@ -249,9 +250,12 @@ void Motion::EventDriven::close_together(std::vector<Zero>& zeros) const {
   }
 }
 
+/// At the end of a step, where the series of contacts held are worst, and all along it for the others.
 void Motion::EventDriven::look_for_penetration() {
   for (Index a = 0; a < expansion_.constraints(); ++a) {
-    const double f = is_two_sided(a) ? -std::abs(expansion_.f(a)) : expansion_.f(a);
+    double f = is_two_sided(a) ? -std::abs(expansion_.f(a)) : expansion_.f(a);
+    if (!is_two_sided(a) && !is_held_[static_cast<std::size_t>(a)])
+      f = least_value(coefficients(done.f, a), done.length, std::min(f, 0.0));
     if (f < 0) note_penetration(a, f, std::max(1.0, expansion_.position_scale(a)));
   }
 }

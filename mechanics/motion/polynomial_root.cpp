@@ -36,6 +36,9 @@ class Coefficients {
   std::array<double, most_coefficients> of_;
 };
 
+/// A Bernstein coefficient is rounded about so many times, relative to what a value of p is the sum of.
+constexpr double roundings_of_coefficients = 8;
+
 /// Halvings after which an interval has no double inside.
 constexpr int deepest = 60;
 
@@ -108,6 +111,15 @@ void shift(Coefficients& c, double at) {
   if (at == 0) return;
   for (std::size_t level = 0; level + 1 < c.size(); ++level)
     for (std::size_t k = c.size() - 1; k-- > level;) c[k] += at * c[k + 1];
+}
+
+/// The least of p by its Bernstein coefficients, which enclose it; what is within `rounding` is not looked
+/// at.
+double least_enclosed(Coefficients& b, double known, double rounding, int depth) {
+  known = std::min({known, b.front(), b.back()});
+  if (depth == 0 || *std::min_element(b.begin(), b.end()) >= known - rounding) return known;
+  Coefficients right = split(b);
+  return least_enclosed(right, least_enclosed(b, known, rounding, depth - 1), rounding, depth - 1);
 }
 
 /// How often the signs of numbers change, zeros left out; from 2 on it does not matter.
@@ -188,6 +200,21 @@ Outline outline(std::span<const double> c, double end, double rounding) {
 }
 
 }  // namespace
+
+double least_value(std::span<const double> c, double end, double known) {
+  while (c.size() > 1 && c.back() == 0) c = c.first(c.size() - 1);
+  if (c.empty()) return known;
+  double rising = std::abs(c[0]), falling = 0, power = end;
+  for (const double x : c.subspan(1)) {
+    (x < 0 ? falling : rising) += std::abs(x * power);
+    power *= end;
+  }
+  const double rounding =
+      roundings_of_coefficients * std::numeric_limits<double>::epsilon() * (rising + falling);
+  if (c[0] - falling >= known - rounding) return known;
+  Coefficients b = bernstein(c, end);
+  return std::min(known, least_enclosed(b, known - rounding, rounding, deepest) + rounding);
+}
 
 std::optional<FirstZero> first_zero(std::span<const double> coefficients, double end, double rounding) {
   if (coefficients.empty() || !(end > 0)) return std::nullopt;

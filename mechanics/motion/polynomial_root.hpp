@@ -19,4 +19,7 @@ struct FirstZero {
 /// together nor a double one are missed. A minimum within `rounding` (absolute, in units of p) counts as 0.
 std::optional<FirstZero> first_zero(std::span<const double> c, double end, double rounding);
 
+/// The least of p over [0, end], as far as it is below `known` by more than rounding; else `known`.
+double least_value(std::span<const double> c, double end, double known);
+
 }  // namespace mechanics::inline motions

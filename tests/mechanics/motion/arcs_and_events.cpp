@@ -151,3 +151,15 @@ TEST_CASE("a force whose series is 0 for thirty orders is not taken for none") {
   const Followed found = followed(text, state({0}, {0}), 1);
   CHECK(found.end().q[0] == doctest::Approx(1.0 / (31 * 32)).epsilon(1e-12));
 }
+
+TEST_CASE("two touches within one step are two events, and no impact") {
+  // y = (t - 1)² (t - 2)², a polynomial: one step goes over both.
+  const SystemText text{{"y"}, "y'^2/2", "", {}, {}, {{"y", "12*t^2 - 36*t + 26"}}, {{"floor", "y >= 0"}}};
+  const Followed found = followed(text, state({4}, {-12}), 3, restitution(text, 0.5));
+  REQUIRE(found.events.size() == 2);
+  for (const int k : {0, 1}) {
+    CHECK(found.events[static_cast<std::size_t>(k)].kind == EventKind::contact);
+    CHECK(found.events[static_cast<std::size_t>(k)].t == doctest::Approx(1 + k).epsilon(1e-14));
+  }
+  CHECK(found.end().q[0] == doctest::Approx(4).epsilon(1e-13));
+}

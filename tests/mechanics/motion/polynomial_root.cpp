@@ -8,6 +8,7 @@
 #include <vector>
 
 using mechanics::first_zero;
+using mechanics::least_value;
 
 namespace {
 
@@ -94,5 +95,22 @@ TEST_CASE("what rises from a 0 that rounding has put below itself is met where i
     REQUIRE(found);
     CHECK(std::abs(found->at - 2 * v) <= 1e-6 * v);
     CHECK_FALSE(found->is_touch);
+  }
+}
+
+TEST_CASE("the least value of a polynomial is found inside an interval, however narrow its dip") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> anywhere(0.05, 0.95);
+  for (int trial = 0; trial < 500; ++trial) {
+    // (x - a)² (x + 2) (x² + 1) - d: least near a, at -d exactly.
+    const double a = anywhere(random), d = std::pow(10.0, -3 - 9 * anywhere(random));
+    std::vector<double> c = with_roots({a, a, -2});
+    for (double& x : c) x *= 2 * a * a;
+    c.push_back(0), c.push_back(0);
+    for (std::size_t k = c.size() - 1; k > 1; --k) c[k] += c[k - 2];
+    c[0] -= d;
+    CHECK(std::abs(least_value(c, 1, 0) + d) <= 1e-13);
+    CHECK(least_value(c, 0.5 * a, 0) == 0);
+    CHECK(least_value(c, 1, -2 * d - 1e-12) == -2 * d - 1e-12);
   }
 }
