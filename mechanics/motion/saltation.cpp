@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanics/motion/linear_flow.hpp"
 
@@ -11,15 +12,14 @@ namespace {
 using convex::Matrix;
 using Kind = FlowDerivative::Kind;
 
-/// A rate after an impact below this part of that before it is none: the contact rests.
-constexpr double resting_rate = 1e-9;
+/// What is equal by theory agrees to rounding times a condition, and what is not differs by far more: half
+/// the digits lie between. So of a rate after an impact, beside the one before, where the contact rests;
+/// velocities after impacts one by one beside those of all at once, and saltation matrices of two orders;
+/// accelerations before and after an event.
+const double half_the_digits = std::sqrt(std::numeric_limits<double>::epsilon());
 
-/// Velocities after impacts one by one that differ by more than this part from those of all at once, and
-/// saltation matrices of two orders that do, are not one.
-constexpr double alike_part = 1e-8;
-
-/// Accelerations before and after an event that differ by less than this part are one.
-constexpr double smooth_part = 1e-8;
+/// An instant within so many roundings of an event's is the event's.
+constexpr double roundings_of_event = 1e4;
 
 /// More impacts at once are not tried in all orders.
 constexpr std::size_t most_at_once = 4;
@@ -57,7 +57,7 @@ class Saltation {
     State before = piece.after;
     if (hit == nullptr) return change_of_force(piece, before, held);
     before.v = hit->velocity_before;
-    if (is_at_switch(before, held)) return {Kind::none, {}};
+    if (is_at_switch(piece, before, held)) return {Kind::none, {}};
     std::vector<Index> joining;  // come to rest with others, by the end of infinitely many impacts
     for (const Index a : hit->constraints)
       if (!is_member(held, a) && variation_.rate(before, a).value < 0) closing.push_back(a);
@@ -68,7 +68,7 @@ class Saltation {
     do {
       FlowDerivative one = in_order(piece, before, held, closing, joining);
       if (one.kind != Kind::known) return one;
-      if (!is_first && (one.value - found.value).norm() > alike_part * found.value.norm())
+      if (!is_first && (one.value - found.value).norm() > half_the_digits * found.value.norm())
         return {Kind::none, {}};
       found = std::move(one);
       is_first = false;
@@ -85,15 +85,16 @@ class Saltation {
     const Vector before = piece.arc.length > 0 ? piece.arc.acceleration(piece.arc.length)
                                                : variation_.acceleration(at, held).value;
     const Vector jump = piece.acceleration - before;
-    if (jump.norm() <= smooth_part * (before.norm() + piece.acceleration.norm())) return found;
+    if (jump.norm() <= half_the_digits * (before.norm() + piece.acceleration.norm())) return found;
     const Vector along = flow(at.v, before);
     std::optional<Vector> across;
     for (Index k = 0; k < variation_.switches(); ++k) {
       const Variation::Number argument = variation_.switch_argument(at, k);
       const double rate = argument.gradient.dot(along);
-      if (!is_now(argument.value, rate, at.t)) continue;
+      if (!is_now(argument.value, rate, piece)) continue;
       const Vector direction = argument.gradient.head(2 * n_) / rate;
-      if (across && (*across - direction).norm() > alike_part * direction.norm()) return {Kind::none, {}};
+      if (across && (*across - direction).norm() > half_the_digits * direction.norm())
+        return {Kind::none, {}};
       across = direction;
     }
     if (!across) return {Kind::none, {}};
@@ -102,17 +103,18 @@ class Saltation {
   }
 
   /// Whether something that falls at this rate is 0 but for the rounding of t.
-  static bool is_now(double value, double rate, double t) {
-    constexpr double roundings_of_now = 1e-10;
-    return rate != 0 && std::abs(value / rate) <= roundings_of_now * (1 + std::abs(t));
+  static bool is_now(double value, double rate, const FlightPiece& piece) {
+    const double times = std::abs(piece.arc.t) + piece.arc.length;
+    return rate != 0 &&
+           std::abs(value / rate) <= roundings_of_event * std::numeric_limits<double>::epsilon() * times;
   }
 
-  bool is_at_switch(const State& at, const std::vector<Index>& held) const {
+  bool is_at_switch(const FlightPiece& piece, const State& at, const std::vector<Index>& held) const {
     if (variation_.switches() == 0) return false;
     const Vector along = flow(at.v, variation_.acceleration(at, held).value);
     for (Index k = 0; k < variation_.switches(); ++k) {
       const Variation::Number argument = variation_.switch_argument(at, k);
-      if (is_now(argument.value, argument.gradient.dot(along), at.t)) return true;
+      if (is_now(argument.value, argument.gradient.dot(along), piece)) return true;
     }
     return false;
   }
@@ -125,7 +127,7 @@ class Saltation {
 
   bool rests(const State& before, const State& after, Index a) const {
     return std::abs(variation_.rate(after, a).value) <=
-           resting_rate * std::abs(variation_.rate(before, a).value);
+           half_the_digits * std::abs(variation_.rate(before, a).value);
   }
 
   FlowDerivative in_order(const FlightPiece& piece, const State& before, const std::vector<Index>& held,
@@ -136,7 +138,7 @@ class Saltation {
     std::erase_if(with, [&](Index a) {
       const Variation::Number after = variation_.rate(piece.after, a);
       return !is_member(two_sided_, a) &&
-             after.value > resting_rate * after.gradient.segment(n_, n_).norm() * moved;
+             after.value > half_the_digits * after.gradient.segment(n_, n_).norm() * moved;
     });
     State now = before;
     Vector q2 = variation_.acceleration(before, held).value;
@@ -172,7 +174,7 @@ class Saltation {
       now = after;
       q2 = q2_after;
     }
-    if ((now.v - piece.after.v).norm() > alike_part * (before.v.norm() + piece.after.v.norm()))
+    if ((now.v - piece.after.v).norm() > half_the_digits * (before.v.norm() + piece.after.v.norm()))
       return {options_.impact_law == ImpactLaw::moreau ? Kind::none : Kind::undecided, {}};
     return all;
   }
