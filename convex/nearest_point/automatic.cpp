@@ -22,15 +22,12 @@ namespace {
 
 /// Whether it shows at a glance that all is one dense island.
 bool plainly_connected(const NearestPointProblem& problem) {
-  if (!problem.U.is_sparse() && problem.dimension() > 2 && problem.rows() > 0) {
-    const RowMatrix& U = problem.U.dense();
-    if ((U.row(0).array() != 0).all() && (U.col(0).array() != 0).all()) return true;
-  }
-  if (problem.A.kind() != MetricKind::dense || problem.U.is_sparse()) return false;
-  const Matrix& A = problem.A.dense_gram();
-  for (Index i = 0; i < A.rows(); ++i)
-    if (A(i, 0) == 0) return false;
-  return true;
+  if (problem.U.is_sparse()) return false;
+  if (problem.A.kind() == MetricKind::dense && (problem.A.dense_gram().col(0).array() != 0).all())
+    return true;
+  if (problem.dimension() <= 2 || problem.rows() == 0) return false;
+  const RowMatrix& U = problem.U.dense();
+  return (U.row(0).array() != 0).all() && (U.col(0).array() != 0).all();
 }
 
 /// Multiplications of the dense active set: the factor of A, the whitening of the rows held, their orthogonal
@@ -203,7 +200,7 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   validate_guess(problem, guess);
   validate(problem);
   if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
-  if (plainly_connected(problem) || problem.dimension() == 0) return solve_island(problem, accuracy, guess);
+  if (problem.dimension() == 0 || plainly_connected(problem)) return solve_island(problem, accuracy, guess);
   if (std::optional<Solution> chain = solve_chain(problem, accuracy))
     if (problem.rows() > 1) return *std::move(chain);
   if (std::optional<Solution> obstacle = obstacle_decided(problem, accuracy)) return *std::move(obstacle);

@@ -31,10 +31,17 @@ bool GramPivoting::descend_known() {
       if (!find_multipliers()) return false;
       continue;
     }
-    for (Index p = 0; p < rows_.count(); ++p)
-      if (const Index a = rows_.row(p); a >= 0 && state_[a] == passed) state_[a] = outside;
-    find_slacks_of_known();
-    const Index count = list_violated_known(outside);
+    find_known_slacks(known_slack_);
+    const double scale = counted_violation();
+    Index count = 0;
+    for (Index p = 0; p < rows_.count(); ++p) {
+      const Index a = rows_.row(p);
+      if (a < 0) continue;
+      slack_[a] = known_slack_[p];
+      if (state_[a] == passed) state_[a] = outside;
+      list_[count] = a;
+      count += state_[a] == outside && slack_[a] < -row_scale_[a] * scale;
+    }
     if (count == 0) return true;
     if (!raise_in_turn(count)) return false;
     find_energy();

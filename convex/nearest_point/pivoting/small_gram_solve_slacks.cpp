@@ -44,8 +44,10 @@ Index SmallGramSolve::close_rows(double absolute, double by_length) {
 bool SmallGramSolve::is_at_rest() const {
   const SmallTableau& t = tableau_;
   const auto is_zero = [](double x) { return x == 0; };
-  return std::all_of(t.q, t.q + t.n, is_zero) && !problem_.radii && problem_.s.maxCoeff() <= 0 &&
-         std::all_of(t.rows, t.rows + t.size, [&](Index a) { return problem_.s[a] == 0; });
+  const Vector& s = problem_.s;
+  return std::all_of(t.q, t.q + t.n, is_zero) && !problem_.radii &&
+         (dense_kernels().largest_size(t.all, s.data()) == 0 || s.maxCoeff() <= 0) &&
+         std::all_of(t.rows, t.rows + t.size, [&](Index a) { return s[a] == 0; });
 }
 
 Slacks SmallGramSolve::measure_slacks() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 
 namespace convex::inline reductions {
@@ -15,7 +16,8 @@ constexpr double guard = 1e-6;
 
 std::vector<Index> rows_out_of_reach(const NearestPointProblem& problem) {
   std::vector<Index> rows;
-  if (problem.rows() == 0 || problem.s.maxCoeff() > 0 || !(problem.s.minCoeff() < 0)) return rows;
+  const bool is_zero = dense_kernels().largest_size(problem.rows(), problem.s.data()) == 0;
+  if (is_zero || problem.s.maxCoeff() > 0 || !(problem.s.minCoeff() < 0)) return rows;
   for (Index a : problem.two_sided)
     if (problem.s[a] < 0) return rows;
   Vector free = problem.z;
