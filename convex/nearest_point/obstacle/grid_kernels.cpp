@@ -37,19 +37,19 @@ template <class Number, class Next>
 }  // namespace
 
 MOREAU_CLONES
-void relax(Index n, Index stride, float c, float inverse_d, const float* colour, const float* free,
+void relax(Index n, Index stride, float c, const float* inverse_d, const float* colour, const float* free,
            const float* r, float* u) {
   change_in_place(n, u, [&](Index i) {
     const float around = (u[i - 1] + u[i + 1]) + (u[i - stride] + u[i + stride]);
-    const float relaxed = free[i] * ((r[i] + c * around) * inverse_d);
+    const float relaxed = free[i] * ((r[i] + c * around) * inverse_d[i]);
     return u[i] + colour[i] * (relaxed - u[i]);
   });
 }
 
 MOREAU_CLONES
-void relax_zero(Index n, float inverse_d, const float* colour, const float* free, const float* r,
+void relax_zero(Index n, const float* inverse_d, const float* colour, const float* free, const float* r,
                 float* __restrict u) {
-  for (Index i = 0; i < n; ++i) u[i] = colour[i] * (free[i] * (r[i] * inverse_d));
+  for (Index i = 0; i < n; ++i) u[i] = colour[i] * (free[i] * (r[i] * inverse_d[i]));
 }
 
 MOREAU_CLONES
@@ -63,11 +63,11 @@ void relax_above(Index n, Index stride, double c, double inverse_d, const double
 }
 
 MOREAU_CLONES
-void add_residual(Index n, Index stride, float d, float c, const float* free, const float* r, const float* u,
-                  float weight, const float* before, float* __restrict out) {
+void add_residual(Index n, Index stride, const float* d, float c, const float* free, const float* r,
+                  const float* u, float weight, const float* before, float* __restrict out) {
   for (Index i = 0; i < n; ++i) {
     const float around = (u[i - 1] + u[i + 1]) + (u[i - stride] + u[i + stride]);
-    out[i] = before[i] + weight * (free[i] * (r[i] - (d * u[i] - c * around)));
+    out[i] = before[i] + weight * (free[i] * (r[i] - (d[i] * u[i] - c * around)));
   }
 }
 
@@ -90,12 +90,12 @@ void spread(Index n, Index count, const float* m0, const float* m1, const float*
 }
 
 MOREAU_CLONES
-double apply(Index n, Index stride, float d, float c, const float* free, const float* u,
+double apply(Index n, Index stride, const float* d, float c, const float* free, const float* u,
              float* __restrict out) {
   float sums[lanes] = {};
   const auto at = [&](Index i) {
     const float around = (u[i - 1] + u[i + 1]) + (u[i - stride] + u[i + stride]);
-    return free[i] * (d * u[i] - c * around);
+    return free[i] * (d[i] * u[i] - c * around);
   };
   Index i = 0;
   for (; i + lanes <= n; i += lanes)

@@ -10,16 +10,17 @@ namespace convex::inline obstacle {
 namespace grid_kernels {
 
 /// u = free (r + c Σ neighbours of u)/d on the points of a colour (`colour` is 1 there, else 0).
-void relax(Index n, Index stride, float c, float inverse_d, const float* colour, const float* free,
+void relax(Index n, Index stride, float c, const float* inverse_d, const float* colour, const float* free,
            const float* r, float* u);
 /// u = free r/d on the points of a colour, 0 on the others.
-void relax_zero(Index n, float inverse_d, const float* colour, const float* free, const float* r, float* u);
+void relax_zero(Index n, const float* inverse_d, const float* colour, const float* free, const float* r,
+                float* u);
 /// u = max(lower, (z + c Σ neighbours of u)/d) on the points of a colour.
 void relax_above(Index n, Index stride, double c, double inverse_d, const double* colour, const double* lower,
                  const double* z, double* u);
 /// out = weight (free (r - A u)) + before.
-void add_residual(Index n, Index stride, float d, float c, const float* free, const float* r, const float* u,
-                  float weight, const float* before, float* out);
+void add_residual(Index n, Index stride, const float* d, float c, const float* free, const float* r,
+                  const float* u, float weight, const float* before, float* out);
 /// coarse_k = free_k (fine_(2k+1) + half of the two beside).
 void gather(Index n, const float* fine, const float* free, float* coarse);
 /// fine += free P coarse, coarse: the mean of the rows m0 and m1; n: of the fine row, count: of the coarse
@@ -28,7 +29,7 @@ void spread(Index n, Index count, const float* m0, const float* m1, const float*
             float* fine);
 
 /// out = free (d u - c Σ neighbours); the inner product of u with it.
-double apply(Index n, Index stride, float d, float c, const float* free, const float* u, float* out);
+double apply(Index n, Index stride, const float* d, float c, const float* free, const float* u, float* out);
 /// out = z - (d u - c Σ neighbours).
 void residual(Index n, Index stride, double d, double c, const double* z, const double* u, double* out);
 /// The same with u = hi + lo, in twice the working precision, rounded at the end.

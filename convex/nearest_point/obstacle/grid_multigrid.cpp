@@ -23,8 +23,15 @@ GridOperator coarsened(const GridOperator& fine) {
   return {fine.width / 2, fine.height / 2, 4 * fine.c + 4 * (fine.d - 4 * fine.c), fine.c};
 }
 
-GridMultigrid::Level GridMultigrid::level(const GridOperator& A) {
-  Level made{A.width, A.height, static_cast<float>(A.d / A.c), 1, {}, {}, {}, {}, {}, {}, {}, {}};
+GridMultigrid::Level GridMultigrid::level(const GridOperator& A, double right, double top) {
+  Level made{A.width, A.height, 1, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  for (const double of_row : {1.0, top})
+    for (Index i = 0; i < A.width; ++i) {
+      const double of_point = i + 1 < A.width ? 1 : right,
+                   d = A.d / A.c + (1 / of_point - 1) + (1 / of_row - 1);
+      made.d.push_back(static_cast<float>(d));
+      made.inverse_d.push_back(1 / made.d.back());
+    }
   const auto size = static_cast<std::size_t>(A.size()), row = static_cast<std::size_t>(A.stride());
   for (std::vector<float>* field : {&made.free, &made.u, &made.r}) field->assign(size, 0);
   for (std::vector<float>* one : {&made.even, &made.odd, &made.mean, &made.sum, &made.last})
@@ -35,10 +42,13 @@ GridMultigrid::Level GridMultigrid::level(const GridOperator& A) {
 
 GridMultigrid::GridMultigrid(const GridOperator& finest) : finest_(finest) {
   GridOperator grid = finest;
-  levels_.push_back(level(grid));
+  double right = 1, top = 1;
+  levels_.push_back(level(grid, right, top));
   while (std::min(grid.width, grid.height) > smallest_grid) {
+    right = (grid.width % 2 == 0 ? right : 1 + right) / 2;
+    top = (grid.height % 2 == 0 ? top : 1 + top) / 2;
     grid = coarsened(grid);
-    levels_.push_back(level(grid));
+    levels_.push_back(level(grid, right, top));
   }
 }
 
@@ -58,7 +68,7 @@ void GridMultigrid::set_free(const Vector& free) {
 
 /// One colour of a row relaxed; colours of points beside differ, so the order within a row is no matter.
 void GridMultigrid::sweep_row(Level& grid, Index j, bool red) {
-  grid_kernels::relax(grid.width, grid.stride(), grid.c, 1 / grid.d, grid.colour(j, red),
+  grid_kernels::relax(grid.width, grid.stride(), grid.c, grid.of_row(grid.inverse_d, j), grid.colour(j, red),
                       grid.free.data() + grid.at(j), grid.r.data() + grid.at(j), grid.u.data() + grid.at(j));
 }
 
@@ -66,15 +76,16 @@ void GridMultigrid::sweep_row(Level& grid, Index j, bool red) {
 void GridMultigrid::descend(Level& fine, Level& coarse) {
   const Index n = fine.width;
   const auto first = [&](Index j) {
-    grid_kernels::relax_zero(n, 1 / fine.d, fine.colour(j, true), fine.free.data() + fine.at(j),
-                             fine.r.data() + fine.at(j), fine.u.data() + fine.at(j));
+    grid_kernels::relax_zero(n, fine.of_row(fine.inverse_d, j), fine.colour(j, true),
+                             fine.free.data() + fine.at(j), fine.r.data() + fine.at(j),
+                             fine.u.data() + fine.at(j));
   };
   // `row` gathers the residuals of three rows, the outer two by half, `mean` those of the last one.
   const auto residual = [&](Index j, float weight, const std::vector<float>& before,
                             std::vector<float>& into) {
-    grid_kernels::add_residual(n, fine.stride(), fine.d, fine.c, fine.free.data() + fine.at(j),
-                               fine.r.data() + fine.at(j), fine.u.data() + fine.at(j), weight,
-                               before.data() + 1, into.data() + 1);
+    grid_kernels::add_residual(n, fine.stride(), fine.of_row(fine.d, j), fine.c,
+                               fine.free.data() + fine.at(j), fine.r.data() + fine.at(j),
+                               fine.u.data() + fine.at(j), weight, before.data() + 1, into.data() + 1);
   };
   std::vector<float>&sum = fine.sum, &last = fine.last, &nothing = fine.mean;
   std::fill(nothing.begin(), nothing.end(), 0.0F);
@@ -181,8 +192,8 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
         grid_kernels::turn(n, static_cast<float>(beta), grid.u.data() + next, p_.data() + next);
       if (j < 0) continue;
       const Index k = grid.at(j);
-      curvature += grid_kernels::apply(n, grid.stride(), grid.d, grid.c, grid.free.data() + k, p_.data() + k,
-                                       Ap_.data() + k);
+      curvature += grid_kernels::apply(n, grid.stride(), grid.of_row(grid.d, j), grid.c, grid.free.data() + k,
+                                       p_.data() + k, Ap_.data() + k);
     }
     if (!(curvature > 0) || !(with.of_r > 0)) break;
     step = with.of_r / curvature;  // r·p = r·z, for r is at right angles to the direction before

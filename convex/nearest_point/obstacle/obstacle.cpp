@@ -177,17 +177,16 @@ class GridNorm {
     multigrid_.set_free(all_points(A));
   }
 
-  /// To the fourth power of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
+  /// To the square of `close`: with Au near c and r = c - Au, the square is u·c + u·r + ||r||².
   double dual(const Vector& c) {
-    constexpr double close = 1e-3;
-    Vector u, r = A_.field(), correction;
-    multigrid_.solve(c, close, u);
+    constexpr double close = 1e-4;
+    Vector u, r = A_.field();
+    const double missing = multigrid_.solve(c, close, u).missing;
     for (Index j = 0; j < A_.height; ++j) {
       const Index k = A_.at(0, j);
       grid_kernels::residual(A_.width, A_.stride(), A_.d, A_.c, c.data() + k, u.data() + k, r.data() + k);
     }
-    const double rest = multigrid_.solve(r, close, correction).found;
-    return std::sqrt(std::max(0.0, u.dot(c) + u.dot(r) + rest * rest));
+    return std::sqrt(std::max(0.0, u.dot(c) + u.dot(r) + missing * missing));
   }
   double rough_dual(const Vector& c) {
     Vector u;

@@ -10,9 +10,10 @@
 namespace convex::inline obstacle {
 namespace {
 
-/// Active sets tried on one grid; the part of a residual left while these are sought, and in a refinement.
-constexpr int most_sets = 80, most_refinements = 12;
-constexpr double rough = 2e-1, fine = 1e-4;
+/// Active sets tried on one grid; the part of a residual left while these are sought, a V-cycle's, and in a
+/// refinement.
+constexpr int most_sets = 160, most_refinements = 12;
+constexpr double rough = 1, fine = 1e-4;
 /// Projected sweeps before a set is chosen.
 constexpr int sweeps = 2;
 /// What may be missing at the end, relative to the scale.
