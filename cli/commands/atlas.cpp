@@ -170,6 +170,7 @@ std::vector<std::size_t> here(const SolvedAtlas& solved) {
 void find_culprits(SolvedAtlas& solved, const convex::ExactProblem& problem) {
   if (!solved.atlas.cells.empty()) return;
   solved.farkas = exact_active_set(problem, convex::likely_active_rows(rounded(problem))).farkas;
+  solved.rounded_farkas = convex::rounded_weights(solved.farkas, problem.s);
 }
 
 }  // namespace

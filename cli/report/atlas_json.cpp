@@ -1,7 +1,6 @@
 #include "cli/report/atlas_report.hpp"
 #include "cli/report/json_writer.hpp"
 #include "convex/exact/fraction_arithmetic.hpp"
-#include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -127,9 +126,8 @@ void write_rule(JsonWriter& json, const convex::atlas::RuleVerdict& rule) {
 
 /// Farkas weights by name, and in fractions.
 void write_culprits(JsonWriter& json, const SolvedAtlas& solved) {
-  const convex::Vector weights = convex::rounded_weights(solved.farkas);
   json.key("farkas")
-      .numbers(solved.contacts, weights)
+      .numbers(solved.contacts, solved.rounded_farkas)
       .key("exact")
       .begin_object()
       .key("farkas")

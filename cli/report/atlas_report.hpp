@@ -48,6 +48,7 @@ struct SolvedAtlas {
   std::optional<AtlasMap> map = {};
   /// Without a cell: integers w, one a row, w >= 0 on one-sided ones, wᵀU = 0, w·s > 0.
   convex::IntegerVector farkas = {};
+  convex::Vector rounded_farkas = {};  ///< the same in doubles
 
   /// The contacts that exclude each other: those with a weight.
   std::vector<std::size_t> culprits() const;

@@ -1,6 +1,8 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 
 #include <cmath>
+#include <compare>
+#include <cstdint>
 #include <limits>
 #include <string>
 
@@ -19,16 +21,41 @@ std::vector<Index> likely_active_rows(const NearestPointProblem& problem) {
   return rows;
 }
 
-Vector rounded_weights(const IntegerVector& weights) {
-  constexpr std::size_t mantissa = 53;
-  Integer smallest = 0;
+namespace {
+
+/// The order of x 2^k and an integer.
+std::strong_ordering order_of(double x, long k, const Integer& integer) {
+  constexpr int mantissa = 53;
+  int exponent = 0;
+  const auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &exponent), mantissa));
+  const long shift = exponent - mantissa + k;
+  const auto power = [](long e) { return Integer::shifted(1, static_cast<unsigned long>(e)); };
+  return shift >= 0 ? digits * power(shift) <=> integer : Integer(digits) <=> integer * power(-shift);
+}
+
+}  // namespace
+
+Vector rounded_weights(const IntegerVector& weights, const IntegerVector& s) {
+  constexpr long largest_exponent = 1000;
+  long least = 0, most = 0;
   bool fit = true;
   for (const Integer& weight : weights) {
-    const Integer size = weight.sign() < 0 ? -weight : weight;
-    fit = fit && size.bits() <= mantissa;
-    if (!size.is_zero() && (smallest.is_zero() || size < smallest)) smallest = size;
+    const auto bits = static_cast<long>(weight.bits());
+    if (bits == 0) continue;
+    least = least == 0 ? bits : std::min(least, bits);
+    most = std::max(most, bits);
+    fit = fit && bits <= largest_exponent && order_of(nearest_quotient(weight, 1), 0, weight) == 0;
   }
-  return nearest({weights, fit ? Integer(1) : smallest});
+  const long k = fit ? 0 : std::max(least - 1, most - largest_exponent);
+  Vector rounded = nearest({weights, Integer::shifted(1, static_cast<unsigned long>(k))});
+  for (std::size_t a = 0; a < weights.size(); ++a) {
+    double& w = rounded[static_cast<Index>(a)];
+    const int side = s[a].sign();
+    const std::strong_ordering order = order_of(w, k, weights[a]);
+    if (side > 0 && order < 0) w = std::nextafter(w, std::numeric_limits<double>::infinity());
+    if (side < 0 && order > 0) w = std::nextafter(w, -std::numeric_limits<double>::infinity());
+  }
+  return rounded;
 }
 
 double distance_above(const ExactProblem& problem, const Vector& x, const ExactVector& q) {
@@ -43,7 +70,7 @@ Solution rounded(const ExactProblem& problem, const ExactSolution& exact, const 
   solution.steps = exact.steps;
   solution.basis = exact.basis;
   if (exact.status == Status::infeasible) {
-    solution.farkas = rounded_weights(exact.farkas);
+    solution.farkas = rounded_weights(exact.farkas, problem.s);
     return solution;
   }
   solution.q = nearest(exact.q);

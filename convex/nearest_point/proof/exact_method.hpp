@@ -14,9 +14,9 @@ std::vector<Index> likely_active_rows(const NearestPointProblem&);
 /// what that rounding makes of q, and `residuals` left out.
 Solution rounded(const ExactProblem&, const ExactSolution&, const Accuracy&);
 
-/// Farkas weights as doubles: integers that doubles hold stay as they are; others are measured by the
-/// smallest.
-Vector rounded_weights(const IntegerVector& weights);
+/// Farkas weights of rows with these s as doubles: integers that doubles hold stay as they are; others are
+/// measured by a power of two near the smallest and rounded to the side on which w·s is no less than before.
+Vector rounded_weights(const IntegerVector& weights, const IntegerVector& s);
 
 /// The method: the exact solution of the doubles as they stand, rounded at the end. Throws InvalidInput as
 /// `validate` and `exact_problem` do.

@@ -100,7 +100,7 @@ std::optional<InfeasibilityProof> by_fractions(const Support& rows, Index m) {
     for (Integer& weight : w) weight = -weight;
   if (!proves_infeasibility(exact, w)) return std::nullopt;
   InfeasibilityProof proof{ProofLevel::exact, Vector::Zero(m), IntegerVector(static_cast<std::size_t>(m), 0)};
-  proof.farkas(rows.rows) = rounded_weights(w);
+  proof.farkas(rows.rows) = rounded_weights(w, exact.s);
   for (std::size_t r = 0; r < rows.rows.size(); ++r)
     proof.weights[static_cast<std::size_t>(rows.rows[r])] = w[r];
   return proof;

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "convex/nearest_point/automatic.hpp"
 #include "tests/oracles/rational_text.hpp"
 
 using convex::ConstraintRows;
@@ -93,4 +94,23 @@ TEST_CASE("three rows among ten thousand are all that is looked at; two-sided we
   const auto proof = convex::infeasibility_proof(problem, w);
   REQUIRE(proof);
   CHECK(oracles::is_exact_farkas_witness(problem, rationals(proof->weights)));
+}
+
+TEST_CASE("weights of rows that contradict each other by an ulp are rounded so that they still do") {
+  const auto told = [](const RowMatrix& U, const Vector& s, std::vector<Index> two_sided) {
+    const NearestPointProblem problem{convex::Metric::identity(U.cols()), Vector::Zero(U.cols()),
+                                      ConstraintRows(U), s, std::move(two_sided)};
+    const convex::Solution found = convex::automatic(problem);
+    REQUIRE(found.status == convex::Status::infeasible);
+    CHECK(found.farkas.allFinite());
+    CHECK(oracles::is_farkas_witness(problem, found.farkas, 1e-12));
+  };
+  // Six times 2/3 and 1/3, to the last digit, beside 4 and 2: the weights 1 and 6 leave 0 >= 0.
+  told(RowMatrix{{4, 2}, {-0.6666666666666666, -0.3333333333333333}}, Vector{{-6, 1}}, {});
+  told(RowMatrix{{-0.22661962356896645, -0.6596340768190186},
+                 {-0.7850791524439731, -0.09612114149927709},
+                 {-1.0116987760129394, -0.7557552783182957}},
+       Vector{{0, 0.07846274809691922, 0.07846274809691922}}, {0, 1});
+  // The smallest weight is 2^1074 times below the largest.
+  told(RowMatrix{{0, 1, 0}, {0, -0.5, 5e-324}, {1, 0, -2}, {-1, 0, 0}}, Vector{{2, 0, 1, 0}}, {});
 }
