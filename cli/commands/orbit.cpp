@@ -153,7 +153,8 @@ void add_orbit(CLI::App& program, Work& chosen) {
       ->check(positive_number);
   command
       .add_option("--modulo", options->modulo, "a coordinate that comes back up to a multiple: \"a=2*pi\"")
-      ->type_name("a=M");
+      ->type_name("a=M")
+      ->allow_extra_args(false);
   command.add_option("--over", options->over, "the orbit continued over a parameter: \"w=1:0.01:3\"")
       ->type_name("w=A:S:B");
   command.add_option("--output", options->output, "the branch of --over as a table")->type_name("F.csv");

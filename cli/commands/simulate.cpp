@@ -245,11 +245,13 @@ void add_simulate(CLI::App& program, Work& chosen) {
   command
       .add_option("--modulo", options->modulo,
                   "a coordinate that turns, written between 0 and its multiple: \"a=2*pi\"")
-      ->type_name("a=M");
+      ->type_name("a=M")
+      ->allow_extra_args(false);
   command.add_option("--resume", options->resume, "go on from the state that --json printed")
       ->type_name("STATE.json");
   command.add_option("--limit", options->step_limit, "steps after which the motion is stopped; default 1e7")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(nonnegative_number);
   command.add_flag("--impact-laws", options->impact_laws,
                    "what each law of impact makes of the first impact, side by side");
 }
