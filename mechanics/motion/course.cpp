@@ -32,6 +32,13 @@ Motion::Course::Course(const LagrangianSystem& of, MotionOptions chosen)
 bool Motion::Course::may_advance(double until) {
   if (status != MotionStatus::done || !(state.t < until)) return false;
   events.clear();
+  constexpr double largest = 0x1p500;  // squares of what is larger, as T, leave the range of doubles
+  if (state.v.size() > 0 &&
+      !(std::max(state.q.cwiseAbs().maxCoeff(), state.v.cwiseAbs().maxCoeff()) <= largest)) {
+    stop("at t = " + number_text(state.t) +
+         ": coordinates or velocities grow beyond what doubles can square");
+    return false;
+  }
   if (record.steps < options.step_limit) return true;
   stop("the limit of " + std::to_string(options.step_limit) +
        " steps is reached at t = " + number_text(state.t) +

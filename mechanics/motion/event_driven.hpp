@@ -37,6 +37,7 @@ class Motion::EventDriven final : public Motion::Course {
   void move_time(double by);
   void handle(const std::vector<Zero>& zeros);
   double rounding_of_f(Index a);
+  void stop_at_vanishing_gradient(Index a);
   void tell_blur(const std::vector<Index>& closing);
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,

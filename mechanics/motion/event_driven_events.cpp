@@ -51,6 +51,12 @@ std::vector<Zero> Motion::EventDriven::closing_at_once() {
   return found;
 }
 
+void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
+  stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+       " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
+       "vanish, as y >= 0 for y^3 >= 0");
+}
+
 /// What comes to 0 at the end of a step, all at once.
 void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   std::vector<Index> closing, touching, switches, held;
@@ -59,6 +65,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (const Zero& zero : zeros) {
     if (zero.of == Zero::Of::branch) switches.push_back(zero.which);
     if (zero.of != Zero::Of::constraint) continue;
+    if (expansion_.has_lost_gradient(zero.which)) return stop_at_vanishing_gradient(zero.which);
     const bool closes = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
     (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
     if (zero.is_touch)
@@ -293,11 +300,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
     return;
   }
   for (const Index a : answer->excluding)
-    if (expansion_.is_singular(a))
-      return stop(
-          "at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
-          " vanishes here, and derivatives do not tell what it demands; write it so that its gradient "
-          "does not vanish, as y >= 0 for y^3 >= 0");
+    if (expansion_.is_singular(a)) return stop_at_vanishing_gradient(a);
   if (!answer->excluding.empty()) {
     status = MotionStatus::infeasible;
     excluding = answer->excluding;

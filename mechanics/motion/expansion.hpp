@@ -69,6 +69,8 @@ class Expansion {
   /// ∂f_a/∂t = df_a/dt - u_a·v.
   double drift(Index a) const;
   Vector row(Index a) const;
+  /// Whether ∂f/∂q is 0 up to half the digits of what it is the sum of, as that of y - sin(y) near 0.
+  bool has_lost_gradient(Index a);
   /// The gradient of f_a is 0 here, though f_a has q in it.
   bool is_singular(Index a) const { return !equations_.row[index(a)].empty() && row(a).isZero(0); }
   /// The largest of |u_i v_i| and |∂f/∂t|: what df/dt is the sum of.

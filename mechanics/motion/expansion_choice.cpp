@@ -89,6 +89,14 @@ double Expansion::magnitude_of(expression::Slot series) {
   return magnitude_.at(series, 0);
 }
 
+bool Expansion::has_lost_gradient(Index a) {
+  const auto& u = equations_.row[index(a)];
+  return !u.empty() && std::all_of(u.begin(), u.end(), [&](const auto& entry) {
+    constexpr double half_the_digits = 0x1p-26;
+    return std::abs(series_[entry.second][0]) <= half_the_digits * magnitude_of(entry.second);
+  });
+}
+
 double Expansion::magnitude_of_rate(Index a) { return magnitude_of(equations_.rate[index(a)]); }
 
 double Expansion::magnitude_of_constraint(Index a) { return magnitude_of(equations_.constraint[index(a)]); }
