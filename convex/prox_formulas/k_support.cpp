@@ -241,17 +241,6 @@ Vector proj_largest_ball(const Vector& z, double radius, Index k) {
   return v;
 }
 
-Vector k_largest_direction(const Vector& v, Index k) {
-  std::vector<Index> order(static_cast<std::size_t>(v.size()));
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(i);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index i, Index j) { return std::abs(v[i]) > std::abs(v[j]); });
-  Vector x = Vector::Zero(v.size());
-  for (std::size_t i = 0; i < order.size() && static_cast<Index>(i) < k; ++i) x[order[i]] = v[order[i]];
-  const double length = x.stableNorm();
-  return length > 0 ? Vector(x / length) : x;
-}
-
 Vector k_support_slope(const Vector& x, Index k) {
   const double norm = k_support_norm(x, k);
   if (!(norm > 0)) return Vector::Zero(x.size());

@@ -21,8 +21,6 @@ Matrix prox_k_support_jacobian(const Vector& z, double weight, Index k);
 /// with Σ c = k and the radius reached.
 Vector proj_largest_ball(const Vector& z, double radius, Index k);
 
-/// A maximiser of v·x over {norm <= 1}: the k largest entries of v, scaled to length 1.
-Vector k_largest_direction(const Vector& v, Index k);
 /// A maximiser of v·x over {norm_of_largest <= 1}.
 Vector k_support_slope(const Vector& x, Index k);
 
