@@ -191,9 +191,8 @@ void FollowedBranch::row(const Station& at, BranchEvent event) {
 
 void FollowedBranch::begin(const Station& first) {
   BranchEvent event = BranchEvent::none;
-  if (!asked_.is_free)
-    if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
-      if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = BranchEvent::fold;
+  if (const auto fold = mechanics::find_turning_point(family(), first.value, first.orbit))
+    if (std::abs(fold->value - first.value) <= at_fold * std::abs(range_.step)) event = BranchEvent::fold;
   row(first, event);
   last_ = first;
   ++count_;

@@ -32,7 +32,6 @@ std::pair<FollowedBranch::Station, double> FollowedBranch::approach(double beyon
 }
 
 bool FollowedBranch::turn(double beyond) {
-  if (asked_.is_free) return false;  // one multiplier is 1 anyhow
   const auto [near, none] = approach(beyond);
   fold_ = mechanics::find_turning_point(family(), near.value, near.orbit);
   const double apart = fold_ ? std::abs(fold_->value - none) : 0;

@@ -35,6 +35,13 @@ constexpr double derivative_error = 1e-12;
 /// Points of an arc that are looked at when a return is searched for.
 constexpr int looks_per_arc = 16;
 
+/// A motion with so many times the steps of the guess, and some, leads to no orbit near it.
+constexpr long far_steps = 8, some_steps = 100;
+
+/// A free period is looked for within this factor of the guess: where there is no orbit, as beyond a fold,
+/// Newton's method leads to flights without end.
+constexpr double farthest_period = 4;
+
 /// A free period is searched for within so many steps.
 constexpr long most_steps_to_return = 20'000;
 
@@ -150,7 +157,9 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     orbit.why = "the motion from the state of the file does not come near it again";
     return orbit;
   }
-  const PeriodMap map(system, guess.t, question);
+  const double longest = farthest_period * orbit.period, shortest = orbit.period / farthest_period;
+  OrbitQuestion near = question;
+  const PeriodMap map(system, guess.t, near);
   const Index n = guess.q.size(), size = chart->dimension(), unknowns = size + (question.is_free ? 1 : 0);
   Vector x = as_one(orbit.start);
   Flight flight = map.fly(x, orbit.period);
@@ -159,6 +168,8 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     return orbit;
   }
   note_passage(flight, system, orbit);
+  near.motion.step_limit =
+      std::min(question.motion.step_limit, far_steps * static_cast<long>(flight.pieces.size()) + some_steps);
   Vector miss = map.miss(flight, x);
   const KeptEnergy energy(system, question, flight, orbit.start);
   double energy_scale = 1;  // how much the energy changes as far as the motion goes
@@ -201,7 +212,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     for (double part = 1; part > 1e-4 && !is_better; part *= 0.5) {
       const Vector next = chart->state_of(part * step.head(size));
       const double period = orbit.period + (question.is_free ? part * step[size] : 0);
-      if (!(period > 0)) continue;
+      if (!(period >= shortest && period <= longest)) continue;
       Flight tried = map.fly(next, period);
       if (!tried.arrives) continue;
       const Vector missed = map.miss(tried, next);

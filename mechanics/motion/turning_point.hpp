@@ -24,7 +24,8 @@ struct TurningPoint {
 /// solution of [J b; cᵀ 0] (v; g) = (0; 1), J = ∂map/∂x - 1, which is 0 where J is singular (Griewank and
 /// Reddien 1984; Govaerts 2000, section 4.1). J is exact; derivatives of J and by p, which only speed it up,
 /// are differences. near: an orbit at `value`. Nothing where it does not arrive, or p is known to less than
-/// ten digits. For orbits of given period.
+/// ten digits. A free period T is one unknown more, and the phase one equation more, J = [∂map/∂x - 1, x';
+/// x'ᵀ, 0]; nothing then for orbits that come in families by their energy.
 std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double value, const Orbit& near);
 
 /// The orbit with along·(x - x of the fold) = distance, at whatever value of the parameter: on one side of

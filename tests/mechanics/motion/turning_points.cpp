@@ -86,3 +86,37 @@ TEST_CASE("a branch that does not turn has no turning point nearby") {
   REQUIRE(orbit.is_found);
   CHECK_FALSE(find_turning_point(family, 1.5, orbit));
 }
+
+TEST_CASE("a self-excited circle of free period folds where its two radii meet, and both are beside it") {
+  // x'' = -x + (m + r² - r⁴) x', r² = x² + x'²: circles of period 2 pi with r⁴ - r² = m, down to m = -1/4.
+  const OrbitFamily family{[](double m) {
+                             return system({{"x"},
+                                            "x'^2/2",
+                                            "x^2/2",
+                                            {{"m", digits(m)}},
+                                            {},
+                                            {{"x", "(m + x^2 + x'^2 - (x^2 + x'^2)^2)*x'"}},
+                                            {}});
+                           },
+                           [](const LagrangianSystem&, double) {
+                             OrbitQuestion question;
+                             question.is_free = true;
+                             return question;
+                           }};
+  const double m = -0.24, radius = std::sqrt((1 + std::sqrt(1 + 4 * m)) / 2);
+  const auto made = family.system(m);
+  const Orbit near = find_orbit(*made, state({1.02 * radius}, {0}), family.question(*made, m));
+  REQUIRE(near.is_found);
+  const auto fold = find_turning_point(family, m, near);
+  REQUIRE(fold);
+  CHECK(std::abs(fold->value + 0.25) <= 1e-10);
+  CHECK(std::abs(fold->orbit.period - 2 * std::acos(-1.0)) <= 1e-9);
+  for (const double distance : {-0.01, 0.01}) {
+    const auto beside = orbit_beside(family, *fold, distance);
+    REQUIRE(beside);
+    const double square = beside->orbit.start.q[0] * beside->orbit.start.q[0] +
+                          beside->orbit.start.v[0] * beside->orbit.start.v[0];
+    CHECK(std::abs(square * square - square - beside->value) <= 1e-9);
+    CHECK((square > 0.5) == (distance * fold->along[0] * fold->orbit.start.q[0] > 0));
+  }
+}
