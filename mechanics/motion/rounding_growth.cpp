@@ -15,6 +15,8 @@ Vector one_rounding_away(Vector x) {
 }
 
 /// What has not grown so many times is no loss: numbers that are rounding themselves change by all they are.
+/// Roundings on the way of a regular motion add up to less. A rounding that reaches the digits that are
+/// printed has grown 1e10 times, so that anything between decides alike.
 constexpr double least_growth = 1e3;
 
 /// The largest |q_i| and |v_i| so far.

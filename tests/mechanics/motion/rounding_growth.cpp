@@ -30,6 +30,8 @@ TEST_CASE("a rounding at the start of an unstable motion grows with the exponent
   const double dx = std::nextafter(1.0, 2.0) - 1, dv = std::nextafter(-0.999999, -2.0) + 0.999999;
   CHECK(found->change > 0.1 * 0.5 * (dx + dv) * std::exp(T));
   CHECK(found->change < 10 * 0.5 * (dx - dv) * std::exp(T));
+  const double size = 0.5 * 1e-6 * std::exp(T);
+  CHECK(std::abs(found->part * size / found->change - 1) <= 0.01);
 }
 
 TEST_CASE("no rounding grows in an oscillation, in rest after bounces, and in numbers that are rounding") {
