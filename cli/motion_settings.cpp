@@ -43,8 +43,10 @@ MotionWay motion_way(const SimulateSettings& settings, const mechanics::System& 
   if (impact_law(settings) != mechanics::ImpactLaw::moreau)
     return {event_driven, found + ", and a law of impact that time-stepping does not have: event-driven"};
   if (one_sided < fewest_for_steps)
-    return {event_driven, found + ", fewer than " + std::to_string(fewest_for_steps) +
-                              ": event-driven, which is right to rounding"};
+    return {event_driven,
+            found + ", fewer than " + std::to_string(fewest_for_steps) +
+                ": event-driven, which is right to rounding",
+            true};
   return {time_stepping, found + ", " + std::to_string(fewest_for_steps) +
                              " or more: time-stepping, since following each event may not end; its error "
                              "falls with [simulate] step"};

@@ -10,6 +10,7 @@ namespace cli {
 struct MotionWay {
   mechanics::MotionMethod method = mechanics::MotionMethod::event_driven;
   std::string why;
+  bool is_open = false;  ///< it may turn to steps on the way
 };
 
 /// The way that the file or the command line asks for; event-driven unless told. "auto": time-stepping from

@@ -10,6 +10,7 @@
 #include "cli/drawing/motion_drawing.hpp"
 #include "cli/drawing/phase_drawing.hpp"
 #include "cli/each_file.hpp"
+#include "cli/event_crowd.hpp"
 #include "cli/motion_files.hpp"
 #include "cli/motion_settings.hpp"
 #include "cli/report/impact_laws_report.hpp"
@@ -136,13 +137,28 @@ class MotionFiles {
   std::optional<Animation> animation_;
 };
 
-/// Whether a second motion, which tells what a rounding grows to, costs little: a part of a second.
+/// Steps, times the square of the numbers of a scene, that take a fraction of a second: as long a second
+/// motion is not noticed.
+constexpr double unnoticed_work = 2e5;
+
+/// Whether a second motion, which tells what a rounding grows to, is taken.
 bool is_followed_twice(const mechanics::LagrangianSystem& system, const mechanics::Motion& motion) {
-  constexpr double little_work = 2e5;
   const auto size = static_cast<double>(system.coordinates().size() + system.constraints().size());
   return motion.method() == mechanics::MotionMethod::event_driven &&
          motion.status() == mechanics::MotionStatus::done &&
-         static_cast<double>(motion.record().steps) * size * size <= little_work;
+         static_cast<double>(motion.record().steps) * size * size <= unnoticed_work;
+}
+
+/// What is done where events crowd, and said: `auto` goes on in steps, if the motion has a hundred of them.
+std::string meet_crowd(mechanics::Motion& motion, const EventCrowd& crowd, bool is_auto, double steps) {
+  constexpr double fewest_steps = 100;
+  if (!is_auto) return crowd.what() + "; method = \"auto\" goes on in steps where events crowd";
+  if (steps < fewest_steps)
+    return "auto: " + crowd.what() +
+           "; [simulate] step is no hundredth of the motion, so that events are followed on";
+  motion.go_on_in_steps();
+  return "auto: " + crowd.what() +
+         "; from there on it is followed in steps, whose error falls with [simulate] step";
 }
 
 Answer simulate_file(const std::string& file, const SimulateOptions& options) {
@@ -157,6 +173,7 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   if (!(until >= state.t))
     throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
   const mechanics::MotionOptions chosen = motion_options(problem, *system, options);
+  const MotionWay way = motion_way(problem.simulate, *system, options);
   std::optional<mechanics::Motion> begun;
   try {
     begun.emplace(*system, state, chosen);
@@ -175,6 +192,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   const InterruptWatch watch;
   remember();
   files.tell_events(motion);
+  EventCrowd crowd(state.t, until, chosen.step);
+  std::string of_crowd;
   const auto goes_on = [&] { return !options.impact_laws || !motion.record().first_impact; };
   {
     MotionProgress progress(state.t, until);
@@ -182,6 +201,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
       files.follow(motion);
       remember();
       progress.tell(motion);
+      if (motion.method() == mechanics::MotionMethod::event_driven && crowd.has_come(motion))
+        of_crowd = meet_crowd(motion, crowd, way.is_open, (until - state.t) / chosen.step);
     }
   }
   if (options.impact_laws) {
@@ -194,8 +215,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};
-  if (const std::string why = motion_way(problem.simulate, *system, options).why; !why.empty())
-    answer.warnings.push_back(why);
+  for (const std::string& said : {way.why, of_crowd})
+    if (!said.empty()) answer.warnings.push_back(said);
   return answer;
 }
 
@@ -225,7 +246,7 @@ void add_simulate(CLI::App& program, Work& chosen) {
   add_step_tolerance(command, *options);
   command
       .add_option("--method", options->method,
-                  "event-driven, the default, time-stepping, or auto: by the number of contacts")
+                  "event-driven, the default, time-stepping, or auto: by the number of contacts and events")
       ->type_name("NAME");
   command.add_option("--output", options->output, "the trajectory as a table: t, q, q', q'', lambda, energy")
       ->type_name("F.csv");

@@ -62,6 +62,20 @@ Motion::~Motion() = default;
 Motion::Motion(Motion&&) noexcept = default;
 
 bool Motion::advance(double until) { return course_->advance(until); }
+
+void Motion::go_on_in_steps() {
+  if (status() != MotionStatus::done || method() == MotionMethod::time_stepping) return;
+  MotionOptions options = course_->options;
+  options.method = MotionMethod::time_stepping;
+  auto stepping = std::make_unique<TimeStepping>(course_->system, course_->state, std::move(options));
+  stepping->done = std::move(course_->done);
+  stepping->events = std::move(course_->events);
+  stepping->record = std::move(course_->record);
+  stepping->acceleration = std::move(course_->acceleration);
+  stepping->multipliers = std::move(course_->multipliers);
+  course_ = std::move(stepping);
+}
+
 const Arc& Motion::arc() const { return course_->done; }
 const std::vector<MotionEvent>& Motion::events() const { return course_->events; }
 const State& Motion::state() const { return course_->state; }

@@ -62,7 +62,7 @@ struct ImpactScene {
 /// Counts and figures of the motion so far.
 struct MotionRecord {
   long steps = 0, events = 0, impacts = 0;
-  double largest_penetration = 0;  ///< largest -f_a over its scale at the ends of steps
+  double largest_penetration = 0;  ///< largest -f_a over its scale
   Index most_penetrated = -1;      ///< its constraint
   double impact_energy = 0;        ///< Σ T+ - T- over the impacts, as T gives it
   double ledger_energy = 0;        ///< the same by Σ P_a ((1 - e_a)/2 f'_a(v-) - ∂f_a/∂t) + b·(v+ - v-)
@@ -88,6 +88,9 @@ class Motion {
   /// Goes on by one step, at most to `until`; false when nothing is left to do: `until` is reached, or
   /// status() is not `done`.
   bool advance(double until);
+  /// Goes on from here in steps of time-stepping, as long as the options say; the record goes on too. For a
+  /// motion whose events crowd. Throws InvalidInput where time-stepping does not have the law of impact.
+  void go_on_in_steps();
 
   /// The last step as a function of time; its end is the state before the events there.
   const Arc& arc() const;

@@ -304,3 +304,36 @@ TEST_CASE("a million events take no more memory than a few") {
   CHECK(Json::parse(lines(folder.path("out.json")).at(0))["events"].get<long>() >= 1'000'000);
   CHECK(million - few < 200'000);
 }
+
+TEST_CASE("where events crowd, auto goes on in steps, and events say that it would") {
+  const Folder folder;
+  const std::string gap =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.constraints]\n"
+      "left = \"x >= 0\"\nright = \"x <= 1e-6\"\n[state]\nposition = { x = 0.0 }\nvelocity = { x = 1.0 }\n"
+      "[simulate]\nuntil = 2.0\nrestitution = 1.0\n";
+  const std::string file = folder.write("gap.toml", gap);
+  const Outcome steps = run({"simulate", file, "--method", "auto"});
+  CHECK(steps.code == 0);
+  CHECK(steps.err.find("1000 events have come within 0.001") != std::string::npos);
+  CHECK(steps.err.find("from there on it is followed in steps") != std::string::npos);
+  const Outcome events = run({"simulate", file, "--limit", "2000"});
+  CHECK(events.code == 3);
+  CHECK(events.err.find("method = \"auto\" goes on in steps where events crowd") != std::string::npos);
+  const Outcome few = run({"simulate", file, "--limit", "2000", "--set", "simulate.step=1e-7"});
+  CHECK(few.err.find("crowd") == std::string::npos);  // a step would see no more than an event
+}
+
+TEST_CASE("a motion that magnifies the rounding of its start says so, a regular one does not") {
+  const Folder folder;
+  const auto pendulum = [&](const std::string& until) {
+    return folder.write(
+        "pendulum" + until + ".toml",
+        "[system]\ncoordinates = [\"a\", \"b\"]\nkinetic = \"a'^2 + b'^2/2 + a'*b'*cos(a - b)\"\n"
+        "potential = \"-9.81*(2*cos(a) + cos(b))\"\n[state]\nposition = { a = 2.0, b = 2.5 }\n"
+        "[simulate]\nuntil = " +
+            until + "\n");
+  };
+  CHECK(run({"simulate", pendulum("60.0")}).out.find("an error of one rounding at the start has grown") !=
+        std::string::npos);
+  CHECK(run({"simulate", pendulum("1.0")}).out.find("has grown") == std::string::npos);
+}

@@ -207,3 +207,26 @@ TEST_CASE("between its ends a step has the velocities of both, whatever is corre
     CHECK(before[0] == doctest::Approx(-9.81 * motion.arc().state(0).t).epsilon(1e-9));
   }
 }
+
+TEST_CASE("a motion that goes on in steps has the state and the record that it had") {
+  const auto made = system(ball());
+  MotionOptions options = restitution(ball(), 0.5);
+  options.step = 1e-4;
+  Motion motion(*made, state({1}, {0}), options), events(*made, state({1}, {0}), options);
+  while (motion.advance(0.6)) {
+  }
+  const State before = motion.state();
+  const long impacts = motion.record().impacts;
+  REQUIRE(impacts == 1);
+  motion.go_on_in_steps();
+  CHECK(motion.method() == MotionMethod::time_stepping);
+  CHECK(motion.state().t == before.t);
+  CHECK(motion.state().q == before.q);
+  CHECK(motion.state().v == before.v);
+  while (motion.advance(1)) {
+  }
+  while (events.advance(1)) {
+  }
+  CHECK(motion.record().impacts == events.record().impacts);
+  CHECK(std::abs(motion.state().q[0] - events.state().q[0]) <= 1e-3);
+}
