@@ -15,7 +15,4 @@ struct Look {
   bool by_steep_terms = false;
 };
 
-/// A value has no look of its own: it is found as well as it can be.
-inline constexpr Look look_of_values{.at_other_scales = true};
-
 }  // namespace convex::inline gamma0
