@@ -126,7 +126,7 @@ std::vector<std::string> parted_walls_of_all(const LiquidScene& scene, const Gri
   constexpr double digits = 1e-6;  // as the embedded solver has it
   std::vector<int> parts(scene.parts.size(), 0);
   for (const auto& wall : cells.walls) {
-    if (!(wall.load < -digits * scale)) continue;
+    if (!(wall.load < -digits * scale) || !scene.wall_leaves(scene.parts[wall.part], wall.at)) continue;
     double lacking = elsewhere;
     if (wall.pendant >= 0) {
       const convex::Pendant& pendant = cells.grid.pendants[index_of(wall.pendant)];

@@ -96,7 +96,9 @@ std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& 
   std::vector<bool> parts(scene.parts.size());
   constexpr double digits = 1e-6;
   for (const WallPiece& wall : cells.walls) {
-    if (!(wall.load < -digits * scale)) continue;
+    if (!(wall.load < -digits * scale) || parts[wall.part] ||
+        !scene.wall_leaves(scene.parts[wall.part], wall.at))
+      continue;
     if (wall.pendant >= 0) {
       const convex::Pendant& pendant = cells.grid.pendants[index_of(wall.pendant)];
       const double y = found.q[index_of(pendant.point)] + pendant.shift;

@@ -84,6 +84,14 @@ double LiquidScene::wall_flux(const BoundaryPart& part, const Point& x, const Po
   return density * (along - part.value(x));
 }
 
+bool LiquidScene::wall_leaves(const BoundaryPart& part, const Point& near) const {
+  constexpr double digits = 1e-8;
+  const Point x = domain.foot(near), n = domain.outward(x);
+  double size = std::abs(part.value(x));
+  for (std::size_t i = 0; i < force.size(); ++i) size += std::abs(n[i] * force[i](x));
+  return wall_flux(part, x, n) < -digits * density * size;
+}
+
 double LiquidScene::pressure_scale() const {
   constexpr int points = 9;
   const double side = domain.longest();

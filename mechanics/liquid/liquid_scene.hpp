@@ -44,6 +44,9 @@ struct LiquidScene {
   double free_pressure(const BoundaryPart&, const Point&) const;
   /// ρ (F·n - a), which ∂p/∂n is at least.
   double wall_flux(const BoundaryPart&, const Point&, const Point& n) const;
+  /// Whether ρ (F·n - a) < 0 at the boundary's point nearest to one on a chord of a wall, by more than n,
+  /// from differences, is known to.
+  bool wall_leaves(const BoundaryPart&, const Point& near) const;
   /// About how large p is: the largest, at some points of the domain, of what free parts give, of |h| L²/8
   /// and of what walls ask for times L, the longest side.
   double pressure_scale() const;

@@ -278,3 +278,23 @@ TEST_CASE("a grid that has no coarser one is not called solved, since nothing te
   CHECK(LiquidJson::parse(outcome.out)["certificate"]["error_bound"] == "inf");
   CHECK(run({"solve", file}).out.find("can be halved") != std::string::npos);
 }
+
+TEST_CASE(
+    "a wall that moves as the liquid would without it is not parted from, whatever cells make of its curve") {
+  const std::string of_disc = "3*x^2", of_ellipse = "3*x^2/sqrt(x^2 + 4*y^2)";  // F·n
+  for (const auto& [domain, along] :
+       {std::pair<std::string, std::string>{"disc(center=[0, 0], radius=1)", of_disc},
+        {"{x^2 + 2*y^2 <= 1}", of_ellipse}})
+    for (const auto& [times, parts] :
+         {std::pair<std::string, std::size_t>{"1", 0}, {"0.99", 0}, {"1.0001", 1}}) {
+      const std::string bed = "bed = { where = \"true\", acceleration = \"" + times + "*(" + along + ")\" }";
+      const Outcome outcome =
+          run({"solve", "--json", "-"},
+              plane(domain, "3*x", "top = { where = \"y > 0.1\", pressure = 0.05 }", bed, 32));
+      CAPTURE(domain);
+      CAPTURE(times);
+      const LiquidJson found = LiquidJson::parse(outcome.out);
+      CHECK(found["cavity"]["measure"].get<double>() > 0.5);
+      CHECK(found["parted_walls"].size() == parts);
+    }
+}
