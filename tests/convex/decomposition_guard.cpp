@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/functions/decomposition.hpp"
+#include "convex/functions/log_sum_exp.hpp"
 #include "convex/gamma0/node.hpp"
 
 using namespace convex;
@@ -123,4 +124,22 @@ TEST_CASE(
     CHECK((found.x.x - x).norm() <= found.error_bound);
     CHECK((found.y.x - y).norm() <= found.error_bound);
   }
+}
+
+TEST_CASE("the bound covers a y whose own bound does not explain the residual") {
+  // x = z - W^-1 v with v = (p, 1 - p) the weights of log(exp(x_1) + exp(x_2)): one equation for p.
+  const Vector at{{-0.03337866437251618, 0}};
+  const Matrix W{{0.2303962687201943, -0.2209100507598984}, {-0.2209100507598984, 0.21181443293000907}};
+  const long double a = W(0, 0), b = W(0, 1), d = W(1, 1), determinant = a * d - b * b;
+  const auto first = [&](long double p) { return (d * p - b * (1 - p)) / determinant; };
+  const auto second = [&](long double p) { return (a * (1 - p) - b * p) / determinant; };
+  long double low = 0, high = 1;
+  for (int k = 0; k < 100; ++k) {
+    const long double p = low + (high - low) / 2;
+    const bool is_below = std::log(p) - std::log1p(-p) < at[0] - first(p) - (at[1] - second(p));
+    (is_below ? low : high) = p;
+  }
+  const Decomposition found = decompose(log_sum_exp(), at, Metric::dense(W));
+  const long double e = found.y.x[0] - first(low), g = found.y.x[1] - second(low);
+  CHECK(std::sqrt(a * e * e + 2 * b * e * g + d * g * g) <= found.error_bound);
 }
