@@ -5,7 +5,7 @@
 namespace convex::linear_algebra {
 
 /// Z = U diag(sigma) Vᵀ of an m×n matrix, with k = min(m, n) columns in U and V; sigma decreases. By
-/// rotations where Z is small, which gives the small values the most digits, else by divide and conquer.
+/// rotations (Jacobi), where Z is large of Z times the eigenvectors of ZᵀZ.
 struct SingularValues {
   explicit SingularValues(const Matrix& Z);
 
@@ -16,7 +16,7 @@ struct SingularValues {
 /// The singular values by rotations (one-sided Jacobi), in decreasing order.
 Vector singular_values_by_rotations(const Matrix& Z);
 
-/// The singular values by divide and conquer, in decreasing order.
+/// The singular values, in decreasing order.
 Vector singular_values(const Matrix& Z);
 
 }  // namespace convex::linear_algebra
