@@ -5,7 +5,6 @@
 
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
-#include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/sum.hpp"
 
@@ -99,28 +98,12 @@ bool recedes_far_out(const Function& f, const Vector& v) {
 
 struct Search {
   Value value;
-  bool growing = false;    ///< the lower bounds grow as if without end
-  bool bracketed = false;  ///< chords on both sides bound the value, and no limit of steps
+  bool growing = false;  ///< the lower bounds grow as if without end
 };
 
-/// Of one entry, by the chords around the greatest value, from `start` or where a prox leads.
-std::optional<LineSupremum> on_line(const Function& f, const Vector& v, const std::optional<Vector>& start) {
-  if (v.size() != 1) return std::nullopt;
-  const auto from = [&](const Vector& x) -> std::optional<LineSupremum> {
-    return x.size() == 1 && x.allFinite() ? line_supremum(f, v[0], x[0]) : std::nullopt;
-  };
-  if (start)
-    if (auto found = from(*start)) return found;
-  const double t = first_step * std::max(1.0, v.norm());
-  if (auto found = from(prox_of(f, v / t, t).x)) return found;
-  // Pulled far, the prox may round to an open end of the domain.
-  return from(prox_of(f, Vector::Zero(1), 1).x);
-}
-
-Search search(const Function& f, const Vector& v, const std::optional<Vector>& start) {
+Search search(const Function& f, const Vector& v) {
   const Index n = v.size();
   if (recedes_plainly(f, v) || a_part_grows(f, v)) return {{infinity, 0}, true};
-  if (const auto found = on_line(f, v, start)) return {.value = found->value, .bracketed = true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
   const double unit = std::max(1.0, v.norm());
@@ -165,16 +148,9 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
 
 }  // namespace
 
-Value supremum(const Function& f, const Vector& v) { return search(f, v, std::nullopt).value; }
+Value supremum(const Function& f, const Vector& v) { return search(f, v).value; }
 
-bool grows_without_end(const Function& f, const Vector& v) { return search(f, v, std::nullopt).growing; }
-
-std::optional<Vector> maximiser(const Function& f, const Vector& v) {
-  const OneAtATime question(OneAtATime::Kind::supremum);
-  if (!question.first() || recedes_plainly(f, v)) return std::nullopt;
-  const auto found = on_line(f, v, std::nullopt);
-  return found ? std::optional(Vector::Constant(1, found->x).eval()) : std::nullopt;
-}
+bool grows_without_end(const Function& f, const Vector& v) { return search(f, v).growing; }
 
 namespace {
 
@@ -202,8 +178,7 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);
   const OneAtATime question(OneAtATime::Kind::supremum);
   if (decided || !question.first()) return found;
-  const Search searched = search(f, v, x);
-  const Value& other = searched.value;
+  const Value other = supremum(f, v);
   if (!std::isfinite(found.value)) {
     // A program says +inf where it finds the domains apart, which rounding can feign, and -inf on one look.
     if (found.value == infinity && recedes_far_out(f, v)) return {infinity, 0};
@@ -213,7 +188,7 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   const double apart = std::abs(other.value - found.value);
   const bool contradict = other.error < infinity && apart > other.error + found.error;
   Value best = other.error < found.error ? other : found;
-  if (contradict) best = searched.bracketed ? other : Value{std::max(other.value, found.value), apart};
+  if (contradict) best = {std::max(other.value, found.value), apart};
   // A program takes what misses the domain by less than it is solved to for a point of it.
   const bool is_open = !(best.error <= settled * std::max(std::abs(best.value), small));
   return is_open && recedes_far_out(f, v) ? Value{infinity, 0} : best;
