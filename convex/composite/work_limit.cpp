@@ -5,8 +5,8 @@
 namespace convex::inline composite {
 namespace {
 
-/// Some seconds; a question with one root in another takes some ten thousand.
-constexpr double most_evaluations = 2'500'000;
+/// Two or three seconds; a question with one root in another takes some ten thousand.
+constexpr double most_evaluations = 1'000'000;
 
 thread_local long evaluations = 0;
 thread_local const WorkLimit* innermost = nullptr;
