@@ -31,7 +31,7 @@ struct LookWithWork {
   double work;
 };
 constexpr LookWithWork looks[] = {
-    {{}, 1}, {{.at_other_scales = true}, 0.75}, {{.at_other_scales = true, .by_steep_terms = true}, 0.5}};
+    {{}, 1}, {{.at_other_scales = true}, 0.5}, {{.at_other_scales = true, .by_steep_terms = true}, 0.25}};
 
 /// `found`, or a point of which nothing is known.
 Prox made_up(const std::optional<Prox>& found, const Vector& point) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/one_at_a_time.hpp"
@@ -150,7 +151,10 @@ Search search(const Function& f, const Vector& v) {
 
 Value supremum(const Function& f, const Vector& v) { return search(f, v).value; }
 
-bool grows_without_end(const Function& f, const Vector& v) { return search(f, v).growing; }
+bool grows_without_end(const Function& f, const Vector& v) {
+  const WorkLimit question;
+  return search(f, v).growing;
+}
 
 namespace {
 
