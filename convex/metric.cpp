@@ -130,7 +130,6 @@ bool make_symmetric(Matrix& W) {
 struct Metric::Data {
   MetricKind kind = MetricKind::identity;
   Vector diagonal;                         // of W
-  Vector root;                             // sqrt of the diagonal, kind diagonal
   Matrix W;                                // kind dense
   std::optional<PaddedTriangle> triangle;  // kind dense
   std::optional<SparseGram> sparse;
@@ -147,12 +146,12 @@ Metric Metric::diagonal(const Vector& d) {
   auto data = std::make_shared<Data>();
   data->kind = MetricKind::diagonal;
   data->diagonal = d;
-  const bool is_right = dense_kernels().is_finite(d.size(), d.data()) && (d.array() > 0).all();
-  for (Index i = 0; i < d.size() && !is_right; ++i) {
+  Index right = 0;  // counted without a branch
+  for (const double x : d) right += (x > 0 ? 1 : 0) & (x <= std::numeric_limits<double>::max() ? 1 : 0);
+  for (Index i = 0; i < d.size() && right < d.size(); ++i) {
     require_finite(d[i], i, i);
     if (!(d[i] > 0)) refuse_indefinite(d);
   }
-  data->root = d.cwiseSqrt();
   return Metric(std::move(data));
 }
 
@@ -261,7 +260,7 @@ double Metric::norm(const Vector& x) const {
       case MetricKind::identity:
         return u.norm();
       case MetricKind::diagonal:
-        return data_->root.cwiseProduct(u).norm();
+        return data_->diagonal.cwiseSqrt().cwiseProduct(u).norm();
       case MetricKind::dense:
         return (data_->triangle->view().triangularView<Eigen::Upper>() * u).norm();
       case MetricKind::sparse:
@@ -293,7 +292,7 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
     case MetricKind::identity:
       break;
     case MetricKind::diagonal:
-      C.array().colwise() /= data_->root.array();
+      C.array().colwise() /= Vector(data_->diagonal.cwiseSqrt()).array();
       break;
     case MetricKind::dense:
       solve_lower_triangle(data_->triangle->view(), C);
@@ -309,7 +308,7 @@ void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
     case MetricKind::identity:
       break;
     case MetricKind::diagonal:
-      w.array() /= data_->root.array();
+      w.array() /= data_->diagonal.array().sqrt();
       break;
     case MetricKind::dense:
       solve_upper_triangle(data_->triangle->view(), w);

@@ -1,6 +1,10 @@
 #include "convex/nearest_point/isotonic/chain.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "convex/nearest_point/isotonic/chain_answer.hpp"
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
@@ -13,19 +17,20 @@ bool are_plain_links(const InOrder& order) { return order.plain; }
 bool are_plain_links(const Listed&) { return false; }
 
 /// Adds the rows q_(k+1) - q_k >= s, which come after the first `floor` rows, to the residuals found.
-void add_links(const NearestPointProblem& problem, Index floor, double scale, Solution& found) {
+/// largest: of all lambda.
+void add_links(const NearestPointProblem& problem, Index floor, double scale, double largest,
+               Solution& found) {
   using namespace chain_kernels;
   const Index links = problem.dimension() - 1;
   const double *const mass = problem.A.diagonal().data(), *const s = problem.s.data() + floor,
                       *const lambda = found.lambda.data() + floor;
-  const double most = found.lambda.maxCoeff(), largest = most > 0 ? most : 1;
   Residuals& all = found.residuals;
   double gap = all.duality_gap * scale * all.duality_gap * scale;
   Links block;
   for (Index k = 0; k < links; k += width) {
     const Index count = std::min(width, links - k);
     const auto of = [&](Numbers& x) { return Eigen::Map<Vector>(x.data(), count); };
-    measure_links(count, mass + k, found.q.data() + k, s + k, lambda + k, largest, block);
+    measure_links(count, mass + k, found.q.data() + k, s + k, lambda + k, largest > 0 ? largest : 1, block);
     of(block.square) = of(block.square).cwiseSqrt();
     divide_links(count, s + k, block.square.data(), found.acceleration_norm, scale, block);
     all.feasibility = std::max(all.feasibility, of(block.violation).maxCoeff());
@@ -33,6 +38,23 @@ void add_links(const NearestPointProblem& problem, Index floor, double scale, So
     gap += of(block.slack).dot(Eigen::Map<const Vector>(lambda + k, count));
   }
   if (scale > 0) all.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
+}
+
+/// The rows that carry something, by blocks listed without a branch.
+std::vector<Index> loaded_rows(const Vector& lambda) {
+  std::vector<Index> rows;
+  rows.reserve(static_cast<std::size_t>(lambda.size()));
+  std::array<Index, chain_kernels::width + 1> block;
+  for (Index first = 0; first < lambda.size(); first += chain_kernels::width) {
+    const Index end = std::min(first + chain_kernels::width, lambda.size());
+    std::size_t loaded = 0;
+    for (Index a = first; a < end; ++a) {
+      block[loaded] = a;
+      loaded += lambda[a] > 0;
+    }
+    rows.insert(rows.end(), block.begin(), block.begin() + loaded);
+  }
+  return rows;
 }
 
 template <class Order>
@@ -43,7 +65,8 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   found.q.resize(n);
   found.lambda.resize(m);
   found.slack.resize(m);
-  if (!place_pools(chain, pool(chain), false, found)) place_pools(chain, pool_carefully(chain), true, found);
+  std::optional<double> largest = place_pools(chain, pool(chain), false, found);
+  if (!largest) largest = place_pools(chain, pool_carefully(chain), true, found);
   const double scale = std::max(found.acceleration_norm, found.force_norm);
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);
@@ -52,18 +75,12 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
       sparse_residuals(problem, found.q, found.lambda, found.slack,
                        {found.acceleration_norm, found.force_norm, found.residuals.stationarity},
                        few ? std::max(floor, Index{0}) : 0, few ? floor + 1 : m);
-  if (by_blocks && !chain.is_level()) add_links(problem, floor + 1, scale, found);
+  if (by_blocks && !chain.is_level()) add_links(problem, floor + 1, scale, *largest, found);
   found.error_bound = found.rounding + rounding_of_pools(chain, scale);
   const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
   found.status = close && found.undecided.empty() ? Status::solved : Status::inaccurate;
   found.method = "chain";
-  found.basis.resize(static_cast<std::size_t>(m) + 1);
-  std::size_t loaded = 0;
-  for (Index a = 0; a < m; ++a) {
-    found.basis[loaded] = a;
-    loaded += found.lambda[a] > 0;
-  }
-  found.basis.resize(loaded);
+  found.basis = loaded_rows(found.lambda);
   found.steps = static_cast<Index>(found.basis.size());
   found.model.islands = {{found.method, n, m, 0, 8 * static_cast<double>(n), 0}};
   return found;

@@ -40,7 +40,7 @@ class Placement {
   Placement(const Chain<Order>& chain, const std::vector<int>& pools, Solution& found)
       : chain_(chain), order_(chain.order), pools_(pools), found_(found) {}
 
-  bool run(bool careful) {
+  std::optional<double> run(bool careful) {
     block_.x_hi[0] = block_.x_lo[0] = block_.load_hi[0] = block_.load_lo[0] = 0;
     stand_on_floor();
     bool right = true;
@@ -49,7 +49,7 @@ class Placement {
       right = gather() && right;
       weigh(block_);
       right = push() && right;
-      if (!right && !careful) return false;
+      if (!right && !careful) return std::nullopt;
       if (order_.plain)
         copy(block_);
       else
@@ -62,7 +62,7 @@ class Placement {
     found_.rounding = root_of_sum(squares_.lost);
     found_.residuals.stationarity = root_of_sum(squares_.unbalanced);
     decide_touching();
-    return true;
+    return most_;
   }
 
  private:
@@ -119,7 +119,7 @@ class Placement {
     largest_ = push_.hi;
     const double factor = order_.factor(0), lambda = std::max(0.0, push_.value() / factor);
     const DoubleDouble load = two_product(lambda, factor);
-    found_.lambda[floor] = lambda;
+    found_.lambda[floor] = most_ = lambda;
     block_.load_hi[0] = load.hi;
     block_.load_lo[0] = load.lo;
   }
@@ -201,6 +201,7 @@ class Placement {
                   *const slack = found_.slack.data();
     for (Index j = 0; j < count; ++j) q[order_.coordinate(first + j)] = block_.x_hi[at(j) + 1];
     for (Index j = 0; j < links; ++j) lambda[order_.row(first + j + 1)] = block_.lambda[at(j)];
+    if (links > 0) most_ = std::max(most_, Eigen::Map<const Vector>(block_.lambda.data(), links).maxCoeff());
     const auto measure = [&](Index k) {
       const std::size_t j = at(k - first);
       const Index row = order_.row(k);
@@ -250,15 +251,16 @@ class Placement {
   Index lowered_ = 0, lowered_end_ = 0;
   Numbers weight_hi_, weight_lo_, sum_hi_, sum_lo_, mean_hi_, mean_lo_;  // of pools that begin in the block
   DoubleDouble floor_height_{}, height_{}, mean_{-INFINITY, 0};
-  RunningSum push_;  // what the rows below push up with
-  double largest_ = 0;
+  RunningSum push_;                // what the rows below push up with
+  double largest_ = 0, most_ = 0;  // of what is summed, and of lambda
   std::size_t lifted_ = 0, placed_ = 0, begun_ = 0;
 };
 
 }  // namespace
 
 template <class Order>
-bool place_pools(const Chain<Order>& chain, const std::vector<int>& first, bool careful, Solution& found) {
+std::optional<double> place_pools(const Chain<Order>& chain, const std::vector<int>& first, bool careful,
+                                  Solution& found) {
   return Placement<Order>(chain, first, found).run(careful);
 }
 
@@ -270,7 +272,7 @@ double rounding_of_pools(const Chain<Order>& chain, double scale) {
 
 template double rounding_of_pools(const Chain<InOrder>&, double);
 template double rounding_of_pools(const Chain<Listed>&, double);
-template bool place_pools(const Chain<InOrder>&, const std::vector<int>&, bool, Solution&);
-template bool place_pools(const Chain<Listed>&, const std::vector<int>&, bool, Solution&);
+template std::optional<double> place_pools(const Chain<InOrder>&, const std::vector<int>&, bool, Solution&);
+template std::optional<double> place_pools(const Chain<Listed>&, const std::vector<int>&, bool, Solution&);
 
 }  // namespace convex::inline isotonic

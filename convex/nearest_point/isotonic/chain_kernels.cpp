@@ -1,6 +1,8 @@
 #include "convex/nearest_point/isotonic/chain_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "convex/double_double.hpp"
 #include "convex/processor.hpp"
@@ -116,14 +118,18 @@ void judge(Block& block, Squares& squares) {
 MOREAU_CLONES
 void measure_links(Index count, const double* mass, const double* q, const double* s, const double* lambda,
                    double largest, Links& links) {
+  const double part = 1 / std::max(largest, std::numeric_limits<double>::min());
+  Shifted light;  // divisions take longest
+#pragma GCC ivdep
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) light[k] = 1 / mass[k];
 #pragma GCC ivdep
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const DoubleDouble rise = two_sum(q[k + 1], -q[k]), rest = two_sum(rise.hi, -s[k]);
     const double slack = rest.hi + (rise.lo + rest.lo);
     links.slack[k] = slack;
-    links.square[k] = 1 / mass[k] + 1 / mass[k + 1];
+    links.square[k] = light[k] + light[k + 1];
     links.violation[k] = slack < 0 ? -slack : 0;
-    links.complementarity[k] = std::abs(lambda[k] / largest * slack);
+    links.complementarity[k] = std::abs(lambda[k] * part * slack);
   }
 }
 
@@ -134,8 +140,11 @@ void divide_links(Index count, const double* s, const double* length, double q_n
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const double size = std::abs(s[k]) + length[k] * q_norm, other = length[k] * scale;
     const double some = other > 0 ? other : 1, over = size > 0 ? size : some;
-    links.violation[k] /= over;
-    links.complementarity[k] /= over;
+    // One division for two numbers; 1 over a subnormal number may be infinite.
+    const double scale_up = over < std::numeric_limits<double>::min() ? 0x1p60 : 1,
+                 part = 1 / (over * scale_up);
+    links.violation[k] = links.violation[k] * scale_up * part;
+    links.complementarity[k] = links.complementarity[k] * scale_up * part;
   }
 }
 

@@ -112,14 +112,12 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
       force(problem.z.data()),
       s(problem.s.data()),
       order(the_order) {
-  bool level = problem.s.cwiseAbs().sum() <= 0;
-  if (level) return;
-  level = true;  // but for the floor
+  bool level = true;  // but for the floor
   for (Index k = 1; k < n && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
   if (level) return;
   offset_hi.resize(n);
   offset_lo.resize(n);
-  constexpr Index at_once = 16;  // terms that do not wait for a sum to be tidy
+  constexpr Index at_once = 64;  // terms that do not wait for a sum to be tidy
   RunningSum sum;
   for (Index first = 0; first < n; first += at_once) {
     const Index end = std::min(first + at_once, n);
@@ -133,10 +131,10 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
       offset_hi[k] = offset.hi;
       offset_lo[k] = offset.lo;
     }
+    farthest_offset = std::max(farthest_offset, offset_hi.segment(first, end - first).cwiseAbs().maxCoeff());
     const DoubleDouble tidy = sum.tidy();
     sum = {tidy.hi, tidy.lo};
   }
-  farthest_offset = offset_hi.cwiseAbs().maxCoeff();
   total_mass = problem.A.diagonal().sum();
 }
 
