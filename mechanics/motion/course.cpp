@@ -58,9 +58,9 @@ void Motion::Course::remark(std::string what) {
   if (record.remarks.size() < most_remarks) record.remarks.push_back({state.t, std::move(what)});
 }
 
-void Motion::Course::event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before) {
+void Motion::Course::event(EventKind kind, std::vector<Index> constraints, Vector velocity_before) {
   std::sort(constraints.begin(), constraints.end());
-  events.push_back({state.t, kind, std::move(constraints), velocity_before, state.v});
+  events.push_back({state.t, kind, std::move(constraints), std::move(velocity_before), state.v});
   ++record.events;
   if (kind == EventKind::impact) ++record.impacts;
 }

@@ -34,7 +34,7 @@ class Motion::Course {
   bool may_advance(double until);
   void stop(std::string reason);
   void remark(std::string what);
-  void event(EventKind kind, std::vector<Index> constraints, const Vector& velocity_before);
+  void event(EventKind kind, std::vector<Index> constraints, Vector velocity_before);
   /// Takes note of f_a < 0, where the constraint has this scale.
   void note_penetration(Index a, double f, double scale);
 };

@@ -14,7 +14,8 @@ struct alignas(64) Eight {
 /// The same as one operand of arithmetic, lane by lane; for the inside of a loop, not for parameters.
 using Wide [[gnu::vector_size(sizeof(Eight)), gnu::may_alias]] = double;
 
-inline Wide* wide(std::vector<Eight>& x) { return reinterpret_cast<Wide*>(x.data()); }
+inline Wide* wide(Eight* x) { return reinterpret_cast<Wide*>(x); }
+inline Wide* wide(std::vector<Eight>& x) { return wide(x.data()); }
 
 constexpr std::size_t blocks_of(std::size_t numbers) { return (numbers + Eight::count - 1) / Eight::count; }
 

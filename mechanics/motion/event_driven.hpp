@@ -85,6 +85,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning
   std::vector<bool> is_blurred_;          // of an impact it was told that its time is uncertain
   std::vector<double> elapsed_;           // since the last impact, by constraint
+  std::vector<ImpactContact> striking_;   // in the impact at hand
   std::vector<ImpactHistory> history_;
   std::vector<Ending> endings_;
   std::vector<Watched> watched_;  // on the next arc

@@ -74,7 +74,6 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
           " is touched and left within rounding: data that differ in their last digits make it an impact, or "
           "nothing");
   }
-  const Vector before = state.v;
   for (std::size_t k = 0; k < expansion_.switches(); ++k) branches_behind_[k] = expansion_.branch(k);
   note_behind();
   std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);
@@ -88,9 +87,10 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
       if (!is_two_sided(a) && !contains(closing, a) &&
           std::abs(expansion_.f(a)) <= roundings_of_closed * epsilon * expansion_.position_scale(a))
         touching.push_back(a);
-    collide(closing, united(held, touching), switches);
+    collide(closing, united(std::move(held), touching), switches);
     return;
   }
+  const Vector before = state.v;
   begin_arc(united(held, touching), switches);
   if (status != MotionStatus::done) return;
   if (!touching.empty()) event(EventKind::contact, touching, before);
@@ -154,31 +154,32 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
-  std::vector<ImpactContact> contacts;
-  std::vector<double> roundings_of_f, rate_scales;
-  for (const Index a : present) {
-    roundings_of_f.push_back(rounding_of_f(a));
-    rate_scales.push_back(expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
-                                                 : expansion_.rate_scale(a));
+  striking_.resize(present.size());
+  for (std::size_t k = 0; k < present.size(); ++k) {
+    const Index a = present[k];
     // A contact that is held, or touches softly, has no rate but from rounding; at the start one may open.
     const double rate = expansion_.rate(a);
     const bool turns = contains(closing, a), is_free = !is_two_sided(a);
     const bool moves = turns || (is_free && rate > expansion_.rounding_of_rate(a));
-    contacts.push_back({expansion_.row(a), moves ? rate : 0, is_free ? options.restitution[a] : 0, !is_free,
-                        expansion_.rate_scale(a)});
+    ImpactContact& contact = striking_[k];
+    expansion_.row(a, contact.u);
+    contact.rate = moves ? rate : 0;
+    contact.restitution = is_free ? options.restitution[a] : 0;
+    contact.two_sided = !is_free;
+    contact.rate_scale = expansion_.rate_scale(a);
     if (turns && !is_free && options.impact_law == ImpactLaw::sequential)
       return stop("at t = " + number_text(state.t) + ": " + constraint_name(a) +
                   " has a kink, of which impacts one after the other say nothing; take impact_law = "
                   "\"moreau\"");
   }
   const convex::Metric& A = expansion_.inertia();
-  // T+ - T- = (v+ - v-)·(A (v+ + v-)/2 + b), b = p - A v-
   behind_.reset();
-  const Vector before = state.v;
-  const Vector b = expansion_.momentum() - A.multiply(before);
+  Vector before = state.v;
   if (!record.first_impact)
-    record.first_impact = ImpactScene{state.t, A, before, system.kinetic_energy(state), b, present, contacts};
-  const ImpactOutcome outcome = impact(A, contacts, options.impact_law);
+    record.first_impact = ImpactScene{
+        state.t, A,        before, system.kinetic_energy(state), expansion_.momentum() - A.multiply(before),
+        present, striking_};
+  const ImpactOutcome outcome = impact(A, striking_, options.impact_law);
   if (!outcome.undetermined.empty())
     return stop("at t = " + number_text(state.t) + ": " + std::string(outcome.undetermined));
   if (!outcome.remark.empty()) remark(std::string(outcome.remark));
@@ -188,13 +189,16 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     why = "at t = " + number_text(state.t) + ": no velocity after the impact satisfies all contacts";
     return;
   }
-  record.impact_energy += outcome.change.dot(A.multiply(before + 0.5 * outcome.change) + b);
-  record.ledger_energy += b.dot(outcome.change);
+  // T+ - T- = (v+ - v-)·(p + A (v+ - v-)/2), and b·(v+ - v-) with b = p - A v-
+  const Vector thrust = A.multiply(outcome.change);
+  const double by_momentum = expansion_.momentum_along(outcome.change);
+  record.impact_energy += by_momentum + 0.5 * outcome.change.dot(thrust);
+  record.ledger_energy += by_momentum - before.dot(thrust);
   state.v = before + outcome.change;
   std::vector<Index> hit, resting, left, held;
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k], at = static_cast<Index>(k);
-    const double rate_before = contacts[k].rate, e = rate_before > 0 ? 0 : contacts[k].restitution;
+    const double rate_before = striking_[k].rate, e = rate_before > 0 ? 0 : striking_[k].restitution;
     // By Moreau's law f'(v+) = -e f'(v-) wherever P is not 0.
     const double rate_after = options.impact_law == ImpactLaw::moreau ? -e * rate_before : outcome.rate[at];
     record.ledger_energy += outcome.impulse[at] * (0.5 * (rate_before + rate_after) - expansion_.drift(a));
@@ -206,11 +210,13 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0)
       history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
-                  epsilon * elapsed_[static_cast<std::size_t>(a)] + roundings_of_f[k] / -rate_before,
-                  roundings_of_speed * epsilon * std::max(-rate_before, rate_scales[k]));
+                  epsilon * elapsed_[static_cast<std::size_t>(a)] + rounding_of_f(a) / -rate_before,
+                  roundings_of_speed * epsilon *
+                      std::max(-rate_before, expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
+                                                                    : striking_[k].rate_scale));
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
-  event(EventKind::impact, hit, before);
+  event(EventKind::impact, std::move(hit), std::move(before));
   for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
   std::vector<Index> after = branches_after_jump(arguments, switches);
   const std::vector<Index> ending = accumulating(closing);
@@ -326,10 +332,12 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
     for (std::size_t k = 0; k < persist_.size(); ++k)
       least_multiplier_[static_cast<std::size_t>(persist_[k])] = least[static_cast<Index>(k)];
   }
-  const State unprojected = state;
-  project();
-  if (status != MotionStatus::done) return;
-  if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
+  if (!persist_.empty()) {
+    const State unprojected = state;
+    project();
+    if (status != MotionStatus::done) return;
+    if (state.q != unprojected.q || state.v != unprojected.v) expansion_.expand({persist_, {}});
+  }
   fill_next();
   bool changed = false;
   for (const Index which : switches) {

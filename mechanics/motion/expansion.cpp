@@ -80,12 +80,21 @@ bool Expansion::depends_on_position(std::size_t k) const {
   return (tape.depends(compares ? chooses : tape.a(chooses)) & on_coordinates) != 0;
 }
 
-double Expansion::drift(Index a) const { return rate(a) - row(a).dot(state_.v); }
+double Expansion::drift(Index a) const {
+  double along = 0;
+  for (const auto& [i, slot] : equations_.row[index(a)]) along += series_[slot][0] * state_.v[i];
+  return rate(a) - along;
+}
 
 Vector Expansion::row(Index a) const {
-  Vector u = Vector::Zero(coordinates());
-  for (const auto& [i, slot] : equations_.row[index(a)]) u[i] = series_[slot][0];
+  Vector u;
+  row(a, u);
   return u;
+}
+
+void Expansion::row(Index a, Vector& u) const {
+  u.setZero(coordinates());
+  for (const auto& [i, slot] : equations_.row[index(a)]) u[i] = series_[slot][0];
 }
 
 double Expansion::rate_scale(Index a) const {
@@ -109,6 +118,12 @@ Vector Expansion::momentum() const {
   Vector p(coordinates());
   for (Index i = 0; i < p.size(); ++i) p[i] = series_[equations_.momentum[index(i)]][0];
   return p;
+}
+
+double Expansion::momentum_along(const Vector& x) const {
+  double along = 0;
+  for (Index i = 0; i < x.size(); ++i) along += series_[equations_.momentum[index(i)]][0] * x[i];
+  return along;
 }
 
 HeldRows Expansion::held_rows(const std::vector<Index>& constraints) const {
@@ -168,13 +183,6 @@ void Expansion::give_velocity(int k, const Vector& v) {
 void Expansion::give_multipliers(int k, const std::vector<Index>& constraints, const Vector& lambda) {
   for (std::size_t a = 0; a < constraints.size(); ++a)
     lambda_[index(constraints[a] * (order_ - 1) + k)] = lambda[static_cast<Index>(a)];
-}
-
-double Expansion::force_norm() const {
-  if (!factor_.is_made()) return inertia().dual_norm(force_);
-  Vector x = force_;
-  factor_.solve(x);
-  return std::sqrt(std::max(0.0, x.dot(force_)));
 }
 
 HeldRows::Answer Expansion::acceleration(const std::vector<Index>& held) {
@@ -248,7 +256,7 @@ bool Expansion::expand_free() {
   if (!series_.find_free(factor_, {force_.data(), index(coordinates())})) return false;
   r_.resize(coordinates());
   for (Index i = 0; i < coordinates(); ++i) r_[i] = series_.at_order(equations_.program.velocity(index(i)));
-  force_ = small_ * r_;
+  force_.noalias() = small_ * r_;
   find_constraints();
   return true;
 }

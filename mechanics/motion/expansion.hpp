@@ -69,6 +69,8 @@ class Expansion {
   /// ∂f_a/∂t = df_a/dt - u_a·v.
   double drift(Index a) const;
   Vector row(Index a) const;
+  /// The same in memory that is there.
+  void row(Index a, Vector& u) const;
   /// Whether ∂f/∂q is 0 up to half the digits of what it is the sum of, as that of y - sin(y) near 0.
   bool has_lost_gradient(Index a);
   /// The gradient of f_a is 0 here, though f_a has q in it.
@@ -81,6 +83,8 @@ class Expansion {
   double force_norm() const;
   /// ∂T/∂q'.
   Vector momentum() const;
+  /// ∂T/∂q'·x.
+  double momentum_along(const Vector& x) const;
   /// T - V where it takes branches, else 0.
   bool has_branching_energy() const { return equations_.branching_lagrangian.has_value(); }
   double lagrangian() const {

@@ -71,6 +71,16 @@ double Expansion::norm(const Vector& x) const {
   return factor_.is_made() ? factor_.norm({x.data(), static_cast<std::size_t>(x.size())}) : inertia().norm(x);
 }
 
+double Expansion::force_norm() const {
+  if (!factor_.is_made()) return inertia().dual_norm(force_);
+  std::array<double, small_system> x;
+  std::copy_n(force_.data(), force_.size(), x.data());
+  factor_.solve(x.data());
+  double square = 0;
+  for (Index i = 0; i < force_.size(); ++i) square += x[index(i)] * force_[i];
+  return std::sqrt(std::max(0.0, square));
+}
+
 void Expansion::sizes(std::vector<double>& of_order) const {
   const auto count = static_cast<std::size_t>(order_) + 1;
   of_order.assign(blocks_of(count) * Eight::count, 0.0);
@@ -96,8 +106,8 @@ void Expansion::sizes(std::vector<double>& of_order) const {
   };
   std::size_t first = of_order.size() - Eight::count;
   while (!find_eight(first) && first > 0) first -= Eight::count;
-  if (first > 0) find_eight(first - Eight::count);  // the last two orders may lie on both sides
-  find_eight(0);
+  if (first > Eight::count) find_eight(first - Eight::count);  // the last two orders may lie on both sides
+  if (first > 0) find_eight(0);
   of_order.resize(count);
 }
 

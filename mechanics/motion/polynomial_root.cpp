@@ -53,7 +53,19 @@ Coefficients bernstein(std::span<const double> c, double end) {
     power *= end;
     binomial *= static_cast<double>(size - 1 - k) / static_cast<double>(k + 1);
   }
-  for (std::size_t level = size - 1; level > 0; --level)
+  std::size_t level = size - 1;
+  // Four levels at once, each one number behind the one before it.
+  for (; level >= 4; level -= 4) {
+    double first = b[level - 1], second = b[level - 2], third = b[level - 3], fourth = b[level - 4];
+    for (std::size_t j = level; j < size + 3; ++j) {
+      fourth += third;
+      third += second;
+      second += first;
+      if (j < size) first += b[j];
+      b[j - 3] = fourth;
+    }
+  }
+  for (; level > 0; --level)
     for (std::size_t j = level; j < size; ++j) b[j] += b[j - 1];
   return b;
 }
@@ -69,26 +81,30 @@ Coefficients split(Coefficients& b) {
   return right;
 }
 
-double value(std::span<const double> c, double x) {
-  double sum = 0;
-  for (std::size_t k = c.size(); k-- > 0;) sum = sum * x + c[k];
-  return sum;
-}
+/// p(x) and p'(x).
+struct Tangent {
+  double value = 0, slope = 0;
+};
 
-double slope(std::span<const double> c, double x) {
-  double sum = 0;
-  for (std::size_t k = c.size(); k-- > 1;) sum = sum * x + static_cast<double>(k) * c[k];
-  return sum;
+Tangent tangent(std::span<const double> c, double x) {
+  Tangent of;
+  if (c.empty()) return of;
+  for (std::size_t k = c.size(); k-- > 1;) {
+    of.value = of.value * x + c[k];
+    of.slope = of.slope * x + static_cast<double>(k) * c[k];
+  }
+  of.value = of.value * x + c[0];
+  return of;
 }
 
 /// The zero between a point where p >= 0 and one where p <= 0: Newton's method from x, kept inside by
 /// bisection.
 double between(std::span<const double> c, double low, double high, double x) {
   for (int i = 0; i < 200; ++i) {
-    const double p = value(c, x);
-    if (p == 0) return x;
-    (p > 0 ? low : high) = x;
-    double next = x - p / slope(c, x);
+    const Tangent p = tangent(c, x);
+    if (p.value == 0) return x;
+    (p.value > 0 ? low : high) = x;
+    double next = x - p.value / p.slope;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == x || next == low || next == high) return next;
     x = next;
@@ -101,7 +117,7 @@ double least(std::span<const double> c, double low, double high) {
   for (int i = 0; i < 200; ++i) {
     const double middle = 0.5 * (low + high);
     if (middle == low || middle == high) break;
-    (slope(c, middle) < 0 ? low : high) = middle;
+    (tangent(c, middle).slope < 0 ? low : high) = middle;
   }
   return low;
 }
@@ -240,7 +256,7 @@ std::optional<FirstZero> first_zero(std::span<const double> coefficients, double
       return FirstZero{begin + (rises ? first_return(c, below) : 0), false};
     }
     if (!(leave <= rest)) {
-      if (value(c, rest) > 0 || slope(c, rest) >= 0) return std::nullopt;
+      if (const Tangent last = tangent(c, rest); last.value > 0 || last.slope >= 0) return std::nullopt;
       return FirstZero{end, false};
     }
     if (!rises) return FirstZero{begin + least(c, 0, leave), true};

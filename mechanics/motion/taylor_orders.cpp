@@ -1,5 +1,7 @@
 #include "mechanics/motion/taylor_orders.hpp"
 
+#include <algorithm>
+
 #include "convex/processor.hpp"
 
 namespace mechanics::inline motions {
@@ -87,10 +89,12 @@ template <std::size_t blocks>
 }
 
 [[gnu::always_inline]] inline bool blocks_are_zero(const Wide* x, std::size_t blocks) {
-  const double* of = reinterpret_cast<const double*>(x);
-  for (std::size_t i = 0; i < blocks * Eight::count; ++i)
-    if (of[i] != 0) return false;
-  return true;
+  Places bits{};
+  for (std::size_t b = 0; b < blocks; ++b)
+    bits |= reinterpret_cast<const Places&>(x[b]) << 1;  // but for signs
+  long long all = 0;
+  for (std::size_t lane = 0; lane < Eight::count; ++lane) all |= bits[lane];
+  return all == 0;
 }
 
 /// Factors from the numbers, by one instruction where two blocks of them are all.
@@ -127,8 +131,9 @@ constexpr std::size_t most_blocks = 64;
   }
 }
 
-/// known, known_products: how many blocks there are, as constants; 0 where they are more. With nothing above
-/// order d, products of lower orders are 0 above order 2d: then all the rest is 0.
+/// known, known_products: how many blocks there are, as constants; known = 0 where they are more. With
+/// nothing above order d, products of lower orders are 0 above order 2d: then all the rest is 0. Without
+/// products it is so at once.
 template <std::size_t known, std::size_t known_products>
 [[gnu::always_inline]] inline std::size_t find_orders_of(const TaylorOrders& of, bool& all_finite) {
   TaylorOrders all = of;
@@ -140,7 +145,8 @@ template <std::size_t known, std::size_t known_products>
   const std::size_t width = all.width();
   std::size_t degree = 1;
   Wide found[known > 0 ? known : most_blocks], spoiled{};  // 0 times a number, unless it is not finite
-  Wide old[known > 0 ? known_products : most_blocks], next[known > 0 ? known_products : most_blocks];
+  constexpr std::size_t most_products = known > 0 ? std::max<std::size_t>(known_products, 1) : most_blocks;
+  Wide old[most_products], next[most_products];
   for (std::size_t b = 0; b < all.product_blocks; ++b)
     for (std::size_t j = 0; j <= TaylorOrders::zeros; ++j) all.x[b * width + j] = Wide{};
   const auto take_velocities = [&](std::size_t k) __attribute__((always_inline)) {
@@ -150,7 +156,7 @@ template <std::size_t known, std::size_t known_products>
   };
   const auto has_ended = [&](std::size_t k) __attribute__((always_inline)) {
     if (k > 1 && blocks_are_zero(all.input, all.moving_blocks + all.product_blocks))
-      return 2 * degree + 1 < k;
+      return all.product_blocks == 0 || 2 * degree + 1 < k;
     degree = k;
     return false;
   };
@@ -177,9 +183,9 @@ template <std::size_t known, std::size_t known_products>
   };
   std::size_t k = 1;
   for (; k < all.count; ++k) {
-    if constexpr (known > 0)
+    if constexpr (known_products > 0)
       sum_old<known_products>(all, 0, k, old, next);
-    else
+    else if constexpr (known == 0)
       for (std::size_t b = 0; b < all.product_blocks; ++b) sum_old<1>(all, b, k, old, next);
     take_velocities(k);
     find_rests(all, k, old, false);
@@ -199,9 +205,12 @@ template <std::size_t known, std::size_t known_products>
 }  // namespace
 
 MOREAU_CLONES std::size_t find_orders(const TaylorOrders& of, bool& all_finite) {
-  if (of.moving_blocks == 1 && of.blocks == 1 && of.product_blocks == 1)
-    return find_orders_of<1, 1>(of, all_finite);
+  if (of.moving_blocks == 1 && of.blocks == 1) {
+    if (of.product_blocks == 0) return find_orders_of<1, 0>(of, all_finite);
+    if (of.product_blocks == 1) return find_orders_of<1, 1>(of, all_finite);
+  }
   if (of.moving_blocks == 1 && of.blocks == 2) {
+    if (of.product_blocks == 0) return find_orders_of<2, 0>(of, all_finite);
     if (of.product_blocks == 1) return find_orders_of<2, 1>(of, all_finite);
     if (of.product_blocks == 2) return find_orders_of<2, 2>(of, all_finite);
   }

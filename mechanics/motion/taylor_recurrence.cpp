@@ -53,13 +53,23 @@ TaylorRecurrence::TaylorRecurrence(const TaylorMatrix& plan, int order)
   convex::invariant(orders_ + 1 < Parts::count, "series of a motion have fewer coefficients");
   const std::size_t factors = plan.weighted.size();
   c_.resize(plan.sweep.coefficients());
-  columns_.resize(plan.sweep.size());
-  by_velocity_.resize(plan.coordinates * plan.blocks);
   changes_.resize((plan.variables + plan.products) * plan.coordinates);
-  numbers_.resize(orders_ * plan.blocks);
-  x_.resize(factors * (orders_ + TaylorOrders::zeros));
-  y_.resize(factors * (orders_ + TaylorOrders::zeros));
-  input_.resize(blocks_of(2 * plan.coordinates) + factors);
+  const std::size_t width = factors * (orders_ + TaylorOrders::zeros);
+  const std::pair<Eight**, std::size_t> parts_of_memory[] = {
+      {&columns_, plan.sweep.size()},
+      {&by_velocity_, plan.coordinates * plan.blocks},
+      {&numbers_, orders_ * plan.blocks},
+      {&x_, width},
+      {&y_, width},
+      {&input_, blocks_of(2 * plan.coordinates) + factors}};
+  std::size_t size = 0;
+  for (const auto& [part, count] : parts_of_memory) size += count;
+  memory_.resize(size);
+  Eight* free = memory_.data();
+  for (const auto& [part, count] : parts_of_memory) {
+    *part = free;
+    free += count;
+  }
 }
 
 /// The columns are found with p in the place of v first. Then v = A⁻¹(F_(k-1) / k - p): `changes_` is v by
@@ -70,9 +80,9 @@ bool TaylorRecurrence::find(const TaylorRows& rows, const TaylorRows::Term* term
   const std::size_t n = plan_->coordinates, blocks = plan_->blocks;
   const std::size_t columns = plan_->variables + plan_->products;
   plan_->sweep.find(rows, terms, factor, c_, columns_);
-  Eight* const first = columns_.data();
+  Eight* const first = columns_;
   Eight* const forces = first + n * blocks;
-  std::copy_n(forces, n * blocks, by_velocity_.begin());
+  std::copy_n(forces, n * blocks, by_velocity_);
   std::fill_n(forces, n * blocks, Eight{});
   for (std::size_t c = 0; c < columns; ++c) {
     double* change = changes_.data() + c * n;
@@ -82,7 +92,7 @@ bool TaylorRecurrence::find(const TaylorRows& rows, const TaylorRows::Term* term
           is_force ? (c - n == i ? 1 : 0) : -first[c * blocks + i / Eight::count].of[i % Eight::count];
     A.solve(change);
   }
-  add_changes(changes_.data(), n, columns, blocks, wide(by_velocity_), reinterpret_cast<Wide*>(first));
+  add_changes(changes_.data(), n, columns, blocks, wide(by_velocity_), wide(first));
   for (std::size_t i = 0; i < n; ++i) {
     numbers_[i / Eight::count].of[i % Eight::count] = v[i];
     const std::size_t at = n + i;
@@ -97,7 +107,7 @@ bool TaylorRecurrence::run() {
   const auto constant = [](const std::vector<Eight>& x) { return reinterpret_cast<const Wide*>(x.data()); };
   const TaylorOrders all{plan.products,
                          2 * plan.coordinates,
-                         plan.weighted.size(),
+                         blocks_of(plan.products),
                          blocks_of(2 * plan.coordinates),
                          plan.blocks,
                          orders_,

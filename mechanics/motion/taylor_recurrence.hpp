@@ -14,6 +14,8 @@ class TaylorRecurrence {
  public:
   /// `plan` must outlive it.
   TaylorRecurrence(const TaylorMatrix& plan, int order);
+  TaylorRecurrence(const TaylorRecurrence&) = delete;
+  TaylorRecurrence& operator=(const TaylorRecurrence&) = delete;
 
   bool pays() const { return plan_->pays(); }
   /// From the coefficients of the rows and their factors at a state, A, and v and F of order 0. False, where
@@ -35,13 +37,14 @@ class TaylorRecurrence {
 
   const TaylorMatrix* plan_;
   std::size_t orders_, end_ = 0;
-  std::vector<double> c_;           // what the sweep multiplies by
-  std::vector<Eight> columns_;      // of v_(k-1) / k, F_(k-1) / k, of time and of rests
-  std::vector<Eight> by_velocity_;  // columns, before v is known
-  std::vector<double> changes_;     // v by a unit of each input
-  std::vector<Eight> numbers_;      // by order
-  std::vector<Eight> x_, y_;        // factors by block and order
-  std::vector<Eight> input_;        // v_(k-1) / k, F_(k-1) / k; the rests
+  std::vector<double> c_;              // what the sweep multiplies by
+  std::vector<double> changes_;        // v by a unit of each input
+  std::vector<Eight> memory_;          // of what follows
+  Eight* columns_ = nullptr;           // of v_(k-1) / k, F_(k-1) / k, of time and of rests
+  Eight* by_velocity_ = nullptr;       // columns, before v is known
+  Eight* numbers_ = nullptr;           // by order
+  Eight *x_ = nullptr, *y_ = nullptr;  // factors by block and order
+  Eight* input_ = nullptr;             // v_(k-1) / k, F_(k-1) / k; the rests
 };
 
 }  // namespace mechanics::inline motions

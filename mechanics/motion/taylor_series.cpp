@@ -275,7 +275,9 @@ double value_at(std::span<const double> c, double tau) {
 
 double slope_at(std::span<const double> c, double tau) {
   double sum = 0;
-  for (std::size_t k = c.size(); k-- > 1;) sum = sum * tau + static_cast<double>(k) * c[k];
+  std::size_t count = c.size();
+  while (count > 0 && c[count - 1] == 0) --count;  // of which a polynomial has many
+  for (std::size_t k = count; k-- > 1;) sum = sum * tau + static_cast<double>(k) * c[k];
   return sum;
 }
 

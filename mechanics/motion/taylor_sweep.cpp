@@ -59,7 +59,7 @@ TaylorSweep::TaylorSweep(const TaylorRows& rows, std::size_t count, std::size_t 
 }
 
 void TaylorSweep::find(const TaylorRows& rows, const TaylorRows::Term* terms, const double* factor,
-                       std::vector<double>& c, std::vector<Eight>& x) const {
+                       std::vector<double>& c, Eight* x) const {
   for (std::size_t t = 0; t < terms_; ++t) c[t] = terms[t].c;
   for (std::size_t p = 0; p < row_of_product_.size(); ++p)
     c[terms_ + p] = factor[row_of_product_[p]] * rows.products[p].scale;

@@ -22,7 +22,7 @@ class TaylorSweep {
   std::size_t size() const { return asked_.size(); }
   /// From the coefficients of the rows and their factors at a state; c and x: memory.
   void find(const TaylorRows& rows, const TaylorRows::Term* terms, const double* factor,
-            std::vector<double>& c, std::vector<Eight>& x) const;
+            std::vector<double>& c, Eight* x) const;
 
  private:
   /// x_to = Σ c x_from over its parts, and what was asked for there.
