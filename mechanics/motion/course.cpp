@@ -65,6 +65,16 @@ void Motion::Course::event(EventKind kind, std::vector<Index> constraints, Vecto
   if (kind == EventKind::impact) ++record.impacts;
 }
 
+void Motion::Course::tell_endings() {
+  while (!endings.empty() && endings.front().t <= state.t) {
+    const double now = state.t;
+    state.t = endings.front().t;
+    event(EventKind::accumulation, endings.front().constraints, state.v);
+    state.t = now;
+    endings.erase(endings.begin());
+  }
+}
+
 void Motion::Course::note_penetration(Index a, double f, double scale) {
   if (f >= 0 || -f / scale <= record.largest_penetration) return;
   record.largest_penetration = -f / scale;

@@ -14,11 +14,18 @@ class Motion::Course {
 
   virtual bool advance(double until) = 0;
 
+  /// A contact that a decided accumulation has brought to rest already; told when its time has come.
+  struct Ending {
+    double t;
+    std::vector<Index> constraints;
+  };
+
   MotionOptions options;
   const LagrangianSystem& system;
   State state;
   Arc done;  ///< the arc behind `state`
   std::vector<MotionEvent> events;
+  std::vector<Ending> endings;  ///< by time
   MotionStatus status = MotionStatus::done;
   std::string why;
   std::vector<Index> excluding;
@@ -35,6 +42,8 @@ class Motion::Course {
   void stop(std::string reason);
   void remark(std::string what);
   void event(EventKind kind, std::vector<Index> constraints, Vector velocity_before);
+  /// The accumulations whose time has come.
+  void tell_endings();
   /// Takes note of f_a < 0, where the constraint has this scale.
   void note_penetration(Index a, double f, double scale);
 };

@@ -141,27 +141,32 @@ std::vector<Zero> Motion::EventDriven::zeros_before(double end) const {
 /// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
 double Motion::EventDriven::polished(const Zero& zero, double tau) {
   if (zero.is_touch || zero.of == Zero::Of::branch) return tau;
-  constexpr int most_corrections = 4;
+  constexpr int few_corrections = 4, most_corrections = 200;
+  // Towards a zero of order p of f, each takes 1/p of what is left.
+  constexpr double steady = 0.95;
   const auto k = static_cast<std::size_t>(zero.which);
-  const std::span<const double> c =
-      coefficients(zero.of == Zero::Of::constraint ? next.f : next.lambda, zero.which);
+  double last = 0;
   for (int i = 0; i < most_corrections; ++i) {
-    double value = 0;
+    double value = 0, slope = 0;
     next.state(tau, there_);
     if (zero.of == Zero::Of::constraint) {
       expansion_.look_at(there_);
       value = expansion_.f(zero.which);
+      slope = expansion_.rate(zero.which);
     } else {
       if (is_weak_[k]) return tau;
       expansion_.set(there_);
       const HeldRows::Answer answer = expansion_.acceleration(persist_);
       for (std::size_t a = 0; a < persist_.size(); ++a)
         if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
+      slope = slope_at(coefficients(next.lambda, zero.which), tau);
     }
-    const double correction = value / slope_at(c, tau);
+    const double correction = value / slope;
     if (!(std::abs(correction) < 0.5 * tau)) return tau;
     tau -= correction;
     if (std::abs(correction) <= 2 * epsilon * tau) break;
+    if (i >= few_corrections && !(std::abs(correction) <= steady * last)) break;
+    last = std::abs(correction);
   }
   return tau;
 }
@@ -182,7 +187,7 @@ void Motion::EventDriven::take_step(double until) {
   }
   double end = std::min(step_ahead_, until - state.t);
   bool is_last = end == until - state.t;
-  const Ending* ending = endings_.empty() ? nullptr : &endings_.front();
+  const Ending* ending = endings.empty() ? nullptr : &endings.front();
   if (ending != nullptr && ending->t - state.t < end) {
     end = std::max(0.0, ending->t - state.t);
     is_last = false;
@@ -257,16 +262,6 @@ void Motion::EventDriven::look_for_penetration() {
     if (!is_two_sided(a) && !is_held_[static_cast<std::size_t>(a)])
       f = least_value(coefficients(done.f, a), done.length, std::min(f, 0.0));
     if (f < 0) note_penetration(a, f, std::max(1.0, expansion_.position_scale(a)));
-  }
-}
-
-void Motion::EventDriven::tell_endings() {
-  while (!endings_.empty() && endings_.front().t <= state.t) {
-    const double now = state.t;
-    state.t = endings_.front().t;
-    event(EventKind::accumulation, endings_.front().constraints, state.v);
-    state.t = now;
-    endings_.erase(endings_.begin());
   }
 }
 

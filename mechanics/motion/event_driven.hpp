@@ -19,12 +19,6 @@ class Motion::EventDriven final : public Motion::Course {
   bool advance(double until) override;
 
  private:
-  /// A contact that a decided accumulation has brought to rest already; told when its time has come.
-  struct Ending {
-    double t;
-    std::vector<Index> constraints;
-  };
-
   void begin(const State& at);
   void take_step(double until);
   std::vector<Zero> zeros_before(double end) const;
@@ -73,7 +67,6 @@ class Motion::EventDriven final : public Motion::Course {
   void fill_next();
   void close_together(std::vector<Zero>& zeros) const;
   void look_for_penetration();
-  void tell_endings();
   Arc next;  ///< the one ahead of `state`
   Expansion expansion_;
   std::string obstacle_;        // why a step could not be taken, if an expression said so
@@ -87,7 +80,6 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<double> elapsed_;           // since the last impact, by constraint
   std::vector<ImpactContact> striking_;   // in the impact at hand
   std::vector<ImpactHistory> history_;
-  std::vector<Ending> endings_;
   std::vector<Watched> watched_;  // on the next arc
   std::vector<double> sizes_;     // ||q_k||_A on the next arc, by order
   std::vector<bool> is_held_;     // on the next arc

@@ -235,8 +235,8 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
       const double end = time_stands_still() ? state.t + low_ : std::max(state.t + low_, last.end());
-      endings_.push_back({end, ending});
-      std::sort(endings_.begin(), endings_.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
+      endings.push_back({end, ending});
+      std::sort(endings.begin(), endings.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (time_stands_still()) return;
       // The last impacts may have come, by rounding, after the end that the surer ones before them tell.
       const double error = last.end_error() + (end - last.end());

@@ -70,6 +70,7 @@ void Motion::go_on_in_steps() {
   auto stepping = std::make_unique<TimeStepping>(course_->system, course_->state, std::move(options));
   stepping->done = std::move(course_->done);
   stepping->events = std::move(course_->events);
+  stepping->endings = std::move(course_->endings);
   stepping->record = std::move(course_->record);
   stepping->acceleration = std::move(course_->acceleration);
   stepping->multipliers = std::move(course_->multipliers);

@@ -214,6 +214,7 @@ void Motion::TimeStepping::take_step(double h, double end) {
   state.v = velocity_;
   state.q = before.q + h * ((1 - options.theta) * before.v + options.theta * velocity_);
   ++record.steps;
+  tell_endings();  // of the motion before steps
   tell_events(h, before.v);
   note_pushing();
   correct_position();

@@ -100,6 +100,14 @@ TEST_CASE(
     CHECK(fall.motion.why().find("vanishes") != std::string::npos);
     CHECK(fall.end().t == doctest::Approx(std::sqrt(2)).epsilon(1e-3));
   }
+  // A power hides it: f is 0 within rounding long before the gradient is, and the time of its zero is as
+  // open.
+  const SystemText disc{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "10*y", {}, {}, {}, {{"disc", "(x^2 + y^2 - 1)^3 >= 0"}}};
+  const Followed met = followed(disc, state({0.1, 2}, {0, 0}), 2, restitution(disc, 0.5));
+  CHECK(met.motion.status() == MotionStatus::stopped);
+  CHECK(met.motion.why().find("vanishes") != std::string::npos);
+  CHECK(met.end().t == doctest::Approx(std::sqrt((2 - std::sqrt(0.99)) / 5)).epsilon(1e-13));
   // That of a constraint on t alone is 0 everywhere: nothing meets it.
   const SystemText timed{{"y"}, "y'^2/2", "y", {}, {}, {}, {{"end", "1 - (t - 1)^2 >= 1"}}};
   CHECK(followed(timed, {1, Vector{{0}}, Vector{{0}}}, 2).motion.status() == MotionStatus::infeasible);

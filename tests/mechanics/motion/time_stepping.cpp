@@ -208,6 +208,26 @@ TEST_CASE("between its ends a step has the velocities of both, whatever is corre
   }
 }
 
+TEST_CASE("an accumulation that was decided before a motion goes on in steps is told at its time") {
+  const auto made = system(ball());
+  MotionOptions options = restitution(ball(), 0.5);
+  options.step = 1e-3;
+  Motion motion(*made, state({1}, {0}), options);
+  long accumulations = 0;
+  const auto count = [&] {
+    for (const MotionEvent& event : motion.events())
+      if (event.kind == EventKind::accumulation) {
+        ++accumulations;
+        CHECK(event.t == doctest::Approx(3 * std::sqrt(2 / 9.81)).epsilon(1e-12));
+      }
+  };
+  while (motion.multipliers()[0] == 0 && motion.advance(3)) count();
+  REQUIRE(accumulations == 0);
+  motion.go_on_in_steps();
+  while (motion.advance(3)) count();
+  CHECK(accumulations == 1);
+}
+
 TEST_CASE("a motion that goes on in steps has the state and the record that it had") {
   const auto made = system(ball());
   MotionOptions options = restitution(ball(), 0.5);
