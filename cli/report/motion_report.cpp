@@ -41,11 +41,16 @@ constexpr double part_of_printed_digits = 1e-6;
 std::optional<mechanics::MotionRemark> remark_on_growth(const FollowedMotion& followed) {
   if (!followed.growth || !(followed.growth->part > part_of_printed_digits)) return std::nullopt;
   const mechanics::RoundingGrowth& growth = *followed.growth;
+  const double t = followed.motion.state().t;
   return mechanics::MotionRemark{
-      followed.motion.state().t,
+      mechanics::RemarkKind::growth,
+      t,
       "an error of one rounding at the start has grown to " + number_text(growth.change) + " in " +
           followed.system.coordinates()[static_cast<std::size_t>(growth.coordinate)] +
-          (growth.of_velocity ? "'" : "") + ", so that digits beyond that are not determined by the data"};
+          (growth.of_velocity ? "'" : "") + ", so that digits beyond that are not determined by the data",
+      1,
+      t,
+      growth.change};
 }
 
 std::vector<mechanics::MotionRemark> all_remarks(const FollowedMotion& followed) {
@@ -97,34 +102,27 @@ std::string motion_json(const FollowedMotion& followed) {
   if (followed.growth) json.key("rounding_growth").value(followed.growth->part);
   json.key("remarks").begin_array();
   for (const mechanics::MotionRemark& remark : all_remarks(followed))
-    json.begin_object().key("t").value(remark.t).key("message").value(remark.what).end_object();
+    json.begin_object()
+        .key("t")
+        .value(remark.t)
+        .key("message")
+        .value(remark.what)
+        .key("count")
+        .value(static_cast<Index>(remark.count))
+        .key("last")
+        .value(remark.last)
+        .end_object();
   json.end_array().key("seconds").value(followed.seconds);
   return json.end_object().text();
 }
 
-/// Remarks that differ in their time alone are one line.
 std::string remarks_text(const std::vector<mechanics::MotionRemark>& remarks) {
-  struct Said {
-    std::string what;
-    double first, last;
-    int count;
-  };
-  std::vector<Said> all;
-  for (const mechanics::MotionRemark& remark : remarks) {
-    const auto same =
-        std::find_if(all.begin(), all.end(), [&](const Said& s) { return s.what == remark.what; });
-    if (same == all.end()) {
-      all.push_back({remark.what, remark.t, remark.t, 1});
-    } else {
-      same->last = remark.t;
-      ++same->count;
-    }
-  }
   std::string text;
-  for (const Said& said : all)
-    text += said.count == 1 ? fmt::format("At t = {}: {}.\n", number_text(said.first), said.what)
-                            : fmt::format("{} times from t = {} to {}: {}.\n", said.count,
-                                          number_text(said.first), number_text(said.last), said.what);
+  for (const mechanics::MotionRemark& said : remarks)
+    text += said.count == 1
+                ? fmt::format("At t = {}: {}.\n", number_text(said.t), said.what)
+                : fmt::format("{} times from t = {} to {}, {}: {}.\n", said.count, number_text(said.t),
+                              number_text(said.last), said.loss > 0 ? "at worst" : "at first", said.what);
   return text;
 }
 

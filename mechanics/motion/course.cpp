@@ -53,9 +53,18 @@ void Motion::Course::stop(std::string reason) {
   why = std::move(reason);
 }
 
-void Motion::Course::remark(std::string what) {
-  constexpr std::size_t most_remarks = 100;
-  if (record.remarks.size() < most_remarks) record.remarks.push_back({state.t, std::move(what)});
+void Motion::Course::remark(RemarkKind kind, std::string what, double loss) {
+  const auto said = std::find_if(record.remarks.begin(), record.remarks.end(),
+                                 [&](const MotionRemark& one) { return one.kind == kind; });
+  if (said == record.remarks.end()) {
+    record.remarks.push_back({kind, state.t, std::move(what), 1, state.t, loss});
+    return;
+  }
+  ++said->count;
+  said->last = state.t;
+  if (!(loss > said->loss)) return;
+  said->what = std::move(what);
+  said->loss = loss;
 }
 
 void Motion::Course::event(EventKind kind, std::vector<Index> constraints, Vector velocity_before) {

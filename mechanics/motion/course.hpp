@@ -40,7 +40,8 @@ class Motion::Course {
   /// Whether a step can be taken; `events` are those of the step to come.
   bool may_advance(double until);
   void stop(std::string reason);
-  void remark(std::string what);
+  /// loss: how much, where that is a number.
+  void remark(RemarkKind kind, std::string what, double loss = 0);
   void event(EventKind kind, std::vector<Index> constraints, Vector velocity_before);
   /// The accumulations whose time has come.
   void tell_endings();

@@ -60,8 +60,10 @@ void Motion::EventDriven::begin(const State& at) {
     if (!is_two_sided(a)) {
       touching.push_back(a);
       if (std::abs(found.rates.f[a]) > left_by_rounding(a))
-        remark(constraint_name(a) + ": f = " + number_text(found.rates.f[a]) +
-               " at the start counts as 0, within the contact tolerance");
+        remark(RemarkKind::start,
+               constraint_name(a) + ": f = " + number_text(found.rates.f[a]) +
+                   " at the start counts as 0, within the contact tolerance",
+               std::abs(found.rates.f[a]));
     }
   }
   std::vector<Index> opening;  // f = 0 and df/dt > 0

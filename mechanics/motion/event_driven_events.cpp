@@ -9,9 +9,6 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// A product of gradients that do not move each other is left by so many roundings of their lengths.
-constexpr double roundings_of_product = 64;
-
 /// f of a closed contact is 0 up to so many roundings of what it is the sum of.
 constexpr double roundings_of_closed = 16;
 
@@ -69,10 +66,10 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     const bool closes = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
     (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
     if (zero.is_touch)
-      remark(
-          constraint_name(zero.which) +
-          " is touched and left within rounding: data that differ in their last digits make it an impact, or "
-          "nothing");
+      remark(RemarkKind::touch, constraint_name(zero.which) +
+                                    " is touched and left within rounding: data that differ in their last "
+                                    "digits make it an impact, or "
+                                    "nothing");
   }
   for (std::size_t k = 0; k < expansion_.switches(); ++k) branches_behind_[k] = expansion_.branch(k);
   note_behind();
@@ -101,40 +98,6 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
 double Motion::EventDriven::rounding_of_f(Index a) {
   if (!expansion_.uses_time()) return epsilon * expansion_.position_scale(a);
   return epsilon * (expansion_.magnitude_of_constraint(a) + std::abs(state.t * expansion_.rate(a)));
-}
-
-/// Near a tangency f falls so slowly through 0 that its rounding leaves the time of the impact uncertain. The
-/// last bounces before rest do so too: their end is told with its own error.
-void Motion::EventDriven::tell_blur(const std::vector<Index>& closing) {
-  for (const Index a : closing) {
-    const auto k = static_cast<std::size_t>(a);
-    const double blur = rounding_of_f(a) / -expansion_.rate(a);
-    const bool has_known_end = std::isfinite(history_[k].end_error());
-    if (is_blurred_[k] || has_known_end || !(blur > options.tolerance * std::abs(state.t))) continue;
-    is_blurred_[k] = true;
-    remark(constraint_name(a) + " closes so slowly that the rounding of f leaves the time uncertain by " +
-           number_text(blur) + ", and with it what follows");
-  }
-}
-
-/// Contacts that close one after the other, as far as their times tell, but within the rounding of t, are one
-/// impact: where one of them moves the other, the order would have mattered.
-void Motion::EventDriven::tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing) {
-  const convex::Metric& A = expansion_.inertia();
-  const auto time = [&](Index a) {
-    return std::find_if(zeros.begin(), zeros.end(),
-                        [&](const Zero& zero) { return zero.of == Zero::Of::constraint && zero.which == a; })
-        ->at;
-  };
-  for (std::size_t i = 0; i < closing.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (time(closing[i]) == time(closing[j])) continue;
-      const Vector u = A.whiten(expansion_.row(closing[i])), w = A.whiten(expansion_.row(closing[j]));
-      if (std::abs(u.dot(w)) <= roundings_of_product * epsilon * u.norm() * w.norm()) continue;
-      return remark(constraint_name(closing[j]) + " and " + constraint_name(closing[i]) +
-                    " close at times that rounding hardly tells apart and are one impact: one after the "
-                    "other may leave other velocities");
-    }
 }
 
 /// Contacts that were held, are still at f = df/dt = 0, and persist no longer.
@@ -182,7 +145,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   const ImpactOutcome outcome = impact(A, striking_, options.impact_law);
   if (!outcome.undetermined.empty())
     return stop("at t = " + number_text(state.t) + ": " + std::string(outcome.undetermined));
-  if (!outcome.remark.empty()) remark(std::string(outcome.remark));
+  if (!outcome.remark.empty()) remark(RemarkKind::impact_law, std::string(outcome.remark));
   if (!outcome.excluding.empty()) {
     status = MotionStatus::infeasible;
     for (const Index k : outcome.excluding) excluding.push_back(present[static_cast<std::size_t>(k)]);
@@ -241,10 +204,12 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
       // The last impacts may have come, by rounding, after the end that the surer ones before them tell.
       const double error = last.end_error() + (end - last.end());
       if (last.next_height() > options.tolerance || error > options.tolerance * std::abs(end))
-        remark("impacts of " + constraint_name(ending.front()) +
-               " that bounce up to f = " + number_text(last.next_height()) +
-               " are not followed one by one; they end at t = " + number_text(end) + " within " +
-               number_text(std::max(error, epsilon * std::abs(end))));
+        remark(RemarkKind::accumulation,
+               "impacts of " + constraint_name(ending.front()) +
+                   " that bounce up to f = " + number_text(last.next_height()) +
+                   " are not followed one by one; they end at t = " + number_text(end) + " within " +
+                   number_text(std::max(error, epsilon * std::abs(end))),
+               error);
       return;
     }
     if (status != MotionStatus::done) return;
@@ -314,9 +279,10 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
     return;
   }
   for (const Index a : expansion_.in_doubt())
-    remark("whether " + constraint_name(a) +
-           " stays closed hangs on a number so small beside its terms that rounding may have made it, or "
-           "hidden it");
+    remark(RemarkKind::doubt,
+           "whether " + constraint_name(a) +
+               " stays closed hangs on a number so small beside its terms that rounding may have made it, or "
+               "hidden it");
   persist_ = answer->persist;
   for (const auto& [a, order] : answer->open) zeros_of_f_[static_cast<std::size_t>(a)] = order;
   for (const Index a : persist_) {

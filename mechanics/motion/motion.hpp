@@ -42,10 +42,29 @@ struct MotionEvent {
 
 enum class MotionStatus { done, stopped, infeasible };
 
-/// Where accuracy was lost, or a decision was not determined: when, and what.
+/// What a remark is about.
+enum class RemarkKind {
+  start,         ///< a contact counts as closed at the start
+  touch,         ///< one is touched and left within rounding
+  slow_closing,  ///< the rounding of f leaves the time of an impact open
+  order,         ///< impacts that rounding does not tell apart
+  impact_law,    ///< what the data leave open of an impact
+  accumulation,  ///< impacts not followed one by one
+  doubt,         ///< whether a contact stays
+  step,          ///< the velocity of a step of time-stepping
+  correction,    ///< positions of time-stepping that are not brought back
+  growth         ///< what a rounding at the start has become
+};
+
+/// Where accuracy was lost, or a decision was not determined: when, and what. One remark a kind; of several,
+/// that of which most was lost, or the first.
 struct MotionRemark {
-  double t = 0;
+  RemarkKind kind;
+  double t = 0;  ///< the first time
   std::string what;
+  long count = 1;
+  double last = t;  ///< the last time
+  double loss = 0;  ///< in its own unit; 0 where it has none
 };
 
 /// An impact before it is decided: what a law of impact needs.
@@ -66,9 +85,9 @@ struct MotionRecord {
   Index most_penetrated = -1;      ///< its constraint
   double impact_energy = 0;        ///< Σ T+ - T- over the impacts, as T gives it
   double ledger_energy = 0;        ///< the same by Σ P_a ((1 - e_a)/2 f'_a(v-) - ∂f_a/∂t) + b·(v+ - v-)
-  double corrected_penetration = 0;  ///< time-stepping: the largest one that the position was corrected by
-  double correction_energy = 0;      ///< time-stepping: Σ change of T + V by these corrections
-  std::vector<MotionRemark> remarks;
+  double corrected_penetration = 0;   ///< time-stepping: the largest one that the position was corrected by
+  double correction_energy = 0;       ///< time-stepping: Σ change of T + V by these corrections
+  std::vector<MotionRemark> remarks;  ///< one a kind
   std::optional<ImpactScene> first_impact;
 };
 

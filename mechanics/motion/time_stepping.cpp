@@ -199,12 +199,13 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
   return false;
 }
 
-/// Said once: what velocities are known to, where this is more than the scheme leaves unsaid.
+/// What velocities are known to, where this is more than the scheme leaves unsaid.
 void Motion::TimeStepping::tell_error(double error, double size) {
-  if (is_error_told_ || error <= unsaid_part * size) return;
-  is_error_told_ = true;
-  remark("contacts that depend on each other leave the velocity of a step uncertain by " +
-         number_text(error) + " beside " + number_text(size) + ", in the kinetic metric");
+  if (error <= unsaid_part * size) return;
+  remark(RemarkKind::step,
+         "contacts that depend on each other leave the velocity of a step uncertain by " +
+             number_text(error) + " beside " + number_text(size) + ", in the kinetic metric",
+         size > 0 ? error / size : 0);
 }
 
 void Motion::TimeStepping::take_step(double h, double end) {

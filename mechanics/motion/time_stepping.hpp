@@ -78,7 +78,7 @@ class Motion::TimeStepping final : public Motion::Course {
 
   double origin_;  // steps are counted from here
   long count_ = 0;
-  bool is_first_ = true, is_error_told_ = false;
+  bool is_first_ = true;
   convex::SparseMatrix gram_;
   std::optional<convex::Metric> A_;
   Vector z_;

@@ -111,7 +111,8 @@ void Motion::TimeStepping::correct_position() {
     if (held && move()) continue;
     is_told = !held && !move();
     held = false;
-    if (is_told) remark("no small change of position brings all contacts back to f >= 0");
+    if (is_told)
+      remark(RemarkKind::correction, "no small change of position brings all contacts back to f >= 0");
   }
   const Vector moved = state.q - uncorrected;
   const double length = A_->norm(moved);

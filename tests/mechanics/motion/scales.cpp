@@ -73,3 +73,18 @@ TEST_CASE("the end of impacts that are not followed one by one is within what is
     CHECK(within < 1e-6);
   }
 }
+
+TEST_CASE("what is said again is one remark: how often, from when to when, and the worst") {
+  const SystemText text{
+      {"x", "y"}, "(x'^2 + y'^2)/2", "9.81*(x + y)", {}, {}, {}, {{"sooner", "x >= 0"}, {"later", "y >= 0"}}};
+  MotionOptions options = restitution(text, 0);
+  options.restitution = Vector{{0.9999, 0.99995}};
+  const Followed found = followed(text, state({0, 0}, {1, 1}), 1e4, options);
+  REQUIRE(found.of(EventKind::accumulation).size() == 2);
+  const auto& remarks = found.motion.record().remarks;
+  REQUIRE(remarks.size() == 1);
+  CHECK(remarks[0].kind == mechanics::RemarkKind::accumulation);
+  CHECK(remarks[0].count == 2);
+  CHECK(remarks[0].t < remarks[0].last);
+  CHECK(remarks[0].what.find("impacts of later") == 0);  // the more impacts, the more roundings
+}
