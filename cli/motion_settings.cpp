@@ -115,8 +115,11 @@ convex::Vector multiples_of_turns(const Problem& problem, const mechanics::Lagra
   for (const std::string& text : modulo) {
     const std::size_t equals = text.find('=');
     const auto place = std::find(coordinates.begin(), coordinates.end(), text.substr(0, equals));
-    if (equals == std::string::npos || place == coordinates.end())
+    if (equals == std::string::npos)
       throw InvalidInput("--modulo " + text + ": no coordinate and multiple; write --modulo \"a=2*pi\"");
+    if (place == coordinates.end())
+      throw InvalidInput("--modulo " + text + ": no coordinate is named " + text.substr(0, equals) +
+                         "; take one of the file, as " + coordinates.front());
     const double multiple = value_of(problem, system, text.substr(equals + 1), "--modulo");
     if (!(multiple > 0))
       throw InvalidInput("--modulo " + text + ": the multiple is not positive; give one > 0");

@@ -200,7 +200,9 @@ TEST_CASE("a strobe has a row each period, and a wheel is written between 0 and 
   }
   CHECK(run({"simulate", file, "--strobe", "1"}).code == 2);
   CHECK(run({"simulate", file, "--output", csv, "--strobe", "-1"}).code == 2);
-  CHECK(run({"simulate", file, "--output", csv, "--modulo", "b=1"}).code == 2);
+  const Outcome unnamed = run({"simulate", file, "--output", csv, "--modulo", "b=1"});
+  CHECK(unnamed.code == 2);
+  CHECK(unnamed.err.find("no coordinate is named b") != std::string::npos);
   CHECK(run({"simulate", file, "--phase", "a"}).code == 2);
 }
 
