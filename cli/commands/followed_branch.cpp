@@ -107,12 +107,12 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_along(const Stati
 }
 
 mechanics::OrbitFamily FollowedBranch::family() const {
-  return {
-      [this](double value) {
-        const Problem at = with_parameter(problem_, range_.parameter, value);
-        return mechanics::lagrangian_system(std::get<SystemProblem>(at.content).system);
-      },
-      [this](const mechanics::LagrangianSystem& system, double value) { return question(system, value); }};
+  return {[this](double value) {
+            const Problem at = with_parameter(problem_, range_.parameter, value);
+            return mechanics::lagrangian_system(std::get<SystemProblem>(at.content).system);
+          },
+          [this](const mechanics::LagrangianSystem& system, double value) { return question(system, value); },
+          std::abs(range_.last - range_.first) + std::abs(range_.step)};
 }
 
 FollowedBranch::Station FollowedBranch::moved(const Station& from, double t) const {

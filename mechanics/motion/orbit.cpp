@@ -17,6 +17,9 @@ using convex::Matrix;
 
 constexpr int most_iterations = 60;
 
+/// A step of Newton's method is halved until it leads nearer, down to this part.
+constexpr double shortest_part = 1e-4;
+
 /// The start is met when it is missed by less than this part of how far the motion goes.
 constexpr double met = 1e-10;
 
@@ -209,7 +212,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     }
     const Vector step = convex::linear_algebra::CompleteOrthogonal(J, undetermined).solve(right);
     bool is_better = false;
-    for (double part = 1; part > 1e-4 && !is_better; part *= 0.5) {
+    for (double part = 1; part > shortest_part && !is_better; part *= 0.5) {
       const Vector next = chart->state_of(part * step.head(size));
       const double period = orbit.period + (question.is_free ? part * step[size] : 0);
       if (!(period >= shortest && period <= longest)) continue;

@@ -18,8 +18,15 @@ constexpr int most_turning_steps = 20;
 constexpr double difference_part = 1e-5;
 
 /// Newton's method has arrived when the parameter moves by less than this part of its size, and an orbit is
-/// one when it misses its start by less than the other.
-constexpr double settled_value = 1e-12, met_part = 1e-10;
+/// one when it misses its start by less than the other. Where rounding lets it come no nearer, ten digits of
+/// the parameter are told.
+constexpr double settled_value = 1e-12, met_part = 1e-10, told_value = 1e-10;
+
+/// Of an orbit beside a fold, its distance is met to this part: which orbit it is, no more.
+constexpr double met_distance = 1e-6;
+
+/// A parameter, or a coordinate, nearer to 0 than this part of how far it goes counts as so large.
+constexpr double part_of_range = 1e-3;
 
 /// Where an orbit is looked for: the state at its start and its period, which is an unknown where it is free.
 /// Of the states along a free orbit, the one across the motion from the first counts.
@@ -107,12 +114,18 @@ Vector null_vector(const Matrix& J, const Vector& b, const Vector& c) {
       .solve(Vector::Unit(J.rows() + 1, J.rows()));
 }
 
-double step_of_value(double value) { return difference_part * std::max(std::abs(value), 1e-3); }
+double size_of(double value, const OrbitFamily& family) {
+  return std::max(std::abs(value), part_of_range * family.range);
+}
+
+double step_of_value(double value, const OrbitFamily& family) {
+  return difference_part * size_of(value, family);
+}
 
 /// ∂map/∂p by central differences.
 std::optional<Vector> by_parameter(const OrbitFamily& family, double value, const Phase& phase,
                                    const Look& at) {
-  const double h = step_of_value(value), t = at.chart->origin().t;
+  const double h = step_of_value(value, family), t = at.chart->origin().t;
   Look right, left;
   if (!look(family, value + h, t, at.place, phase, right) ||
       !look(family, value - h, t, at.place, phase, left))
@@ -187,9 +200,9 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
       if (!of || of->rows() != size) return std::nullopt;
       return null_vector(*of, b, c)[size];
     };
-    const double scale = 1e-3 * at.flight.largest.maxCoeff();
+    const double scale = part_of_range * at.flight.largest.maxCoeff();
     for (Index i = 0; i <= size; ++i) {
-      double h = step_of_value(value);
+      double h = step_of_value(value, family);
       std::optional<double> right, left;
       if (i == size) {
         right = g_at(value + h, at.place);
@@ -219,9 +232,9 @@ std::optional<TurningPoint> find_turning_point(const OrbitFamily& family, double
     if (!std::isfinite(value) || !look(family, value, t, place, phase, at)) return std::nullopt;
     J = jacobian(at, phase);
     if (!J || J->rows() != size) return std::nullopt;
-    const bool is_settled = moved <= settled_value * std::max(std::abs(value), 1e-3);
+    const bool is_settled = moved <= settled_value * size_of(value, family);
     if (k > 0 && at.residual <= met_part &&
-        (is_settled || (moved >= last && moved <= 1e-10 * std::abs(value)))) {
+        (is_settled || (moved >= last && moved <= told_value * std::abs(value)))) {
       TurningPoint found;
       found.value = value;
       const Vector& x = at.place.x;
@@ -263,7 +276,7 @@ std::optional<OrbitBeside> orbit_beside(const OrbitFamily& family, const Turning
     value += step[size];
     if (!std::isfinite(value) || !look(family, value, t, at.beside(step), phase, at)) return std::nullopt;
     const double away = std::abs(fold.along.dot(at.place.x - origin) - distance);
-    if (at.residual <= met_part && away <= 1e-6 * std::abs(distance)) {
+    if (at.residual <= met_part && away <= met_distance * std::abs(distance)) {
       const Vector& x = at.place.x;
       const Index n = x.size() / 2;
       OrbitBeside found{value, find_orbit(*at.system, {t, x.head(n), x.tail(n)}, at.question)};

@@ -11,6 +11,7 @@ namespace mechanics::inline motions {
 struct OrbitFamily {
   std::function<std::unique_ptr<const LagrangianSystem>(double)> system;
   std::function<OrbitQuestion(const LagrangianSystem&, double)> question;
+  double range = 1;  ///< how far values go: near the value 0 differences and what is settled are parts of it
 };
 
 /// An orbit at which a branch over the parameter turns around: a fold.

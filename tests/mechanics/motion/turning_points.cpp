@@ -18,13 +18,13 @@ std::string digits(double x) {
   return text;
 }
 
-/// A mass between walls A sin(2 pi t) ± 1 with e = 0.7, over A.
-OrbitFamily impact_pair() {
-  return {[](double A) {
+/// A mass between walls A sin(2 pi t) ± 1 with e = 0.7, over A in a unit.
+OrbitFamily impact_pair(double unit = 1) {
+  return {[unit](double A) {
             return system({{"x"},
                            "x'^2/2",
                            "",
-                           {{"A", digits(A)}},
+                           {{"A", digits(A / unit)}},
                            {},
                            {},
                            {{"lower", "x - A*sin(2*pi*t) >= -1"}, {"upper", "x - A*sin(2*pi*t) <= 1"}}});
@@ -34,7 +34,8 @@ OrbitFamily impact_pair() {
             question.motion.restitution = Vector{{0.7, 0.7}};
             question.period = 1;
             return question;
-          }};
+          },
+          unit};
 }
 
 }  // namespace
@@ -69,6 +70,23 @@ TEST_CASE("the symmetric orbit of the impact pair folds where its two phases mee
   const double one = orbit_beside(family, *fold, -0.01)->orbit.start.v[0],
                other = orbit_beside(family, *fold, 0.01)->orbit.start.v[0];
   CHECK((one - fold->orbit.start.v[0]) * (other - fold->orbit.start.v[0]) < 0);
+}
+
+TEST_CASE("the unit of a parameter does not decide whether a fold is found") {
+  const double k = 2 / std::acos(-1.0) * 0.3 / 1.7, A = 0.115;
+  for (const double unit : {1e-9, 1e9}) {
+    const OrbitFamily family = impact_pair(unit);
+    const double phase = std::atan(k) + std::acos(-(k / A) / std::sqrt(1 + k * k));
+    const double speed = 4 * (A * std::sin(phase) + 1), t = phase / (2 * std::acos(-1.0)) - 0.25;
+    const auto made = family.system(A * unit);
+    const Orbit near =
+        find_orbit(*made, {t, Vector{{A * std::sin(phase) + 1 - 0.25 * speed}}, Vector{{speed}}},
+                   family.question(*made, A * unit));
+    REQUIRE(near.is_found);
+    const auto fold = find_turning_point(family, A * unit, near);
+    REQUIRE(fold);
+    CHECK(std::abs(fold->value / unit - k / std::sqrt(1 + k * k)) <= 1e-12);
+  }
 }
 
 TEST_CASE("a branch that does not turn has no turning point nearby") {
