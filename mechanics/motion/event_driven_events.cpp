@@ -158,7 +158,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   record.impact_energy += by_momentum + 0.5 * outcome.change.dot(thrust);
   record.ledger_energy += by_momentum - before.dot(thrust);
   state.v = before + outcome.change;
-  std::vector<Index> hit, resting, left, held;
+  std::vector<Index> hit, resting, held;
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k], at = static_cast<Index>(k);
     const double rate_before = striking_[k].rate, e = rate_before > 0 ? 0 : striking_[k].restitution;
@@ -169,7 +169,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (is_two_sided(a)) continue;
     if (contains(persist_, a)) held.push_back(a);
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
-    (outcome.rate[at] > 0 ? left : resting).push_back(a);
+    if (!(outcome.rate[at] > 0)) resting.push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0)
       history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
@@ -180,7 +180,12 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
   }
   event(EventKind::impact, std::move(hit), std::move(before));
-  for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+  const auto take_note_of_leaving = [&] {
+    for (std::size_t k = 0; k < present.size(); ++k)
+      if (!is_two_sided(present[k]) && outcome.rate[static_cast<Index>(k)] > 0)
+        zeros_of_f_[static_cast<std::size_t>(present[k])] = 1;
+  };
+  take_note_of_leaving();
   std::vector<Index> after = branches_after_jump(arguments, switches);
   const std::vector<Index> ending = accumulating(closing);
   if (!ending.empty()) {
@@ -215,7 +220,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (status != MotionStatus::done) return;
     state.v = bouncing;
     std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);  // what was tried tells nothing of what opens
-    for (const Index a : left) zeros_of_f_[static_cast<std::size_t>(a)] = 1;
+    take_note_of_leaving();
     after = branches_after_jump(arguments, switches);
   }
   begin_arc(resting, after);

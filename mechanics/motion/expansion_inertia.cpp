@@ -104,7 +104,9 @@ void Expansion::sizes(std::vector<double>& of_order) const {
     factor_.norms(q.data(), of_order.data() + first, Eight::count);
     return true;
   };
-  std::size_t first = of_order.size() - Eight::count;
+  // Beyond the orders found all are 0.
+  std::size_t first =
+      std::min(static_cast<std::size_t>(series_.found()), count - 1) / Eight::count * Eight::count;
   while (!find_eight(first) && first > 0) first -= Eight::count;
   if (first > Eight::count) find_eight(first - Eight::count);  // the last two orders may lie on both sides
   if (first > 0) find_eight(0);
