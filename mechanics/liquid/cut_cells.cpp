@@ -81,8 +81,8 @@ class Cutting {
 
   void find_sides() {
     for_points([&](Index k) {
-      const double level = domain_.level(made_.at(k));
-      side_[at(k)] = std::abs(level) <= domain_.reach() ? Side::on : level < 0 ? Side::inside : Side::outside;
+      const double level = domain_.level(made_.at(k)), reach = domain_.reach();
+      side_[at(k)] = std::abs(level) <= reach ? Side::on : level < 0 ? Side::inside : Side::outside;
     });
   }
 
@@ -133,10 +133,8 @@ class Cutting {
       for (by[1] = -reach(1); by[1] <= reach(1); ++by[1])
         for (by[0] = -reach(0); by[0] <= reach(0); ++by[0]) {
           bool on_grid = true;
-          for (std::size_t i = 0; i < d_; ++i) {
-            const Index there = place[i] + by[i];
-            on_grid = on_grid && there >= 0 && there < made_.grid.points[i];
-          }
+          for (std::size_t i = 0; i < d_; ++i)
+            on_grid = on_grid && place[i] + by[i] >= 0 && place[i] + by[i] < made_.grid.points[i];
           if (!on_grid) continue;
           if (side_[at(made_.grid.at(place[0] + by[0], place[1] + by[1], place[2] + by[2]))] != side_[at(k)])
             return true;
@@ -197,8 +195,10 @@ class Cutting {
           area *= 0.5;
           middle[j] -= 0.25 * end[j] * made_.step[j];
         }
+      // Of two walls that meet at the node both fluxes are asked for there, as h is: exact where p is
+      // quadratic.
       const BoundaryPart& found = part(middle);
-      if (!found.is_free) add_piece(k, found, area, middle, normal);
+      if (!found.is_free) add_piece(k, found, area, middle, normal, made_.at(k));
     }
     keep(k, opening);
   }
@@ -216,14 +216,15 @@ class Cutting {
       grid().kind[at(k)] = CutPoint::free;
     }
     made_.volume[at(k)] = cut->fraction * cell_volume();
-    for (const WallCut::Piece& piece : cut->pieces)
-      add_piece(k, *piece.wall, piece.surface.area, piece.surface.at, piece.surface.normal);
+    for (const auto& [surface, wall] : cut->pieces)
+      add_piece(k, *wall, surface.area, surface.at, surface.normal, surface.at);
   }
 
-  void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal) {
-    WallPiece piece{
-        k, -1, at(&wall - scene_.parts.data()), area, area * scene_.wall_flux(wall, middle, normal), middle};
-    made_.walls.push_back(piece);
+  /// `asked`: where the flux through the piece is taken.
+  void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal,
+                 const Point& asked) {
+    const double load = area * scene_.wall_flux(wall, asked, normal);
+    made_.walls.push_back({k, -1, at(&wall - scene_.parts.data()), area, load, middle});
     normals_.push_back(normal);
   }
 
@@ -281,9 +282,8 @@ class Cutting {
     const BoundaryPart& found = part(x);
     if (!found.is_free) return false;
     const double length = std::abs(x[axis] - from[axis]) / made_.step[axis];
-    const double pressure = scene_.free_pressure(found, x);
-    give(k, weight / std::max(length, shortest_link), pressure);
-    made_.pressures.push_back({k, x, pressure});
+    made_.pressures.push_back({k, x, scene_.free_pressure(found, x)});
+    give(k, weight / std::max(length, shortest_link), made_.pressures.back().pressure);
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
     return true;
   }

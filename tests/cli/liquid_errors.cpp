@@ -155,6 +155,21 @@ TEST_CASE("where walls end at free parts, and at edges and corners, the equation
   }
 }
 
+TEST_CASE("where two walls of a box meet, the equations hold for every quadratic p") {
+  // p = 3 + xy + x²/2 - y/4: the flux along one wall changes towards the other.
+  const auto exact = [](double x, double y) { return 3 + x * y + 0.5 * x * x - 0.25 * y; };
+  for (const int cells : {8, 9, 32}) {
+    const Measured found =
+        measured(plane("box(low=[0, 0], high=[1, 2])", "x",
+                       "top = { where = \"y >= 2\", pressure = \"2.5 + 2*x + x^2/2\" }",
+                       "left = { where = \"x <= 0\", acceleration = \"y\" }, bed = { where = \"y <= 0\", "
+                       "acceleration = \"x - 1/4\" }, right = { where = \"true\", acceleration = \"-y\" }",
+                       cells),
+                 exact);
+    CHECK(found.error <= 1e-9);
+  }
+}
+
 TEST_CASE(
     "at a re-entrant corner errors go with the power 2/3 of the step, at a junction with 1/2, and are "
     "covered") {
