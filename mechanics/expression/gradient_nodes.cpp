@@ -80,7 +80,7 @@ class Sweep {
   NodeId turned(NodeId adjoint) {
     return behind_conditions(adjoint, [&](NodeId mine) { return negative(mine); });
   }
-  NodeId without_sign(NodeId mine, NodeId a, NodeId absolute);
+  NodeId with_factor_replaced(NodeId mine, NodeId a, NodeId by);
   NodeId slope(NodeId node);
   void give_power(NodeId node, NodeId mine);
 
@@ -105,25 +105,25 @@ void Sweep::give_power(NodeId node, NodeId mine) {
     give(b, times(mine, binary(Operation::multiply, node, unary(Operation::log, a))));
 }
 
-/// mine × sign(a) without the sign, which a = 0 has none of, where mine has a as a factor: a sign(a) = |a|.
-/// no_node where it is not seen.
-NodeId Sweep::without_sign(NodeId mine, NodeId a, NodeId absolute) {
+/// mine with its factor a replaced: by |a| = a sign(a) or √a = a/√a it is mine × the slope of |a| or 2√a,
+/// which a = 0 has none of. no_node where no such factor is seen.
+NodeId Sweep::with_factor_replaced(NodeId mine, NodeId a, NodeId by) {
   using enum Operation;
-  if (mine == a) return absolute;
+  if (mine == a) return by;
   const Operation operation = tape_->operation(mine);
   if (tape_->is_constant(mine) || arity(operation) == 0) return no_node;
   const NodeId left = tape_->a(mine), right = tape_->b(mine);
   if (operation == Operation::power && left == a && tape_->is_constant(right) &&
       tape_->constant(right) >= 2) {
     const NodeId rest = is_number(right, 2) ? a : binary(power, a, binary(subtract, right, one()));
-    return binary(multiply, rest, absolute);
+    return binary(multiply, rest, by);
   }
   if (operation != multiply && operation != divide && operation != negate) return no_node;
-  const NodeId found = without_sign(left, a, absolute);
+  const NodeId found = with_factor_replaced(left, a, by);
   if (operation == negate) return found == no_node ? no_node : negative(found);
   if (found != no_node) return binary(operation, found, right);
   if (operation == divide) return no_node;
-  const NodeId other = without_sign(right, a, absolute);
+  const NodeId other = with_factor_replaced(right, a, by);
   return other == no_node ? no_node : binary(operation, left, other);
 }
 
@@ -211,8 +211,14 @@ void Sweep::pass_down(NodeId node) {
       return give(b, binary(tape_->operation(node), a, mine));
     case abs:
       return give(a, behind_conditions(mine, [&](NodeId m) {
-                    const NodeId found = without_sign(m, a, node);
+                    const NodeId found = with_factor_replaced(m, a, node);
                     return found == no_node ? product(m, unary(sign, a)) : found;
+                  }));
+    case Operation::sqrt:
+      return give(a, behind_conditions(mine, [&](NodeId m) {
+                    const NodeId found = with_factor_replaced(m, a, node);
+                    return found == no_node ? product(m, slope(node))
+                                            : product(number("0.5", 0.5, at_), found);
                   }));
     default:
       if (const NodeId rate = slope(node); rate != no_node) give(a, times(mine, rate));

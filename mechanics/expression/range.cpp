@@ -35,7 +35,15 @@ Range divided(Range a, Range b) {
 }
 
 Range negated(Range a) { return {-a.high, -a.low}; }
-Range added(Range a, Range b) { return outwards(a.low + b.low, a.high + b.high); }
+/// Whether the double a + b is the sum (Knuth's error of a sum); not where it overflows.
+bool is_exact_sum(double a, double b) {
+  const double sum = a + b, of_b = sum - a;
+  return (a - (sum - of_b)) + (b - of_b) == 0;
+}
+Range added(Range a, Range b) {
+  const double low = a.low + b.low, high = a.high + b.high;
+  return {is_exact_sum(a.low, b.low) ? low : below(low), is_exact_sum(a.high, b.high) ? high : above(high)};
+}
 
 /// Of a function with period 2 pi that is 1 at `top` and -1 at `bottom`, and monotone between.
 Range waves(Range a, double (*f)(double), double top, double bottom) {
@@ -66,7 +74,12 @@ Range absolute(Range a) {
 
 Range raised(Range a, Range exponent) {
   if (exponent.low != exponent.high) {
-    if (!(a.low > 0)) return all_numbers;
+    if (!(a.low > 0)) {
+      // Only whole exponents have a base below 0.
+      if (!(exponent.low > 0) || std::floor(exponent.high) >= exponent.low) return all_numbers;
+      a = intersection(a, {0, endless});
+      if (a.is_empty()) return nothing_in_range;
+    }
     const double ends[] = {std::pow(a.low, exponent.low), std::pow(a.low, exponent.high),
                            std::pow(a.high, exponent.low), std::pow(a.high, exponent.high)};
     if (std::any_of(ends, ends + 4, [](double x) { return std::isnan(x); })) return {0, endless};

@@ -94,6 +94,33 @@ TEST_CASE("x |x| has the derivative 2 |x|, also where |x| has none") {
   }
 }
 
+TEST_CASE("what has no Taylor series at an end of the line, as x^(3/2), is solved and proved up to there") {
+  // p'' = F' and p = 1 at the ends.
+  struct Pulled {
+    std::string force;
+    double power;
+  };
+  for (const Pulled& one : {Pulled{"x^1.5", 1.5},
+                            {"x*sqrt(x)", 1.5},
+                            {"x^2*sqrt(x)", 2.5},
+                            {"x^1.2", 1.2},
+                            {"-(1 - x)^1.5", 1.5}}) {
+    CAPTURE(one.force);
+    const Folder folder;
+    const Outcome outcome =
+        run({"solve", "--json", "--certify", "--probe", "x=1/2",
+             folder.write("liquid.toml", pulled(one.force, "1", "1", "interval(low=0, high=1)"))});
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const OnsetJson found = OnsetJson::parse(outcome.out);
+    CHECK(found["certificate"]["level"] == "enclosure");
+    const double bound = found["certificate"]["error_bound"].get<double>(), e = one.power + 1;
+    CHECK(bound <= 1e-12);
+    CHECK(std::abs(found["probes"][0]["p"].get<double>() - (1 + (std::pow(0.5, e) - 0.5) / e)) <=
+          bound + 1e-15);
+  }
+}
+
 TEST_CASE("a liquid that is all cavity is solved: p = 0, also proved") {
   // h = -1 - 3 x²/7 < 0, no pressure at the mouth, and a wall that leaves faster than the liquid follows.
   const Folder folder;
