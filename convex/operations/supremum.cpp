@@ -122,7 +122,9 @@ Search search(const Function& f, const Vector& v) {
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
-    const double error = rounding + t * moved * at.x.norm() + std::abs(increase);
+    // A prox cut short stands still as if the values had settled; its bound is in |·| the root of t times less.
+    const double off = at.error_bound / std::sqrt(t);
+    const double error = rounding + t * (moved + off) * (at.x.norm() + off) + std::abs(increase);
     const double enough = settled * std::max(std::abs(bound), small) + rounding;
     // A step that cannot move x as far as x is long shows nothing.
     const bool free = v.norm() == 0 || t * at.x.norm() <= v.norm();
