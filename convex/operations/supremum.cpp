@@ -97,6 +97,20 @@ bool recedes_far_out(const Function& f, const Vector& v) {
   return false;
 }
 
+/// Is v·x - f(x) more than `bound` beside x, along an axis?
+bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bound) {
+  const Index n = v.size();
+  if (n > most_axes) return false;
+  for (const double part : {1e-6, 1e-3, 1.0})
+    for (const double step : {part * std::max(1.0, x.norm()), -part * std::max(1.0, x.norm())})
+      for (Index i = 0; i < n; ++i) {
+        const Vector beside = x + step * Vector::Unit(n, i);
+        const Value value = f.evaluate(beside);
+        if (v.dot(beside) - value.value - value.error > bound) return true;
+      }
+  return false;
+}
+
 struct Search {
   Value value;
   bool growing = false;  ///< the lower bounds grow as if without end
@@ -122,13 +136,15 @@ Search search(const Function& f, const Vector& v) {
     if (bound + 4 * rounding < highest) break;  // the prox did not get there
     highest = std::max(highest, bound - rounding);
     const double moved = (at.x - x).norm(), increase = bound - last;
-    // A prox cut short stands still as if the values had settled; its bound is in |·| the root of t times less.
-    const double off = at.error_bound / std::sqrt(t);
-    const double error = rounding + t * (moved + off) * (at.x.norm() + off) + std::abs(increase);
+    const double error = rounding + t * moved * at.x.norm() + std::abs(increase);
     const double enough = settled * std::max(std::abs(bound), small) + rounding;
     // A step that cannot move x as far as x is long shows nothing.
     const bool free = v.norm() == 0 || t * at.x.norm() <= v.norm();
     const bool shrinking = std::abs(increase) <= std::max(0.5 * std::abs(before), enough);
+    // A prox cut short where it began stands still as if the values had settled.
+    const bool stuck =
+        at.status != Status::solved && moved == 0 && is_surpassed(f, v, at.x, bound + rounding);
+    if (stuck) return {{bound, infinity}, false};
     if (free && shrinking && error < best.error) best = {bound, error};
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
     if (quiet >= 2) return {best, false};

@@ -11,7 +11,7 @@ namespace convex::inline operations {
 /// falls to its power 3/2 at each step, as far as v/t_k does not drown x_k.
 ///
 /// The value is a lower bound; the error is what the last step shows to be left, t_k |x_(k+1) - x_k| |x_k|,
-/// with its increase, the error of the prox and the rounding of f(x_k).
+/// with its increase and the rounding of f(x_k); infinite where a prox stands still beside more.
 ///
 /// +inf is returned where it is proved: f∞(d) < v·d for a direction d, the axes, v, or where x_k and its last
 /// step went (Rockafellar 1970, Theorem 8.5). Otherwise the error is infinite where the lower bounds do not
