@@ -177,21 +177,19 @@ class Placement {
   bool push() {
     RunningSum push = push_;
     double largest = largest_;
-    int wrong = 0;
     for (std::size_t j = 0; j < at(block_.count); ++j) {
       push.add(DoubleDouble{block_.left_hi[j], block_.left_lo[j]});
-      largest = std::max({largest, std::abs(push.hi), block_.inertia[j]});
+      largest = std::max(largest, std::max(std::abs(push.hi), block_.inertia[j]));
       const bool goes_on = block_.goes_on[j] > 0;
       push.hi = goes_on ? push.hi : 0;
       push.lo = goes_on ? push.lo : 0;
       largest = goes_on ? largest : 0;
-      const double pushed = push.value(), quiet = zero_of_long_sums * largest;
-      wrong |= pushed < -quiet;
-      block_.pushed[j] = pushed > quiet ? pushed : 0;
+      block_.pushed[j] = push.value();
+      block_.largest[j] = largest;
     }
     push_ = push;
     largest_ = largest;
-    return wrong == 0;
+    return drop_rounding(block_) == 0;
   }
 
   /// From the block to the solution, with the slacks of the rows below that carry nothing.

@@ -6,6 +6,7 @@
 
 #include "convex/double_double.hpp"
 #include "convex/processor.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex::inline isotonic::chain_kernels {
 
@@ -58,6 +59,18 @@ void weigh(Block& block) {
     block.left_hi[j] = left.hi;
     block.left_lo[j] = left.lo - inertia.lo;
   }
+}
+
+MOREAU_CLONES
+Index drop_rounding(Block& block) {
+  Index pulls = 0;
+#pragma GCC ivdep
+  for (std::size_t j = 0; j < static_cast<std::size_t>(block.count); ++j) {
+    const double pushed = block.pushed[j], quiet = zero_of_long_sums * block.largest[j];
+    pulls += pushed < -quiet ? 1 : 0;
+    block.pushed[j] = pushed > quiet ? pushed : 0;
+  }
+  return pulls;
 }
 
 MOREAU_CLONES

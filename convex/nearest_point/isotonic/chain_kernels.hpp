@@ -14,12 +14,13 @@ inline constexpr Index width = 128, lanes = 4;
 using Numbers = std::array<double, width>;
 using Shifted = std::array<double, width + 1 + lanes>;  ///< a place for the member before, and some to spare
 
-/// Members from `first` on. Of the row above each: factor, what it pushes with, lambda, and their product.
+/// Members from `first` on. Of the row above each: factor, what it pushes with, the largest term of
+/// that sum, lambda, and their product.
 struct Block {
   Index first, count;
   const double *mass, *force;
   Numbers mass_list, force_list, factor, goes_on, inertia, plain_hi, plain_lo, left_hi, left_lo, pushed,
-      lambda;
+      largest, lambda;
   Shifted x_hi, x_lo, load_hi, load_lo;
 };
 
@@ -36,6 +37,8 @@ void lower(Index count, const double* mass, const double* force, const double* o
            const double* offset_lo, double* hi, double* lo);
 /// force - mass x, and its parts.
 void weigh(Block&);
+/// What rows push with is 0 within the rounding of its sum; how many would have to pull.
+Index drop_rounding(Block&);
 /// lambda from what the rows push with.
 void divide(Block&);
 /// The same where all factors are 1.
