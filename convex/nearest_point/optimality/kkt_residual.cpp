@@ -24,9 +24,13 @@ Vector stationarity_residual(const NearestPointProblem& problem, const DoubleDou
     }
     case MetricKind::sparse: {
       const SparseMatrix& A = problem.A.sparse_gram();
-      for (Index j = 0; j < n; ++j)
+      for (Index j = 0; j < n; ++j) {  // a column is a row
+        double hi = sum.hi[j], lo = sum.lo[j];
         for (SparseMatrix::InnerIterator it(A, j); it; ++it)
-          accumulate_product(it.value(), {-q.hi[j], -q.lo[j]}, sum.hi[it.row()], sum.lo[it.row()]);
+          accumulate_product(it.value(), {-q.hi[it.row()], -q.lo[it.row()]}, hi, lo);
+        sum.hi[j] = hi;
+        sum.lo[j] = lo;
+      }
       break;
     }
   }
