@@ -7,6 +7,7 @@
 #include "mechanics/liquid/cell_mean.hpp"
 #include "mechanics/liquid/cut_walls.hpp"
 #include "mechanics/liquid/junction_flux.hpp"
+#include "mechanics/liquid/side_flux.hpp"
 #include "mechanics/liquid/wall_level.hpp"
 
 namespace mechanics::liquid {
@@ -187,18 +188,19 @@ class Cutting {
     made_.volume[at(k)] *= part_of_volume;
     for (std::size_t i = 0; i < d_; ++i) {
       if (end[i] == 0) continue;
-      Point middle = made_.at(k), normal{};
-      normal[i] = end[i];
+      SidePiece piece{made_.at(k), made_.step, {}};
+      piece.normal[i] = end[i];
+      piece.extent[i] = 0;
       double area = made_.face_area(i);
       for (std::size_t j = 0; j < d_; ++j)
         if (j != i && end[j] != 0) {
           area *= 0.5;
-          middle[j] -= 0.25 * end[j] * made_.step[j];
+          piece.extent[j] *= 0.5;
+          piece.middle[j] -= 0.25 * end[j] * made_.step[j];
         }
-      // Of two walls that meet at the node both fluxes are asked for there, as h is: exact where p is
-      // quadratic.
-      const BoundaryPart& found = part(middle);
-      if (!found.is_free) add_piece(k, found, area, middle, normal, made_.at(k));
+      const BoundaryPart& found = part(piece.middle);
+      if (!found.is_free)
+        add_piece(k, found, {area, piece.middle, piece.normal}, side_flux(scene_, found, piece, made_.at(k)));
     }
     keep(k, opening);
   }
@@ -217,15 +219,13 @@ class Cutting {
     }
     made_.volume[at(k)] = cut->fraction * cell_volume();
     for (const auto& [surface, wall] : cut->pieces)
-      add_piece(k, *wall, surface.area, surface.at, surface.normal, surface.at);
+      add_piece(k, *wall, surface, scene_.wall_flux(*wall, surface.at, surface.normal));
   }
 
-  /// `asked`: where the flux through the piece is taken.
-  void add_piece(Index k, const BoundaryPart& wall, double area, const Point& middle, const Point& normal,
-                 const Point& asked) {
-    const double load = area * scene_.wall_flux(wall, asked, normal);
-    made_.walls.push_back({k, -1, at(&wall - scene_.parts.data()), area, load, middle});
-    normals_.push_back(normal);
+  void add_piece(Index k, const BoundaryPart& wall, const SurfacePiece& surface, double flux) {
+    made_.walls.push_back(
+        {k, -1, at(&wall - scene_.parts.data()), surface.area, surface.area * flux, surface.at});
+    normals_.push_back(surface.normal);
   }
 
   double opening(Index k, std::size_t axis) const {  // of the face towards the next point

@@ -171,6 +171,37 @@ TEST_CASE("where two walls of a box meet, the equations hold for every quadratic
 }
 
 TEST_CASE(
+    "where walls of two accelerations meet between nodes, errors are below a tenth of the jump by the step") {
+  // ∂p/∂n jumps by π at (s, 0) for p = 6 + r ln r cos θ - r θ sin θ around it.
+  constexpr double pi = 3.141592653589793;
+  const std::string free_where = "where = \"y > 0 or x <= 0 or x >= 1\", ";
+  for (const std::string s : {"0.5", "0.3", "0.7071"})
+    for (const std::string& walls :
+         {"a = { where = \"x < " + s +
+              "\", acceleration = \"-pi\" }, b = { where = "
+              "\"true\", acceleration = 0 }",
+          "a = { where = \"true\", acceleration = \"if(x < " + s + ", -pi, 0)\" }"})
+      for (const int cells : {64, 128}) {
+        CAPTURE(s);
+        CAPTURE(walls);
+        CAPTURE(cells);
+        const std::string dx = "(x - " + s + ")";
+        const double place = std::stod(s);
+        const Measured found =
+            measured(plane("box(low=[0, 0], high=[1, 1])", "0",
+                           "rim = { " + free_where + "pressure = \"6 + " + dx + "*ln(hypot(" + dx +
+                               ", y)) - y*atan2(y, " + dx + ")\" }",
+                           walls, cells),
+                     [&](double x, double y) {
+                       const double r = std::hypot(x - place, y);
+                       return r > 0 ? 6 + (x - place) * std::log(r) - y * std::atan2(y, x - place) : 6;
+                     });
+        CHECK(found.error <= 0.1 * pi / cells);
+        CHECK(found.error <= bound_of(found));
+      }
+}
+
+TEST_CASE(
     "at a re-entrant corner errors go with the power 2/3 of the step, at a junction with 1/2, and are "
     "covered") {
   for (const int cells : {32, 64, 128}) {
