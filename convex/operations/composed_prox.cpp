@@ -138,6 +138,19 @@ std::optional<Value> value_by_entries(const FunctionNode& f, const Vector& x) {
   return total;
 }
 
+std::optional<Vector> subgradient_by_entries(const FunctionNode& f, const Vector& x) {
+  if (x.size() < 2 || !f.facts().separable) return std::nullopt;
+  const auto entries = entries_of(f, x.size());
+  if (!entries) return std::nullopt;
+  Vector v(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const auto slope = (*entries)[static_cast<std::size_t>(i)].subgradient(x.segment(i, 1));
+    if (!slope) return std::nullopt;
+    v[i] = (*slope)[0];
+  }
+  return v;
+}
+
 Prox joined(const std::vector<Prox>& blocks) {
   Index n = 0;
   for (const Prox& part : blocks) n += part.x.size();

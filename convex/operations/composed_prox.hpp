@@ -25,6 +25,8 @@ std::optional<Prox> prox_by_entries(const FunctionNode& f, const Vector& z, cons
 /// Σ_i f_i(x_i) + constant from the f_i, n > 1; none where they or the constant are not known. A program for
 /// all entries together is no more accurate for one than for the one with the largest numbers.
 std::optional<Value> value_by_entries(const FunctionNode& f, const Vector& x);
+/// And a subgradient there.
+std::optional<Vector> subgradient_by_entries(const FunctionNode& f, const Vector& x);
 
 /// The prox of f_1(x_1) + f_2(x_2) + … over consecutive blocks, from those of the blocks, not empty. No x
 /// where a block has none.

@@ -31,6 +31,7 @@ class InfConvolution : public Operation {
             .support = f.support && g.support,
             .separable = f.separable && g.separable,
             .piecewise_quadratic = f.piecewise_quadratic && g.piecewise_quadratic,
+            .smooth = f.smooth || g.smooth,
             .finite = f.finite || g.finite};
   }
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
@@ -42,6 +43,8 @@ class InfConvolution : public Operation {
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).v;
+    if (auto slopes = subgradient_by_entries(*this, x)) return slopes;
+    if (auto slope = maximiser(conjugate(), x)) return slope;
     return Operation::subgradient(x);
   }
   Function conjugate() const override {

@@ -54,6 +54,10 @@ class ProximalAverage : public Operation {
     const ByProgram found = by_program(x);
     return settled_value(found.value, found.slope, conjugate(), x);
   }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (auto slope = maximiser(conjugate(), x)) return slope;
+    return Operation::subgradient(x);
+  }
   Function conjugate() const override {
     if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);
     return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_, inverse(*M_));

@@ -6,6 +6,7 @@
 #include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
+#include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/sum.hpp"
 
@@ -113,12 +114,35 @@ bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bo
 
 struct Search {
   Value value;
-  bool growing = false;  ///< the lower bounds grow as if without end
+  bool growing = false;    ///< the lower bounds grow as if without end
+  bool bracketed = false;  ///< chords on both sides bound the value, and no limit of steps
 };
 
-Search search(const Function& f, const Vector& v) {
+/// Of one entry, by the chords around the greatest value, from `start` or where a prox leads; where none of
+/// them bounds it, the best lower bound.
+std::optional<LineSupremum> on_line(const Function& f, const Vector& v, const std::optional<Vector>& start) {
+  if (v.size() != 1) return std::nullopt;
+  std::optional<LineSupremum> best;
+  const auto settles = [&](const Vector& x) {
+    if (x.size() != 1 || !x.allFinite()) return false;
+    const auto found = line_supremum(f, v[0], x[0]);
+    const bool bounded = found && std::isfinite(found->value.error);
+    if (found && (bounded || !best || found->value.value > best->value.value)) best = found;
+    return bounded;
+  };
+  if (start && settles(*start)) return best;
+  const double t = first_step * std::max(1.0, v.norm());
+  if (settles(prox_of(f, v / t, t).x)) return best;
+  // Pulled far, the prox may round to an open end of the domain.
+  settles(prox_of(f, Vector::Zero(1), 1).x);
+  return best;
+}
+
+Search search(const Function& f, const Vector& v, const std::optional<Vector>& start) {
   const Index n = v.size();
   if (recedes_plainly(f, v) || a_part_grows(f, v)) return {{infinity, 0}, true};
+  const auto line = on_line(f, v, start);
+  if (line && std::isfinite(line->value.error)) return {.value = line->value, .bracketed = true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
   const double unit = std::max(1.0, v.norm());
@@ -147,7 +171,7 @@ Search search(const Function& f, const Vector& v) {
     if (stuck) return {{bound, infinity}, false};
     if (free && shrinking && error < best.error) best = {bound, error};
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
-    if (quiet >= 2) return {best, false};
+    if (quiet >= 2) break;
     grown = increase > growing * before && before > enough ? grown + 1 : 0;
     if (!(first_length > 0)) first_length = at.x.norm();
     const bool far = at.x.norm() >= farther * first_length;
@@ -162,16 +186,26 @@ Search search(const Function& f, const Vector& v) {
     t = std::max({unit * less, smallest_part * v.norm() / x.norm(), last_step});
     if (!std::isfinite(t)) t = first_step * unit;
   }
+  // Proxes cut short, or that cannot get as far as the maximiser, stand still as if the values had settled.
+  if (line && line->value.value > best.value + best.error) best = line->value;
   return {best, false};
 }
 
 }  // namespace
 
-Value supremum(const Function& f, const Vector& v) { return search(f, v).value; }
+Value supremum(const Function& f, const Vector& v) { return search(f, v, std::nullopt).value; }
 
 bool grows_without_end(const Function& f, const Vector& v) {
   const WorkLimit question;
-  return search(f, v).growing;
+  return search(f, v, std::nullopt).growing;
+}
+
+std::optional<Vector> maximiser(const Function& f, const Vector& v) {
+  const OneAtATime question(OneAtATime::Kind::supremum);
+  if (!question.first() || recedes_plainly(f, v)) return std::nullopt;
+  const auto found = on_line(f, v, std::nullopt);
+  if (!found || !std::isfinite(found->value.error)) return std::nullopt;
+  return Vector::Constant(1, found->x);
 }
 
 namespace {
@@ -200,7 +234,8 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
   const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);
   const OneAtATime question(OneAtATime::Kind::supremum);
   if (decided || !question.first()) return found;
-  const Value other = supremum(f, v);
+  const Search searched = search(f, v, x);
+  const Value& other = searched.value;
   if (!std::isfinite(found.value)) {
     // A program says +inf where it finds the domains apart, which rounding can feign, and -inf on one look.
     if (found.value == infinity && recedes_far_out(f, v)) return {infinity, 0};
@@ -208,9 +243,10 @@ Value settled_value(const Value& by_program, const std::optional<Vector>& x, con
     return agree || other.error < infinity ? other : Value{found.value, infinity};
   }
   const double apart = std::abs(other.value - found.value);
+  if (std::isinf(other.error) && other.value > found.value + found.error) return other;
   const bool contradict = other.error < infinity && apart > other.error + found.error;
   Value best = other.error < found.error ? other : found;
-  if (contradict) best = {std::max(other.value, found.value), apart};
+  if (contradict) best = searched.bracketed ? other : Value{std::max(other.value, found.value), apart};
   // A program takes what misses the domain by less than it is solved to for a point of it.
   const bool is_open = !(best.error <= settled * std::max(std::abs(best.value), small));
   return is_open && recedes_far_out(f, v) ? Value{infinity, 0} : best;

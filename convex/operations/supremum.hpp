@@ -10,8 +10,10 @@ namespace convex::inline operations {
 /// approached at infinity or +inf. It needs no program of f*, and so decides at the edge of its domain. t_k
 /// falls to its power 3/2 at each step, as far as v/t_k does not drown x_k.
 ///
-/// The value is a lower bound; the error is what the last step shows to be left, t_k |x_(k+1) - x_k| |x_k|,
-/// with its increase and the rounding of f(x_k); infinite where a prox stands still beside more.
+/// Of one entry it is found by the chords around it, where there are points on both sides with lower values:
+/// see `line_supremum`. Elsewhere the value is a lower bound; the error is what the last step shows to be
+/// left, t_k |x_(k+1) - x_k| |x_k|, with its increase and the rounding of f(x_k); infinite where a prox stands
+/// still beside more.
 ///
 /// +inf is returned where it is proved: f∞(d) < v·d for a direction d, the axes, v, or where x_k and its last
 /// step went (Rockafellar 1970, Theorem 8.5). Otherwise the error is infinite where the lower bounds do not
@@ -19,6 +21,10 @@ namespace convex::inline operations {
 ///
 /// Questions inside a supremum are answered by programs: a supremum never asks for another.
 Value supremum(const Function& f, const Vector& v);
+
+/// Where the supremum of a function of one entry is attained, a subgradient of f* at v; none where chords do
+/// not find it.
+std::optional<Vector> maximiser(const Function& f, const Vector& v);
 
 /// Is f*(v) proved to be +inf, or do the lower bounds grow by more at each of eight steps in a row, and x_k
 /// to 1e12 times its first length? No proof: a reason to refuse a function, not a value.

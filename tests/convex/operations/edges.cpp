@@ -58,6 +58,80 @@ TEST_CASE("a supremum that is not attained, or lies at the edge of the domain, h
   }
 }
 
+TEST_CASE("a convolution whose slope is at a steep end of its conjugate has its value at every scale") {
+  struct Steep {
+    const char* f;
+    double (*value)(double);
+    double nearest, farthest;  ///< where the value is to be known
+  };
+  const Steep steep[] = {
+      // w = x - 1 in the root, where its slope is below that of the hinge.
+      {"inf_convolution(hinge(), inverse_power(0.5))", [](double x) { return 1 / std::sqrt(x - 1); }, 10,
+       1e100},
+      // Halves of x, by symmetry.
+      {"inf_convolution(inverse_power(1), inverse_power(1))", [](double x) { return 4 / x; }, 1e-8, 1e100},
+      {"inf_convolution(negative_power(0.5), negative_power(0.5))",
+       [](double x) { return -2 * std::sqrt(x / 2); }, 1e-200, 1e200}};
+  for (const Steep& question : steep) {
+    CAPTURE(std::string(question.f));
+    const Function f = samples::function(question.f, 1);
+    int known = 0;
+    for (const double x : {1e-200, 1e-100, 1e-50, 1e-8, 1.0, 10.0, 1e6, 3e8, 1e16, 1e50, 1e100, 1e200}) {
+      CAPTURE(x);
+      if (x < question.nearest || x > question.farthest) continue;
+      const Value found = f.evaluate(Vector::Constant(1, x));
+      const double truth = question.value(x);
+      // The exponents of the conjugates are rounded.
+      const double rounding = 4e-16 * (1 + std::abs(std::log(x))) * std::abs(truth);
+      CHECK(std::abs(found.value - truth) <= found.error + rounding);
+      CHECK(found.error <= 1e-11 * std::abs(truth));
+      ++known;
+    }
+    CHECK(known > 5);
+  }
+}
+
+TEST_CASE("a maximum far from where it is looked for is not missed on values that rounding makes equal") {
+  // From the steep end 0 of x log(x/2) - x + 2 on, all doubles up to 1e-17 have the value 2.
+  const Function f = samples::function(
+      "pointwise_max(pointwise_max(kullback_leibler(2), sum_largest(1)), sum(logistic(), huber(2)))", 1);
+  const double v = -1e-12;
+  const Value found = f.conjugate().evaluate(Vector::Constant(1, v));
+  double least = -2;
+  for (double x = 0; x < 1; x += 1e-4) least = std::max(least, v * x - f(Vector::Constant(1, x)));
+  CHECK(found.value >= least);
+  CHECK(found.value <= least + 2e-4);  // a kink, between steps
+  CHECK(found.error <= 1e-12);
+}
+
+TEST_CASE("a supremum that is not reached by the search is not told as settled") {
+  // 9/(2048 · 3 (x + 1)): the supremum of minus that is 0, at infinity, and the root for each value takes
+  // all of the work allowed.
+  const Function inverse = samples::function(
+      "precompose(perspective(separable(squared_norm2(1/1024), 1, zero(), 1)), [[0], [0], [3]], [3, 2, 3])",
+      1);
+  const Value at_infinity = inverse.conjugate().evaluate(Vector::Zero(1));
+  CHECK(std::abs(at_infinity.value) <= at_infinity.error + 1e-300);
+  // 4/x at 1e-200, where the slope -4e400 is no double.
+  const Value far = samples::function("inf_convolution(inverse_power(1), inverse_power(1))", 1)
+                        .evaluate(Vector::Constant(1, 1e-200));
+  CHECK(std::abs(far.value - 4e200) <= far.error);
+}
+
+TEST_CASE("what a split tells of a convolution at a steep end agrees with both definitions") {
+  const Function f = samples::function("inf_convolution(hinge(), inverse_power(0.5))", 1);
+  for (const double z : {1e2, 1e6, 3e8}) {
+    CAPTURE(z);
+    const Decomposition split = convex::decompose(f, Vector::Constant(1, z), Metric::identity(1));
+    const double x = split.x.x[0], y = split.y.x[0];
+    CHECK(split.status == Status::solved);
+    CHECK(std::abs(split.f_x - 1 / std::sqrt(x - 1)) <= 1e-10 * split.f_x);
+    // hinge*(y) = y on [-1, 0], and (x^-1/2)* = -3 (-y/4)^(1/3).
+    const double conjugate = y - 3 * std::cbrt(-y / 4);
+    CHECK(std::abs(split.g_y - conjugate) <= 1e-10 * std::abs(conjugate));
+  }
+}
+
 TEST_CASE("an infimum that is not attained is the value of an inf-convolution") {
   // 1/u and log(1 + e^(x-u)), or e^(x-u), both fall to 0 as u grows: the inf-convolution is 0 everywhere.
   for (const char* text :
