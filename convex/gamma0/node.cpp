@@ -8,8 +8,22 @@
 
 namespace convex::inline gamma0 {
 
+namespace {
+
+constexpr double roundings_of_a_value = 4;
+
+/// An upper bound of a support function. Of one entry it is a weight times |d| on each side: at d = ±1 a
+/// formula has nothing to round, and whether an end of a domain is another's is decided by its last digit.
+double on_direction(const FunctionNode& support, const Vector& d) {
+  const Value found = support.evaluate(d);
+  const bool by_formula = found.error <= roundings_of_a_value * unit_roundoff * std::abs(found.value);
+  if (d.size() == 1 && std::abs(d[0]) == 1 && by_formula) return found.value;
+  return found.value + found.error;
+}
+
+}  // namespace
+
 Value FunctionNode::evaluate(const Vector& x) const {
-  constexpr double roundings_of_a_value = 4;
   const double found = value(x);
   return {found, std::isfinite(found) ? roundings_of_a_value * unit_roundoff * std::abs(found) : 0};
 }
@@ -22,16 +36,14 @@ std::optional<Function> FunctionNode::entry(Index) const {
 double FunctionNode::recession(const Vector& d) const {
   if (d.isZero(0)) return 0;
   if (!facts().support) return std::numeric_limits<double>::infinity();
-  const Value found = evaluate(d);
-  return found.value + found.error;
+  return on_direction(*this, d);
 }
 
 double FunctionNode::domain_support(const Vector& v) const {
   if (v.isZero(0)) return 0;
   const Facts known = facts();
   if (known.finite || !known.indicator) return std::numeric_limits<double>::infinity();
-  const Value found = conjugate().evaluate(v);
-  return found.value + found.error;
+  return on_direction(conjugate().node(), v);
 }
 
 std::optional<LinearQuadratic> FunctionNode::linear_quadratic(Index) const { return std::nullopt; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "convex/composite/composite_prox.hpp"
@@ -37,6 +38,15 @@ constexpr double nearest_point_weight = 1e12, stiffest_weight = 1e30;
       f.call().name + ": its " + what +
       " needs the parts as programs, and one is known by value and prox alone; use functions of "
       "`moreau functions`");
+}
+
+/// Numbers such as 1/3 are rounded as they are read: sets that are to touch may be apart.
+[[noreturn]] void refuse_nearly_met(const char* where, double apart) {
+  char miss[32];
+  std::snprintf(miss, sizeof miss, "%.0e", apart);
+  throw InvalidInput(
+      std::string(where) + ": the domains of its functions miss each other by about " + miss +
+      ", which may be the rounding of the numbers written; move or widen one of them by as much");
 }
 
 void take_better(std::optional<Prox>& best, Prox found) {
@@ -268,9 +278,10 @@ void require_proper(const Function& f, Index n, const char* where) {
   const WorkLimit question;
   const bool by_entry = n == 1 || (f.dimension() == 0 && f.facts().separable);
   if (const auto domain = by_entry ? domain_of_one(f) : std::nullopt) {
-    const bool empty = domain->low > domain->high ||
-                       (domain->low == domain->high && std::isinf(f(Vector::Constant(1, domain->low))));
-    if (empty) refuse_empty();
+    const double apart = domain->low - domain->high;
+    if (apart > 0 && apart <= membership_tolerance * std::max(std::abs(domain->low), std::abs(domain->high)))
+      refuse_nearly_met(where, apart);
+    if (apart > 0 || (apart == 0 && std::isinf(f(Vector::Constant(1, domain->low))))) refuse_empty();
   }
   if (const auto form = f.node().linear_quadratic(n)) {
     if (properness(*form) == Defect::empty_domain) refuse_empty();

@@ -75,6 +75,28 @@ TEST_CASE("what is not convex, closed and proper, or does not fit, is refused at
   }
 }
 
+TEST_CASE("a convolution of one entry is improper where slopes meet at an open end alone") {
+  // Of one entry max() is x, and the conjugate of the average is finite on [0, 1]; that of -sqrt(x) on v < 0.
+  CHECK_THROWS_AS(
+      samples::function("inf_convolution(proximal_average(norm2(1), max(), 0.5, 1), negative_power(0.5))", 1),
+      InvalidInput);
+  CHECK_NOTHROW(samples::function(
+      "inf_convolution(proximal_average(norm2(1), norm1(1), 0.5, 1), negative_power(0.5))", 1));
+}
+
+TEST_CASE("sets that miss each other by the rounding of what was written are told how far they are apart") {
+  // Of the doubles read 1/2 - 1/6 is above 1/3 by 2^-55, rounded to a double by 2^-54; and 3/4 - 1/4 is 1/2.
+  try {
+    samples::function("sum(hyperplane([1], 1/3), translate(ball1(1/6), [1/2]))", 1);
+    FAIL_CHECK("it was taken");
+  } catch (const InvalidInput& error) {
+    CHECK(std::string(error.what()).find("miss each other by about 6e-17") != std::string::npos);
+  }
+  CHECK_NOTHROW(samples::function("sum(hyperplane([1], 1/2), translate(ball1(1/4), [3/4]))", 1));
+  CHECK_NOTHROW(
+      samples::function("sum(hyperplane([1], 0.33333333333333337), translate(ball1(1/6), [1/2]))", 1));
+}
+
 TEST_CASE("what only looks improper is taken") {
   for (const char* text : {
            "sum(indicator(box(0, 1)), indicator(box(1, 2)))",
