@@ -26,6 +26,10 @@ constexpr double allowed_descent = 1e-8;
 constexpr double growing =
     1e5;  ///< a supremum that is +inf grows so much as the search goes 1e8 times as far
 
+/// A supremum that is approached at infinity rises by less beyond 1e16 than from 1e8 to there: by 1e-4 of it
+/// where it is approached as by the root.
+constexpr double part_beyond = 2e-4;
+
 struct Subject {
   Call call;
   Function f;
@@ -113,6 +117,7 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
   const double objective = 0.5 * square(x - subject.z, subject.W) + split.f_x;
   const double scale =
       std::max({std::abs(split.f_x), square(subject.z, subject.W), square(x, subject.W), 1e-3});
+  const double of_rounded_y = rounding_of_inner(subject.W, x, y);  // x is the slope of g at y
   for (const Vector& u : around(subject, x, y)) {
     const auto at = call_value(subject.call, point(u), strict);
     if (!at || !std::isfinite(at->value)) continue;
@@ -121,8 +126,8 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
     if (there < objective - slack) return text("objective at a point, and at x", there, objective);
     const double bound = subject.W.inner(u, y) - static_cast<double>(at->value);
     const double large = std::max(u.norm() * subject.W.multiply(y).norm(), static_cast<double>(at->size));
-    const double slack_of_y =
-        allowed_descent * std::max({large, std::abs(split.g_y), 1e-3}) + rounding_of_inner(subject.W, u, y);
+    const double slack_of_y = allowed_descent * std::max({large, std::abs(split.g_y), 1e-3}) +
+                              rounding_of_inner(subject.W, u, y) + of_rounded_y;
     if (bound > split.g_y + slack_of_y) return text("(u|y) - f(u) at a point, and g(y)", bound, split.g_y);
   }
   return "";
@@ -173,7 +178,7 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
       // As a logarithm does, by as much at each scale.
       if (!(far > near && far - near > 0.5 * (near - within(1e4))))
         return text("conjugate +inf, supremum searched", v, far);
-    } else if (value > far + 100 * slack) {
+    } else if (value > far + 100 * slack + part_beyond * (far - near)) {
       return text("conjugate, and the supremum searched", value, far);
     }
   }
