@@ -50,6 +50,20 @@ TEST_CASE("the load of a table on four legs is shared by a quarter each, or anyt
   }
 }
 
+TEST_CASE(
+    "multipliers have a least norm where the squares of the ratios of rows leave the range of doubles") {
+  // Of x >= 0 in three units: lambda = -1 in all, as much as may be by the longest row.
+  const NearestPointProblem problem{convex::Metric::identity(1),
+                                    Vector::Constant(1, -1),
+                                    convex::ConstraintRows(RowMatrix{{1e-322}, {2.5e-321}, {25.5}}),
+                                    Vector::Zero(3),
+                                    {}};
+  const ExactProblem exact = convex::exact_problem(problem);
+  const ExactMultipliers all = convex::exact_multipliers(exact, convex::exact_active_set(exact, {}), true);
+  CHECK(oracles::is_exact_solution(problem, {{Rational(0)}, oracles::rationals(all.least_norm)}));
+  CHECK(convex::nearest_double(convex::entry(all.least_norm, 2)) == 1 / 25.5);
+}
+
 TEST_CASE("two-sided rows that repeat each other have multipliers of any size") {
   NearestPointProblem problem = four_legs();
   problem.two_sided = {0, 1, 2, 3};
