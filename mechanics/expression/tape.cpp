@@ -81,7 +81,17 @@ NodeId Tape::velocity(std::uint32_t i, Origin origin) {
 
 NodeId Tape::time(Origin origin) { return find_or_add(Operation::time, 0, 0, origin, 0, on_time); }
 
+bool Tape::chooses_among(Operation operation, NodeId chain, NodeId x) const {
+  for (; operation_[chain] == operation; chain = a_[chain])
+    if (a_[chain] == x || b_[chain] == x) return true;
+  return chain == x;
+}
+
 NodeId Tape::apply(Operation operation, NodeId a, NodeId b, Origin origin) {
+  if (operation == Operation::min || operation == Operation::max) {
+    if (chooses_among(operation, a, b)) return a;
+    if (chooses_among(operation, b, a)) return b;
+  }
   const auto depends = static_cast<std::uint8_t>(depends_[a] | depends_[b]);
   has_branches_ = has_branches_ || is_branch(operation);
   double result = 0;

@@ -22,8 +22,9 @@ inline constexpr char radius_mark = '~';
 enum Dependence : std::uint8_t { on_nothing = 0, on_coordinates = 1, on_velocities = 2, on_time = 4 };
 
 /// Expressions as one acyclic graph: a node comes after its operands, and equal nodes are one node.
-/// Nothing is simplified. The values of constants are computed as they are made, their nodes are kept.
-/// A constant with an undefined operand is NaN.
+/// Nothing is simplified, but that the lesser, or the greater, of two equal operands is one of them: between
+/// equal branches there is no choice. The values of constants are computed as they are made, their nodes are
+/// kept. A constant with an undefined operand is NaN.
 class Tape {
  public:
   NodeId literal(std::string_view text, double number, Origin origin);
@@ -60,6 +61,8 @@ class Tape {
                      std::uint8_t depends);
   std::uint32_t text_number(std::string_view text);
   void grow_table();
+  /// Is x one of the operands of a chain of minima, or of maxima, or the node itself?
+  bool chooses_among(Operation operation, NodeId chain, NodeId x) const;
   std::vector<Operation> operation_;
   std::vector<NodeId> a_, b_;
   std::vector<double> value_;

@@ -42,6 +42,23 @@ TEST_CASE("a comparison takes the branch that holds, and at equality the one tha
   }
 }
 
+TEST_CASE("between equal expressions there is no tie") {
+  const auto edges = [](const std::string& kinetic) -> std::string {
+    const auto s = system({{"x", "y"}, kinetic, "", {}, {}, {}, {}});
+    const auto warning = mechanics::branch_edges(*s, state({1, 3}, {0, 0}), {});
+    return warning ? warning->message : "";
+  };
+  for (const char* equal :
+       {"min(x, x)", "max(x + 1, x + 1)", "min(min(y, x), x)", "max(x, max(y, x, 2), y)"}) {
+    CAPTURE(equal);
+    CHECK(edges("(1 + " + std::string(equal) + ")*x'^2 + y'^2").empty());
+  }
+  for (const char* tie : {"min(x, 2*x - 1)", "max(min(y, x), x)"}) {
+    CAPTURE(tie);
+    CHECK(edges("(1 + " + std::string(tie) + ")*x'^2 + y'^2").find("a tie") != std::string::npos);
+  }
+}
+
 TEST_CASE("the branch that is not taken may be undefined") {
   CHECK(force_at("if(x > 0, sqrt(x), 3)", -1) == 3);
   CHECK(force_at("if(x > 0, sqrt(x), 3)", 4) == 2);
