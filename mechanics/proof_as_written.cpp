@@ -9,6 +9,7 @@
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/data_radii.hpp"
+#include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/singular/row_space.hpp"
 
 namespace mechanics {
@@ -235,11 +236,15 @@ class Proving {
     return OneProof{proof->level, false, 0};
   }
 
-  /// One-sided contacts without a row.
+  /// One-sided contacts without a row at this state: those without one at any ask nothing of q''.
   std::vector<Index> vanishing_rows() const {
+    const expression::LagrangianModel& model = written_.system->model();
     std::vector<Index> one_sided;
-    for (const Index a : contacts_)
-      if (!is_two_sided(a)) one_sided.push_back(a);
+    for (const Index a : contacts_) {
+      const bool moves =
+          (model.tape.depends(model.f[static_cast<std::size_t>(a)]) & expression::on_coordinates) != 0;
+      if (!is_two_sided(a) && moves) one_sided.push_back(a);
+    }
     const convex::SparseRows U = written_.system->contact_rows(written_.state, one_sided).U;
     std::vector<Index> vanishing;
     for (std::size_t k = 0; k < one_sided.size(); ++k) {

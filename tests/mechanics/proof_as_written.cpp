@@ -90,6 +90,18 @@ TEST_CASE("a contact that opens anyway is certified whether it touches as writte
     }
 }
 
+TEST_CASE("a contact that the coordinates do not enter asks nothing, and the answer is proved beside it") {
+  for (const char* floor : {"0 >= 0", "t^2 >= 0"}) {
+    CAPTURE(std::string(floor));
+    const CertifiedSolution found = over_the_floor("1", "9.81", floor);
+    CHECK(found.text->vanishing.empty());
+    CHECK(found.certificate.level == ProofLevel::exact);
+  }
+  const CertifiedSolution vanishing = over_the_floor("0", "9.81", "y^3 >= 0");
+  CHECK(vanishing.text->vanishing == std::vector<Index>{0});
+  CHECK(vanishing.certificate.level == ProofLevel::none);
+}
+
 TEST_CASE("where the text leaves a contact open, and it matters, nothing is certified") {
   const CertifiedSolution found = over_the_floor("0", "9.81", "y >= sin(1.4) - 2*sin(0.7)*cos(0.7)");
   CHECK(found.text->open == std::vector<Index>{0});
