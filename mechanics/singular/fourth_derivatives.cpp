@@ -103,8 +103,14 @@ std::vector<AddedRow> SingularGroup::test_fourth(std::size_t k, const std::vecto
   if (!redundant) undecided_ = true;
   if (redundant && !*redundant)
     refuse(dependence,
-           "derivatives up to the fourth do not tell the acceleration at this state; write it so that its "
-           "gradient does not vanish where it holds (y = 0 for y^4 = 0), or move off the state");
+           std::string("derivatives up to the fourth do not tell the acceleration at this state") +
+               (dependence.vanishes
+                    ? "; write it so that its gradient does not vanish where it holds (y = 0 for "
+                      "y^4 = 0), or move off the state"
+                : missed_place_ > 0 || missed_velocity_ > 0
+                    ? ", at which they hold only nearly; give it with more digits, or leave out a "
+                      "constraint that the others imply"
+                    : "; leave out a constraint that the others imply, or move off the state"));
   return {};
 }
 
