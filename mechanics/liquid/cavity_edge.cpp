@@ -112,8 +112,15 @@ void CavityEdge::find_levels(const convex::CutSolution& found) {
   for (std::size_t k = 0; k < n; ++k)
     if (weight[k] > 0) known[k] = sum[k] / weight[k];
   for (int ring = 0; ring < 2; ++ring) continue_straight(known);
-  for (std::size_t k = 0; k < n; ++k)
+  double longest = shortest;
+  for (std::size_t i = 0; i < grid.dimension; ++i) longest = std::max(longest, cells_.step[i]);
+  for (std::size_t k = 0; k < n; ++k) {
     if (!std::isnan(known[k])) level_[k] = known[k];
+    // Beside walls that part p grows by more than ½ |h| s²: what fits no parabola from an edge is liquid.
+    if (is_liquid(found, static_cast<Index>(k)) &&
+        found.q[k] > std::max(0.0, -cells_.h[k]) * longest * longest)
+      level_[k] = std::max(level_[k], 0.5 * shortest);
+  }
 }
 
 /// Points beside two in a row whose level is known continue it.

@@ -121,6 +121,38 @@ TEST_CASE("what has no Taylor series at an end of the line, as x^(3/2), is solve
   }
 }
 
+TEST_CASE("beside a wall that parts p > 0 is told, however steeply it grows from the wall") {
+  // The top parts up to a corner. Bilinear finite elements, 256² of them, give p = 0.0729 there.
+  const std::string text = R"liquid([liquid]
+coordinates = ["x", "y"]
+domain = "box(low=[0, 0], high=[1, 1])"
+density = 1
+force = ["3.397 + 5.437*x - 5.079*y + 7.973*x*y - 4.894*x^2 + 2.734*y^2",
+  "-6.531 + 4.124*x - 5.579*y + 3.305*x*y + 3.591*x^2 + 4.255*y^2"]
+cells = 128
+[liquid.free.bed]
+where = "y <= 0"
+pressure = "8.696 + 2.749*x - 1.172*x^2"
+[liquid.walls.left]
+where = "x <= 0"
+acceleration = "4.169 + 5.492*x - 5.477*y - 2.77*x*y - 3.114*x^2 + 0.673*y^2"
+[liquid.walls.right]
+where = "x >= 1"
+acceleration = "-2.128 + 6.299*x + 6.794*y - 2.941*x*y + 6.316*x^2 - 6.886*y^2"
+[liquid.walls.top]
+where = "true"
+acceleration = "-6.45 + 2.642*x + 4.785*y + 5.106*x*y + 7.872*x^2 + 5.756*y^2"
+)liquid";
+  const Folder folder;
+  const Outcome outcome =
+      run({"solve", "--json", "--probe", "x=0.96875, y=0.984375", folder.write("liquid.toml", text)});
+  CAPTURE(outcome.err);
+  REQUIRE((outcome.code == 0 || outcome.code == 3));
+  const OnsetJson probe = OnsetJson::parse(outcome.out)["probes"][0];
+  CHECK(std::abs(probe["p"].get<double>() - 0.0729) <= 5e-4);
+  CHECK(probe["growth"].get<double>() == 0);
+}
+
 TEST_CASE("a liquid that is all cavity is solved: p = 0, also proved") {
   // h = -1 - 3 x²/7 < 0, no pressure at the mouth, and a wall that leaves faster than the liquid follows.
   const Folder folder;
