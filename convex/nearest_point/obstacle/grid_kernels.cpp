@@ -132,6 +132,39 @@ void precise_residual(Index n, Index stride, double d, double c, const double* z
 }
 
 MOREAU_CLONES
+double choose(Index n, double d, const double* lower, const double* u, const double* rest,
+              double* __restrict free) {
+  double changed = 0;
+  for (Index i = 0; i < n; ++i) {
+    const double next = d * (lower[i] - u[i]) > rest[i] ? 0 : 1;
+    changed += next != free[i] ? 1 : 0;
+    free[i] = next;
+  }
+  return changed;
+}
+
+MOREAU_CLONES
+double free_square(Index n, const float* free, const double* r) {
+  constexpr Index lanes_of_doubles = lanes / 2;
+  double sums[lanes_of_doubles] = {}, sum = 0;
+  const auto square = [&](Index i) {
+    const double one = free[i] > 0 ? r[i] : 0;
+    return one * one;
+  };
+  Index i = 0;
+  for (; i + lanes_of_doubles <= n; i += lanes_of_doubles)
+    for (Index l = 0; l < lanes_of_doubles; ++l) sums[l] += square(i + l);
+  for (; i < n; ++i) sums[i % lanes_of_doubles] += square(i);
+  for (double one : sums) sum += one;
+  return sum;
+}
+
+MOREAU_CLONES
+void take_free(Index n, const float* free, const double* r, double factor, float* __restrict out) {
+  for (Index i = 0; i < n; ++i) out[i] = free[i] > 0 ? static_cast<float>(factor * r[i]) : 0;
+}
+
+MOREAU_CLONES
 void add_products(Index n, const float* r, const float* Ap, const float* z, Products& sums) {
   float of_r[lanes] = {}, of_Ap[lanes] = {};
   Index i = 0;

@@ -36,6 +36,13 @@ void residual(Index n, Index stride, double d, double c, const double* z, const 
 void precise_residual(Index n, Index stride, double d, double c, const double* z, const double* hi,
                       const double* lo, double* out);
 
+/// free = 1 where rest >= d (lower - u), else 0; how many changed.
+double choose(Index n, double d, const double* lower, const double* u, const double* rest, double* free);
+/// The sum of squares of r where free.
+double free_square(Index n, const float* free, const double* r);
+/// out = factor r where free, else 0.
+void take_free(Index n, const float* free, const double* r, double factor, float* out);
+
 /// The inner products of r and of Ap with z, sums of products.
 struct Products {
   double of_r = 0, of_Ap = 0;

@@ -23,16 +23,12 @@ GridOperator coarsened(const GridOperator& fine) {
   return {fine.width / 2, fine.height / 2, 4 * fine.c + 4 * (fine.d - 4 * fine.c), fine.c};
 }
 
-GridMultigrid::Level GridMultigrid::level(const GridOperator& A, double right, double top) {
-  Level made{A.width, A.height, 1, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-  for (const double of_row : {1.0, top})
-    for (Index i = 0; i < A.width; ++i) {
-      const double of_point = i + 1 < A.width ? 1 : right,
-                   d = A.d / A.c + (1 / of_point - 1) + (1 / of_row - 1);
-      made.d.push_back(static_cast<float>(d));
-      made.inverse_d.push_back(1 / made.d.back());
-    }
+GridMultigrid::Level GridMultigrid::level(const GridOperator& A, bool is_finest) {
+  Level made{A.width, A.height, 1, static_cast<float>(A.d / A.c), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   const auto size = static_cast<std::size_t>(A.size()), row = static_cast<std::size_t>(A.stride());
+  made.d.assign(is_finest ? row : size, made.free_d);
+  made.inverse_d.assign(made.d.size(), 1 / made.free_d);
+  if (!is_finest) made.edges.assign(size, {1, 1, 1, 1});
   for (std::vector<float>* field : {&made.free, &made.u, &made.r}) field->assign(size, 0);
   for (std::vector<float>* one : {&made.even, &made.odd, &made.mean, &made.sum, &made.last})
     one->assign(row, 0);
@@ -42,28 +38,45 @@ GridMultigrid::Level GridMultigrid::level(const GridOperator& A, double right, d
 
 GridMultigrid::GridMultigrid(const GridOperator& finest) : finest_(finest) {
   GridOperator grid = finest;
-  double right = 1, top = 1;
-  levels_.push_back(level(grid, right, top));
+  levels_.push_back(level(grid, true));
   while (std::min(grid.width, grid.height) > smallest_grid) {
-    right = (grid.width % 2 == 0 ? right : 1 + right) / 2;
-    top = (grid.height % 2 == 0 ? top : 1 + top) / 2;
     grid = coarsened(grid);
-    levels_.push_back(level(grid, right, top));
+    levels_.push_back(level(grid, false));
   }
 }
 
 void GridMultigrid::set_free(const Vector& free) {
   for (Index k = 0; k < free.size(); ++k)
     levels_.front().free[static_cast<std::size_t>(k)] = static_cast<float>(free[k]);
-  for (std::size_t l = 1; l < levels_.size(); ++l) {
-    const Level& fine = levels_[l - 1];
-    Level& coarse = levels_[l];
-    for (Index j = 0; j < coarse.height; ++j) {
-      const float* from = fine.free.data() + fine.at(2 * j + 1) + 1;
-      float* to = coarse.free.data() + coarse.at(j);
-      for (Index i = 0; i < coarse.width; ++i) to[i] = from[2 * i];
-    }
+  for (std::size_t l = 1; l < levels_.size(); ++l) set_coarse(levels_[l - 1], levels_[l]);
+}
+
+void GridMultigrid::set_coarse(const Level& fine, Level& coarse) {
+  for (Index j = 0; j < coarse.height; ++j) {
+    const float* from = fine.free.data() + fine.at(2 * j + 1) + 1;
+    float* to = coarse.free.data() + coarse.at(j);
+    for (Index i = 0; i < coarse.width; ++i) to[i] = from[2 * i];
   }
+  const std::array<Index, 4> beside{-1, 1, -fine.stride(), fine.stride()},
+      coarse_beside{-1, 1, -coarse.stride(), coarse.stride()};
+  const auto place = [](Index k) { return static_cast<std::size_t>(k); };
+  for (Index j = 0; j < coarse.height; ++j)
+    for (Index i = 0; i < coarse.width; ++i) {
+      const Index k = coarse.at(j) + i, there = fine.at(2 * j + 1) + 2 * i + 1;
+      float d = coarse.free_d;
+      for (std::size_t side = 0; side < 4; ++side) {
+        const Index between = there + beside[side];
+        float& edge = coarse.edges[place(k)][side];
+        edge = 1;
+        if (!(fine.free[place(between)] > 0))
+          edge = (fine.edges.empty() ? 1 : fine.edges[place(there)][side]) / 2;
+        else if (!(coarse.free[place(k + coarse_beside[side])] > 0))
+          edge = (1 + (fine.edges.empty() ? 1 : fine.edges[place(between)][side])) / 2;
+        d += 1 / edge - 1;
+      }
+      coarse.d[place(k)] = d;
+      coarse.inverse_d[place(k)] = 1 / d;
+    }
 }
 
 /// One colour of a row relaxed; colours of points beside differ, so the order within a row is no matter.
@@ -153,8 +166,7 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   const Index size = finest_.size(), n = grid.width;
   double square = 0;
   for (Index j = 0; j < grid.height; ++j)
-    for (Index k = grid.at(j); k < grid.at(j) + n; ++k)
-      square += grid.free[static_cast<std::size_t>(k)] > 0 ? right[k] * right[k] : 0;
+    square += grid_kernels::free_square(n, grid.free.data() + grid.at(j), right.data() + grid.at(j));
   u.resize(size);
   constexpr double least = 0x1p-900, so_little = 0x1p-400;  // squares below are no ordinary doubles
   if (!(square >= least)) {
@@ -170,11 +182,8 @@ GridMultigrid::Size GridMultigrid::solve(const Vector& right, double part, Vecto
   // What they have of a solve before, but for their frames of 0, is written over.
   for (std::vector<float>* field : {&p_, &Ap_}) field->resize(static_cast<std::size_t>(size));
   x_.assign(static_cast<std::size_t>(size), 0);
-  for (Index k = 0; k < size; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    // Beside tiny forces on the free points those that are not may be beyond all floats.
-    grid.r[i] = grid.free[i] > 0 ? static_cast<float>(right[k] / unit) : 0;
-  }
+  // Beside tiny forces on the free points those that are not may be beyond all floats.
+  grid_kernels::take_free(size, grid.free.data(), right.data(), 1 / unit, grid.r.data());
   const double energy_unit = unit * unit / finest_.c;
   double energy = 0, previous = 0, step = 0;
   for (Index count = 0; count < most_steps; ++count) {

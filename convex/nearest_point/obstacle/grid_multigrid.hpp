@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "convex/vector.hpp"
@@ -23,11 +24,11 @@ GridOperator coarsened(const GridOperator& fine);
 
 /// Conjugate gradients on the free points with a V-cycle as preconditioner (Brandt 1977; for free sets,
 /// truncated as by Kornhuber 1994): a red-black sweep before and, in reverse, after; bilinear interpolation
-/// and its transpose; a coarse point is free when the fine point at its place is. Where a coarse grid ends
-/// short of an edge, or beyond, the last points are tied to the edge by what lies between. All in single
-/// precision, which halves what is read and doubles what is done at once: digits come from residuals that the
-/// caller computes anew. Directions are made conjugate by Polak and Ribière's formula, which bears roundings
-/// best.
+/// and its transpose; a coarse point is free when the fine point at its place is. What is held, and the edges
+/// of the grid, begin between the points of coarse grids, to which their neighbours there are tied by the
+/// shorter links that finite volumes have. All in single precision, which halves what is read and doubles
+/// what is done at once: digits come from residuals that the caller computes anew. Directions are made
+/// conjugate by Polak and Ribière's formula, which bears roundings best.
 class GridMultigrid {
  public:
   explicit GridMultigrid(const GridOperator& finest);
@@ -45,22 +46,26 @@ class GridMultigrid {
   Index steps() const { return steps_; }
 
  private:
+  /// How far what is held begins to the left, right, below and above, in widths of the grid.
+  using Edges = std::array<float, 4>;
   /// u, r, free on one grid, and room for rows; each row begins with a spare entry.
   struct Level {
     Index width, height;
     float c;
-    std::vector<float> d, inverse_d;  ///< of a row, and of the last one
+    float free_d;                     ///< of a point whose neighbours are free
+    std::vector<float> d, inverse_d;  ///< of the finest grid one row, of the others all
     std::vector<float> free, u, r, even, odd, mean, sum, last;
+    std::vector<Edges> edges;  ///< 1 where the neighbour is free or the next point held; not of the finest
     Index stride() const { return width + 2; }
     Index at(Index j) const { return (j + 1) * stride() + 1; }
     const float* of_row(const std::vector<float>& x, Index j) const {
-      return x.data() + (j + 1 < height ? 0 : width);
+      return x.data() + (edges.empty() ? 0 : at(j));
     }
     /// 1 on the points of row j that are red (or black), else 0.
     const float* colour(Index j, bool red) const { return ((j % 2 == 0) == red ? even : odd).data() + 1; }
   };
-  /// right, top: how far the edges of the finest grid are beyond the last points, in widths of the grid.
-  static Level level(const GridOperator&, double right, double top);
+  static Level level(const GridOperator&, bool is_finest);
+  static void set_coarse(const Level& fine, Level& coarse);
   static void sweep_row(Level&, Index j, bool red);
   static void descend(Level& fine, Level& coarse);
   template <class RowDone>

@@ -24,6 +24,12 @@ Vector on_grid(const GridOperator& A, const Vector& x) {
   return field;
 }
 
+Vector off_grid(const GridOperator& A, const Vector& field) {
+  Vector x(A.width * A.height);
+  for (Index j = 0; j < A.height; ++j) x.segment(j * A.width, A.width) = field.segment(A.at(0, j), A.width);
+  return x;
+}
+
 /// The place of a point in a field; those that follow each other are found without a division.
 class GridPlace {
  public:
@@ -40,6 +46,29 @@ class GridPlace {
   const GridOperator& A_;
   Index row_ = 0, first_ = 0;
 };
+
+/// Whether W, compressed, is the operator of the grid: by columns, in order, -c beside each point and d on
+/// it.
+bool has_entries_of(const GridOperator& A, const SparseMatrix& W) {
+  const Index n = W.rows();
+  const auto* rows = W.innerIndexPtr();
+  const double* values = W.valuePtr();
+  for (Index k = 0, i = 0, next = 0; k < n; ++k, i = i + 1 < A.width ? i + 1 : 0) {
+    const auto is_next = [&](Index row, double value) {
+      const bool is = rows[next] == row && values[next] == value;
+      ++next;
+      return is;
+    };
+    const Index entries = 1 + (k >= A.width) + (i > 0) + (i + 1 < A.width) + (k + A.width < n);
+    if (W.outerIndexPtr()[k + 1] != next + entries) return false;
+    if (k >= A.width && !is_next(k - A.width, -A.c)) return false;
+    if (i > 0 && !is_next(k - 1, -A.c)) return false;
+    if (!is_next(k, A.d)) return false;
+    if (i + 1 < A.width && !is_next(k + 1, -A.c)) return false;
+    if (k + A.width < n && !is_next(k + A.width, -A.c)) return false;
+  }
+  return true;
+}
 
 std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   constexpr Index smallest = 8;
@@ -60,16 +89,7 @@ std::optional<ObstacleGrid> grid_problem(const NearestPointProblem& problem) {
   grid.A.height = n / width;
   if (std::min(width, grid.A.height) < smallest || !(grid.A.c > 0) || !(grid.A.d >= 4 * grid.A.c))
     return std::nullopt;
-  for (Index k = 0, i = 0; k < n; ++k, i = i + 1 < width ? i + 1 : 0) {
-    Index expected = 1 + (i > 0) + (i + 1 < width) + (k >= width) + (k + width < n);
-    for (SparseMatrix::InnerIterator it(W, k); it; ++it, --expected) {
-      const Index by = std::abs(it.row() - k);
-      const bool beside = by == 1 && (it.row() < k ? i > 0 : i + 1 < width);
-      if (by == 0 ? it.value() != grid.A.d : (!(beside || by == width) || it.value() != -grid.A.c))
-        return std::nullopt;
-    }
-    if (expected != 0) return std::nullopt;
-  }
+  if (!has_entries_of(grid.A, W)) return std::nullopt;
   grid.z = on_grid(grid.A, problem.z);
   grid.lower = Vector::Constant(grid.A.size(), no_bound);
   if (!problem.two_sided.empty()) grid.held = grid.A.field();
@@ -213,19 +233,14 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   GridPlace place(grid->A);
   Solution found;
   found.method = "obstacle";
-  found.q.resize(n);
-  Vector lost(n);
-  for (Index k = 0; k < n; ++k) {
-    const Index at = place(k);
-    found.q[k] = point.q.hi[at];
-    lost[k] = point.q.lo[at];
-  }
+  found.q = off_grid(grid->A, point.q.hi);
   found.lambda = Vector::Zero(problem.rows());
   found.slack = Vector::Zero(problem.rows());
   Vector length(problem.rows());
+  const double root = std::sqrt(grid->A.d);
   for (Index a = 0; a < problem.rows(); ++a) {
     const SparseRows::InnerIterator it(problem.U.sparse(), a);
-    length[a] = it.value() / std::sqrt(grid->A.d);  // a lower bound, (u·v)/||v||_A with v = u, is enough
+    length[a] = it.value() / root;  // a lower bound, (u·v)/||v||_A with v = u, is enough
     const Index k = place(it.col());
     if (grid->holds(k) || point.q.hi[k] <= grid->lower[k]) {
       const double push = -point.rest[k] / it.value();
@@ -242,7 +257,7 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   KnownParts known{std::move(length), found.slack, {}, found.acceleration_norm, found.force_norm};
   known.dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };
   found.residuals = residuals(problem, found.q, found.lambda, std::move(known));
-  found.rounding = std::sqrt(2 * grid->A.d * lost.squaredNorm());
+  found.rounding = std::sqrt(2 * grid->A.d * off_grid(grid->A, point.q.lo).squaredNorm());
   found.error_bound = 2 * point.missing + found.rounding;
   const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
   found.status = close && decided ? Status::solved : Status::inaccurate;

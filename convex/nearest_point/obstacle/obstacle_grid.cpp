@@ -112,16 +112,14 @@ class GridSolver {
 
   /// Points are free unless their multiplier outweighs their height; how many changed.
   Index choose() {
-    Index changed = 0;
+    double changed = 0;
     for_rows([&](Index row) {
-      for (Index k = row; k < row + A_.width; ++k) {
-        const bool rests = A_.d * (grid_.lower[k] - point_.q.hi[k]) > point_.rest[k] || grid_.holds(k);
-        const double next = rests ? 0 : 1;
-        changed += next != free_[k];
-        free_[k] = next;
-      }
+      for (Index k = row; k < row + A_.width && grid_.held.size() > 0; ++k)
+        if (grid_.holds(k)) point_.rest[k] = no_bound;
+      changed += grid_kernels::choose(A_.width, A_.d, grid_.lower.data() + row, point_.q.hi.data() + row,
+                                      point_.rest.data() + row, free_.data() + row);
     });
-    return changed;
+    return static_cast<Index>(changed);
   }
 
   void hold() {

@@ -6,7 +6,6 @@
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/isotonic/chain.hpp"
-#include "convex/nearest_point/obstacle/grid_multigrid.hpp"
 #include "convex/nearest_point/obstacle/obstacle.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
@@ -157,24 +156,6 @@ TEST_CASE(
       CHECK(found->residuals.feasibility <= few_roundings);
       CHECK(found->residuals.stationarity <= few_roundings);
     }
-}
-
-TEST_CASE("an edge that lies off the coarse grids costs multigrid a cycle at most") {
-  const auto cycles = [](Index side) {
-    const convex::GridOperator A{side, side};
-    Vector all = A.field(), u;
-    for (Index j = 0; j < side; ++j) all.segment(A.at(0, j), side).setOnes();
-    convex::GridMultigrid multigrid(A);
-    multigrid.set_free(all);
-    multigrid.solve(all, 1e-4, u);
-    return multigrid.steps();
-  };
-  for (Index side : {63, 127, 255}) {  // edges of all grids coincide
-    CAPTURE(side);
-    CHECK(cycles(side + 1) <= cycles(side) + 1);
-    CHECK(cycles(side + 2) <= cycles(side) + 1);
-    CHECK(cycles(side + 37) <= cycles(side) + 1);
-  }
 }
 
 TEST_CASE("a grid is told from what is nearly one") {
