@@ -39,6 +39,11 @@ std::vector<std::uint8_t> coarser_taut(const CutGrid& fine, const std::vector<st
 
 void CutMultigrid::set_taut(Level& level, const std::vector<std::uint8_t>& taut) const {
   const CutGrid& grid = *level.grid;
+  for (const Index k : level.tied) {
+    level.pull[at(k)] = static_cast<float>(grid.pull[at(k)] / unit_);
+    level.diagonal[at(k)] = level.sum_at(k);
+  }
+  level.tied.clear();
   for (const Pendant& pendant : grid.pendants)
     level.pull[at(pendant.point)] = static_cast<float>(grid.pull[at(pendant.point)] / unit_);
   for (std::size_t a = 0; a < taut.size(); ++a)
@@ -69,7 +74,46 @@ void CutMultigrid::set_free(const std::vector<std::uint8_t>& held, std::vector<s
         if (!level.scale.empty()) level.weight[at(here)] = is_free ? level.scale[at(here)] : 0;
       }
     });
+    level.edges.clear();
+    if (fine != nullptr) tie_to_held(*fine, level);
   }
+}
+
+void CutMultigrid::tie_to_held(const Level& fine, Level& coarse) {
+  const CutGrid &grid = *coarse.grid, &from = *fine.grid;
+  const auto is_held = [&](Index k) { return from.is_unknown(k) && !fine.is_free(k); };
+  const auto fine_edge = [&](Index k, std::size_t side) {
+    return fine.edges.empty() || !fine.is_free(k) ? 1 : fine.edges[at(k)][side];
+  };
+  Edges whole;
+  whole.fill(1);
+  coarse.edges.assign(at(grid.size()), whole);
+  for_rows(grid, [&](Index first, Index j, Index k) {
+    for (Index i = 0; i < grid.points[0]; ++i) {
+      const Index here = first + i, there = from.at(2 * i, 2 * j, 2 * k);
+      if (!coarse.is_free(here)) continue;
+      float tie = 0;
+      for (std::size_t side = 0; side < 2 * grid.dimension; ++side) {
+        const std::size_t axis = side / 2;
+        const bool is_behind = side % 2 == 1;
+        const Index beside = here + (is_behind ? grid.stride(axis) : -grid.stride(axis)),
+                    between = there + (is_behind ? from.stride(axis) : -from.stride(axis));
+        const float link = coarse.link[axis][at(is_behind ? here : beside)];
+        if (!(link > 0)) continue;
+        float& edge = coarse.edges[at(here)][side];
+        if (is_held(between))
+          edge = fine_edge(there, side) / 2;
+        else if (!coarse.is_free(beside))
+          edge = (1 + fine_edge(between, side)) / 2;
+        tie += link * (1 / edge - 1);
+      }
+      if (!(tie > 0)) continue;
+      coarse.tied.push_back(here);
+      coarse.pull[at(here)] += tie;
+      coarse.diagonal[at(here)] += tie;
+      coarse.inverse[at(here)] = 1 / coarse.diagonal[at(here)];
+    }
+  });
 }
 
 }  // namespace convex::inline complementarity_grid

@@ -20,7 +20,8 @@ class CutMultigrid {
   /// Which of the grids is solved for; at first the finest.
   void choose(std::size_t grid);
   /// held: 1 on unknowns kept as they are; taut: by pendant, whether y = 0. On coarser grids a point is held
-  /// when the fine one at its place is, a pendant taut when one of a neighbour is.
+  /// when the fine one at its place is, a pendant taut when one of a neighbour is; what is held begins
+  /// between their points, to which those beside are tied by the shorter links that finite volumes have.
   void set_free(const std::vector<std::uint8_t>& held, std::vector<std::uint8_t> taut);
 
   /// q += the correction for its residual in these equations, the grid's, to `part` of its energy norm, or
@@ -30,10 +31,15 @@ class CutMultigrid {
   void interpolate(const std::vector<double>& from, std::vector<double>& to) const;
 
  private:
+  /// How far what is held begins before and behind a point along each axis, in steps of the grid; 1 where the
+  /// neighbour is free.
+  using Edges = std::array<float, 6>;
   struct Level {
     const CutGrid* grid;
     std::array<std::vector<float>, 3> link;
-    std::vector<float> pull;           ///< with the taut pendants
+    std::vector<float> pull;           ///< with the taut pendants, and the ties to what is held
+    std::vector<Edges> edges;          ///< of free points; empty on the grid solved for
+    std::vector<Index> tied;           ///< where pull has a tie
     std::vector<float> diagonal;       ///< the same; 0 on points that are not unknown
     std::vector<float> inverse;        ///< of the diagonal; 0 where not free
     std::vector<float> scale, weight;  ///< of the interpolation; 0 where not free
@@ -53,6 +59,7 @@ class CutMultigrid {
   };
   Level level_of(const CutGrid&) const;
   void set_taut(Level&, const std::vector<std::uint8_t>& taut) const;
+  static void tie_to_held(const Level& fine, Level& coarse);
   static void sweep(Level&, Index slab, bool red);
   static void first_sweep(Level&, Index slab);
   static void find_rest(Level&, Index slab);

@@ -78,3 +78,49 @@ TEST_CASE("sweeps around an edge leave points away from it as they are, and hold
     }
   CHECK(moved >= 3 * points);
 }
+
+TEST_CASE(
+    "held points with edges between those of coarse grids cost a cycle or two more than none, on grids of "
+    "any size") {
+  // Fixed on the border; a load of 1 inside.
+  const auto square = [](Index points) {
+    CutGrid grid(2, {points, points, 1});
+    for (Index j = 0; j < points; ++j)
+      for (Index i = 0; i < points; ++i)
+        grid.kind[at(grid.at(i, j))] =
+            std::min({i, j, points - 1 - i, points - 1 - j}) == 0 ? CutPoint::fixed : CutPoint::bounded;
+    for (Index k = 0; k < grid.size(); ++k) {
+      if (!grid.is_unknown(k)) continue;
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const Index before = k - grid.stride(axis), behind = k + grid.stride(axis);
+        if (grid.is_unknown(behind)) grid.link[axis][at(k)] = 1;
+        grid.pull[at(k)] += !grid.is_unknown(before) + !grid.is_unknown(behind);
+      }
+      grid.load[at(k)] = 1;
+    }
+    return grid;
+  };
+  const auto cycles = [&](Index points, double radius) {
+    std::vector<CutGrid> grids;
+    for (Index n = points; n >= 5; n = (n + 1) / 2) grids.push_back(square(n));
+    std::vector<const CutGrid*> nested;
+    for (const CutGrid& grid : grids) nested.push_back(&grid);
+    const CutGrid& finest = grids.front();
+    CutMultigrid multigrid(nested);
+    std::vector<std::uint8_t> held(at(finest.size()));
+    const double half = 0.5 * static_cast<double>(points - 1);
+    for (Index j = 0; j < points; ++j)
+      for (Index i = 0; i < points; ++i)
+        held[at(finest.at(i, j))] =
+            std::hypot(static_cast<double>(i) - half, static_cast<double>(j) - half) < radius * half;
+    multigrid.set_free(held, {});
+    std::vector<double> q(at(finest.size()));
+    return multigrid.correct(CutEquations(finest), q, 1e-6);
+  };
+  for (const Index points : {65, 129, 257, 513})
+    for (const double radius : {0.2237, 0.5, 0.71}) {
+      CAPTURE(points);
+      CAPTURE(radius);
+      CHECK(cycles(points, radius) <= cycles(points, 0) + 1);
+    }
+}
