@@ -38,9 +38,9 @@ void precise_residual(Index n, Index stride, double d, double c, const double* z
 
 /// free = 1 where rest >= d (lower - u), else 0; how many changed.
 double choose(Index n, double d, const double* lower, const double* u, const double* rest, double* free);
-/// The sum of squares of r where free.
+/// The sum of squares of r, finite, where free is 1, not 0.
 double free_square(Index n, const float* free, const double* r);
-/// out = factor r where free, else 0.
+/// out = factor r where free is 1, else 0.
 void take_free(Index n, const float* free, const double* r, double factor, float* out);
 
 /// The inner products of r and of Ap with z, sums of products.
