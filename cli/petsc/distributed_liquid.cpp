@@ -11,6 +11,7 @@
 #include "cli/petsc/grid_part.hpp"
 #include "convex/invalid_input.hpp"
 #include "mechanics/liquid/grid_error.hpp"
+#include "mechanics/liquid/largest_pressure.hpp"
 
 namespace cli::petsc {
 namespace {
@@ -173,6 +174,12 @@ double difference_of_grids(const LiquidScene& scene, DM coarse, Vec q, DM fine, 
   return largest_of_all(largest);
 }
 
+bool is_in_cavity(const CutCells& cells, Index k, double p, double largest) {
+  constexpr double zero_part = 1e-10;  // of the largest p: what Newton's steps leave where it is 0
+  return cells.grid.kind[index_of(k)] == CutPoint::bounded && cells.h[index_of(k)] < 0 &&
+         p <= zero_part * largest;
+}
+
 void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
                  const std::vector<double>& differences, DistributedPressure& made) {
   const Ghosted ghosted(grid, q);
@@ -180,12 +187,13 @@ void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
   std::vector<double> p(index_of(cells.grid.size()), std::numeric_limits<double>::quiet_NaN());
   part.for_own([&](Index k, PetscInt there, PetscInt) {
     p[index_of(k)] = cells.grid.is_unknown(k) ? ghosted.values()[there] : cells.given[index_of(k)];
+    if (is_in_cavity(cells, k, p[index_of(k)], made.largest)) p[index_of(k)] = 0;
   });
   constexpr double digits = 1e-9;
   const auto across = static_cast<long>(made.cells);
   mechanics::liquid::Bends bends =
       mechanics::liquid::largest_bends(scene, cells, across, [&](Index k) { return p[index_of(k)]; });
-  bends = {largest_of_all(bends.singular), largest_of_all(bends.beside)};
+  bends = {largest_of_all(bends.singular), largest_of_all(bends.beside), largest_of_all(bends.edge)};
   made.error_bound = mechanics::liquid::error_by(
                          mechanics::liquid::error_by_differences(scene, differences, across), bends) +
                      largest_of_all(cells.hidden) + digits * made.largest;
@@ -196,31 +204,21 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
   const CutCells& cells = part.cells();
   const double whole_cell = cells.face_area(3);
   double unknowns = 0, cavity = 0, volume = 0;
+  std::vector<double> p(index_of(cells.grid.size()), std::numeric_limits<double>::quiet_NaN());
   Best best{-1, 0};
   Point at{}, low{}, high{};
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-low[0]);
   part.for_own([&](Index k, PetscInt there, PetscInt) {
     volume += whole_cell * mechanics::liquid::part_in_domain(scene.domain, cells.at(k), cells.step);
-    const double p = ghosted.values()[there];
-    if (!cells.grid.is_unknown(k)) {
-      if (cells.given[index_of(k)] > best.value) {
-        best.value = cells.given[index_of(k)];
-        at = cells.at(k);
-      }
-      return;
-    }
-    ++unknowns;
-    if (cells.grid.kind[index_of(k)] == CutPoint::bounded && p > best.value) {
-      best.value = p;
-      at = cells.at(k);
-    }
+    const bool is_unknown = cells.grid.is_unknown(k);
+    p[index_of(k)] = is_unknown ? ghosted.values()[there] : cells.given[index_of(k)];
+    unknowns += is_unknown ? 1 : 0;
   });
-  for (const auto& given : cells.pressures)
-    if (given.pressure > best.value) {
-      best.value = given.pressure;
-      at = given.at;
-    }
+  const mechanics::liquid::LargestPressure largest =
+      mechanics::liquid::largest_pressure(scene, cells, [&](Index k) { return p[index_of(k)]; });
+  best.value = largest.p;
+  at = largest.at;
   int rank;
   MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   best.rank = rank;
@@ -229,11 +227,8 @@ void summarise(const LiquidScene& scene, const GridPart& part, DM grid, Vec q, D
   MPI_Bcast(at.data(), static_cast<int>(at.size()), MPI_DOUBLE, first.rank, PETSC_COMM_WORLD);
   made.largest = first.value;
   made.largest_at = at;
-  constexpr double zero_part = 1e-10;  // of the largest p: what Newton's steps leave where it is 0
   part.for_own([&](Index k, PetscInt there, PetscInt) {
-    if (cells.grid.kind[index_of(k)] != CutPoint::bounded || !(cells.h[index_of(k)] < 0) ||
-        ghosted.values()[there] > zero_part * made.largest)
-      return;
+    if (!is_in_cavity(cells, k, ghosted.values()[there], made.largest)) return;
     cavity += cells.volume[index_of(k)];
     for (std::size_t i = 0; i < scene.dimension(); ++i) {
       low[i] = std::min(low[i], cells.at(k)[i] - 0.5 * cells.step[i]);

@@ -94,6 +94,22 @@ double largest_bend_at_pressures(const CutCells& cells, const NodeValue& value) 
   return largest;
 }
 
+/// |h| s²/8 over the steps s from the nodes of a cavity to those beside it.
+double largest_miss_at_edge(const CutCells& cells, const NodeValue& value) {
+  const convex::CutGrid& grid = cells.grid;
+  double largest = 0;
+  for (Index k = 0; k < grid.size(); ++k) {
+    if (grid.kind[entry_of(k)] != CutPoint::bounded || !(cells.h[entry_of(k)] < 0) || value(k) != 0) continue;
+    for (std::size_t axis = 0; axis < grid.dimension; ++axis)
+      for (const Index beside : {k - grid.stride(axis), k + grid.stride(axis)}) {
+        if (grid.kind[entry_of(beside)] != CutPoint::bounded || !(value(beside) > 0)) continue;
+        const double h = std::max(std::abs(cells.h[entry_of(k)]), std::abs(cells.h[entry_of(beside)]));
+        largest = std::max(largest, h * cells.step[axis] * cells.step[axis] / 8);
+      }
+  }
+  return largest;
+}
+
 /// Nodes of the boundary, and which of them lie at junctions or corners.
 class SingularNodes {
  public:
@@ -198,11 +214,12 @@ double error_by_differences(const LiquidScene& scene, const std::vector<double>&
 
 Bends largest_bends(const LiquidScene& scene, const CutCells& cells, long across, const NodeValue& value) {
   return {SingularNodes(scene, cells).largest_bend(value),
-          largest_bend_at_pressures(cells, value) / (across < few_cells ? 1 : 8)};
+          largest_bend_at_pressures(cells, value) / (across < few_cells ? 1 : 8),
+          largest_miss_at_edge(cells, value)};
 }
 
 double error_by(double differences, const Bends& bends) {
-  return std::max(differences + bends.singular, bends.beside);
+  return std::max(differences + bends.singular + bends.edge, bends.beside);
 }
 
 double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,

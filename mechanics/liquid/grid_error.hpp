@@ -18,11 +18,15 @@ namespace mechanics::liquid {
 /// is O(h²) where p is smooth and of the size of K h^α where it is not, is added. What p bends beside given
 /// pressures, which nodes in a cavity alone do not see, counts where it is larger than all that.
 ///
+/// A cavity ends at a node for the grid. Where it ends by d further on, which may be half a step s, and the
+/// same in all nested grids, all of them are |h| d²/2 off, and no difference tells: |h| s²/8 is added.
+///
 /// `differences`: of p on each grid and the next coarser one, finest first.
 double error_by_differences(const LiquidScene&, const std::vector<double>& differences, long cells);
-/// What second differences say: at junctions and corners, and beside given pressures.
+/// What second differences say, at junctions and corners and beside given pressures, and h at the edge of a
+/// cavity.
 struct Bends {
-  double singular = 0, beside = 0;
+  double singular = 0, beside = 0, edge = 0;
 };
 /// `value`: p at a node, NaN where it is none or not known.
 Bends largest_bends(const LiquidScene&, const CutCells&, long cells,

@@ -9,6 +9,7 @@
 #include "mechanics/liquid/cavity_edge.hpp"
 #include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/grid_pressure.hpp"
+#include "mechanics/liquid/largest_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
 
@@ -52,40 +53,6 @@ double content(const LiquidScene& scene, const CutCells& cells) {
     sum += cell_volume * part_in_domain(scene.domain, cells.at(k), cells.step);
   });
   return sum;
-}
-
-/// The largest p: over nodes, with the top of the parabolas through them, and what is given.
-void find_largest(LiquidSolution& solution, const CutCells& cells, const CutSolution& found) {
-  solution.largest = -1;
-  const auto offer = [&](double p, const Point& x) {
-    if (!(p > solution.largest)) return;
-    solution.largest = p;
-    solution.largest_at = x;
-  };
-  const auto& grid = cells.grid;
-  for (const GivenPressure& given : cells.pressures) offer(given.pressure, given.at);
-  for_nodes(cells, [&](Index k, const std::array<Index, 3>&) {
-    if (grid.kind[index_of(k)] != CutPoint::bounded) return;
-    Point x = cells.at(k);
-    double p = found.q[index_of(k)];
-    for (std::size_t axis = 0; axis < grid.dimension; ++axis) {
-      const Index s = grid.stride(axis);
-      if (grid.kind[index_of(k - s)] != CutPoint::bounded || grid.kind[index_of(k + s)] != CutPoint::bounded)
-        continue;
-      const double low = found.q[index_of(k - s)], here = found.q[index_of(k)],
-                   high = found.q[index_of(k + s)];
-      const double bend = low - 2 * here + high, tilt = 0.5 * (high - low);
-      if (low > here || high > here || !(bend < 0)) continue;
-      p -= 0.5 * tilt * tilt / bend;
-      x[axis] -= tilt / bend * cells.step[axis];
-    }
-    offer(p, x);
-  });
-  for (const WallPiece& wall : cells.walls)
-    if (wall.pendant >= 0) {
-      const convex::Pendant& pendant = grid.pendants[index_of(wall.pendant)];
-      offer(found.q[index_of(pendant.point)] + pendant.shift, wall.at);
-    }
 }
 
 /// The walls that push less than they would have to be followed: p = 0 on them, strictly.
@@ -201,7 +168,12 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
       return {};
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
-    find_largest(solution, levels.finest(), found.front());
+    const CutCells& finest = levels.finest();
+    const LargestPressure largest = largest_pressure(scene, finest, [&](Index k) {
+      return finest.grid.is_unknown(k) ? found[0].q[index_of(k)] : finest.given[index_of(k)];
+    });
+    solution.largest = largest.p;
+    solution.largest_at = largest.at;
     solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();

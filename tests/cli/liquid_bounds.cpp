@@ -1,0 +1,70 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.hpp"
+
+using namespace tests;
+using Told = nlohmann::json;
+
+namespace {
+
+/// A liquid in the plane of density 1.
+Told told(const std::string& domain, const std::string& force, const std::string& parts,
+          const std::string& probe = "") {
+  const Folder folder;
+  const std::string file =
+      folder.write("liquid.toml", "[liquid]\ncoordinates = [\"x\", \"y\"]\ndensity = 1\ndomain = \"" +
+                                      domain + "\"\nforce = " + force + "\n" + parts);
+  const Outcome outcome =
+      probe.empty() ? run({"solve", "--json", file}) : run({"solve", "--json", file, "--probe", probe});
+  CAPTURE(outcome.err);
+  REQUIRE((outcome.code == 0 || outcome.code == 3));
+  return Told::parse(outcome.out);
+}
+
+double bound_of(const Told& answer) { return answer["certificate"]["error_bound"].get<double>(); }
+
+}  // namespace
+
+TEST_CASE(
+    "the largest pressure is that of the closed domain: at a vertex where p0 is largest, and no further than "
+    "walls") {
+  // p = 3 + x, largest at the vertex.
+  const Told polygon =
+      told("polygon(vertices=[[0.097, 0.607], [-0.567, 1.48], [-1.872, 0.299], [-1.191, -0.42]])",
+           "[\"0\", \"0\"]", "free = { all = { where = \"true\", pressure = \"3 + x\" } }\ncells = 32\n");
+  CHECK(polygon["pressure"]["max"].get<double>() == doctest::Approx(3.097).epsilon(1e-12));
+  CHECK(polygon["pressure"]["at"]["x"].get<double>() == doctest::Approx(0.097));
+
+  // p = (1 + r²)/2, largest on the rim, nearly all of which is a wall.
+  for (const int cells : {48, 100, 256}) {
+    CAPTURE(cells);
+    const Told disc = told(
+        "disc(center=[0, 0], radius=1)", "[\"x\", \"y\"]",
+        "free = { tip = { where = \"x >= 0.99999\", pressure = 1 } }\nwalls = { rim = { where = \"true\", "
+        "acceleration = 0 } }\ncells = " +
+            std::to_string(cells) + "\n");
+    CHECK(std::abs(disc["pressure"]["max"].get<double>() - 1) <= bound_of(disc));
+    const double x = disc["pressure"]["at"]["x"].get<double>(), y = disc["pressure"]["at"]["y"].get<double>();
+    CHECK(std::hypot(x, y) <= 1 + 1e-9);
+  }
+}
+
+TEST_CASE(
+    "where a cavity ends beyond a node that all grids share, and these agree on what is wrong, the error "
+    "bound covers it") {
+  // p = max(x - e, 0)²/2.
+  for (const int cells : {16, 32, 64, 128})
+    for (const double beyond : {0.1, 0.3, 0.45, 0.49}) {
+      const double edge = 0.5 + beyond / cells;
+      CAPTURE(cells);
+      CAPTURE(beyond);
+      const Told answer =
+          told("box(low=[0, 0], high=[1, 1])", "[\"x\", \"0\"]",
+               "free = { all = { where = \"true\", pressure = \"max(x - e, 0)^2/2\" } }\ncells = " +
+                   std::to_string(cells) + "\n[liquid.parameters]\ne = " + std::to_string(edge) + "\n",
+               "x=0.6,y=0.5");
+      const double e = std::stod(std::to_string(edge)), p = answer["probes"][0]["p"].get<double>();
+      CHECK(std::abs(p - 0.5 * std::pow(std::max(0.0, 0.6 - e), 2)) <= bound_of(answer));
+    }
+}
