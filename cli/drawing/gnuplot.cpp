@@ -11,6 +11,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "cli/held_interrupt.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace cli::inline drawings {
@@ -133,6 +134,7 @@ void require_drawable(const std::string& file) {
 
 void draw(const std::string& file, const Drawing& drawing) {
   const ScriptFile script(terminal_text(file, drawing.width, drawing.height) + drawing.script);
+  const HeldInterrupt held;
   FILE* program = popen(("gnuplot " + script.path() + " 2>&1").c_str(), "r");
   if (program == nullptr) throw InvalidInput(std::string("gnuplot does not start; ") + gnuplot_advice);
   std::string said;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/held_interrupt.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/matrix_market.hpp"
 #include "cli/problem_file/problem.hpp"
@@ -150,6 +151,7 @@ void write_matrices_out(TomlValue& document, const std::string& directory) {
 }
 
 void write_file(const std::string& file, const std::string& text) {
+  const HeldInterrupt held;
   std::ofstream out(file, std::ios::binary);
   out << text;
   out.close();

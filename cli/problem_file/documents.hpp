@@ -42,7 +42,7 @@ void write_problem_folder(const convex::NearestPointProblem&, const std::string&
 /// The Gram matrix of a metric in full.
 convex::Matrix full_gram(const convex::Metric& A);
 
-/// Writes a text to a file. Throws InvalidInput when it cannot.
+/// Writes a text to a file, whole: Ctrl-C waits until it is there. Throws InvalidInput when it cannot.
 void write_file(const std::string& file, const std::string& text);
 
 /// A document whose one table is [projection], from numbers.

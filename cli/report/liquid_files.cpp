@@ -2,22 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <iterator>
 
-#include "convex/invalid_input.hpp"
+#include "cli/problem_file/documents.hpp"
 
 namespace cli::inline reports {
 namespace {
 
 using mechanics::liquid::LiquidSample;
-
-void write_whole(const std::string& file, const std::string& text) {
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.flush();
-  if (!out) throw convex::InvalidInput("cannot write to " + file + "; give a path that can be written");
-}
 
 template <class Value>
 std::string data_array(const char* name, const LiquidSample& sample, Value value) {
@@ -42,14 +34,14 @@ void write_liquid_table(const std::string& file, const std::vector<std::string>&
     fmt::format_to(std::back_inserter(text), "{},{},{}\n", sample.p[k], sample.growth[k],
                    sample.cavity[k] ? 1 : 0);
   }
-  write_whole(file, text);
+  write_file(file, text);
 }
 
 void write_liquid_image(const std::string& file, const LiquidSample& sample) {
   const auto& n = sample.points;
   const auto spacing = [&](std::size_t i) { return sample.step[i] > 0 ? sample.step[i] : 1.0; };
   const std::string extent = fmt::format("0 {} 0 {} 0 {}", n[0] - 1, n[1] - 1, n[2] - 1);
-  write_whole(
+  write_file(
       file,
       fmt::format(
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"0.1\">\n<ImageData "

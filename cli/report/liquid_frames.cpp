@@ -1,9 +1,8 @@
 #include "cli/report/liquid_frames.hpp"
 
-#include <fstream>
-
 #include "cli/drawing/liquid_animation.hpp"
 #include "cli/measurement/progress.hpp"
+#include "cli/problem_file/documents.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -53,10 +52,7 @@ void LiquidFrames::write(const std::string& title) const {
   }
   if (const auto onset = mechanics::liquid::find_onset(text_, range_.key, {}).onset)
     animation.mark_onset(*onset);
-  std::ofstream out(file_, std::ios::binary);
-  out << animation.page(title);
-  out.flush();
-  if (!out) throw InvalidInput("cannot write to " + file_ + "; give a path that can be written");
+  write_file(file_, animation.page(title));
 }
 
 }  // namespace cli::inline reports

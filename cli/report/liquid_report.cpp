@@ -9,6 +9,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/liquid_files.hpp"
 #include "cli/report/liquid_frames.hpp"
+#include "cli/report/solve_progress.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "mechanics/liquid/liquid_language.hpp"
@@ -142,6 +143,7 @@ void require_no_liquid_request(const LiquidRequest& request) {
 
 SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& request) {
   const auto start = std::chrono::steady_clock::now();
+  std::optional<SolveProgress> progress(std::in_place);
   SolvedLiquid solved;
   solved.scene = mechanics::liquid::read_scene(text);
   std::vector<Point> points;
@@ -163,6 +165,7 @@ SolvedLiquid solve_liquid_text(const LiquidText& text, const LiquidRequest& requ
   if (request.certify) solved.level = solved.solution.is_proved ? "enclosure" : "none";
   solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_files(solved, request);
+  progress.reset();
   if (frames) frames->write(request.title);
   return solved;
 }

@@ -8,7 +8,8 @@
 namespace cli::inline reports {
 
 /// A line on standard error for a solve that lasts over a second, where that is a terminal: the method, its
-/// steps and the time so far. It goes when the solve is over.
+/// steps and the time so far. It goes when the solve is over. Ctrl-C takes it away, tells that the solve was
+/// interrupted, and ends the program as the signal does.
 class SolveProgress {
  public:
   SolveProgress();
@@ -20,6 +21,7 @@ class SolveProgress {
   void show(std::string_view method, convex::Index steps);
 
   bool terminal_, shown_ = false;
+  void (*interrupted_before_)(int);
   std::chrono::steady_clock::time_point start_, last_;
   convex::SolveWatch watch_;
 };

@@ -1,5 +1,13 @@
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -40,7 +48,42 @@ std::vector<int> decoded(const std::string& letters) {
   return numbers;
 }
 
+/// A square of 512 cells is solved with a table and an image; Ctrl-C comes when the first of the files is
+/// there, or at once. Its end, and what it said.
+std::pair<int, std::string> interrupted_square(const Folder& folder, const std::string& awaited) {
+  const std::string said = folder.path("said"), table = folder.path("p.csv"), image = folder.path("p.vti");
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+    dup2(open(said.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
+    execl(MOREAU_PROGRAM, MOREAU_PROGRAM, "solve", MOREAU_SOURCE "/docs/problems/liquid_square.toml", "--set",
+          "liquid.cells=512", "--data", table.c_str(), "--vtk", image.c_str(), nullptr);
+    _exit(127);
+  }
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!std::filesystem::exists(awaited) && std::chrono::steady_clock::now() < end) {
+  }
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {status, text_of(said)};
+}
+
 }  // namespace
+
+TEST_CASE("Ctrl-C ends the solve of a liquid in words, and no file is left half written") {
+  const Folder folder;
+  const auto [status, said] = interrupted_square(folder, folder.path("said"));
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGINT);
+  CHECK(!std::filesystem::exists(folder.path("p.csv")));
+  const auto [later, words] = interrupted_square(folder, folder.path("p.csv"));
+  CHECK(WIFSIGNALED(later));
+  CHECK(words == "moreau: interrupted\n");
+  const std::string table = text_of(folder.path("p.csv"));
+  CHECK(std::count(table.begin(), table.end(), '\n') == 1 + 513 * 513);
+  CHECK(table.ends_with("\n"));
+}
 
 TEST_CASE(
     "a page plays the inception of a tube's cavity: its pressure, its cavity and its onset at each value") {
