@@ -50,17 +50,18 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
     return std::nullopt;  // contacts that a rounding opens or closes
   }
   RoundingGrowth found;
-  const auto look = [&](const Vector& a, const Vector& b, const Vector& size, double error,
-                        bool of_velocity) {
-    for (Index i = 0; i < a.size(); ++i)
-      if (const double change = std::abs(a[i] - b[i]);
-          change > std::max(found.part * size[i], least_growth * error))
-        found = {i, of_velocity, change, change / size[i]};
-  };
   const double dq = (other.q - start.q).lpNorm<Eigen::Infinity>();
   const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>(), time = end.t - start.t;
-  look(then.q, end.q, sizes.q, dq + dv * time, false);
-  look(then.v, end.v, sizes.v, dv + (time > 0 ? dq / time : 0), true);
+  const auto look = [&](Index i, bool of_velocity, double change, double size, double error) {
+    if (change > std::max(found.part * size, least_growth * error))
+      found = {i, of_velocity, change, change / size};
+  };
+  for (Index i = 0; i < then.q.size(); ++i) {
+    look(i, false, std::abs(then.q[i] - end.q[i]), sizes.q[i], dq + dv * time);
+    // An oscillation turns an error of its position into one of its velocity.
+    const double rate = std::max(time > 0 ? 1 / time : 0, sizes.q[i] > 0 ? sizes.v[i] / sizes.q[i] : 0);
+    look(i, true, std::abs(then.v[i] - end.v[i]), sizes.v[i], dv + dq * rate);
+  }
   return found;
 }
 
