@@ -19,6 +19,9 @@ class InertiaFactor {
   void solve(double* x) const;
   /// ||x||_A = |sqrt(D) Mᵀx|.
   double norm(std::span<const double> x) const;
+  /// A = L D Lᵀ: rows of L below the diagonal, and 1 / D.
+  const double* lower() const { return M_.data(); }
+  const double* inverse_of_diagonal() const { return inverse_.data(); }
   /// ||x_k||_A for vectors x_k, k < count, with zeros up to a multiple of eight. x: n rows of so many
   /// numbers.
   void norms(const double* const* x, double* of, std::size_t count) const;

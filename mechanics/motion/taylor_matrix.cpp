@@ -56,14 +56,11 @@ TaylorMatrix::TaylorMatrix(const TaylorSteps& steps, const TaylorRows& rows, con
   place_of_x.resize(factors);
   place_of_y.resize(factors);
   for (std::size_t p = 0; p < products; ++p) {
-    reinterpret_cast<long long*>(&place_of_x[p / Eight::count])[p % Eight::count] =
-        static_cast<long long>(place_of(rows.products[p].x));
-    reinterpret_cast<long long*>(&place_of_y[p / Eight::count])[p % Eight::count] =
-        static_cast<long long>(place_of(rows.products[p].y));
+    place_of_x[p / Eight::count].of[p % Eight::count] = static_cast<long long>(place_of(rows.products[p].x));
+    place_of_y[p / Eight::count].of[p % Eight::count] = static_cast<long long>(place_of(rows.products[p].y));
   }
   const std::size_t of_numbers = blocks_of(size);
-  constexpr std::size_t most_blocks = 64;
-  if (of_numbers > most_blocks || factors > most_blocks ||
+  if (of_numbers > TaylorOrders::most_blocks || factors > TaylorOrders::most_blocks ||
       (products + 2 * n) * (of_numbers * work_of_eight + work_of_factor) >
           count * work_of_row + terms * work_of_term + 8 * n * n)
     return;

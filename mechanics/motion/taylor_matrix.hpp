@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "mechanics/motion/taylor_orders.hpp"
 #include "mechanics/motion/taylor_sweep.hpp"
 
 namespace mechanics::inline motions {
@@ -24,10 +25,10 @@ struct TaylorMatrix {
   bool pays() const { return blocks > 0; }
 
   std::size_t coordinates, variables, row_count, products;
-  std::size_t blocks = 0;                     ///< of the numbers; 0: none are found
-  std::vector<std::size_t> kept_at;           ///< places among the numbers
-  std::vector<Eight> place_of_x, place_of_y;  ///< of factors among them: whole numbers in their bits
-  std::vector<Eight> weighted;                ///< 1 for products with the factor j / k
+  std::size_t blocks = 0;                      ///< of the numbers; 0: none are found
+  std::vector<std::size_t> kept_at;            ///< places among the numbers
+  std::vector<Places> place_of_x, place_of_y;  ///< of factors among them
+  std::vector<Eight> weighted;                 ///< 1 for products with the factor j / k
   TaylorSweep sweep;
 };
 

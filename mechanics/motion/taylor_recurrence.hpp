@@ -38,7 +38,7 @@ class TaylorRecurrence {
   const TaylorMatrix* plan_;
   std::size_t orders_, end_ = 0;
   std::vector<double> c_;              // what the sweep multiplies by
-  std::vector<double> changes_;        // v by a unit of each input
+  std::vector<Eight> changes_;         // v by a unit of each input, by coordinate
   std::vector<Eight> memory_;          // of what follows
   Eight* columns_ = nullptr;           // of v_(k-1) / k, F_(k-1) / k, of time and of rests
   Eight* by_velocity_ = nullptr;       // columns, before v is known

@@ -1,7 +1,5 @@
 #include "mechanics/motion/taylor_sweep.hpp"
 
-#include "convex/processor.hpp"
-
 namespace mechanics::inline motions {
 
 TaylorSweep::TaylorSweep(const TaylorRows& rows, std::size_t count, std::size_t variables,
@@ -24,7 +22,7 @@ TaylorSweep::TaylorSweep(const TaylorRows& rows, std::size_t count, std::size_t 
     if (std::uint32_t& to = of_series(series, at / Eight::count); is_found[series] && to == nowhere)
       to = size++;
 
-  std::vector<std::vector<Part>> parts((rows.series + products) * blocks);
+  std::vector<std::vector<SweepPart>> parts((rows.series + products) * blocks);
   row_of_product_.resize(products);
   for (std::size_t r = count; r-- > 0;) {
     const TaylorRows::Row& row = rows.rows[r];
@@ -63,23 +61,7 @@ void TaylorSweep::find(const TaylorRows& rows, const TaylorRows::Term* terms, co
   for (std::size_t t = 0; t < terms_; ++t) c[t] = terms[t].c;
   for (std::size_t p = 0; p < row_of_product_.size(); ++p)
     c[terms_ + p] = factor[row_of_product_[p]] * rows.products[p].scale;
-  carry_out(sums_.data(), sums_.size(), parts_.data(), c.data(), reinterpret_cast<const Wide*>(asked_.data()),
-            wide(x));
+  taylor_kernels().carry_out(sums_.data(), sums_.size(), parts_.data(), c.data(), asked_.data()->of, x->of);
 }
-
-#pragma GCC push_options
-#pragma GCC optimize("fp-contract=fast")
-
-MOREAU_CLONES void TaylorSweep::carry_out(const Sum* sums, std::size_t count, const Part* parts,
-                                          const double* c, const Wide* asked, Wide* x) {
-  std::uint32_t part = 0;
-  for (std::size_t s = 0; s < count; ++s) {
-    Wide sum = asked[sums[s].to];
-    for (; part < sums[s].end; ++part) sum += c[parts[part].c] * x[parts[part].from];
-    x[sums[s].to] = sum;
-  }
-}
-
-#pragma GCC pop_options
 
 }  // namespace mechanics::inline motions

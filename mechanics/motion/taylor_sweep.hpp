@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mechanics/motion/eight.hpp"
+#include "mechanics/motion/taylor_kernels.hpp"
 #include "mechanics/motion/taylor_rows.hpp"
 
 namespace mechanics::inline motions {
@@ -25,19 +25,9 @@ class TaylorSweep {
             std::vector<double>& c, Eight* x) const;
 
  private:
-  /// x_to = Σ c x_from over its parts, and what was asked for there.
-  struct Sum {
-    std::uint32_t to, end;
-  };
-  struct Part {
-    std::uint32_t from, c;
-  };
-  static void carry_out(const Sum* sums, std::size_t count, const Part* parts, const double* c,
-                        const Wide* asked, Wide* x);
-
   std::size_t terms_ = 0;
-  std::vector<Sum> sums_;
-  std::vector<Part> parts_;
+  std::vector<SweepSum> sums_;
+  std::vector<SweepPart> parts_;
   std::vector<std::uint32_t> row_of_product_;
   std::vector<Eight> asked_;
 };
