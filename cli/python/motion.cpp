@@ -135,8 +135,14 @@ py::dict record_of(const FollowedSystem& followed) {
   made["impacts"] = record.impacts;
   made["largest_penetration"] = record.largest_penetration;
   py::list remarks;
-  for (const mechanics::MotionRemark& remark : record.remarks)
-    remarks.append(py::make_tuple(remark.t, remark.what));
+  for (const mechanics::MotionRemark& remark : record.remarks) {
+    py::dict one;  // as under --json
+    one["t"] = remark.t;
+    one["message"] = remark.what;
+    one["count"] = remark.count;
+    one["last"] = remark.last;
+    remarks.append(one);
+  }
   made["remarks"] = remarks;
   return made;
 }

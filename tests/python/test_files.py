@@ -93,6 +93,13 @@ class Motions(unittest.TestCase):
         np.testing.assert_allclose(parts.position, whole.position, rtol=1e-12)
         self.assertEqual([event.kind for event in parts.events], [event.kind for event in whole.events])
 
+    def test_a_remark_tells_how_often_and_when(self):
+        # Above the floor by less than the contact tolerance.
+        motion = moreau.Motion(BALL, set={"position.y": 1e-10, "velocity.y": 0})
+        (remark,) = motion.record["remarks"]
+        self.assertEqual((remark["t"], remark["count"], remark["last"]), (0, 1, 0))
+        self.assertIn("floor", remark["message"])
+
     def test_what_cannot_move_is_refused(self):
         with self.assertRaisesRegex(moreau.InvalidInput, "nothing here moves"):
             moreau.Motion({"projection": {"A": [[1]], "z": [1], "U": [[1]], "s": [0]}})

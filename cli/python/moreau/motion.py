@@ -83,7 +83,8 @@ class Motion:
     energy = property(lambda self: self._motion.energy, doc="T + V.")
     status = property(lambda self: self._motion.status, doc="'done', 'stopped' or 'infeasible'.")
     why = property(lambda self: self._motion.why, doc="Why it was stopped, or what excludes what.")
-    record = property(lambda self: self._motion.record(), doc="Counts and remarks.")
+    record = property(lambda self: self._motion.record(),
+                      doc="Counts and remarks, one of a kind: message, count, the first time t and the last.")
 
     def __repr__(self):
         return f"Motion(t={self.t:g}, status={self.status!r}, {len(self.events)} events)"
