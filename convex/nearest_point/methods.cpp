@@ -16,7 +16,6 @@
 #include "convex/nearest_point/methods/nnls.hpp"
 #include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
 #include "convex/nearest_point/methods/proximal_point.hpp"
-#include "convex/nearest_point/methods/semismooth_newton.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex {

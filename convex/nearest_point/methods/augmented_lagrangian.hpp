@@ -13,7 +13,7 @@ class AugmentedLagrangian {
   explicit AugmentedLagrangian(const ScaledProblem&);
 
   Vector q, lambda;
-  double theta = 1e-3;
+  double theta = 1;
 
   /// One Newton step with the active rows of q; damped by the exact minimum along it when asked. Returns
   /// whether the active rows are those of the step before it: then q is the minimum, and `multipliers` are

@@ -6,40 +6,67 @@
 namespace convex::inline algorithms {
 namespace {
 
-/// theta falls by this at each new centre, down to the least one.
-constexpr double fall = 0.1, least_theta = 1e-8;
+/// Newton steps in all.
+constexpr Index most_steps = 2000;
 
-/// Newton steps in all, and for one centre.
-constexpr Index most_steps = 2000, most_for_one = 100;
+/// theta falls at each new centre, down to the least one; Newton steps about one centre, and those that are
+/// not damped.
+struct ProximalSteps {
+  std::string_view method;
+  double theta, fall, least_theta;
+  Index undamped, most_for_one;
+};
 
-}  // namespace
-
-Solution proximal_point(const NearestPointProblem& problem, const Accuracy& accuracy) {
+Solution by_proximal_steps(const NearestPointProblem& problem, const Accuracy& accuracy,
+                           const ProximalSteps& steps) {
   validate(problem);
-  if (const auto found = without_a_method(problem, "proximal-point", accuracy)) return *found;
+  if (const auto found = without_a_method(problem, steps.method, accuracy)) return *found;
   const ScaledProblem scaled(problem);
   AugmentedLagrangian inner(scaled);
+  inner.theta = steps.theta;
   Vector moved = inner.lambda;
   Index since = 0, centres = 0, next = 1;
   return iterate(
       problem, accuracy, most_steps,
       [&](Index) {
-        if (!inner.newton_step(true) && ++since < most_for_one) return false;
+        if (!inner.newton_step(since >= steps.undamped) && ++since < steps.most_for_one) return false;
         since = 0;
         const Vector lambda = inner.multipliers();
         moved = lambda - inner.lambda;
         inner.lambda = lambda;
-        inner.theta = std::max(least_theta, fall * inner.theta);
+        inner.theta = std::max(steps.least_theta, steps.fall * inner.theta);
         if (++centres < next) return false;
         next = centres + 1 + centres / 4;
         return true;
       },
       [&](Index) {
-        return Candidate{.method = "proximal-point",
+        return Candidate{.method = steps.method,
                          .q = scaled.motion(inner.q),
                          .lambda = scaled.multipliers(inner.lambda),
                          .farkas = scaled.weights(moved)};
       });
+}
+
+}  // namespace
+
+Solution proximal_point(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return by_proximal_steps(problem, accuracy,
+                           {.method = "proximal-point",
+                            .theta = 1e-3,
+                            .fall = 0.1,
+                            .least_theta = 1e-8,
+                            .undamped = 0,
+                            .most_for_one = 100});
+}
+
+Solution semismooth_newton(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return by_proximal_steps(problem, accuracy,
+                           {.method = "semismooth-newton",
+                            .theta = 1e-7,
+                            .fall = 1,
+                            .least_theta = 1e-7,
+                            .undamped = 30,
+                            .most_for_one = 300});
 }
 
 }  // namespace convex::inline algorithms
