@@ -1,5 +1,6 @@
 #include "convex/dense/padded_triangle.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <utility>
@@ -44,7 +45,10 @@ PaddedTriangle::PaddedTriangle(const Matrix& W)
   for (Index j = 0; j < n_; ++j) {
     double* const column = T_ + j * ld_;
     const double* const from = W.data() + j * n_;
-    for (Index i = 0; i < n_; ++i) column[i] = from[i];
+    if (from + ld_ <= W.data() + W.size())  // the next column begins in the last pack
+      copy_packs(ld_, from, column);
+    else
+      std::copy_n(from, n_, column);
     for (Index i = n_; i < ld_; ++i) column[i] = 0;
   }
   for (Index j = n_; j < ld_; ++j) {
