@@ -20,19 +20,24 @@ constexpr double largest_open_part = 1e-3;
 /// What each value may take of the work that a decomposition may.
 constexpr double part_of_a_value = 0.1;
 
-/// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
-double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
-  const Vector x = a.cwiseAbs(), y = b.cwiseAbs();
+/// |W||b|, entry by entry: what the rounding of Wb is relative to.
+Vector size_of_product(const Metric& W, const Vector& b) {
+  const Vector y = b.cwiseAbs();
   switch (W.kind()) {
     case MetricKind::dense:
-      return x.dot(W.dense_gram().cwiseAbs() * y);
+      return W.dense_gram().cwiseAbs() * y;
     case MetricKind::sparse: {
       const SparseMatrix magnitude = W.sparse_gram().cwiseAbs();
-      return x.dot(magnitude * y);
+      return magnitude * y;
     }
     default:
-      return x.dot(W.diagonal().cwiseProduct(y));
+      return W.diagonal().cwiseProduct(y);
   }
+}
+
+/// sum over i, j of |a_i W_ij b_j|: what the rounding of (a|b) is relative to.
+double size_of_inner(const Metric& W, const Vector& a, const Vector& b) {
+  return a.cwiseAbs().dot(size_of_product(W, b));
 }
 
 Value split_value_of(const Function& f, const Vector& x) {
@@ -76,7 +81,7 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
   made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
   made.rounding = roundings_of_a_term * unit_roundoff * (std::abs(split.f_x) + std::abs(split.g_y) + size);
   // f and g are those at points that the bounds leave open, to first order, where these are rounding.
-  const double X = W.norm(x), Y = W.norm(y), least = accuracy_of_prox * (W.norm(z) + X);
+  const double X = W.norm(x), Y = W.norm(y), least = roundings_of_a_term * unit_roundoff * (W.norm(z) + X);
   made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;
   made.split = std::move(split);
   return made;
@@ -85,8 +90,7 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
 /// f(x) and f*(v).
 struct ChosenValues {
   Value f_x, f_v;
-  double of_prox = 0;  ///< the errors of those that came with the prox
-  Value at_x;          ///< f(x) of the point itself
+  Value at_x;  ///< f(x) of the point itself
 };
 
 /// The values that the prox came with are of a point and a covector that are feasible as far as their errors
@@ -95,7 +99,7 @@ struct ChosenValues {
 /// where it is not.
 ChosenValues values_at(const SplitFunctions& of, const Prox& at, double product) {
   const Value at_x = split_value_of(of.f, at.x);
-  const ChosenValues found{at_x, split_value_of(of.plain, at.v), 0, at_x};
+  const ChosenValues found{at_x, split_value_of(of.plain, at.v), at_x};
   const auto outside = [](const Value& value) { return std::isinf(value.value) && value.error == 0; };
   if (!at.values) return found;
   if ((outside(found.f_x) || outside(found.f_v)) && !(at.values->miss <= membership_tolerance)) return found;
@@ -106,9 +110,7 @@ ChosenValues values_at(const SplitFunctions& of, const Prox& at, double product)
   ChosenValues best = found;
   const Value& f_x = at.values->f_x;
   const Value& f_v = at.values->f_v;
-  for (const ChosenValues& other : {ChosenValues{at_x, f_v, f_v.error, at_x},
-                                    {f_x, found.f_v, f_x.error, at_x},
-                                    {f_x, f_v, f_x.error + f_v.error, at_x}})
+  for (const ChosenValues& other : {ChosenValues{at_x, f_v, at_x}, {f_x, found.f_v, at_x}, {f_x, f_v, at_x}})
     if (miss(other.f_x, other.f_v) < 0.5 * miss(best.f_x, best.f_v)) best = other;
   return best;
 }
@@ -122,7 +124,7 @@ double bound_with_residual(const Decomposition& split) {
 
 double SplitCandidate::excess() const {
   const double square = split.error_bound * split.error_bound;
-  const double most = std::max(right - square, -right) - error - rounding;
+  const double most = std::max(right - square, -right) - rounding;
   return std::isfinite(most) ? most : INFINITY;
 }
 
@@ -154,18 +156,17 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   const Vector r = metric_difference(W, x, z) + v;
   const double size = x.cwiseAbs().dot(v.cwiseAbs()), residual = W.dual_norm(r);
   const double product = accurate_dot(x, v);
-  const auto [f_x, g_y, of_prox, at_x] = values_at(of, split.x, product);
+  const auto [f_x, g_y, at_x] = values_at(of, split.x, product);
   split.inner = product;
-  for (const double moved : {product - accurate_dot(W.solve(r), v), product - accurate_dot(x, r)}) {
-    const double values = f_x.value + g_y.value;
-    if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
-  }
+  const Vector of_r = size_of_product(W, x) + size_of_product(W, z) + v.cwiseAbs();
+  if ((r.cwiseAbs().array() <= roundings_of_a_term * unit_roundoff * of_r.array()).all())
+    for (const double moved : {product - accurate_dot(W.solve(r), v), product - accurate_dot(x, r)}) {
+      const double values = f_x.value + g_y.value;
+      if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
+    }
   SplitCandidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
   // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
   const double gap = std::abs(made.split.fenchel_gap);
-  // Programs minimise: their values are no less than f(x) and f*(v), and these no less together than x·v.
-  if (made.split.fenchel_gap >= -made.rounding && std::isfinite(gap))
-    made.error = std::min(made.error, gap + made.rounding + of_prox);
   if (gap <= roundings_of_a_term * unit_roundoff * size) {
     made.split.inner = f_x.value + g_y.value;
     made.split.fenchel_gap = 0;

@@ -19,8 +19,8 @@ struct SplitCandidate {
   double rounding = 0;  ///< of the terms
   bool open = false;    ///< the values are known together, and not each by itself
 
-  /// By how much the right side leaves what the bound, the values' errors and rounding allow; +inf where a
-  /// value is not finite.
+  /// By how much the right side leaves what the bound and rounding allow, the values taken as exact: their
+  /// errors would hide that of a point, which the right side has squared. +inf where a value is not finite.
   double excess() const;
   /// The bound of ||x - x*|| and ||y - y*|| that the right side is; below 0 it says that a value is too small
   /// by as much, and may be as large.
@@ -47,8 +47,8 @@ SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, con
 /// right side then proves the pair x and W⁻¹v, and the distance of y from there is added to its bound.
 ///
 /// Where the domain of f or f* is thin, as a plane, x or v of doubles is outside it by rounding, and counts
-/// as inside; x·v is then that of a point beside it. (x|y) is taken at x - W⁻¹r or at v - r, r = W(x - z) +
-/// v, which make up z exactly, when this agrees better with the values.
+/// as inside; x·v is then that of a point beside it. Where r = W(x - z) + v is the rounding of its terms,
+/// (x|y) is taken at x - W⁻¹r or at v - r, which make up z exactly, when this agrees better with the values.
 SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                            const Metric& W, double tolerance);
 
