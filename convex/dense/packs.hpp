@@ -60,7 +60,7 @@ struct Packs {
       const auto mask = static_cast<unsigned short>(end > x ? (1U << (end - x)) - 1 : 0);
       asm("vmovupd %2, %0%{%1%}%{z%}"
           : "=v"(pack.part[0])
-          : "Yk"(mask), "m"(*reinterpret_cast<const double(*)[]>(x)));
+          : "Yk"(mask), "m"(*reinterpret_cast<const double(*)[8]>(x)));
       return pack;
     }
     double tail[8] = {};
