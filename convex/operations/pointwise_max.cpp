@@ -89,10 +89,11 @@ class PointwiseMax : public Operation {
   std::vector<Function> maximum_of() const override { return parts_; }
 
  protected:
-  /// By epigraphs in units of the slope at the solution, which is known when it has been found: units far
-  /// above would hide a miss in the height.
+  /// Of one part alone, else by epigraphs in units of the slope at the solution, which is known when it has
+  /// been found: units far above would hide a miss in the height.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     if (piecewise_) return std::nullopt;
+    if (auto alone = prox_of_part_above(parts_, z, W, look)) return alone;
     return prox_in_slopes(*this, first_slope(z, W), z, W, look);
   }
 

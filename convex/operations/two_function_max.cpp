@@ -56,21 +56,40 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   return found;
 }
 
+/// The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
+Prox named(const At& at_weight) {
+  Prox made = at_weight.prox;
+  const Function& mean = at_weight.mean;
+  if (!made.values && mean.facts().piecewise_quadratic)
+    made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
+  made = with_values(made, made.values, at_weight.above);
+  made.method = "dual of a maximum, " + made.method;
+  return made;
+}
+
 }  // namespace
+
+std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                       const Look& look) {
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (!parts_of_max(parts[k]).empty()) continue;
+    At alone{0, parts[k], parts[k].prox(z, W, look), 0, 0, {}};
+    if (alone.prox.status != Status::solved || alone.prox.x.size() != z.size()) continue;
+    const Value own = parts[k].evaluate(alone.prox.x);
+    const auto is_below = [&](const Function& other) {
+      const Value there = other.evaluate(alone.prox.x);
+      return there.value + there.error < own.value - own.error;
+    };
+    std::size_t below = 0;
+    for (std::size_t j = 0; j < parts.size(); ++j) below += j != k && is_below(parts[j]) ? 1 : 0;
+    if (below + 1 == parts.size()) return named(alone);
+  }
+  return std::nullopt;
+}
 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look) {
   std::optional<At> low = at(f, g, 0, z, W, look);
-  // The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
-  const auto named = [](const At& at_weight) {
-    Prox made = at_weight.prox;
-    const Function& mean = at_weight.mean;
-    if (!made.values && mean.facts().piecewise_quadratic)
-      made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
-    made = with_values(made, made.values, at_weight.above);
-    made.method = "dual of a maximum, " + made.method;
-    return made;
-  };
   if (low && low->difference <= 0) return named(*low);  // f alone is above g at its prox
   std::optional<At> high = at(f, g, 1, z, W, look);
   if (high && high->difference >= 0) return named(*high);

@@ -20,6 +20,11 @@ namespace convex::inline operations {
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look = {});
 
+/// Where one of the functions, no maximum itself, is above all others at its own prox, that is the prox of
+/// their maximum: the weights end at a corner. Nothing where this is so of none.
+std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Vector& z, const Metric& W,
+                                       const Look& look);
+
 /// The functions of which f is the maximum; none when it is not made as one, or is a program.
 std::vector<Function> parts_of_max(const Function& f);
 

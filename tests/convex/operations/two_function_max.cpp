@@ -40,6 +40,19 @@ TEST_CASE("where one function is above the other at its prox, its prox is that o
   CHECK((of_square->x - far / 2).norm() <= 1e-14 * far.norm());
 }
 
+TEST_CASE("one function above the others at its prox is found so however far an entry is") {
+  // The entropies are above -5, so that the maximum is their own: 0 = x + 1 + log x at the near entry.
+  const double near = 0.27846454276107379;  // W(1/e)
+  for (double far : {1e6, 1e8, 1e9, 1e10, 1e12}) {
+    CAPTURE(far);
+    const Prox found = samples::function("pointwise_max(entropy(), constant(-5))", 2)
+                           .prox(Eigen::Vector2d(0, -far), Metric::identity(2));
+    CHECK(found.status == convex::Status::solved);
+    CHECK(std::abs(found.x[0] - near) <= 1e-15);
+    CHECK(found.x[1] == 0);
+  }
+}
+
 TEST_CASE("between the two it is where they are equal") {
   // Points of length 3 to 4 have their prox at length 2, where r²/2 = r.
   const Function f = samples::function("squared_norm2(1)", 2), g = samples::function("norm2(1)", 2);
