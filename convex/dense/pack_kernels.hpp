@@ -29,14 +29,19 @@ struct Kernels : TriangleKernels<W, Fused> {
   }
 
   MOREAU_INLINE void dots(Index n, const double* X, const double* y, double* into) {
-    Pack even{}, odd{};
+    Pack sum[4];
+    P::clear(sum);
+    const auto add = [&](int k, Index i) __attribute__((always_inline)) {
+      P::add_product(sum[k], P::load(X + 8 * i), y[i]);
+    };
     Index i = 0;
-    for (; i + 2 <= n; i += 2) {
-      P::add_product(even, P::load(X + 8 * i), y[i]);
-      P::add_product(odd, P::load(X + 8 * i + 8), y[i + 1]);
-    }
-    if (i < n) P::add_product(even, P::load(X + 8 * i), y[i]);
-    P::store(into, P::plus(even, odd));
+    for (; i + 4 <= n; i += 4)
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) add(k, i + k);
+    if (i < n) add(0, i);
+    if (i + 1 < n) add(1, i + 1);
+    if (i + 2 < n) add(2, i + 2);
+    P::store(into, P::plus(P::plus(sum[0], sum[2]), P::plus(sum[1], sum[3])));
   }
 
   MOREAU_INLINE void combine(Index n, Index count, const double* X, const double* y, double* w) {
@@ -115,22 +120,11 @@ struct Kernels : TriangleKernels<W, Fused> {
   }
   template <class Factor>
   MOREAU_INLINE bool along_few(Index m, Index n, const double* U, Factor factor, double* into) {
-    switch (n) {
-      case 1:
-        along_few<1>(m, U, factor, into);
-        return true;
-      case 2:
-        along_few<2>(m, U, factor, into);
-        return true;
-      case 3:
-        along_few<3>(m, U, factor, into);
-        return true;
-      case 4:
-        along_few<4>(m, U, factor, into);
-        return true;
-      default:
-        return false;
-    }
+    if (n == 1) along_few<1>(m, U, factor, into);
+    if (n == 2) along_few<2>(m, U, factor, into);
+    if (n == 3) along_few<3>(m, U, factor, into);
+    if (n == 4) along_few<4>(m, U, factor, into);
+    return n > 0 && n <= 4;
   }
 
   MOREAU_INLINE void slacks(Index m, Index n, const double* U, const double* x, const double* s,

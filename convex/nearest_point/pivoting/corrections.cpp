@@ -57,10 +57,8 @@ bool Corrections::take_noise_for_zero(const Point& point, bool more) {
   };
   Index noisy = 0, unclear = 0;
   double rounded = 0, zeroed = 0, let_pull = 0;
-  for (Index i = 0; i < point.n; ++i) {
-    noisy += is_noise(i);
-    rounded += point.diagonal[i] * point.q_low[i] * point.q_low[i];
-  }
+  for (Index i = 0; i < point.n; ++i) noisy += is_noise(i);  // apart, so that it goes by pairs
+  for (Index i = 0; i < point.n; ++i) rounded += point.diagonal[i] * point.q_low[i] * point.q_low[i];
   if (noisy > 0) {
     for (Index i = 0; i < point.n && more; ++i)
       unclear += is_noise(i) && !(std::abs(point.q[i]) <=

@@ -9,8 +9,23 @@
 
 namespace convex::inline proof {
 
-/// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
-/// rows are independent in; empty when there is more than one such w up to a factor.
+TouchedRows touched_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  const ConstraintRows chosen = problem.U.select(rows);
+  RowMatrix U(static_cast<Index>(rows.size()), problem.dimension());
+  for (Index r = 0; r < U.rows(); ++r) U.row(r) = chosen.row(r);
+  std::vector<Index> touched;
+  for (Index i = 0; i < U.cols(); ++i)
+    if ((U.col(i).array() != 0).any()) touched.push_back(i);
+  return {U(Eigen::all, touched), problem.s(rows)};
+}
+
+ExactProblem as_integers(const TouchedRows& rows) {
+  ExactProblem exact;
+  exact.z.assign(static_cast<std::size_t>(rows.U.cols()), 0);
+  for (Index r = 0; r < rows.U.rows(); ++r) append_row(exact, rows.U.row(r), rows.s[r]);
+  return exact;
+}
+
 IntegerVector dependence_of(const ExactProblem& exact) {
   const std::size_t k = exact.U.size(), r = exact.z.size();
   IntegerRows columns(r, IntegerVector(k));
@@ -40,22 +55,6 @@ bool holds_both_ways(const NearestPointProblem& problem, Index a) {
   return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
 }
 
-/// The rows over the coordinates that they touch, as integers, A left out.
-ExactProblem rows_as_integers(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  const ConstraintRows chosen = problem.U.select(rows);
-  const auto k = static_cast<Index>(rows.size());
-  Matrix U(k, problem.dimension());
-  for (Index r = 0; r < k; ++r) U.row(r) = chosen.row(r);
-  std::vector<Index> touched;
-  for (Index i = 0; i < U.cols(); ++i)
-    if ((U.col(i).array() != 0).any()) touched.push_back(i);
-  ExactProblem exact;
-  exact.z.assign(touched.size(), 0);
-  for (Index r = 0; r < k; ++r)
-    append_row(exact, Vector(U.row(r).transpose())(touched), problem.s[rows[static_cast<std::size_t>(r)]]);
-  return exact;
-}
-
 /// Weights w, all needed and w_0 > 0, with Σ w_r u_r = 0 exactly over the rows, and Σ w_r s_r.
 struct ZeroSum {
   IntegerVector w;
@@ -63,7 +62,7 @@ struct ZeroSum {
 };
 
 std::optional<ZeroSum> zero_sum(const NearestPointProblem& problem, const std::vector<Index>& rows) {
-  const ExactProblem exact = rows_as_integers(problem, rows);
+  const ExactProblem exact = as_integers(touched_rows(problem, rows));
   // The weights are of the rows themselves; those of `exact` are theirs times row_unit.
   ZeroSum found{dependence_of(exact), {}};
   const IntegerVector& w = found.w;
@@ -111,7 +110,7 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
   const double K = static_cast<double>(k), n = static_cast<double>(problem.dimension());
   double words = K * K * n + static_cast<double>(rows.size()) * K * n;
   if (words > most_words) return false;
-  const ExactProblem exact = rows_as_integers(problem, all);
+  const ExactProblem exact = as_integers(touched_rows(problem, all));
   IntegerRows columns(exact.z.size(), IntegerVector(k));
   for (std::size_t i = 0; i < exact.z.size(); ++i)
     for (std::size_t r = 0; r < k; ++r) columns[i][r] = exact.U[r][i];

@@ -5,6 +5,15 @@
 
 namespace convex::inline proof {
 
+/// Rows with their bounds, over the coordinates that they touch.
+struct TouchedRows {
+  RowMatrix U;
+  Vector s;
+};
+TouchedRows touched_rows(const NearestPointProblem&, const std::vector<Index>& rows);
+/// The same as integers, A left out.
+ExactProblem as_integers(const TouchedRows&);
+
 /// Integers w without a common factor, w_a > 0 for one of them, with Σ w_a U_a = 0 in as many columns as the
 /// rows are independent in; empty when there is more than one such w up to a factor.
 IntegerVector dependence_of(const ExactProblem& exact);

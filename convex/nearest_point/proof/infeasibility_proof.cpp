@@ -14,51 +14,24 @@
 namespace convex::inline proof {
 namespace {
 
-/// The rows with weights, over the coordinates that they touch.
-struct Support {
+/// The rows with weights.
+struct Support : TouchedRows {
   std::vector<Index> rows;
-  RowMatrix U;
-  Vector s, w;
+  Vector w;
   std::vector<bool> two_sided;
 };
 
 Support support(const NearestPointProblem& problem, const Vector& w) {
-  Support found;
+  std::vector<Index> rows;
   for (Index a = 0; a < w.size(); ++a)
-    if (w[a] != 0) found.rows.push_back(a);
+    if (w[a] != 0) rows.push_back(a);
   // The first one's weight is the unit of the others.
-  for (Index& a : found.rows)
-    if (w[a] > w[found.rows.front()]) std::swap(a, found.rows.front());
-  const ConstraintRows chosen = problem.U.select(found.rows);
-  const Index k = static_cast<Index>(found.rows.size());
-  std::vector<bool> touched(static_cast<std::size_t>(problem.dimension()), false);
-  std::vector<Vector> rows;
-  for (Index r = 0; r < k; ++r) {
-    rows.push_back(chosen.row(r));
-    for (Index i = 0; i < problem.dimension(); ++i)
-      if (rows.back()[i] != 0) touched[static_cast<std::size_t>(i)] = true;
-  }
-  std::vector<Index> columns;
-  for (Index i = 0; i < problem.dimension(); ++i)
-    if (touched[static_cast<std::size_t>(i)]) columns.push_back(i);
-  found.U.resize(k, static_cast<Index>(columns.size()));
-  for (Index r = 0; r < k; ++r) found.U.row(r) = rows[static_cast<std::size_t>(r)](columns).transpose();
-  found.s = problem.s(found.rows);
-  found.w = w(found.rows);
-  for (Index a : found.rows)
+  for (Index& a : rows)
+    if (w[a] > w[rows.front()]) std::swap(a, rows.front());
+  Support found{touched_rows(problem, rows), rows, w(rows), {}};
+  for (Index a : rows)
     found.two_sided.push_back(std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a));
   return found;
-}
-
-/// The rows as integers, A left out: nothing here is about it.
-ExactProblem integer_rows(const Support& rows) {
-  ExactProblem exact;
-  exact.z.assign(static_cast<std::size_t>(rows.U.cols()), 0);
-  for (Index r = 0; r < rows.U.rows(); ++r) {
-    append_row(exact, rows.U.row(r), rows.s[r]);
-    if (rows.two_sided[static_cast<std::size_t>(r)]) exact.two_sided.push_back(r);
-  }
-  return exact;
 }
 
 /// Whether the weights, rounded to whole numbers times the smallest, are a contradiction without rounding:
@@ -93,7 +66,9 @@ std::optional<InfeasibilityProof> by_whole_numbers(const Support& rows, Index m)
 }
 
 std::optional<InfeasibilityProof> by_fractions(const Support& rows, Index m) {
-  const ExactProblem exact = integer_rows(rows);
+  ExactProblem exact = as_integers(rows);
+  for (std::size_t r = 0; r < rows.two_sided.size(); ++r)
+    if (rows.two_sided[r]) exact.two_sided.push_back(static_cast<Index>(r));
   IntegerVector w = dependence_of(exact);
   if (w.empty()) return std::nullopt;
   if (rows.w[0] < 0)
