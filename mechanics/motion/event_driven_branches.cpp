@@ -11,6 +11,21 @@ namespace {
 /// Events within so many roundings of the time follow each other at one instant.
 constexpr double roundings_of_instant = 64;
 
+/// Ahead is where time, or a coordinate, has gone by this part of what it is: far beyond rounding, and short
+/// of what comes later.
+constexpr double part_ahead = 0x1p-32;
+
+double time_ahead(const State& at) {
+  double scale = at.t != 0 ? std::abs(at.t) : std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < at.q.size(); ++i)
+    if (const double time = std::abs(at.q[i] / at.v[i]); time > 0) scale = std::min(scale, time);
+  return part_ahead * (std::isfinite(scale) ? scale : 1);  // from 0 any step leads away
+}
+
+/// T - V and p are sums whose digits may cancel; as long as half of them are left, a difference of more is a
+/// jump.
+constexpr double half_the_digits = 0x1p-26;
+
 bool is_among(const std::vector<Index>& all, Index a) {
   return std::find(all.begin(), all.end(), a) != all.end();
 }
@@ -106,19 +121,19 @@ void Motion::EventDriven::note_behind() {
 /// A jump of T - V over positions is an infinite force, one of p asks for a jump of the velocity that no
 /// impact law tells; a jump of V over time alone is neither. Empty if there is none.
 std::string Motion::EventDriven::jump_of_energy(const std::vector<Index>& switches) const {
-  constexpr double least_jump = 1e-8;  // what rounding of the time leaves is a thousandth of it
   const double change = expansion_.lagrangian() - behind_->lagrangian, T = system.kinetic_energy(state),
                scale = T + std::abs(T - expansion_.lagrangian()) + std::abs(T - behind_->lagrangian);
   const bool over_positions = std::any_of(switches.begin(), switches.end(), [&](Index k) {
     return expansion_.depends_on_position(static_cast<std::size_t>(k));
   });
-  if (over_positions && std::abs(change) > least_jump * scale)
+  if (over_positions && std::abs(change) > half_the_digits * scale)
     return "the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
            "force does that; write a step of potential as a steep slope, one of mass as an impact";
   const Vector p = expansion_.momentum();
   if (!expansion_.has_branching_energy()) return "";
   const convex::Metric& A = expansion_.inertia();
-  if (A.dual_norm(p - behind_->momentum) > least_jump * (A.dual_norm(p) + A.dual_norm(behind_->momentum)))
+  if (A.dual_norm(p - behind_->momentum) >
+      half_the_digits * (A.dual_norm(p) + A.dual_norm(behind_->momentum)))
     return "the momentum ∂T/∂q' jumps where T changes its branch; what the velocity does there is not told "
            "by "
            "it; write T without a jump";
@@ -228,9 +243,8 @@ bool Motion::EventDriven::has_kink_at(const std::vector<Index>& contacts,
 std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contacts,
                                                 const std::vector<Index>& switches) {
   if (has_kink_at(contacts, switches)) return "neither side of a kink of f goes on alone" + advice_on_kinks();
-  constexpr double shortly = 1e-9;
   State ahead = state;
-  const double step = shortly * (1 + std::abs(state.t));
+  const double step = time_ahead(state);
   ahead.t += step;
   ahead.q += step * state.v;
   try {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "mechanics/motion/motion.hpp"
-#include "tests/mechanics/system_text.hpp"
+#include "tests/mechanics/motion/followed.hpp"
 
 using namespace tests;
 
@@ -141,4 +141,30 @@ TEST_CASE("where a velocity stays 0 a drag against it is 0, until the body is li
   }
   const double since = 25 - 22.62;
   CHECK(motion.state().q[0] == doctest::Approx(since * since * since / 12).epsilon(1e-12));
+}
+
+TEST_CASE("a potential that jumps by a millionth of the energy stops a motion") {
+  const auto s = system({{"x"}, "x'^2/2", "if(x > 0, 1e-6, 0)", {}, {}, {}, {}});
+  mechanics::Motion motion(*s, state({-1}, {1}), {});
+  while (motion.advance(2)) {
+  }
+  CHECK(motion.status() == mechanics::MotionStatus::stopped);
+  CHECK(motion.why().find("potential energy jumps") != std::string::npos);
+  CHECK(motion.state().t == doctest::Approx(1).epsilon(1e-12));
+}
+
+TEST_CASE("why a motion ends is what is there, not what lies a little further") {
+  // x sticks at t = 1; the table of y ends half a nanometre beyond where y is then.
+  const auto s = system({{"x", "y"},
+                         "x'^2/2 + y'^2/2",
+                         "",
+                         {},
+                         {},
+                         {{"x", "0.5 - sign(x')"}, {"y", "table(y, [0, 0.5, 1.0000000005], [0, 0, 0])"}},
+                         {}});
+  mechanics::Motion motion(*s, state({0, 0}, {0.5, 1}), {});
+  while (motion.advance(3)) {
+  }
+  CHECK(motion.status() == mechanics::MotionStatus::stopped);
+  CHECK(motion.why().find("dry friction") != std::string::npos);
 }
