@@ -61,10 +61,11 @@ template <std::size_t dimension>
 [[gnu::always_inline]] inline void relax_in(const CutRow<float>& given, const float* inverse,
                                             const float* colour, const float* r, float* u) {
   const CutRow<float> row = given;
-  replace_row(row.n, u, [&](Index i) {
-    const float relaxed = inverse[i] * (r[i] + around<dimension>(row, u, i));
-    return u[i] + colour[i] * (relaxed - u[i]);
-  });
+  replace_row(
+      row.n, u, [&](Index i) __attribute__((always_inline)) {
+        const float relaxed = inverse[i] * (r[i] + around<dimension>(row, u, i));
+        return u[i] + colour[i] * (relaxed - u[i]);
+      });
 }
 
 template <std::size_t dimension>
@@ -72,11 +73,12 @@ template <std::size_t dimension>
                                                   const double* inverse, const double* colour,
                                                   const double* lowest, double* q) {
   const CutRow<double> row = given;
-  replace_row(row.n, q, [&](Index i) {
-    const double relaxed = inverse[i] * (load[i] + around<dimension>(row, q, i));
-    const double held = relaxed > lowest[i] ? relaxed : lowest[i];
-    return colour[i] * inverse[i] > 0 ? held : q[i];
-  });
+  replace_row(
+      row.n, q, [&](Index i) __attribute__((always_inline)) {
+        const double relaxed = inverse[i] * (load[i] + around<dimension>(row, q, i));
+        const double held = relaxed > lowest[i] ? relaxed : lowest[i];
+        return colour[i] * inverse[i] > 0 ? held : q[i];
+      });
 }
 
 template <std::size_t dimension>
