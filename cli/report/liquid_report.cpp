@@ -220,6 +220,7 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
     json.end_object();
   }
   json.key("certificate").begin_object().key("level").value(solved.level);
+  if (solved.level == "none") json.key("why").value(found.unproved);
   json.key("error_bound").value(found.error_bound);
   if (found.grid_bound)
     json.key("grid")
@@ -267,9 +268,11 @@ std::string liquid_text(const SolvedLiquid& solved) {
     text += fmt::format(
         "Proved of the grid's equations alone: their solution is within {:.1e} of p at all nodes.\n",
         *found.grid_bound);
-  if (solved.level == "none") text += "Not proved: the bound below is an estimate.\n";
+  if (solved.level == "none") text += "Not proved: " + found.unproved + "; the bound below is an estimate.\n";
   if (std::isinf(found.error_bound))
-    text += "One grid alone tells no error; give a number of cells that can be halved.\n";
+    text += found.method == "grid"
+                ? "One grid alone tells no error; give a number of cells that can be halved.\n"
+                : "What h sums up to is not known: it has no bound on a part of the line.\n";
   if (found.status == Status::inaccurate) {
     text += "The accuracy asked for was not met";
     if (solved.scene.cells && std::isfinite(found.error_bound))

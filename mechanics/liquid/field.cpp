@@ -157,7 +157,22 @@ double Field::raw(const Point& x) const {
   State state{0, Vector::Map(x.data(), n), Vector::Zero(n)};
   bool is_finite = true;
   const expression::Values values = program_.values(state, 0, is_finite);
-  return values[program_.roots(0).front()];
+  const double value = values[program_.roots(0).front()];
+  return std::isnan(value) && has_branches_ ? beside_kinks(x) : value;
+}
+
+double Field::beside_kinks(const Point& at) const {
+  using expression::Operation, expression::Slot;
+  expression::Values x(program_.size());
+  std::copy_n(at.begin(), coordinates_.size(), x.begin());
+  const Slot first = program_.time() + 1;
+  for (Slot slot = first; slot < program_.begin(); ++slot) x[slot] = constants_[slot - first].value;
+  for (Slot slot = program_.begin(); slot < program_.end(0); ++slot) {
+    const expression::Program::Instruction& i = program_[slot];
+    x[slot] =
+        i.operation == Operation::sign && x[i.a] == 0 ? 1 : expression::value(i.operation, x[i.a], x[i.b]);
+  }
+  return x[program_.roots(0).front()];
 }
 
 double Field::operator()(const Point& x) const {

@@ -44,7 +44,8 @@ class Field {
   Field(const expression::Tape&, expression::NodeId, std::vector<std::string> coordinates, std::string what,
         convex::Place);
 
-  /// Throws InvalidInput with the point when the value is not finite.
+  /// Where a derivative jumps it takes one of the two. Throws InvalidInput with the point when the value is
+  /// not finite.
   double operator()(const Point&) const;
   /// The same, NaN or infinite where it is not finite.
   double raw(const Point&) const;
@@ -76,6 +77,9 @@ class Field {
   const CoordinateForm& form() const { return *form_; }
 
  private:
+  /// The value where an absolute value in it is 0 and its derivative none: the one of its side above 0.
+  double beside_kinks(const Point&) const;
+
   std::shared_ptr<const CoordinateForm> form_;
   expression::Program program_;
   std::vector<std::string> coordinates_;

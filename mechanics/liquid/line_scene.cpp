@@ -194,6 +194,11 @@ std::optional<LineScene> as_line(const LiquidScene& scene) {
     Ray from{};
     if (line.radial) std::copy(line.centre.begin(), line.centre.end(), from.begin());
     line.problem.departure = [&scene, from](double a, double b) { return scene.h.departure(from, a, b); };
+    if (!line.radial)
+      line.problem.mass = [&scene](double a, double b) {
+        const expression::Range load = scene.load_range({a, b});
+        return std::max(-load.low, load.high);
+      };
   }
   return line;
 }
@@ -217,9 +222,15 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
   const LineSolution::Extreme largest = solution.largest();
   found.largest = largest.value;
   found.largest_at = line.at(largest.at);
-  if (solution.low_parts) found.parted_walls.push_back(line.low->name);
-  if (solution.high_parts && !(solution.low_parts && line.low == line.high))
-    found.parted_walls.push_back(line.high->name);
+  // Where ρ (F·n - a) is 0 to rounding nothing says that the liquid leaves.
+  const auto leaves = [&](const BoundaryPart& wall, double r, double side) {
+    const Point x = line.at(r);
+    return scene.wall_flux_range(wall, {{{x[0], x[0]}, {x[1], x[1]}, {x[2], x[2]}}}, {side, 0, 0}).high < 0;
+  };
+  const bool low_parts = solution.low_parts && leaves(*line.low, line.problem.low, -1),
+             high_parts = solution.high_parts && leaves(*line.high, line.problem.high, 1);
+  if (low_parts) found.parted_walls.push_back(line.low->name);
+  if (high_parts && !(low_parts && line.low == line.high)) found.parted_walls.push_back(line.high->name);
   found.error_bound = solution.error_bound;
   // Where all is cavity there is no pressure that the bound could be a part of, but what would make one.
   const double size = found.largest > 0 ? found.largest : scene.pressure_scale();

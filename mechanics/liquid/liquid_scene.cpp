@@ -44,6 +44,9 @@ const BoundaryPart& LiquidScene::boundary_part(const Point& x) const {
 
 double LiquidScene::free_pressure(const BoundaryPart& part, const Point& x) const {
   const double pressure = part.value(x);
+  // Where rounding of its terms decides it is 0.
+  const double most = part.value.range({{{x[0], x[0]}, {x[1], x[1]}, {x[2], x[2]}}}).high;
+  if (pressure < 0 && most >= 0 && std::isfinite(most)) return 0;
   if (pressure < 0) {
     char number[32];
     std::snprintf(number, sizeof number, "%.6g", pressure);
@@ -140,6 +143,23 @@ void LiquidScene::require_no_divergence(const Point& x) const {
   throw InvalidInput("velocity: its divergence is " + std::string(number) + " at " +
                      point_text(coordinates, x) +
                      ", where the liquid has no cavity; give a velocity whose divergence is 0 there");
+}
+
+expression::Range LiquidScene::load_range(const expression::Range& x) const {
+  using expression::Operation, expression::Range, expression::value;
+  const Region at{x, Range{0, 0}, Range{0, 0}};
+  Range sum{0, 0};
+  const auto plus = [&](const Range& term) { sum = value(Operation::add, sum, term); };
+  if (!stretching.empty()) {
+    const Range rate = stretching.front().range(at),
+                length = value(Operation::subtract, {x.high, x.high}, {x.low, x.low});
+    plus(value(Operation::multiply, value(Operation::multiply, rate, rate), {0, length.high}));
+  }
+  if (!force.empty()) {
+    const Range along = force.front().range(at);
+    plus(value(Operation::subtract, along, along));
+  }
+  return value(Operation::multiply, sum, range_of(written_density));
 }
 
 LiquidScene read_scene(const LiquidText& text) {

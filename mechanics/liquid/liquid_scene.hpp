@@ -59,6 +59,9 @@ struct LiquidScene {
   LiquidScene bounded(Bound) const;
   /// Throws InvalidInput where div u is not 0 beyond rounding.
   void require_no_divergence(const Point&) const;
+  /// In one dimension: all that ∫ h over a part of an interval may be, by F at its ends; where h has no
+  /// bound.
+  expression::Range load_range(const expression::Range& x) const;
   /// What d(div u)/dt is where p = 0: -h/ρ.
   double growth(const Point& x) const { return -h(x) / density; }
 };

@@ -28,6 +28,7 @@ struct LiquidSolution {
   Point largest_at{};
   std::vector<std::string> parted_walls;
   bool is_proved = false;  ///< `error_bound` is
+  std::string unproved;    ///< what stands in the way of a proof that was asked for
   double error_bound = 0;  ///< of |p - p*| in the largest norm, the discretisation included
   /// A proved bound of |p - p_h| at all nodes and walls of the grid, p_h the solution of the grid's equations
   /// as their doubles say: it tells nothing of the discretisation.

@@ -162,6 +162,11 @@ class ProvedLine {
     made.c.fill({});
     made.c[0] =
         values.is_empty() ? Interval{-convex::infinity, convex::infinity} : Interval{values.low, values.high};
+    const bool is_bounded = std::isfinite(made.c[0].low) && std::isfinite(made.c[0].high);
+    if (!is_bounded && !line_.radial) {
+      const Range load = scene_.load_range(range(whole));
+      if (std::isfinite(load.low) && std::isfinite(load.high)) made.mass = Interval{load.low, load.high};
+    }
     return made;
   }
 
@@ -187,10 +192,17 @@ void prove_line(const LiquidScene& scene, const LineScene& line, const LiquidAcc
                 LiquidSolution& found) {
   const ProvedLine proved(scene, line);
   const std::optional<convex::EnclosedLineObstacle> problem = proved.problem();
-  if (!problem) return;
+  if (!problem) {
+    found.unproved = "where the line ends, or which part holds there, is in doubt";
+    return;
+  }
   const convex::LineSolution solution = convex::solve_line(line.problem);
   const std::optional<convex::LineEnclosure> enclosure = convex::enclose_line(*problem, solution);
-  if (!enclosure) return;
+  if (!enclosure) {
+    found.unproved = scene.has_free_part() ? "h, as its terms are written, has no bound on a part of the line"
+                                           : "without a free part nothing takes up what rounding leaves";
+    return;
+  }
   found.is_proved = true;
   found.error_bound = enclosure->error_bound;
   find_largest(solution, line, *enclosure, found);

@@ -37,7 +37,11 @@ void prove_zero(const LiquidScene& scene, LiquidSolution& found) {
 
 LiquidSolution solve_scene(const LiquidScene& scene, const LiquidAccuracy& accuracy) {
   const std::optional<LineScene> line = as_line(scene);
-  if (!line) return solve_grid_scene(scene, accuracy);
+  if (!line) {
+    LiquidSolution found = solve_grid_scene(scene, accuracy);
+    found.unproved = "on a grid nothing shows how far its equations are from the liquid";
+    return found;
+  }
   LiquidSolution found = solve_line_scene(scene, *line, accuracy);
   if (accuracy.proved && found.status != LiquidSolution::Status::infeasible)
     prove_line(scene, *line, accuracy, found);
@@ -51,6 +55,7 @@ LiquidSolution solve_liquid(const LiquidScene& scene, const LiquidAccuracy& accu
   require_continuous(scene);
   LiquidSolution found = solve_scene(scene, accuracy);
   if (accuracy.proved) prove_zero(scene, found);
+  if (found.is_proved) found.unproved.clear();
   return found;
 }
 

@@ -201,17 +201,18 @@ TEST_CASE("--certify encloses the pressure of a disc, also at its onset, and of 
   CHECK(onset["certificate"]["level"] == "enclosure");
   CHECK(std::abs(onset["probes"][0]["p"].get<double>() - 0.72) <=
         onset["certificate"]["error_bound"].get<double>());
-  // Where a condition that is not radial chooses the boundary, on grids, and where h has no bound at an end
-  // (1/√x at 0), nothing is proved.
+  // Where a condition that is not radial chooses the boundary, on grids, and where neither h nor F has a
+  // bound at an end, nothing is proved, and it is said why.
   const Folder folder;
   const std::string rough =
       "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1)\"\ndensity = 1\nforce = "
-      "[\"9*sqrt(x)\"]\nfree = { ends = { where = \"true\", pressure = 0.1 } }\n";
+      "[\"log(x)\"]\nfree = { ends = { where = \"true\", pressure = 0.1 } }\n";
   for (const std::string& text : {disc("1", "x > -7"), rough, tank({{9, "cells = 32"}})}) {
     const Outcome outcome = run({"solve", "--json", "--certify", folder.write("open.toml", text)});
     CAPTURE(text);
     CHECK(outcome.code == 3);
     CHECK(Json::parse(outcome.out)["certificate"]["level"] == "none");
+    CHECK(Json::parse(outcome.out)["certificate"]["why"].get<std::string>().size() > 20);
   }
 }
 

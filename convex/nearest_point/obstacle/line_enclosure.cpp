@@ -147,8 +147,7 @@ class Enclosure {
                    high = piece.value(w_, to == piece.width.high ? piece.width : exactly_at(to));
     const double ends = std::max(below_zero(low), below_zero(high)), T = to - from;
     const Interval h = piece.h_range();
-    // -(w e')' = w h⁻ with e = 0 at the ends has e <= ∫ w h⁻ R(τ, b) <= h⁻ T²/2, for w grows.
-    const double sag = moved_up(below_zero(h) * T * T / 2, 8);
+    const double sag = piece.sag(T);
     if (sag == 0) return ends;
     if (std::min(low.low, high.low) >= sag) return 0;
     const Interval begin = piece.flux_at(w_, exactly_at(from)), end = piece.flux_at(w_, exactly_at(to));
@@ -228,6 +227,10 @@ class Enclosure {
     const double most = std::max(0.0, h.high), width = piece.width.high;
     room += piece.is_centre ? 0 : std::max(0.0, moved_down(-h.high * piece.width.low * w_(piece.a).low, 8));
     if (most == 0) return;
+    if (!std::isfinite(most)) {
+      lifted = infinity;
+      return;
+    }
     if (piece.is_centre) {
       // Up to its end h⁺ r²/(2d) is lifted, and the mass beyond.
       lifted += most * width * width;

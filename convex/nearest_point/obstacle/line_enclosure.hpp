@@ -14,6 +14,8 @@ struct LineSeries {
   static constexpr std::size_t most = 12;
   std::size_t degree = 0;
   std::array<Interval, most + 1> c{};
+  /// Of an f without bound, degree 0: all that its integral over a part of the piece may be, 0 included.
+  std::optional<Interval> mass = {};
 };
 
 /// A LineObstacle whose numbers are known to intervals. `h(a, width)` encloses h from any point of a on.
@@ -22,7 +24,7 @@ struct EnclosedLineObstacle {
   Interval low, high;
   LineEnd::Kind low_kind = LineEnd::Kind::value, high_kind = LineEnd::Kind::value;
   Interval at_low, at_high;
-  std::function<LineSeries(const Interval& a, double width)> h;
+  std::function<LineSeries(const Interval& a, double width)> h;  ///< with a mass on lines of power 0 alone
 };
 
 /// A pressure with a proved bound of its distance from the solution, in the largest norm.

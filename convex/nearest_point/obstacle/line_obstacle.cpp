@@ -243,6 +243,10 @@ class LineCells {
     const double departs = problem_.departure(a, b);
     return std::isnan(departs) ? infinity : departs * (b - a) * (problem_.high - problem_.low);
   }
+  /// The same by what h can sum up to, where it has no bound itself.
+  double hidden_mass(double a, double b, const CellLoad& taken) const {
+    return 2 * (problem_.mass(a, b) + taken.absolute) * (problem_.high - problem_.low);
+  }
   double seen() const { return resolved_ + 0x1p-50 * ends_ / first_cells; }
   /// [a, b], in parts on which the rule is exact to rounding.
   void add(double a, double b, const CellLoad& whole) {
@@ -263,7 +267,8 @@ class LineCells {
       r.push_back(b);
       unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);
       unresolved_ += noise / w_(b) * (problem_.high - problem_.low);
-      unresolved_ += missed <= seen() ? 0 : missed;
+      if (missed > seen())
+        unresolved_ += std::isinf(missed) && problem_.mass ? hidden_mass(a, b, whole) : missed;
       return;
     }
     add(a, middle, low);

@@ -26,6 +26,9 @@ struct LineObstacle {
   /// At most how far h is from a polynomial of degree 11 between two points, so that nothing hides between
   /// those at which h is evaluated; empty: not known.
   std::function<double(double, double)> departure = {};
+  /// At most |∫ h| over parts of what is between two points, for an h without bound there, with the power 0;
+  /// empty: not known.
+  std::function<double(double, double)> mass = {};
 };
 
 /// A maximal interval where p > 0 (liquid) or p = 0 (not).

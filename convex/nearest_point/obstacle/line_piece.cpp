@@ -37,6 +37,10 @@ double EnclosedWeight::resistance(double a, double t) const {
 void LinePieceEnclosure::integrate(const EnclosedWeight& w) {
   const auto k = static_cast<double>(w.power());
   q_.fill({});
+  if (h.mass) {
+    rest_ = {};
+    return;
+  }
   rest_ = h.c[h.degree];
   for (std::size_t m = 0; m < h.degree; ++m) {
     const auto n = static_cast<double>(m);
@@ -56,17 +60,26 @@ void LinePieceEnclosure::integrate(const EnclosedWeight& w) {
 }
 
 double LinePieceEnclosure::remainder() const {
+  if (h.mass) return moved_up(largest_size(*h.mass) * width.high);
   const auto n = static_cast<double>(h.degree);
   return moved_up(largest_size(rest_) * std::pow(width.high, n + 2) / ((n + 1) * (n + 2)), 16);
 }
 
 bool LinePieceEnclosure::is_finite() const {
-  bool all = is_bounded(rest_);
+  bool all = is_bounded(rest_) && (!h.mass || is_bounded(*h.mass));
   for (const Interval& one : q_) all = all && is_bounded(one);
   return all;
 }
 
+double LinePieceEnclosure::sag(double length) const {
+  if (h.mass) return moved_up(2 * largest_size(*h.mass) * length, 8);
+  const Interval range = h_range();
+  // -(w e')' = w h⁻ with e = 0 at the ends has e <= ∫ w h⁻ R(τ, b) <= h⁻ T²/2, for w grows.
+  return moved_up(std::max(0.0, -range.low) * length * length / 2, 8);
+}
+
 Interval LinePieceEnclosure::h_range() const {
+  if (h.mass) return h.c[0];
   const Interval t{0, width.high};
   Interval sum = h.c[h.degree];
   for (std::size_t j = h.degree; j-- > 0;) sum = sum * t + h.c[j];
@@ -77,6 +90,7 @@ Interval LinePieceEnclosure::h_range() const {
 // function.
 
 Interval LinePieceEnclosure::moment(const Interval& t) const {
+  if (h.mass) return *h.mass * Interval{0, std::max(0.0, t.high)};
   const auto n = static_cast<double>(h.degree);
   Interval sum;
   for (std::size_t j = h.degree + 2; j-- > 2;) sum = sum * t + q_[j];
@@ -84,6 +98,7 @@ Interval LinePieceEnclosure::moment(const Interval& t) const {
 }
 
 Interval LinePieceEnclosure::load(const EnclosedWeight& w, const Interval& t) const {
+  if (h.mass) return *h.mass;
   const auto n = static_cast<double>(h.degree);
   Interval sum;
   for (std::size_t j = h.degree + 2; j-- > 2;) sum = sum * t + exactly(static_cast<double>(j)) * q_[j];

@@ -31,6 +31,8 @@ struct LinePieceEnclosure {
   /// What the remainder may be in M, for a sum to be short enough.
   double remainder() const;
   bool is_finite() const;
+  /// At most ∫∫ h⁻ over a part of this length.
+  double sag(double length) const;
   const Interval& moment_coefficient(std::size_t j) const { return q_[j]; }
 
   Interval h_range() const;

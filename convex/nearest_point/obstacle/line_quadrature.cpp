@@ -40,6 +40,7 @@ double LineWeight::resistance(double a, double b) const {
 
 CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double a, double b) {
   CellLoad sum;
+  if (a == b) return sum;
   sum.resistance = w.resistance(a, b);
   const GaussLegendre& rule = gauss_legendre();
   double before = 0;
