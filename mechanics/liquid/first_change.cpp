@@ -1,6 +1,7 @@
 #include "mechanics/liquid/first_change.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace mechanics::liquid {
 namespace {
@@ -8,8 +9,13 @@ namespace {
 /// One way from the start.
 class Way {
  public:
-  Way(const SignedFamily& family, double start, bool is_negative, double side, int& trials)
-      : family_(family), start_(start), is_negative_(is_negative), side_(side), trials_(trials) {}
+  Way(const SignedFamily& family, double start, double value, double side, int& trials)
+      : family_(family),
+        start_(start),
+        is_negative_(value < 0),
+        side_(side),
+        trials_(trials),
+        last_{0, std::abs(value)} {}
 
   /// The first value, nearer than a distance, from which on nothing is shown. What lies within a few of the
   /// finest intervals of that distance is the change there.
@@ -33,7 +39,18 @@ class Way {
   void note(double distance) {
     if (!unshown_) unshown_ = distance;
   }
-  bool changes(double value) const { return (value < 0) != is_negative_; }
+  /// For certain.
+  bool changes(double parameter, double value) const {
+    return (value < 0) != is_negative_ &&
+           !(family_.rounding && std::abs(value) <= family_.rounding(parameter));
+  }
+
+  /// Another sign, and rounding of the size of the values before: farther on nothing can be told.
+  bool is_hidden(double parameter, double value) const {
+    constexpr double most_part = 0.5;
+    return (value < 0) != is_negative_ && family_.rounding &&
+           family_.rounding(parameter) > most_part * last_.size;
+  }
 
   std::optional<std::pair<double, double>> halve(double near, double far) {
     const double a = at(near), b = at(far);
@@ -49,15 +66,16 @@ class Way {
     ++trials_;
     const std::optional<double> value = family_.value(b);
     if (!value) is_open_ = false;
-    if (value && changes(*value)) return std::pair{a, b};
+    if (value && changes(b, *value)) return std::pair{a, b};
     if (value) note(near);  // it comes close to 0, or touches it
     return std::nullopt;
   }
 
-  /// By values alone.
+  /// By values alone: three to a doubling of the distance, one where that is a small part of the start.
   std::optional<std::pair<double, double>> walk(double near, double far) {
     note(near);
-    constexpr int steps = 5;
+    constexpr double small_part = 1.0 / 16;
+    const int steps = far > small_part * std::abs(start_) ? 3 : 1;
     double before = near;
     for (int k = 1; k <= steps && is_open_; ++k) {
       const double distance = near + (far - near) * k / steps;
@@ -67,17 +85,58 @@ class Way {
     return std::nullopt;
   }
 
-  /// Where the number ends in between, its sign just before that counts.
+  /// Where the number ends in between, its sign just before that counts; where it comes nearer to 0 and goes
+  /// away again, that of the nearest it comes.
   std::optional<std::pair<double, double>> step(double near, double far) {
     const std::optional<double> value = family_.value(at(far));
-    if (value) return changes(*value) ? std::optional(std::pair{at(near), at(far)}) : std::nullopt;
+    if (value && changes(at(far), *value)) return std::pair{at(near), at(far)};
+    if (value && is_hidden(at(far), *value)) is_open_ = false;
+    if (value) {
+      const Seen here{far, std::abs(*value)};
+      const bool dips = before_ && last_.size < before_->size && last_.size < here.size;
+      const auto found = dips ? dip(*before_, last_, here) : std::nullopt;
+      before_ = std::exchange(last_, here);
+      return found;
+    }
     is_open_ = false;
     constexpr int halvings = 40;
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (near + far);
       const std::optional<double> there = family_.value(at(middle));
-      if (there && changes(*there)) return std::pair{at(near), at(middle)};
+      if (there && changes(at(middle), *there)) return std::pair{at(near), at(middle)};
       (there ? near : far) = middle;
+    }
+    return std::nullopt;
+  }
+
+  struct Seen {
+    double distance, size;
+  };
+
+  /// The least between three, by parabolas, as long as it may pass 0.
+  std::optional<std::pair<double, double>> dip(Seen a, Seen m, Seen b) {
+    constexpr int most_values = 16, first_values = 2;
+    constexpr double hopeless = 0.5, shortest = 1e-3, golden = 0.38;
+    for (int k = 0; k < most_values; ++k) {
+      const double low = m.distance - a.distance, high = b.distance - m.distance;
+      const double rise_low = (m.size - a.size) / low, rise_high = (b.size - m.size) / high;
+      const double bend = (rise_high - rise_low) / (low + high),
+                   slope = (rise_low * high + rise_high * low) / (low + high);
+      if (!(bend > 0) || (k >= first_values && m.size - slope * slope / (4 * bend) > hopeless * m.size))
+        break;
+      double by = -slope / (2 * bend);
+      if (!(std::abs(by) > shortest * (low + high))) by = golden * (high > low ? high : -low);
+      const double here = m.distance + by;
+      const std::optional<double> value = family_.value(at(here));
+      if (!value) break;
+      if (changes(at(here), *value)) return std::pair{at(by > 0 ? m.distance : a.distance), at(here)};
+      const Seen seen{here, std::abs(*value)};
+      if (seen.size < m.size) {
+        (by > 0 ? a : b) = m;
+        m = seen;
+      } else {
+        (by > 0 ? b : a) = seen;
+      }
     }
     return std::nullopt;
   }
@@ -89,6 +148,8 @@ class Way {
   int& trials_;
   bool is_open_ = true;
   std::optional<double> unshown_;  // the first distance
+  std::optional<Seen> before_;     // by values alone, the last two
+  Seen last_;
 };
 
 std::optional<double> nearer(std::optional<double> a, std::optional<double> b, double start) {
@@ -101,10 +162,10 @@ std::optional<double> nearer(std::optional<double> a, std::optional<double> b, d
 FirstChange find_first_change(const SignedFamily& family, double start) {
   const std::optional<double> first = family.value(start);
   if (!first) return {std::nullopt, start};
-  const double size = start == 0 ? 1 : std::abs(start), growth = family.keeps_sign ? 2 : 1.5,
-               farthest = 1e6 * size;
+  const double size = start == 0 ? 1 : std::abs(start), farthest = 1e6 * size;
+  constexpr double growth = 2;
   int trials = 0;
-  Way down(family, start, *first < 0, -1, trials), up(family, start, *first < 0, 1, trials);
+  Way down(family, start, *first, -1, trials), up(family, start, *first, 1, trials);
   double near = 0;
   for (double far = 1e-6 * size; far < farthest; near = far, far *= growth) {
     auto between = down.search(near, far);

@@ -9,6 +9,8 @@ namespace mechanics::liquid {
 /// A number that depends on a parameter, with what is known of its sign.
 struct SignedFamily {
   std::function<std::optional<double>(double)> value;  ///< none where there is none
+  /// What may be wrong with a value: its sign is known where it is larger. Empty: nothing.
+  std::function<double(double)> rounding;
   /// Shown between two values: it stays below 0, or (false) it does not fall below 0. Empty: nothing is
   /// shown.
   std::function<bool(double, double, bool)> keeps_sign;

@@ -16,6 +16,7 @@ using Sign = std::function<std::optional<double>(double)>;
 /// Halving with the secant where it does better; f(a) and f(b) differ in sign.
 LiquidOnset root(const Sign& f, double a, double b, double accuracy, double least_size) {
   double fa = *f(a), fb = *f(b);
+  if ((fa < 0) == (fb < 0)) return {0.5 * (a + b), std::abs(b - a)};  // rounding hides the sign at an end
   int stuck = 0;
   while (std::abs(b - a) > accuracy * std::max({std::abs(a), std::abs(b), least_size})) {
     double x = stuck < 2 ? (a * fb - b * fa) / (fb - fa) : 0.5 * (a + b);
@@ -71,7 +72,12 @@ OnsetSearch find_onset(const LiquidText& text, const std::string& parameter, con
   const std::array<long, 3> first_cells{64, 32, 8}, most_cells{1024, 512, 64};
   const std::size_t axis = scene.dimension() - 1;
   const bool is_line = as_line(scene).has_value();
-  SignedFamily searched{least_on(first_cells[axis]), {}};
+  SignedFamily searched{least_on(first_cells[axis]), {}, {}};
+  if (is_line)
+    searched.rounding = [&family](double value) {
+      const double known_to = family.rounding(value);
+      return std::isfinite(known_to) ? known_to : 0;  // of an h without bound the sum is all that there is
+    };
   if (family.has_bounds())
     searched.keeps_sign = [&](double low, double high, bool negative) {
       return family.keeps_sign(low, high, negative, first_cells[axis]);

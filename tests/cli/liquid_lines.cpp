@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mechanics/liquid/first_change.hpp"
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -96,4 +97,35 @@ TEST_CASE("a wall that is as fast as the liquid beside a cavity is not parted fr
   };
   CHECK(disc("0")["parted_walls"].empty());
   CHECK(disc("1e-9")["parted_walls"] == LineJson::parse(R"(["rim"])"));
+}
+
+TEST_CASE(
+    "a sign that rounding may have made is no change, and a way whose values rounding hides has ended") {
+  int asked = 0;
+  mechanics::liquid::SignedFamily family;
+  family.value = [&](double w) {
+    ++asked;
+    return std::optional<double>(w < -50 ? -1 - w * w : 1);
+  };
+  CHECK(mechanics::liquid::find_first_change(family, -1).between.has_value());
+  const int without = asked;
+  family.rounding = [](double w) { return w < -50 ? 2 * w * w : 1e-15; };
+  asked = 0;
+  CHECK_FALSE(mechanics::liquid::find_first_change(family, -1).between.has_value());
+  CHECK(asked < 4 * without);
+  // A value that is 0 to rounding, beside values that are not, ends nothing.
+  family.value = [](double w) { return std::optional<double>(2 - w); };
+  family.rounding = [](double) { return 1e-15; };
+  const auto found = mechanics::liquid::find_first_change(family, 1).between;
+  REQUIRE(found);
+  CHECK(found->first <= 2);
+  CHECK(found->second >= 2);
+}
+
+TEST_CASE("a dip below 0 between values that grow by a quarter is found by the way they bend") {
+  mechanics::liquid::SignedFamily family;
+  family.value = [](double w) { return std::optional<double>((w - 7) * (w - 7) - 1e-6); };
+  const auto found = mechanics::liquid::find_first_change(family, 1).between;
+  REQUIRE(found);
+  CHECK(std::abs(found->second - 7) <= 1e-3);
 }
