@@ -9,6 +9,7 @@
 #include "mechanics/liquid/cavity_edge.hpp"
 #include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/grid_pressure.hpp"
+#include "mechanics/liquid/hidden_hole.hpp"
 #include "mechanics/liquid/largest_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
@@ -211,6 +212,9 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
     throw convex::InvalidInput(
         "domain: it is not connected; give one part of it, the others files of their own");
   const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution);
+  if (const auto hole = hidden_hole(scene.domain, levels.finest()))
+    throw convex::InvalidInput("domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
+                               " that lies between the nodes of the grid; give more cells, or leave it out");
   solution.unknowns = levels.finest().grid.unknowns();
   solution.cells = levels.cells();
   if (found.empty()) return solution;

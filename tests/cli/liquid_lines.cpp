@@ -129,3 +129,18 @@ TEST_CASE("a dip below 0 between values that grow by a quarter is found by the w
   REQUIRE(found);
   CHECK(std::abs(found->second - 7) <= 1e-3);
 }
+
+TEST_CASE("a hole between the nodes of a grid is refused with its place, and one that they see is solved") {
+  const Folder folder;
+  const auto holed = [&](const std::string& radius) {
+    return run(
+        {"solve", folder.write("holed.toml",
+                               liquid("\"x\", \"y\"",
+                                      "{x^2 + y^2 <= 1, (x - 0.31)^2 + (y - 0.23)^2 >= " + radius + "^2}",
+                                      "\"x\", \"y\"", free_everywhere("1") + "\ncells = 64"))});
+  };
+  const Outcome missed = holed("0.0005");
+  CHECK(missed.code == 2);
+  CHECK(missed.err.find("a hole or a gap at (x = 0.3") != std::string::npos);
+  CHECK(holed("0.2").code != 2);
+}
