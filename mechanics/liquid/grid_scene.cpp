@@ -10,6 +10,7 @@
 #include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/grid_pressure.hpp"
 #include "mechanics/liquid/hidden_hole.hpp"
+#include "mechanics/liquid/hidden_pressure.hpp"
 #include "mechanics/liquid/largest_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
 #include "mechanics/liquid/simplex_cut.hpp"
@@ -168,6 +169,15 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
       solution.status = LiquidSolution::Status::infeasible;
       return {};
     }
+    const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
+    if (const auto hole = hidden_hole(scene.domain, levels.finest())) {
+      if (is_last)
+        throw convex::InvalidInput(
+            "domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
+            " that lies between the nodes of a grid of " + std::to_string(levels.cells()) +
+            " cells; give more cells, or leave it out");
+      continue;
+    }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
     const CutCells& finest = levels.finest();
     const LargestPressure largest = largest_pressure(scene, finest, [&](Index k) {
@@ -175,11 +185,11 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     });
     solution.largest = largest.p;
     solution.largest_at = largest.at;
-    solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest);
+    solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest) +
+                           hidden_pressure(scene, finest, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();
     const bool is_close = solution.error_bound <= accuracy.part() * size;
-    const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
     if (is_last || is_close) {
       if (!found.front().ended || !is_close) solution.status = LiquidSolution::Status::inaccurate;
       return found;
@@ -212,9 +222,6 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
     throw convex::InvalidInput(
         "domain: it is not connected; give one part of it, the others files of their own");
   const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution);
-  if (const auto hole = hidden_hole(scene.domain, levels.finest()))
-    throw convex::InvalidInput("domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
-                               " that lies between the nodes of the grid; give more cells, or leave it out");
   solution.unknowns = levels.finest().grid.unknowns();
   solution.cells = levels.cells();
   if (found.empty()) return solution;

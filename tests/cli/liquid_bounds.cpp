@@ -68,3 +68,19 @@ TEST_CASE(
       CHECK(std::abs(p - 0.5 * std::pow(std::max(0.0, 0.6 - e), 2)) <= bound_of(answer));
     }
 }
+
+TEST_CASE(
+    "a bump of the pressure given between the points where a grid asks for it counts in the error bound") {
+  // p at (0.9, 0.3) is 1.316799 by Poisson's integral on 4e7 points.
+  const std::string parts =
+      "free = { all = { where = \"true\", pressure = \"1 + 100*exp(-1e7*(y - 0.30003)^2)\" } }\n";
+  const Told answer =
+      told("disc(center=[0, 0], radius=1)", "[\"0.1*x\", \"0.1*y\"]", parts + "cells = 256\n", "x=0.9,y=0.3");
+  CHECK(answer["status"] == "inaccurate");
+  CHECK(std::abs(answer["probes"][0]["p"].get<double>() - 1.316799) <= bound_of(answer));
+  // A pressure that hides nothing, though its terms cancel: of the order of the grid's own error.
+  const Told smooth = told("disc(center=[0, 0], radius=1)", "[\"0\", \"0\"]",
+                           "free = { all = { where = \"true\", pressure = \"2 + x*y + (x^2 + y^2)^2 - 2*(x^2 "
+                           "+ y^2)\" } }\ncells = 128\n");
+  CHECK(bound_of(smooth) <= 1e-3);
+}
