@@ -73,7 +73,12 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
                                        const Look& look) {
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (!parts_of_max(parts[k]).empty()) continue;
-    At alone{0, parts[k], parts[k].prox(z, W, look), 0, 0, {}};
+    // What is not finite everywhere keeps the least weight, and with it its domain.
+    std::vector<Function> terms{parts[k]};
+    for (std::size_t j = 0; j < parts.size(); ++j)
+      if (j != k && !parts[j].facts().finite) terms.push_back(weighted(parts[j], least_weight));
+    const Function mean = terms.size() == 1 ? parts[k] : proper_sum(terms);
+    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}};
     if (alone.prox.status != Status::solved || alone.prox.x.size() != z.size()) continue;
     const Value own = parts[k].evaluate(alone.prox.x);
     const auto is_below = [&](const Function& other) {

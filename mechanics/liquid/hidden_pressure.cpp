@@ -75,7 +75,11 @@ class BumpSearch {
           hull_.low = std::min(hull_.low, known->second.low);
           hull_.high = std::max(hull_.high, known->second.high);
         });
-        search(region_between(cells_, there, end), halvings_of_a_cell[d_ - 1]);
+        const Region at = region_between(cells_, there, end);
+        if (!(most_beyond(at) > least_)) return;
+        given_around_ = hull_;
+        take_in_corners(at);
+        search(at, halvings_of_a_cell[d_ - 1]);
       });
     return largest_;
   }
@@ -98,24 +102,44 @@ class BumpSearch {
   }
 
   /// By how much the values of a part in a region leave those given around.
-  double beyond(const BoundaryPart& part, const Region& at) const {
+  double beyond(const Hull& hull, const BoundaryPart& part, const Region& at) const {
     if (!part.is_free || part.value.is_constant()) return 0;
     const expression::Range values = part.value.range(at);
     if (values.is_empty()) return 0;
-    return std::max({values.high - hull_.high, hull_.low - values.low, 0.0});
+    return std::max({values.high - hull.high, hull.low - values.low, 0.0});
+  }
+
+  double most_beyond(const Region& at) const {
+    double most = 0;
+    for (const BoundaryPart& part : scene_.parts) most = std::max(most, beyond(hull_, part, at));
+    return most;
+  }
+
+  /// What parts give at the boundary nearest to the corners: they may go on beyond their last crossing.
+  void take_in_corners(const Region& at) {
+    for (unsigned code = 0; code < 1U << d_; ++code) {
+      Point x{};
+      for (std::size_t i = 0; i < d_; ++i) x[i] = (code >> i & 1U) != 0 ? at[i].high : at[i].low;
+      x = scene_.domain.foot(x);
+      for (const BoundaryPart& part : scene_.parts) {
+        const double p = part.is_free ? part.value.raw(x) : hull_.low;
+        if (!std::isfinite(p)) continue;
+        hull_.low = std::min(hull_.low, p);
+        hull_.high = std::max(hull_.high, p);
+      }
+    }
   }
 
   void search(const Region& at, int halvings) {
-    double most = 0;
-    for (const BoundaryPart& part : scene_.parts) most = std::max(most, beyond(part, at));
-    if (!(most > std::max(least_, largest_)) || !meets_boundary(at) || ++regions_ > regions_in_all) return;
+    if (!(most_beyond(at) > std::max(least_, largest_)) || !meets_boundary(at) || ++regions_ > regions_in_all)
+      return;
     if (halvings > 0) {
       for_pieces(at, d_, [&](const Region& piece) { search(piece, halvings - 1); });
       return;
     }
     const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(at)));
     if (part != nullptr)
-      if (const double here = beyond(*part, at); here > least_) largest_ = std::max(largest_, here);
+      if (beyond(hull_, *part, at) > least_) largest_ = std::max(largest_, beyond(given_around_, *part, at));
   }
 
   bool meets_boundary(const Region& at) const {
@@ -134,7 +158,7 @@ class BumpSearch {
   double least_, largest_ = 0;
   long regions_ = 0;
   std::map<Place, Hull> given_;
-  Hull hull_{};
+  Hull given_around_{}, hull_{};  ///< of crossings; of what is expected
 };
 
 }  // namespace
