@@ -11,6 +11,7 @@
 #include "cli/petsc/grid_part.hpp"
 #include "convex/invalid_input.hpp"
 #include "mechanics/liquid/grid_error.hpp"
+#include "mechanics/liquid/hidden_flux.hpp"
 #include "mechanics/liquid/hidden_pressure.hpp"
 #include "mechanics/liquid/largest_pressure.hpp"
 
@@ -197,7 +198,8 @@ void bound_error(const LiquidScene& scene, const GridPart& part, DM grid, Vec q,
   bends = {largest_of_all(bends.singular), largest_of_all(bends.beside), largest_of_all(bends.edge)};
   made.error_bound = mechanics::liquid::error_by(
                          mechanics::liquid::error_by_differences(scene, differences, across), bends) +
-                     largest_of_all(cells.hidden + hidden_pressure(scene, cells, made.largest)) +
+                     largest_of_all(cells.hidden + hidden_pressure(scene, cells, made.largest) +
+                                    hidden_flux(scene, cells, made.largest)) +
                      digits * made.largest;
 }
 

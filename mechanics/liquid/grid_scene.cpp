@@ -9,6 +9,7 @@
 #include "mechanics/liquid/cavity_edge.hpp"
 #include "mechanics/liquid/grid_error.hpp"
 #include "mechanics/liquid/grid_pressure.hpp"
+#include "mechanics/liquid/hidden_flux.hpp"
 #include "mechanics/liquid/hidden_hole.hpp"
 #include "mechanics/liquid/hidden_pressure.hpp"
 #include "mechanics/liquid/largest_pressure.hpp"
@@ -186,7 +187,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
     solution.largest = largest.p;
     solution.largest_at = largest.at;
     solution.error_bound = estimated_grid_error(scene, levels, found, solution.largest) +
-                           hidden_pressure(scene, finest, solution.largest);
+                           hidden_pressure(scene, finest, solution.largest) +
+                           hidden_flux(scene, finest, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();
     const bool is_close = solution.error_bound <= accuracy.part() * size;

@@ -70,7 +70,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a bump of the pressure given between the points where a grid asks for it counts in the error bound") {
+    "a bump of what the boundary gives between the points where a grid asks for it counts in the error "
+    "bound") {
   // p at (0.9, 0.3) is 1.316799 by Poisson's integral on 4e7 points.
   const std::string parts =
       "free = { all = { where = \"true\", pressure = \"1 + 100*exp(-1e7*(y - 0.30003)^2)\" } }\n";
@@ -78,6 +79,15 @@ TEST_CASE(
       told("disc(center=[0, 0], radius=1)", "[\"0.1*x\", \"0.1*y\"]", parts + "cells = 256\n", "x=0.9,y=0.3");
   CHECK(answer["status"] == "inaccurate");
   CHECK(std::abs(answer["probes"][0]["p"].get<double>() - 1.316799) <= bound_of(answer));
+  // The same of a wall's acceleration: p(0.5, 0.5) = 1.09111 and p(0.5, 0.01) = 1.33300 by Fourier series.
+  const Told wall =
+      told("box(low=[0, 0], high=[1, 1])", "[\"0\", \"0\"]",
+           "free = { top = { where = \"y >= 1\", pressure = 1 } }\nwalls = { bed = { where = \"y <= 0\", "
+           "acceleration "
+           "= \"-1000*exp(-((x - 0.50113)/1e-4)^2)\" }, sides = { where = \"true\", acceleration = 0 } }\n",
+           "x=0.5,y=0.01");
+  CHECK(wall["status"] == "inaccurate");
+  CHECK(std::abs(wall["probes"][0]["p"].get<double>() - 1.333) <= bound_of(wall));
   // A pressure that hides nothing, though its terms cancel: of the order of the grid's own error.
   const Told smooth = told("disc(center=[0, 0], radius=1)", "[\"0\", \"0\"]",
                            "free = { all = { where = \"true\", pressure = \"2 + x*y + (x^2 + y^2)^2 - 2*(x^2 "
