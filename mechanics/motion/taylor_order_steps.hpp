@@ -170,8 +170,9 @@ struct TaylorOrderSteps {
 #pragma GCC unroll 2
     for (std::size_t b = 0; b < all.product_blocks; ++b) {
       const Pack weighted = P::load(all.weighted + b * eight);
-      const Pack share = P::where_larger(weighted, 0, constant(all.part[k]), 1);
-      const Pack rest_of_share = P::where_larger(weighted, 0, constant(all.rest_of_part[k]), 0);
+      // 1 / k where there is a weight, else 1; both exactly.
+      const Pack share = P::plus(P::times(weighted, all.part[k]), P::minus(constant(1), weighted));
+      const Pack rest_of_share = P::times(weighted, all.rest_of_part[k]);
       const auto shared = [&](const Pack& x) __attribute__((always_inline)) {
         Pack part = P::times(x, rest_of_share);
         P::add_products(part, x, share);
