@@ -23,7 +23,8 @@ constexpr std::size_t lanes_at_once = 8;
 void Expansion::find_inertia() {
   const Index n = coordinates();
   const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
-  columns_.assign(series_.series() * lanes, 0.0);
+  // What depends on velocities is filled in by each sweep, and all else stays 0.
+  columns_.resize(series_.series() * lanes);
   const bool is_small = n <= small_system;
   if (is_small) found_.resize(n, n);
   std::vector<Eigen::Triplet<double>> entries;
