@@ -65,7 +65,7 @@ class Way {
     }
     ++trials_;
     const std::optional<double> value = family_.value(b);
-    if (!value) is_open_ = false;
+    if (!value || is_hidden(b, *value)) is_open_ = false;
     if (value && changes(b, *value)) return std::pair{a, b};
     if (value) note(near);  // it comes close to 0, or touches it
     return std::nullopt;
@@ -93,7 +93,7 @@ class Way {
     if (value && is_hidden(at(far), *value)) is_open_ = false;
     if (value) {
       const Seen here{far, std::abs(*value)};
-      const bool dips = before_ && last_.size < before_->size && last_.size < here.size;
+      const bool dips = before_ && last_.size <= before_->size && last_.size < here.size;
       const auto found = dips ? dip(*before_, last_, here) : std::nullopt;
       before_ = std::exchange(last_, here);
       return found;
