@@ -61,9 +61,28 @@ std::optional<ReactionFromDual> from_dual(const convex::NearestPointProblem& pro
   return reaction_from_dual(problem, at_vertex, solution.primal);
 }
 
-GaussSolution solve_as_it_stands(const convex::NearestPointProblem& problem, const GaussOptions& options) {
+/// The nearest point in units of which one is `norm` of ||q||_A as it was given. The tolerance is relative to
+/// at least 1 there; where a large unit makes that too little, as where all forces are held, it is asked for
+/// more.
+convex::Solution nearest_point(const convex::NearestPointProblem& problem, const GaussOptions& options,
+                               double norm) {
+  const double tolerance = options.accuracy.tolerance;
+  convex::Solution found = options.method->solve(problem, options.accuracy);
+  const auto is_close = [&] {
+    return found.error_bound <= tolerance * std::max(1 / norm, found.acceleration_norm);
+  };
+  if (norm <= 1 || found.status != convex::Status::solved || is_close()) return found;
+  convex::Accuracy accuracy = options.accuracy;
+  accuracy.tolerance = tolerance / norm;
+  found = options.method->solve(problem, accuracy);
+  if (found.status == convex::Status::inaccurate && is_close()) found.status = convex::Status::solved;
+  return found;
+}
+
+GaussSolution solve_in_units(const convex::NearestPointProblem& problem, const GaussOptions& options,
+                             double norm) {
   GaussSolution found;
-  found.primal = options.method->solve(problem, options.accuracy);
+  found.primal = nearest_point(problem, options, norm);
   if (found.primal.status == convex::Status::infeasible || found.primal.q.size() != problem.dimension())
     return found;
   if (!options.accuracy.reduce) found.reduced = reduced(problem, found.primal, options.accuracy);
@@ -89,8 +108,8 @@ GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptio
   if (const std::string reason = options.method->applies(problem); !reason.empty())
     throw convex::InvalidInput("method \"" + std::string(options.method->name) + "\": " + reason);
   const Units units = fit_units(problem);
-  if (units.ordinary()) return solve_as_it_stands(problem, options);
-  GaussSolution found = solve_as_it_stands(in_units(problem, units), options);
+  if (units.ordinary()) return solve_in_units(problem, options, 1);
+  GaussSolution found = solve_in_units(in_units(problem, units), options, units.norm());
   restore_units(found, units, options.accuracy.tolerance);
   return found;
 }

@@ -66,7 +66,7 @@ convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem,
 
 void restore_units(GaussSolution& solution, const Units& units, double tolerance) {
   const double force = units.mass * units.acceleration, multiplier = force / units.gradient;
-  const double norm = std::sqrt(units.mass) * units.acceleration;
+  const double norm = units.norm();
   convex::Solution& primal = solution.primal;
   primal.q *= units.acceleration;
   primal.lambda *= multiplier;

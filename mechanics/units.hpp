@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "convex/nearest_point/problem.hpp"
 #include "mechanics/gauss_solution.hpp"
 
@@ -12,6 +14,8 @@ namespace mechanics {
 struct Units {
   double mass = 1, acceleration = 1, gradient = 1;
   bool ordinary() const { return mass == 1 && acceleration == 1 && gradient == 1; }
+  /// The unit of ||q||_A.
+  double norm() const { return std::sqrt(mass) * acceleration; }
   Units inverse() const { return {1 / mass, 1 / acceleration, 1 / gradient}; }
 };
 

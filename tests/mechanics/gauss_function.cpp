@@ -35,3 +35,20 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("where all of a force of 1e26 is held the acceleration is 0 to the tolerance of small ones") {
+  const convex::NearestPointProblem problem{
+      Metric::dense(Matrix{{1.248870081195348e-14, 0}, {0, 5.824341794441237e-33}}),
+      Vector{{-2.5455156593127883e+19, -2095551795.2712057}},
+      convex::ConstraintRows(convex::RowMatrix{{5.7110245855953785, 0},
+                                               {7.20744871959624e-08, -4.9750996257240654e-15},
+                                               {706913427.1243902, 0.10914406038872114},
+                                               {0, 0},
+                                               {-1.0420913922923458e-18, 4.120042529510613e-28}}),
+      Vector{{0, -4.369816708902907e+28, 0, -1.858136249501632e+20, 0}},
+      {}};
+  const GaussSolution found = solve(problem);
+  CHECK(found.primal.status == convex::Status::solved);
+  CHECK(found.primal.q.isZero(0));
+  CHECK(found.primal.error_bound <= 1e-9);
+}
