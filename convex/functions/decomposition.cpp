@@ -11,6 +11,7 @@
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/other_pairs.hpp"
+#include "convex/proved_prox/proved_split.hpp"
 
 namespace convex::inline named_functions {
 namespace {
@@ -193,6 +194,22 @@ Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric&
 /// Squares and products of numbers of this size, or of its inverse, leave the range of doubles.
 constexpr double largest_size = 0x1p500;
 
+/// What doubles leave open of a piecewise linear-quadratic f, decided in fractions and rounded; none where
+/// that takes too many word operations, or doubles cannot hold the answer to the tolerance.
+std::optional<Decomposition> in_fractions(const Function& f, const Vector& z, const Metric& W,
+                                          double tolerance) {
+  if (!f.facts().piecewise_quadratic) return std::nullopt;
+  const SplitQuestion question{f.call(), fractions(z), exact_gram(W)};
+  const auto exact = exact_split_within(question, most_word_operations);
+  if (!exact) return std::nullopt;
+  Decomposition split = rounded(*exact, question);
+  const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
+  const bool finite = std::isfinite(split.f_x) && std::isfinite(split.g_y) && std::isfinite(split.inner);
+  if (!finite || !(split.error_bound <= enough)) return std::nullopt;
+  split.fenchel_gap = split.f_x + split.g_y - split.inner;
+  return split;
+}
+
 /// Looks at f until one bears an answer out.
 Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric& W, double tolerance) {
   const SplitFunctions of{f, f.conjugate(W), f.conjugate()};
@@ -204,6 +221,7 @@ Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric
     if (!best || split.error_bound < best->error_bound) best = std::move(split);
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
   }
+  if (auto exact = in_fractions(f, z, W, tolerance)) return *std::move(exact);
   return *std::move(best);
 }
 

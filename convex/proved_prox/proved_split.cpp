@@ -207,6 +207,23 @@ ProvedSplit prove(const Call& f, const Vector& z, const Metric& W, const Decompo
   return prove_in_fractions({f, fractions(z), exact_gram(W)}, split);
 }
 
+namespace {
+
+/// Both proxes, each from its own program; none where one has no minimum.
+std::optional<ExactSplit> split_of_program(const ExactProgram& f, const SplitQuestion& question) {
+  const ExactMinimum x = exact_prox(f, question.W, question.z);
+  if (!x.at) return std::nullopt;
+  const ExactMinimum y = exact_prox(exact_programs::conjugate(f, question.W), question.W, question.z);
+  if (!y.at) return std::nullopt;
+  for (std::size_t i = 0; i < question.z.size(); ++i)
+    invariant(x.at->x[i] + y.at->x[i] == question.z[i], "prox_f z + prox_g z is z in fractions");
+  const Fraction inner = dot(x.at->x, multiply(question.W, y.at->x));
+  invariant(x.at->f_x + y.at->f_x == inner, "f(x) + g(y) is (x|y) in fractions");
+  return ExactSplit{x.at->x, y.at->x, x.at->f_x, y.at->f_x, inner};
+}
+
+}  // namespace
+
 ExactSplit exact_split(const SplitQuestion& question) {
   const auto program = exact_program(question.f, question.W);
   if (!program)
@@ -218,14 +235,16 @@ ExactSplit exact_split(const SplitQuestion& question) {
   if (largest_part(*program, &question.W) > most_in_fractions)
     throw InvalidInput(
         "method \"exact\": fractions are out of reach for so many variables; leave the method out");
-  const ExactMinimum x = exact_prox(*program, question.W, question.z);
-  const ExactMinimum y = exact_prox(exact_programs::conjugate(*program, question.W), question.W, question.z);
-  invariant(x.at && y.at, "the prox of a convex function exists, and is found in fractions");
-  for (std::size_t i = 0; i < question.z.size(); ++i)
-    invariant(x.at->x[i] + y.at->x[i] == question.z[i], "prox_f z + prox_g z is z in fractions");
-  const Fraction inner = dot(x.at->x, multiply(question.W, y.at->x));
-  invariant(x.at->f_x + y.at->f_x == inner, "f(x) + g(y) is (x|y) in fractions");
-  return {x.at->x, y.at->x, x.at->f_x, y.at->f_x, inner};
+  std::optional<ExactSplit> found = split_of_program(*program, question);
+  invariant(found.has_value(), "the prox of a convex function exists, and is found in fractions");
+  return *std::move(found);
+}
+
+std::optional<ExactSplit> exact_split_within(const SplitQuestion& question, double most) {
+  const auto program = exact_program(question.f, question.W);
+  if (!program || !(split_operations(*program, question.W) <= most) || !is_proved_in_integers(question.W))
+    return std::nullopt;
+  return split_of_program(*program, question);
 }
 
 ProvedSplit proof_of(const ExactSplit& exact, const Decomposition& split, const SplitQuestion& question) {

@@ -61,6 +61,9 @@ struct ExactSplit {
 };
 /// Throws InvalidInput when f is not piecewise linear-quadratic, or W not positive definite.
 ExactSplit exact_split(const SplitQuestion&);
+/// The same where it takes no more than `most` word operations, by their count beforehand; none where it
+/// would, or f is not piecewise linear-quadratic, or not proper before rounding.
+std::optional<ExactSplit> exact_split_within(const SplitQuestion&, double most);
 
 /// What is known of the doubles of a decomposition beside the exact one: all of it.
 ProvedSplit proof_of(const ExactSplit&, const Decomposition& split, const SplitQuestion&);
