@@ -104,9 +104,12 @@ class CappedSimplex : public Polytope {
  public:
   CappedSimplex(double total, double cap) : total_(total), cap_(cap) {}
   void require_size(Index n, const std::string& name) const override {
-    if (total_ > static_cast<double>(n) * cap_)
-      throw InvalidInput(name + ": " + std::to_string(n) + " entries of at most " + to_text(cap_) +
-                         " cannot sum to " + to_text(total_) + ", so the set is empty; give a smaller sum");
+    if (!(total_ > static_cast<double>(n) * cap_)) return;
+    if (name == "sum_largest")
+      throw InvalidInput(name + ": " + std::to_string(n) + " entries have no " + to_text(total_) +
+                         " largest; give a smaller k");
+    throw InvalidInput(name + ": " + std::to_string(n) + " entries of at most " + to_text(cap_) +
+                       " cannot sum to " + to_text(total_) + ", so the set is empty; give a smaller sum");
   }
   Call call() const override {
     return {"capped_simplex", {argument("total", total_), argument("cap", cap_)}};

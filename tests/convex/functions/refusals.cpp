@@ -19,6 +19,7 @@ struct Refusal {
 };
 
 const Refusal refusals[] = {
+    {"sum_largest(4)", "3 entries have no 4 largest"},
     {"box(2, 1)", "empty"},
     {"box([0,0,0], [1,-1,1])", "entry 1"},
     {"box([0,0], [1,1])", "entries"},
