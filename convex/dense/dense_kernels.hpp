@@ -26,9 +26,6 @@ inline void side_by_side(Index n, const double* U, const Index* rows, Index coun
     for (Index i = 0; i < n; ++i) X[8 * i + k] = U[rows[k] * n + i];
 }
 
-/// No less than what underflow takes from the root of a sum of squares.
-inline constexpr double lost_in_squares = 0x1p-530;
-
 /// Kernels on dense data for one processor family. Sums are taken in an order that is the same for all of
 /// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
 ///
@@ -64,17 +61,15 @@ struct DenseKernels {
   void (*slacks)(Index m, Index n, const double* U, const double* x, const double* s, double* into);
   /// into_a := Σ_i u_ai² weight_i.
   void (*squares)(Index m, Index n, const double* U, const double* weight, double* into);
-  /// into := z + Σ_k lambda_k u_(row k) - A q, sums in twice the working precision of `above`, rounded once.
-  /// A: n×n by columns; U: m×n by rows; above: n, no less than four times the sizes of the terms together.
+  /// into := z + Σ_k lambda_k u_(row k) - A q, sums in twice the working precision, rounded once. A: n×n by
+  /// columns; U: m×n by rows.
   void (*stationarity)(Index n, const double* A, const double* q, Index m, const double* U, Index count,
-                       const Index* rows, const double* lambda, const double* z, const double* above,
-                       double* into);
+                       const Index* rows, const double* lambda, const double* z, double* into);
   /// The same in doubles alone.
   void (*residual)(Index n, const double* A, const double* q, Index m, const double* U, Index count,
                    const Index* rows, const double* lambda, const double* z, double* into);
-  /// into_k := X_k·q - s_k, k < 8, sums as in `stationarity`.
-  void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, const double* above,
-                         double* into);
+  /// into_k := X_k·q - s_k, k < 8, sums in twice the working precision, rounded once.
+  void (*precise_slacks)(Index n, const double* X, const double* q, const double* s, double* into);
   /// y += Σ_k c_(column k) X_(column k) over `count` columns of n numbers, a multiple of 8, `stride` apart.
   void (*add_columns)(Index n, Index count, const Index* columns, const double* c, const double* X,
                       Index stride, double* y);

@@ -158,36 +158,21 @@ struct Kernels : TriangleKernels<W, Fused> {
 
   MOREAU_INLINE void stationarity(Index n, const double* A, const double* q, Index m, const double* U,
                                   Index count, const Index* rows, const double* lambda, const double* z,
-                                  const double* above, double* into) {
-    const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
-    const auto work = [&](Index i, auto together) __attribute__((always_inline)) {
-      constexpr int packs = decltype(together)::value;
-      Pack hi[packs], lo[packs];
-      P::clear(lo);
-#pragma GCC unroll 4
-      for (int r = 0; r < packs; ++r) hi[r] = P::load(above + i + 8 * r);
-      const auto add = [&](const double* x, const double* end, double c) __attribute__((always_inline)) {
-#pragma GCC unroll 4
-        for (int r = 0; r < packs; ++r) P::add_precisely(hi[r], lo[r], P::load_before(x + 8 * r, end), c);
-      };
-      add(z + i, z + padded(n), 1);
-      for (Index k = 0; k < count; ++k) add(U + rows[k] * n + i, end_of_U, lambda[k]);
-      for (Index j = 0; j < n; ++j) add(A + j * n + i, end_of_A, -q[j]);
-#pragma GCC unroll 4
-      for (int r = 0; r < packs; ++r) {
-        const Pack sum = P::plus(P::minus(hi[r], P::load(above + i + 8 * r)), lo[r]);
-        P::store(into + i + 8 * r, P::first(sum, n - i - 8 * r));
-      }
-    };
-    by_packs(n, work);
-  }
-  /// work(i, packs) for a few packs at a time: their sums wait for themselves alone.
-  template <class Work>
-  MOREAU_INLINE void by_packs(Index n, Work work) {
-    constexpr int together = W == 8 ? 4 : 1;
+                                  double* into) {
     Index i = 0;
-    for (; i + 8 * (together - 1) < n; i += 8 * together) work(i, std::integral_constant<int, together>());
-    for (; i < n; i += 8) work(i, std::integral_constant<int, 1>());
+    for (; i + 8 <= n; i += 8) {
+      Pack hi = P::load(z + i), lo{};
+      for (Index k = 0; k < count; ++k) P::add_precisely(hi, lo, P::load(U + rows[k] * n + i), lambda[k]);
+      for (Index j = 0; j < n; ++j) P::add_precisely(hi, lo, P::load(A + j * n + i), -q[j]);
+      P::store(into + i, P::plus(hi, lo));
+    }
+    if (i == n) return;
+    const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
+    Pack hi = P::load(z + i), lo{};
+    for (Index k = 0; k < count; ++k)
+      P::add_precisely(hi, lo, P::load_before(U + rows[k] * n + i, end_of_U), lambda[k]);
+    for (Index j = 0; j < n; ++j) P::add_precisely(hi, lo, P::load_before(A + j * n + i, end_of_A), -q[j]);
+    P::store(into + i, P::first(P::plus(hi, lo), n - i));
   }
 
   MOREAU_INLINE void residual(Index n, const double* A, const double* q, Index m, const double* U,
@@ -212,15 +197,18 @@ struct Kernels : TriangleKernels<W, Fused> {
       for (int r = 0; r < packs; ++r)
         P::store(into + i + 8 * r, P::first(P::minus(applied[r], product[r]), n - i - 8 * r));
     };
-    by_packs(n, work);
+    // Sums of several packs wait for themselves alone.
+    constexpr int together = W == 8 ? 4 : 1;
+    Index i = 0;
+    for (; i + 8 * (together - 1) < n; i += 8 * together) work(i, std::integral_constant<int, together>());
+    for (; i < n; i += 8) work(i, std::integral_constant<int, 1>());
   }
 
   MOREAU_INLINE void precise_slacks(Index n, const double* X, const double* q, const double* s,
-                                    const double* above, double* into) {
-    Pack hi = P::load(above), lo{};
-    P::add_precisely(hi, lo, P::load(s), -1);
+                                    double* into) {
+    Pack hi = P::times(P::load(s), -1), lo{};
     for (Index i = 0; i < n; ++i) P::add_precisely(hi, lo, P::load(X + 8 * i), q[i]);
-    P::store(into, P::plus(P::minus(hi, P::load(above)), lo));
+    P::store(into, P::plus(hi, lo));
   }
 
   MOREAU_INLINE void add_columns(Index n, Index count, const Index* columns, const double* c, const double* X,

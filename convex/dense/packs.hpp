@@ -209,15 +209,14 @@ struct Packs {
       for (int k = 0; k < 8; ++k) x[k] = load(into + 8 * k);
     }
   }
-  /// Σ_c columns[c·stride…] y_c, eight columns.
-  MOREAU_INLINE Pack block_times(const double* columns, Index stride, const double* y) {
-    Pack sum[4];
-#pragma GCC unroll 4
-    for (int c = 0; c < 4; ++c) {
-      sum[c] = times(load(columns + c * stride), y[c]);
-      add_product(sum[c], load(columns + (c + 4) * stride), y[c + 4]);
+  /// Σ_c columns[8c…] y_c, eight columns.
+  MOREAU_INLINE Pack block_times(const double* columns, const double* y) {
+    Pack a = times(load(columns), y[0]), b = times(load(columns + 8), y[1]);
+    for (int c = 2; c < 8; c += 2) {
+      add_product(a, load(columns + 8 * c), y[c]);
+      add_product(b, load(columns + 8 * c + 8), y[c + 1]);
     }
-    return plus(plus(sum[0], sum[2]), plus(sum[1], sum[3]));
+    return plus(a, b);
   }
 
   /// a c - b rounded once. Written in the machine's own words: there is no other that a function compiled for
@@ -241,22 +240,21 @@ struct Packs {
     return rest;
   }
 
-  /// hi + lo += x c in twice the working precision (Ogita, Rump and Oishi 2005; Dekker 1971 for the product),
-  /// |hi| >= |x c|: then two differences tell what rounding takes from the sum (Dekker 1971).
+  /// hi + lo += x c in twice the working precision (Ogita, Rump and Oishi 2005; Dekker 1971 for the product).
   MOREAU_INLINE void add_precisely(Pack& hi, Pack& lo, const Pack& x, double c) {
     for (int k = 0; k < parts; ++k) {
-      const Part a = x.part[k], product = a * c, sum = hi.part[k] + product, taken = sum - hi.part[k];
-      Part rest;
+      const Part a = x.part[k], product = a * c;
+      Part error;
       if constexpr (Fused) {
-        rest = fused_difference(a, c - Part{}, taken);
+        error = fused_difference(a, c - Part{}, product);
       } else {
         constexpr double splitter = 0x1p27 + 1;
         const Part ca = splitter * a, a_high = ca - (ca - a), a_low = a - a_high;
         const double cc = splitter * c, c_high = cc - (cc - c), c_low = c - c_high;
-        const Part error = a_low * c_low - (((product - a_high * c_high) - a_low * c_high) - a_high * c_low);
-        rest = (product - taken) + error;
+        error = a_low * c_low - (((product - a_high * c_high) - a_low * c_high) - a_high * c_low);
       }
-      lo.part[k] = lo.part[k] + rest;
+      const Part sum = hi.part[k] + product, grown = sum - hi.part[k];
+      lo.part[k] = lo.part[k] + (((hi.part[k] - (sum - grown)) + (product - grown)) + error);
       hi.part[k] = sum;
     }
   }

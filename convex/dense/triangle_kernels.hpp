@@ -99,20 +99,28 @@ struct TriangleKernels : Packs<W, Fused> {
   MOREAU_INLINE void forward(Index n, Index ld, const double* T, const double* inverse, double* x) {
     for (Index j = 0; j < n; j += 8, T += 8 * ld) {
       double solved[8];  // of which the compiler knows that nothing below changes it
-      P::store(solved, P::block_times(inverse + 16 * j, 8, x + j));
+      P::store(solved, P::block_times(inverse + 16 * j, x + j));
       P::store(x + j, P::load(solved));
-      for (Index row = j + 8; row < n; row += 8)
-        P::store(x + row, P::minus(P::load(x + row), P::block_times(T + row, ld, solved)));
+      for (Index row = j + 8; row < n; row += 8) {
+        Pack sum = P::load(x + row);
+#pragma GCC unroll 8
+        for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + c * ld + row), solved[c]);
+        P::store(x + row, sum);
+      }
     }
   }
 
   MOREAU_INLINE void backward(Index n, Index ld, const double* T, const double* inverse, double* x) {
     for (Index j = (n - 1) / 8 * 8; j >= 0; j -= 8) {
       double solved[8];
-      P::store(solved, P::block_times(inverse + 16 * j + 64, 8, x + j));
+      P::store(solved, P::block_times(inverse + 16 * j + 64, x + j));
       P::store(x + j, P::load(solved));
-      for (Index row = 0; row < j; row += 8)
-        P::store(x + row, P::minus(P::load(x + row), P::block_times(T + j * ld + row, ld, solved)));
+      for (Index row = 0; row < j; row += 8) {
+        Pack sum = P::load(x + row);
+#pragma GCC unroll 8
+        for (int c = 0; c < 8; ++c) P::subtract_product(sum, P::load(T + (j + c) * ld + row), solved[c]);
+        P::store(x + row, sum);
+      }
     }
   }
 

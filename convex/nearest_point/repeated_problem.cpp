@@ -9,15 +9,8 @@
 namespace convex {
 
 struct RepeatedProblem::State {
-  State(NearestPointProblem the_problem, const Accuracy& the_accuracy)
-      : problem(std::move(the_problem)),
-        accuracy(the_accuracy),
-        has_gram(has_gram_matrix(problem) && accuracy.step_limit == 0),
-        is_small(has_gram && SmallGramSolve::fits(problem)) {}
-
   NearestPointProblem problem;
   Accuracy accuracy;
-  bool has_gram, is_small;
   Arena arena;
   std::optional<GramSolve> gram;
   std::unique_ptr<SmallTableau> tableau;
@@ -30,7 +23,7 @@ RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& ac
   validate(problem);
   if (has_gram_matrix(problem) && problem.A.kind() == MetricKind::diagonal)
     problem = with_dense_metric(std::move(problem));
-  state_ = std::make_unique<State>(std::move(problem), accuracy);
+  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, false, false, {}});
 }
 
 RepeatedProblem::~RepeatedProblem() = default;
@@ -39,25 +32,25 @@ RepeatedProblem& RepeatedProblem::operator=(RepeatedProblem&&) noexcept = defaul
 
 const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   State& state = *state_;
-  if (z.size() != state.problem.z.size() || s.size() != state.problem.s.size())
+  if (z.size() != state.problem.dimension() || s.size() != state.problem.rows())
     throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + std::to_string(s.size()) +
                        " entries; give one per coordinate and one per row");
-  // Zero times a number that is not finite is not zero.
-  if ((0 * z.array()).sum() != 0 || (0 * s.array()).sum() != 0)
+  const auto all_finite = dense_kernels().is_finite;
+  if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
   state.problem.z = z;
   state.problem.s = s;
-  if (state.is_small) {
-    if (!state.small_settled) {
-      if (!state.tableau) state.tableau = std::make_unique<SmallTableau>();
-      state.small_gram.emplace(state.problem, *state.tableau);
-      state.small_settled = state.small_gram->solve({}, state.accuracy, state.solution);
-    } else {
-      state.small_settled = state.small_gram->solve_again(state.accuracy, state.solution);
+  if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
+    if (SmallGramSolve::fits(state.problem)) {
+      if (!state.small_settled) {
+        if (!state.tableau) state.tableau = std::make_unique<SmallTableau>();
+        state.small_gram.emplace(state.problem, *state.tableau);
+        state.small_settled = state.small_gram->solve({}, state.accuracy, state.solution);
+      } else {
+        state.small_settled = state.small_gram->solve_again(state.accuracy, state.solution);
+      }
+      if (state.small_settled && state.solution.status == Status::solved) return state.solution;
     }
-    if (state.small_settled && state.solution.status == Status::solved) return state.solution;
-  }
-  if (state.has_gram) {
     if (state.settled && state.gram->solve_again(state.accuracy, state.solution) &&
         state.solution.status == Status::solved)
       return state.solution;

@@ -36,10 +36,9 @@ bool Corrections::note(double step, bool is_fresh, double factor_condition, doub
   return true;
 }
 
-/// What the rounding of residuals in twice the working precision leaves, of sums of some multiples of the
-/// scale.
+/// What the rounding of residuals in twice the working precision leaves.
 double Corrections::floor_of_residuals() const {
-  return 64 * unit_roundoff * unit_roundoff * factor_condition_ * (1 + std::sqrt(gram_condition_)) * scale;
+  return 4 * unit_roundoff * unit_roundoff * factor_condition_ * (1 + std::sqrt(gram_condition_)) * scale;
 }
 
 bool Corrections::take_noise_for_zero(const Point& point, bool more) {

@@ -18,9 +18,9 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((11 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 14) * padded(k) + 4 * padded(places)) / 8 +
+  arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 14) * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
-  for (double** x : {&z_, &w_free_, &w_, &above_, &q_, &q_low_, &r_, &dw_, &dq_, &inverse_diagonal_, &unit_})
+  for (double** x : {&z_, &w_free_, &w_, &q_, &q_low_, &r_, &dw_, &dq_, &inverse_diagonal_, &unit_})
     *x = arena.take_filled(n_, 0.0);
   for (double** x : {&row_scale_, &slack_, &touched_slack_}) *x = arena.take<double>(m_);
   for (double** x : {&load_, &lambda_, &change_, &length_, &pull_}) *x = arena.take<double>(k);

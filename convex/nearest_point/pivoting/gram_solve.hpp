@@ -50,8 +50,6 @@ class GramSolve {
   Slacks decide_degenerate_rows();
   Index measure_touched_slacks();
   double slack_noise(Index a) const;
-  double length_of_point() const;                    ///< ||q||_D
-  double above_slack(Index a, double length) const;  ///< for `precise_slacks`; 0 for a = -1
   std::optional<double> slack_by_parallel_row(Index a) const;
   bool are_independent(const Index* rows, Index count, double part);
   void find_dual_rows();
@@ -65,8 +63,7 @@ class GramSolve {
   const DenseFactor A_;
   const Index n_, m_, ld_;
   std::optional<GramPivoting> set_;
-  double *z_, *w_free_, *w_, *above_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *unit_, *row_scale_,
-      *slack_;
+  double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *unit_, *row_scale_, *slack_;
   double *load_, *lambda_, *change_, *length_, *pull_;  // of the rows held, rows_
   double *y_, *total_, *rest_, *held_slack_;  // at places; total_: all multipliers, y_: their last change
   double *touched_slack_, *pack_, *dual_, *products_;  // touched_slack_: at q rounded

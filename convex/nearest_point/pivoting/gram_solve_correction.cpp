@@ -73,37 +73,17 @@ bool GramSolve::correct(bool is_first, double small) {
 }
 
 void GramSolve::residual(bool is_first) {
-  const double* const diagonal = problem_.A.diagonal().data();
-  double sum = 0;  // as in `SmallTableauSteps::bound_terms`
-  for (Index i = 0; i < n_; ++i) sum += (std::abs(q_[i]) * diagonal[i] + std::abs(z_[i])) * unit_[i];
-  for (Index j = 0; j < set_->size(); ++j)
-    sum += std::abs(lambda_[j]) * (row_scale_[rows_[j]] + lost_in_squares);
-  for (Index i = 0; i < n_; ++i) above_[i] = 4 * sum * diagonal[i] * unit_[i];
   kernels_.stationarity(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
-                        rows_, lambda_, z_, above_, r_);
+                        rows_, lambda_, z_, r_);
   if (is_first) return;
   copy_packs(ld_, r_, dq_);
   kernels_.residual(n_, problem_.A.dense_gram().data(), q_low_, m_, problem_.U.dense().data(), 0, rows_,
                     lambda_, dq_, r_);
 }
 
-double GramSolve::length_of_point() const {
-  const double* const diagonal = problem_.A.diagonal().data();
-  double square = 0;
-  for (Index i = 0; i < n_; ++i) square += q_[i] * q_[i] * diagonal[i];
-  return std::sqrt(square);
-}
-
-double GramSolve::above_slack(Index a, double length) const {
-  return a < 0
-             ? 0
-             : 4 * (std::abs(problem_.s[a]) + (row_scale_[a] + lost_in_squares) * (length + lost_in_squares));
-}
-
 /// rest_ := s_a - u_a·q - v_a·dw of the rows held, or of all that matter, at their places.
 void GramSolve::rest_loads(bool is_first, bool with_outside) {
-  alignas(64) double dots[8], low[8], above[8];
-  const double length = length_of_point();
+  alignas(64) double dots[8], low[8];
   for (Index first = 0; first < set_->rows().count(); first += 8) {
     bool any = false;
     for (Index p = first; p < first + 8; ++p)
@@ -113,9 +93,7 @@ void GramSolve::rest_loads(bool is_first, bool with_outside) {
       fill_packs(8, 0, rest_ + first);
       continue;
     }
-    for (Index k = 0; k < 8; ++k) above[k] = above_slack(set_->rows().row(first + k), length);
-    kernels_.precise_slacks(n_, set_->rows().raw() + first * n_, q_, set_->rows().s() + first, above,
-                            rest_ + first);
+    kernels_.precise_slacks(n_, set_->rows().raw() + first * n_, q_, set_->rows().s() + first, rest_ + first);
     kernels_.dots(n_, set_->rows().whitened() + first * n_, dw_, dots);
     if (!is_first) kernels_.dots(n_, set_->rows().raw() + first * n_, q_low_, low);
     for (Index k = 0; k < 8; ++k) rest_[first + k] = -rest_[first + k] - (is_first ? 0 : low[k]) - dots[k];

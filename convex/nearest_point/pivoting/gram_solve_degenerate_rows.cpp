@@ -20,7 +20,9 @@ constexpr double least_rise = 1e-3;
 /// Slacks at q in doubles; those of rows held count as 0 and go to `held_slack_`.
 void GramSolve::set_slacks_of_doubles() {
   kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
-  magnitude_ = length_of_point();
+  magnitude_ = 0;
+  for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
+  magnitude_ = std::sqrt(magnitude_);
   Index held = 0;
   for (Index a = 0; a < m_; ++a) {
     if (!set_->holds(a)) continue;
@@ -103,16 +105,13 @@ Slacks GramSolve::decide_degenerate_rows() {
 /// Slacks of the rows touched in twice the precision. The number of those that are negative beyond rounding,
 /// listed in close_.
 Index GramSolve::measure_touched_slacks() {
-  alignas(64) double s[8] = {}, above[8] = {}, rest[8], low[8];
+  alignas(64) double s[8] = {}, rest[8], low[8];
   Index violated = 0;
   for (Index first = 0; first < touched_count_; first += 8) {
     const Index count = std::min<Index>(8, touched_count_ - first);
-    for (Index k = 0; k < count; ++k) {
-      s[k] = problem_.s[touched_[first + k]];
-      above[k] = above_slack(touched_[first + k], magnitude_);
-    }
+    for (Index k = 0; k < count; ++k) s[k] = problem_.s[touched_[first + k]];
     set_->rows().copy_rows(touched_ + first, count, pack_);
-    kernels_.precise_slacks(n_, pack_, q_, s, above, rest);
+    kernels_.precise_slacks(n_, pack_, q_, s, rest);
     kernels_.dots(n_, pack_, q_low_, low);
     for (Index k = 0; k < count; ++k) {
       const Index a = touched_[first + k];
@@ -129,7 +128,7 @@ Index GramSolve::measure_touched_slacks() {
 }
 
 double GramSolve::slack_noise(Index a) const {
-  return zero_of_pairs * (above_slack(a, magnitude_) + row_scale_[a] * known_.scale) +
+  return zero_of_pairs * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
          known_.missing_slack(row_scale_[a]);
 }
 

@@ -38,7 +38,6 @@ SmallGramSolve::SmallGramSolve(const NearestPointProblem& problem, SmallTableau&
   tableau.U = problem.U.dense().data();
   fill_packs(tableau.ld, 0, tableau.diagonal);
   fill_packs(tableau.ld, 0, tableau.inverse_diagonal);
-  fill_packs(tableau.ld, 0, tableau.unit);
   const auto diagonal = problem.A.diagonal().array();
   Eigen::Map<Eigen::ArrayXd>(tableau.diagonal, tableau.n) = diagonal;
   Eigen::Map<Eigen::ArrayXd>(tableau.inverse_diagonal, tableau.n) = diagonal.inverse();

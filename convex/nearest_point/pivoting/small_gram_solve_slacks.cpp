@@ -117,7 +117,7 @@ Slacks SmallGramSolve::decide_degenerate_rows() {
   for (Index a : touched()) {
     const Index p = place(a);
     slack_[a] = t.slack[p] = precise[p];
-    const double noise = zero_of_pairs * (t.above_slack[p] + t.row_scale[p] * known_.scale) +
+    const double noise = zero_of_pairs * (std::abs(t.level[p]) + t.row_scale[p] * known_.scale) +
                          known_.missing_slack(t.row_scale[p]);
     if (slack_[a] < -noise)
       close_[violated++] = a;  // those before have been seen

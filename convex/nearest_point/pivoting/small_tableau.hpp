@@ -21,8 +21,6 @@ struct SmallTableau {
   const double *T = nullptr, *inverse = nullptr, *A = nullptr, *U = nullptr;
   double factor_condition = 1;
 
-  /// L⁻¹ beyond the blocks on its diagonal, which `inverse` has, by columns of ld; above them its transpose.
-  alignas(64) double apart[most_coordinates * most_coordinates];
   alignas(64) double raw[most_coordinates * most];       ///< u_a
   alignas(64) double whitened[most_coordinates * most];  ///< v_a = L⁻¹u_a
   /// The Gram matrix G of the v_a, by columns of `stride`, swept at the rows held S: -G_SS⁻¹ there, G_oS
@@ -37,8 +35,6 @@ struct SmallTableau {
   /// of one that may enter, 0 otherwise; share: 1 for a row held.
   alignas(64) double leave[most], enter[most], share[most];
   alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
-  /// For sums in twice the working precision (`DenseKernels`): of the equations of motion, of each slack.
-  alignas(64) double above[most], above_slack[most];
   alignas(64) double slack[most];
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
   alignas(64) double lambda[most];  ///< of all places, 0 outside
@@ -51,8 +47,7 @@ struct SmallTableau {
   Arena all_rows;                           ///< arrays for all rows, where these are many
   Index rows[most], place[most], size = 0;  ///< rows held, their places, and how many
   bool held[most], two_sided[most];
-  bool is_inverted = false;  ///< `apart` is there: where solves follow each other
-  bool is_listed = false;    ///< no row has come or gone since those held were listed
+  bool is_listed = false;  ///< no row has come or gone since those held were listed
 
   Index steps = 0;
   double z_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;

@@ -25,62 +25,6 @@ struct SmallTableauRows : Kernels<W, Fused> {
     for (Index i = 0; i < count; i += 8) work(i);
   }
 
-  /// apart: each block X_ij = -L_ii⁻¹ Σ_{j<=l<i} L_il X_lj, a block column at a time.
-  MOREAU_INLINE void invert(SmallTableau& t) {
-    const Index step = ld(t);
-    t.is_inverted = true;
-    alignas(64) double sum[64];
-    for (Index j = 0; j < step; j += 8)
-      for (Index i = j + 8; i < step; i += 8) {
-        Pack x[8];
-        P::clear(x);
-        for (Index l = j; l < i; l += 8)
-          add_block(t.T + l * step + i, step, l == j ? t.inverse + 16 * j : t.apart + j * step + l,
-                    l == j ? 8 : step, x);
-#pragma GCC unroll 8
-        for (int c = 0; c < 8; ++c) P::store(sum + 8 * c, P::times(x[c], -1));
-        P::clear(x);
-        add_block(t.inverse + 16 * i, 8, sum, 8, x);
-#pragma GCC unroll 8
-        for (int c = 0; c < 8; ++c) P::store(t.apart + (j + c) * step + i, x[c]);
-        P::transpose(x);
-#pragma GCC unroll 8
-        for (int r = 0; r < 8; ++r) P::store(t.apart + (i + r) * step + j, x[r]);
-      }
-  }
-  /// x += L Y for blocks of eight columns, so far apart.
-  MOREAU_INLINE void add_block(const double* L, Index step, const double* Y, Index of_Y, Pack (&x)[8]) {
-    for (Index d = 0; d < 8; ++d) {
-      const Pack column = P::load(L + d * step);
-#pragma GCC unroll 8
-      for (int c = 0; c < 8; ++c) P::add_product(x[c], column, Y[c * of_Y + d]);
-    }
-  }
-
-  /// x := L⁻¹x and x := L⁻ᵀx. Once the inverse is there, as products, whose terms do not wait for each other.
-  MOREAU_INLINE void forward(const SmallTableau& t, double* x) {
-    if (!t.is_inverted) return K::forward(t.n, ld(t), t.T, t.inverse, x);
-    for (Index r = ld(t) - 8; r >= 0; r -= 8)
-      P::store(x + r, row_of_blocks(t, t.inverse + 16 * r, r, 0, r, x));
-  }
-  MOREAU_INLINE void backward(const SmallTableau& t, double* x) {
-    if (!t.is_inverted) return K::backward(t.n, ld(t), t.T, t.inverse, x);
-    for (Index r = 0; r < ld(t); r += 8)
-      P::store(x + r, row_of_blocks(t, t.inverse + 16 * r + 64, r, r + 8, ld(t), x));
-  }
-  MOREAU_INLINE Pack row_of_blocks(const SmallTableau& t, const double* own, Index r, Index first, Index end,
-                                   const double* x) {
-    Pack sum[4];
-    P::clear(sum);
-    for (Index c = first; c < end; c += 8)
-#pragma GCC unroll 8
-      for (int k = 0; k < 8; ++k)
-        P::add_product(sum[k % 4], P::load(t.apart + (c + k) * ld(t) + r), x[c + k]);
-    const Pack product = P::block_times(own, 8, x + r);
-    return first == end ? product
-                        : P::plus(product, P::plus(P::plus(sum[0], sum[2]), P::plus(sum[1], sum[3])));
-  }
-
   MOREAU_INLINE void set_state(SmallTableau& t, Index a, bool held) {
     t.held[a] = held;
     t.share[a] = held ? 1 : 0;
@@ -92,7 +36,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
   MOREAU_INLINE void whiten_z(SmallTableau& t) {
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
-    forward(t, t.w_free);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
     t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
     for (Index r = 0; r < stride(t); r += 8) load_block(t, r);
   }

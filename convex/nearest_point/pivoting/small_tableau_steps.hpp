@@ -17,11 +17,10 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using Pack = typename P::Pack;
   using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
       Pivots::sweep_load;
-  using Rows::backward, Rows::each, Rows::forward, Rows::invert, Rows::ld, Rows::load_block,
-      Rows::mirror_block, Rows::set_state, Rows::stride, Rows::whiten_block, Rows::whiten_z;
+  using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::set_state, Rows::stride,
+      Rows::whiten_block, Rows::whiten_z;
 
   MOREAU_INLINE bool begin(SmallTableau& t) {
-    t.is_inverted = false;
     for (Index r = 0; r < stride(t); r += 8) {
       whiten_block(t, r);
       mirror_block(t, r);
@@ -44,7 +43,6 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   }
 
   MOREAU_INLINE bool begin_again(SmallTableau& t) {
-    if (!t.is_inverted) invert(t);
     whiten_z(t);
     sweep_load(t, t.load);
     return true;
@@ -83,11 +81,11 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     for (Index r = 0; r < stride(t); r += 8) P::store(t.lambda + r, Pack{});
     take_multipliers(t);
     add_rows(t, t.held_lambda, t.z, t.w);
-    forward(t, t.w);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.w);
     t.acceleration_norm = std::sqrt(K::dot(ld(t), t.w, t.w));
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.q + i, P::load(t.w + i)); });
-    backward(t, t.q);
+    K::backward(t.n, ld(t), t.T, t.inverse, t.q);
   }
 
   MOREAU_INLINE double margin(const SmallTableau& t) {
@@ -117,30 +115,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     for (Index a = 0; a < t.m; ++a) set_state(t, a, t.held[a]);
   }
 
-  /// above, above_slack: with d the diagonal of A, |a_ij| <= root(d_i d_j), |u_i| <= root(d_i) ||u||_(D⁻¹).
-  MOREAU_INLINE void bound_terms(SmallTableau& t) {
-    Pack terms{};
-    for (Index i = 0; i < ld(t); i += 8) {
-      const Pack of_q = P::times(P::load(t.q + i), P::load(t.diagonal + i));
-      P::add_products(terms, P::plus(K::size(of_q), K::size(P::load(t.z + i))), P::load(t.unit + i));
-    }
-    const double length = P::total(terms) + lost_in_squares;
-    double sum = length;
-    for (Index k = 0; k < t.size; ++k)
-      sum += std::abs(t.held_lambda[k]) * (t.row_scale[t.place[k]] + lost_in_squares);
-    for (Index i = 0; i < ld(t); i += 8)
-      P::store(t.above + i, P::times(P::times(P::load(t.diagonal + i), P::load(t.unit + i)), 4 * sum));
-    for (Index r = 0; r < stride(t); r += 8) {
-      Pack bound = K::size(P::load(t.level + r));
-      P::add_product(bound, P::plus(P::load(t.row_scale + r), lost_in_squares), length);
-      P::store(t.above_slack + r, P::times(bound, 4));
-    }
-  }
-
   /// Multipliers of weak rows count as 0 here: what they are is found anew.
   MOREAU_INLINE bool correct(SmallTableau& t) {
-    bound_terms(t);
-    K::stationarity(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.above, t.r);
+    K::stationarity(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
     if (!t.is_first) {
       each(
           ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
@@ -148,7 +125,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     }
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
-    forward(t, t.dq);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
     for (Index r = 0; r < stride(t); r += 8) {
       bool any = t.any_weak;
       for (Index k = r; k < r + 8; ++k) any |= t.held[k];
@@ -156,7 +133,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
         P::store(t.rest + r, Pack{});
         continue;
       }
-      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.above_slack + r, t.rest + r);
+      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.rest + r);
       alignas(64) double moved[8];
       K::dots(t.n, t.whitened + r * t.n, t.dq, moved);
       Pack missing = P::plus(P::load(t.rest + r), P::load(moved));
@@ -175,9 +152,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     }
     take_multipliers(t);
     add_rows(t, t.correction, t.r, t.dq);
-    forward(t, t.dq);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
     t.first = std::sqrt(K::dot(ld(t), t.dq, t.dq));
-    backward(t, t.dq);
+    K::backward(t.n, ld(t), t.T, t.inverse, t.dq);
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) {
           Pack low = P::load(t.dq + i), q = P::load(t.q + i);
@@ -189,9 +166,8 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   }
 
   MOREAU_INLINE void measure_precisely(SmallTableau& t) {
-    bound_terms(t);
     for (Index r = 0; r < stride(t); r += 8) {
-      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.above_slack + r, t.slack + r);
+      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.slack + r);
       alignas(64) double low[8];
       K::dots(t.n, t.raw + r * t.n, t.q_low, low);
       P::store(t.slack + r, P::plus(P::load(t.slack + r), P::load(low)));
@@ -204,7 +180,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       P::store(t.slack + r, P::minus(P::load(t.slack + r), P::load(t.level + r)));
     }
     K::residual(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
-    forward(t, t.r);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.r);
     t.stationarity = std::sqrt(K::dot(ld(t), t.r, t.r));
     Pack square{};
     each(

@@ -55,26 +55,6 @@ TEST_CASE("where the Gram matrix answers, it is right to rounding, and its bound
   CHECK(answered > 100);
 }
 
-TEST_CASE("rows of lengths whose squares no double holds are left to others, or answered right") {
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    CAPTURE(seed);
-    const Index n = 2 + static_cast<Index>((5 * seed) % 45), m = 4 + static_cast<Index>((11 * seed) % 71);
-    const auto [problem, truth] = oracles::planted_problem(seed, n, m, Difficulty::none);
-    convex::RowMatrix U = problem.U.dense();
-    Vector s = problem.s;
-    std::mt19937 generator(seed);
-    for (Index a = 0; a < m; ++a) {
-      const double unit = std::ldexp(1, std::uniform_int_distribution<int>(-520, 520)(generator));
-      U.row(a) *= unit;
-      s[a] *= unit;
-    }
-    const NearestPointProblem scaled{problem.A, problem.z, ConstraintRows(U), s, problem.two_sided};
-    const std::optional<Solution> found = convex::solve_by_gram_matrix(scaled, {}, {}).solution;
-    if (!found || found->status != Status::solved) continue;
-    CHECK(problem.A.norm(found->q - truth) <= few_roundings * scale(problem, truth));
-  }
-}
-
 TEST_CASE("the Gram matrix settles well-posed problems, whatever the rows it begins with") {
   const convex::GalleryFamily& family = *convex::find_family("well-posed");
   for (const Index n : {4, 9, 17, 33, 60}) {

@@ -53,8 +53,6 @@ std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProbl
   kernels.measure(t);
   keep(t.slack, t.m);
   keep(&t.stationarity, 1);
-  // Once more, with the inverse of the factor.
-  if (kernels.begin_again(t) && kernels.settle(t)) keep(t.q, t.n);
   return all;
 }
 
