@@ -219,7 +219,7 @@ Bends largest_bends(const LiquidScene& scene, const CutCells& cells, long across
 }
 
 double error_by(double differences, const Bends& bends) {
-  return std::max({differences + bends.singular, bends.edge, bends.beside});
+  return std::max(differences + bends.singular + bends.edge, bends.beside);
 }
 
 double estimated_grid_error(const LiquidScene& scene, const GridLevels& levels,

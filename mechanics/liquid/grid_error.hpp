@@ -19,7 +19,7 @@ namespace mechanics::liquid {
 /// pressures, which nodes in a cavity alone do not see, counts where it is larger than all that.
 ///
 /// A cavity ends at a node for the grid. Where it ends by d further on, which may be half a step s, and the
-/// same in all nested grids, all of them are |h| d²/2 off, and no difference tells: the bound is |h| s²/8 at the least.
+/// same in all nested grids, all of them are |h| d²/2 off, and no difference tells: |h| s²/8 is added.
 ///
 /// `differences`: of p on each grid and the next coarser one, finest first.
 double error_by_differences(const LiquidScene&, const std::vector<double>& differences, long cells);

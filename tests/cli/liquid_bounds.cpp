@@ -1,4 +1,6 @@
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -93,4 +95,34 @@ TEST_CASE(
                            "free = { all = { where = \"true\", pressure = \"2 + x*y + (x^2 + y^2)^2 - 2*(x^2 "
                            "+ y^2)\" } }\ncells = 128\n");
   CHECK(bound_of(smooth) <= 1e-3);
+}
+
+TEST_CASE(
+    "over a hemisphere the pressure converges at second order, the cavity's edge at first, and bounds cover "
+    "both") {
+  std::ifstream file(MOREAU_SOURCE "/docs/problems/liquid_hemisphere.toml");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const double a = 0.697965148223374, p = a * a / std::sqrt(1 - a * a) * std::log(2 / 1.5) - std::sqrt(0.19) +
+                                          0.9 / std::sqrt(0.19) * (1.5 - 0.9);
+  double first_error = 0, first_edge = 0;
+  for (const int cells : {128, 512}) {
+    const Folder folder;
+    std::string scene = text;
+    scene.replace(scene.find("density"), 0, "cells = " + std::to_string(cells) + "\n");
+    const Outcome outcome =
+        run({"solve", "--json", folder.write("liquid.toml", scene), "--probe", "x=1.5, y=0"});
+    CAPTURE(outcome.err);
+    REQUIRE((outcome.code == 0 || outcome.code == 3));
+    const Told answer = Told::parse(outcome.out);
+    const double error = std::abs(answer["probes"][0]["p"].get<double>() - p),
+                 edge = std::abs(answer["cavity"]["extent"]["x"][1].get<double>() - a);
+    CHECK(error <= bound_of(answer));
+    if (cells == 128) {
+      first_error = error;
+      first_edge = edge;
+      continue;
+    }
+    CHECK(error <= first_error / 8);  // 16 at second order
+    CHECK(edge <= first_edge / 4);
+  }
 }

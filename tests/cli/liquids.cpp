@@ -52,7 +52,7 @@ Json solved_liquid(const std::string& text, std::vector<std::string> options = {
 }  // namespace
 
 TEST_CASE("the liquids of the library have the answers of closed forms, within their error bounds") {
-  for (const std::string name : {"piston", "tube", "disc", "ball", "square", "tank"}) {
+  for (const std::string name : {"piston", "tube", "disc", "ball", "square", "hemisphere", "tank"}) {
     CAPTURE(name);
     std::ifstream file(MOREAU_SOURCE "/tests/cases/liquid_" + name + ".expected.json");
     const Json expected = Json::parse(file);

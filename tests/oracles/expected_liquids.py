@@ -40,6 +40,11 @@ p = lambda r: 8 * (r**2 - s**2) / 6 + 8 * s**3 / 3 * (1 / r - 1 / s)
 liquid("liquid_ball", 4 * pi * s**3 / 3, s, mpf("0.8"), [("x=0, y=0.1, z=0", 0, 8), ("x=0.6, y=0.6, z=0.45", p(sqrt(mpf("0.9225"))), 0)], {"omega": sqrt(mpf("2.4"))})
 p = lambda r: r**2 / 2 - log(r) - mpf(1) / 2
 liquid("liquid_square", pi, 1, p(sqrt(mpf("4.5"))), [("x=0.5, y=0.5", 0, 2), ("x=1.25, y=0", p(mpf("1.25")), 0), ("x=-1.2, y=1.2", p(sqrt(mpf("2.88"))), 0)], tolerance="1e-3")
+hemisphere = lambda a: a**2 * log(2 / a) - 1 + a**2
+a = findroot(hemisphere, (mpf("0.5"), mpf("0.9")), solver="anderson")
+top = lambda r: sqrt(1 - r**2) if r < mpf("0.9") else sqrt(mpf("0.19")) - mpf("0.9") / sqrt(mpf("0.19")) * (r - mpf("0.9"))
+p = lambda r: a**2 / sqrt(1 - a**2) * log(2 / r) - top(r)
+liquid("liquid_hemisphere", pi * a**2, a, p(sqrt(mpf(8))), [("x=0.3, y=0.4", 0, mpf("1.75") / mpf("0.75") ** mpf("1.5")), ("x=1.5, y=0", p(mpf("1.5")), 0), ("x=0.8, y=0", p(mpf("0.8")), 0)], tolerance="3e-3")
 liquid("liquid_tank", 0, None, 1, [("x=0.3, y=0.5", mpf("0.25"), 0)], {"a": mpf("10.25")}, ["bed"], "1e-7")
 
 n, p0, a, m = 20, F(5), F(5, 4), F(3) * 2 / 20
