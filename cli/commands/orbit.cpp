@@ -88,7 +88,7 @@ std::string orbit_text(const std::string& head, const mechanics::LagrangianSyste
       text += m.imag() == 0 ? fmt::format(" {}", number_text(m.real()))
                             : fmt::format(" {}{}{}i", number_text(m.real()), m.imag() < 0 ? "-" : "+",
                                           number_text(std::abs(m.imag())));
-  text += fmt::format("\n{} impacts a period; the start is missed by {}.\n", orbit.impacts.size(),
+  text += fmt::format("\nImpacts a period: {}; the start is missed by {}.\n", orbit.impacts.size(),
                       number_text(orbit.residual));
   return text;
 }

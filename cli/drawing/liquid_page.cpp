@@ -198,7 +198,10 @@ function show(k) {
 const first = frames[0].value, last = frames[frames.length - 1].value;
 if (liquid.onset !== null) {
   const onset = liquid.onset.value, part = (onset - first) / (last - first);
-  const text = "Cavitation begins at " + liquid.parameter + " = " + onset.toPrecision(6);
+  const error = liquid.onset.error, size = Math.abs(onset);
+  const known = error > 0 && size > 0 ? Math.ceil(Math.log10(size / error)) + 1 : 15;
+  const digits = Math.max(2, Math.min(15, known));
+  const text = "Cavitation begins at " + liquid.parameter + " = " + onset.toPrecision(digits);
   const note = document.createElement("div");
   note.id = "onset";
   note.textContent = text + " (to " + liquid.onset.error.toPrecision(1) + ").";

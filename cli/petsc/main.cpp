@@ -79,9 +79,8 @@ void write_text(const Request& request, const DistributedPressure& found, int ra
               request.file.c_str(), static_cast<long long>(found.unknowns),
               static_cast<long long>(found.cells), ranks, ranks == 1 ? "" : "es");
   if (found.cavity_measure > 0)
-    std::printf(
-        "Cavitation begins: p = 0 and the liquid parts in %.4g %% of the domain (measure %.6g, by cells).\n",
-        100 * found.cavity_measure / found.volume, found.cavity_measure);
+    std::printf("Cavity: p = 0 and the liquid parts in %.4g %% of the domain (measure %.6g, by cells).\n",
+                100 * found.cavity_measure / found.volume, found.cavity_measure);
   else
     std::printf("No cavity inside.\n");
   for (const std::string& name : found.parted_walls) std::printf("The liquid parts from %s.\n", name.c_str());

@@ -79,7 +79,7 @@ std::string cavity_text(const SolvedLiquid& solved) {
   const LiquidSolution& found = solved.solution;
   std::string text;
   if (found.cavity_measure > 0) {
-    text = fmt::format("Cavitation begins: p = 0 and the liquid parts in {:.4g} % of the domain (measure {})",
+    text = fmt::format("Cavity: p = 0 and the liquid parts in {:.4g} % of the domain (measure {})",
                        100 * found.cavity_measure / found.volume, number_text(found.cavity_measure));
     for (std::size_t i = 0; i < solved.scene.coordinates.size(); ++i)
       text +=
@@ -89,7 +89,9 @@ std::string cavity_text(const SolvedLiquid& solved) {
   }
   if (!found.parted_walls.empty())
     text += fmt::format("The liquid parts from {}.\n", listed(found.parted_walls));
-  return text.empty() ? "No cavitation: the liquid keeps together and follows its walls.\n" : text;
+  if (!text.empty()) return text;
+  return std::string("No cavitation: the liquid keeps together") +
+         (solved.scene.has_wall() ? " and follows its walls.\n" : ".\n");
 }
 
 std::string onset_text(const std::string& parameter, const mechanics::liquid::OnsetSearch& search) {
@@ -283,8 +285,9 @@ std::string liquid_text(const SolvedLiquid& solved) {
     return text + fmt::format(
                       "Method {}, {} unknowns. Proved: p is within {:.1e} of that of the scene as written.\n",
                       found.method, found.unknowns, found.error_bound);
-  return text + fmt::format("Method {}, {} unknowns; p is known to {:.1e}.\n", found.method, found.unknowns,
-                            found.error_bound);
+  text += fmt::format("Method {}, {} unknowns; ", found.method, found.unknowns);
+  return text + (std::isinf(found.error_bound) ? "how near p is, is not known.\n"
+                                               : fmt::format("p is known to {:.1e}.\n", found.error_bound));
 }
 
 }  // namespace cli::inline reports

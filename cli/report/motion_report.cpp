@@ -159,8 +159,8 @@ std::string motion_text(const FollowedMotion& followed) {
              is_known ? number_text(motion.acceleration()[k]) : ""});
   }
   text += end.text();
-  text += fmt::format("\n{} steps, {} events, {} of them impacts. T + V = {}.\n", record.steps, record.events,
-                      record.impacts, number_text(motion.energy()));
+  text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
+                      record.events, record.impacts, number_text(motion.energy()));
   if (record.impacts > 0)
     text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",
                         number_text(record.impact_energy), number_text(record.ledger_energy));

@@ -17,6 +17,7 @@ class ConditionReading {
     trim(begin, end);
     if (begin == end) fail(begin, "nothing stands here; write \"true\" or relations such as y >= 0");
     if (text_.text.substr(begin, end - begin) == "true") return Condition();
+    refuse_foreign_signs(begin, end);
     for (const auto& [word, kind] : {std::pair{"or", Condition::Kind::any}, {"and", Condition::Kind::all}})
       if (const std::vector<std::size_t> cuts = words(begin, end, word); !cuts.empty())
         return joined(begin, end, cuts, std::string_view(word).size(), kind);
@@ -38,6 +39,16 @@ class ConditionReading {
     };
     while (begin < end && blank(begin)) ++begin;
     while (begin < end && blank(end - 1)) --end;
+  }
+
+  void refuse_foreign_signs(std::size_t begin, std::size_t end) const {
+    for (std::size_t k = begin; k < end; ++k) {
+      const char c = text_.text[k], before = k > begin ? text_.text[k - 1] : ' ';
+      if (c == '&') fail(k, "& is no sign here; write and");
+      if (c == '|') fail(k, "| is no sign here; write or");
+      if (c == '=' && before != '<' && before != '>')
+        fail(k, "= alone is no relation here; write <= or >=, which hold on the boundary too");
+    }
   }
 
   template <class Found>
@@ -97,7 +108,7 @@ class ConditionReading {
 
   Condition relations(std::size_t begin, std::size_t end) {
     const auto found = signs(begin, end);
-    if (found.empty()) fail(begin, "no relation here; write \"true\" or relations such as y >= 0");
+    if (found.empty()) fail(begin, "no relation here; write relations such as y >= 0");
     std::vector<Condition> parts;
     expression::NodeId left = side(begin, found.front().first);
     for (std::size_t k = 0; k < found.size(); ++k) {

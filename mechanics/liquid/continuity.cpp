@@ -54,9 +54,13 @@ void search_line(const LiquidScene& scene, const Field& field, const char* what,
   }
   for (std::size_t k = 0; k + 1 < values.size(); ++k) {
     if (!inside[k] || !inside[k + 1]) continue;
-    if (const auto jump = jump_between(field, at(k), at(k + 1), axis, scale))
+    if (auto jump = jump_between(field, at(k), at(k + 1), axis, scale)) {
+      // Halving ends a few roundings of a step beside a jump at 0.
+      if (std::abs((*jump)[axis]) < 1e-15 * step) (*jump)[axis] = 0;
       throw convex::InvalidInput(std::string(what) + ": it jumps at " + point_text(scene.coordinates, *jump) +
-                                 ", so that h is not a function there; give one without jumps");
+                                     ", so that h is not a function there; give one without jumps",
+                                 field.place());
+    }
   }
 }
 

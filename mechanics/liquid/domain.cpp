@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_name.hpp"
 #include "mechanics/liquid/domain_text.hpp"
 #include "mechanics/liquid/inequality_box.hpp"
 #include "mechanics/liquid/polygon.hpp"
@@ -49,7 +50,11 @@ class ShapeReading {
       made.shape = Domain::Shape::polygon;
       read_vertices(made);
     } else {
-      fail("\"" + shape_.name + "\" is no shape; give interval, box, disc, ball, polygon or {inequalities}");
+      const std::string near =
+          convex::nearest_name(shape_.name, {"interval", "box", "disc", "ball", "polygon"});
+      fail("\"" + shape_.name + "\" is no shape; " +
+           (near.empty() ? "give interval, box, disc, ball, polygon or {inequalities}"
+                         : "did you mean \"" + near + "\"?"));
     }
     for (const auto& [key, value] : shape_.values)
       if (std::find(read_.begin(), read_.end(), key) == read_.end())
@@ -68,8 +73,11 @@ class ShapeReading {
   const ShapeText::Value& value(const std::string& key) {
     read_.push_back(key);
     const auto found = shape_.values.find(key);
-    if (found == shape_.values.end()) fail(shape_.name + " has no \"" + key + "\"; give it");
-    return found->second;
+    if (found != shape_.values.end()) return found->second;
+    for (const auto& [other, unread] : shape_.values)
+      if (convex::nearest_name(other, {key}) == key)
+        fail("\"" + other + "\" is no key of " + shape_.name + "; did you mean \"" + key + "\"?");
+    fail(shape_.name + " has no \"" + key + "\"; give it");
   }
   double number(const ShapeText::Value& given, const std::string& key) {
     if (given.is_list) fail(key + " is a list; give a number");

@@ -50,6 +50,8 @@ class Field {
   /// The same, NaN or infinite where it is not finite.
   double raw(const Point&) const;
   bool is_constant() const { return is_constant_; }
+  /// Of its text.
+  convex::Place place() const { return place_; }
   /// The same field, whose values are these ends from now on.
   Field bounded(Bound) const;
   bool is_bound() const { return bound_ != Bound::none; }

@@ -141,8 +141,9 @@ void LiquidScene::require_no_divergence(const Point& x) const {
   char number[32];
   std::snprintf(number, sizeof number, "%.6g", divergence);
   throw InvalidInput("velocity: its divergence is " + std::string(number) + " at " +
-                     point_text(coordinates, x) +
-                     ", where the liquid has no cavity; give a velocity whose divergence is 0 there");
+                         point_text(coordinates, x) +
+                         ", where the liquid has no cavity; give a velocity whose divergence is 0 there",
+                     velocity.front().place());
 }
 
 expression::Range LiquidScene::load_range(const expression::Range& x) const {
