@@ -4,6 +4,8 @@
 
 #include "convex/laws/laws.hpp"
 #include "mechanics/gauss_solution.hpp"
+#include "mechanics/lagrangian_text.hpp"
+#include "mechanics/motion/motion.hpp"
 
 /// f(x) = |a·x - b|, a function of our own with its prox in any metric.
 struct Misfit {
@@ -16,6 +18,20 @@ struct Misfit {
   }
 };
 
+/// A point of mass 2, one metre above a floor, as text: it lands and stays.
+double height_at_the_end() {
+  mechanics::LagrangianText text;
+  text.coordinates = {{"y", {}}};
+  text.kinetic = {"y'^2", {}};
+  text.potential = mechanics::Text{"2*9.81*y", {}};
+  text.constraints = {{{"floor", {}}, {"y >= 0", {}}}};
+  const auto system = mechanics::lagrangian_system(text);
+  mechanics::Motion motion(*system, mechanics::State{0, convex::Vector{{1}}, convex::Vector{{0}}}, {});
+  while (motion.advance(2)) {
+  }
+  return motion.state().q[0];
+}
+
 int main() {
   const convex::LawReport report = convex::laws(Misfit{convex::Vector::LinSpaced(3, 1, 3), 0.5}, 3);
   std::puts(report.text().c_str());
@@ -25,5 +41,7 @@ int main() {
   const auto solution =
       mechanics::solve({convex::Metric::diagonal(number(2)), number(-19.62), rows, number(0), {}});
   std::printf("reaction of the floor: %g\n", solution.reaction[0]);
-  return report.all_passed() && std::abs(solution.reaction[0] - 19.62) < 1e-12 ? 0 : 1;
+  const double height = height_at_the_end();
+  std::printf("height at the end: %g\n", height);
+  return report.all_passed() && std::abs(solution.reaction[0] - 19.62) < 1e-12 && height == 0 ? 0 : 1;
 }
