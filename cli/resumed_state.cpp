@@ -19,9 +19,9 @@ convex::Vector numbers_by_coordinate(const json& state, const char* key, const m
     throw InvalidInput(where + ": no \"" + key + "\"; give what `moreau simulate --json` printed");
   const std::vector<std::string>& coordinates = system.coordinates();
   if (found->size() != coordinates.size())
-    throw InvalidInput(where + ": \"" + key + "\" is of another system; it has " +
-                       std::to_string(found->size()) + " coordinates, this one " +
-                       std::to_string(coordinates.size()) + "; give the file of this system");
+    throw InvalidInput(where + ": \"" + key + "\" is of another system: coordinates " +
+                       std::to_string(found->size()) + ", of this one " + std::to_string(coordinates.size()) +
+                       "; give the file of this system");
   convex::Vector numbers(static_cast<Index>(coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const auto number = found->find(coordinates[i]);

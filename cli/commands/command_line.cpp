@@ -51,7 +51,8 @@ void add_accuracy(CLI::App& command, AccuracyOptions& options) {
       ->type_name("NAME");
   command
       .add_option("--tolerance", options.tolerance,
-                  "accept an error bound of X * max(1, ||q''||_A); default 1e-9")
+                  "accept an error bound of X * max(1, ||q''||_A), default 1e-9; of a liquid of X times the "
+                  "largest pressure, default 1e-3")
       ->type_name("X")
       ->check(positive_number);
   command

@@ -32,14 +32,50 @@ std::string written(const Document& document, const ExplainOptions& options) {
   return document_text(document);
 }
 
-/// A report that is text already: each line a paragraph.
+/// What stands between two spaces or more.
+std::vector<Line> cells(const std::string& line) {
+  std::vector<Line> found;
+  for (std::size_t at = line.find_first_not_of(' '); at < line.size(); at = line.find_first_not_of(' ', at)) {
+    const std::size_t end = std::min(line.find("  ", at), line.size());
+    found.push_back({line.substr(at, end - at)});
+    at = end;
+  }
+  return found;
+}
+
+/// Lines that are columns below a head, which may have none above the first; nothing if they are not.
+std::optional<Table> table_of(const std::vector<std::string>& lines) {
+  if (lines.size() < 2) return std::nullopt;
+  Table table{cells(lines.front()), {}};
+  for (std::size_t k = 1; k < lines.size(); ++k) table.rows.push_back(cells(lines[k]));
+  const std::size_t width = table.rows.front().size();
+  if (table.head.size() + 1 == width) table.head.insert(table.head.begin(), Line{});
+  const auto fits = [&](const std::vector<Line>& row) { return row.size() == width; };
+  return width > 1 && fits(table.head) && std::all_of(table.rows.begin(), table.rows.end(), fits)
+             ? std::optional(table)
+             : std::nullopt;
+}
+
+/// A report that is text already: what stands between two empty lines is a table, or each line a paragraph.
 Document document_of_lines(const std::string& title, const std::string& text) {
   Document document{title, {}};
+  std::vector<std::string> lines;
+  const auto close = [&] {
+    if (auto table = table_of(lines))
+      document.blocks.emplace_back(std::move(*table));
+    else
+      for (const std::string& line : lines) document.blocks.emplace_back(Paragraph{{line}});
+    lines.clear();
+  };
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    if (end > at) document.blocks.emplace_back(Paragraph{{text.substr(at, end - at)}});
+    if (end > at)
+      lines.push_back(text.substr(at, end - at));
+    else
+      close();
     at = end + 1;
   }
+  close();
   return document;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -131,8 +132,22 @@ void write_all(const GalleryOptions& options) {
     progress.step();
   };
   const std::size_t written = write_library(problems, *options.write, done, tell);
-  if (!options.quiet)
+  if (options.json) {
+    JsonWriter json;
+    json.begin_object()
+        .key("folder")
+        .value(*options.write)
+        .key("problems")
+        .value(static_cast<Index>(written));
+    for (const char* kind : {"family", "scene", "motion"})
+      json.key(kind).value(
+          std::count_if(problems.begin(), problems.end(),
+                        [&](const LibraryProblem& problem) { return problem.kind == kind; }));
+    json.end_object();
+    fmt::print("{}\n", json.text());
+  } else if (!options.quiet) {
     fmt::print("{} problems with their truth in {}; index.csv lists them\n", written, *options.write);
+  }
 }
 
 Exit show_gallery(const GalleryOptions& options) {

@@ -65,13 +65,13 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
 }
 
 /// What is asked of contacts alone, of a problem that has none.
-void require_no_contact_request(const SolveOptions& options) {
-  const char* option = options.plot          ? "--plot"
-                       : options.sensitivity ? "--sensitivity"
-                       : options.null_space  ? "--null-space"
-                       : options.ranges      ? "--ranges"
-                       : options.full_model  ? "--model full"
-                                             : nullptr;
+void require_no_contact_request(const SolveOptions& options, bool is_drawn) {
+  const char* option = options.plot && !is_drawn ? "--plot"
+                       : options.sensitivity     ? "--sensitivity"
+                       : options.null_space      ? "--null-space"
+                       : options.ranges          ? "--ranges"
+                       : options.full_model      ? "--model full"
+                                                 : nullptr;
   if (option != nullptr)
     throw convex::InvalidInput(
         std::string(option) +
@@ -81,12 +81,12 @@ void require_no_contact_request(const SolveOptions& options) {
 }  // namespace
 
 Answer solve_problem(Problem problem, const std::string& file, const SolveOptions& options) {
-  if (const auto* liquid = std::get_if<LiquidProblem>(&problem.content))
-    return solve_liquid_file(*liquid, problem, file, options);
-  require_no_liquid_request(options.liquid);
+  const auto* liquid = std::get_if<LiquidProblem>(&problem.content);
   const bool is_scene = std::holds_alternative<SystemProblem>(problem.content) ||
                         std::holds_alternative<ProjectionProblem>(problem.content);
-  if (!is_scene) require_no_contact_request(options);
+  if (!is_scene) require_no_contact_request(options, liquid != nullptr);
+  if (liquid != nullptr) return solve_liquid_file(*liquid, problem, file, options);
+  require_no_liquid_request(options.liquid);
   if (const auto* decomposition = std::get_if<DecompositionProblem>(&problem.content)) {
     require_applicable(problem.solve, options);
     const SplitPoint split = split_point(*decomposition, problem.solve, options, options.certify);

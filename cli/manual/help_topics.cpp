@@ -56,6 +56,38 @@ point(BODY, a, b, c, k)          the k-th coordinate in space of a point of a bo
 x'                               the velocity of x; (l*sin(a))' the rate of anything
 )text";
 
+constexpr std::string_view motion_text = R"text([simulate]
+  until       = 10.0             where it ends; --until wins
+  method      = "event-driven"   or time-stepping, auto
+  tolerance   = 1e-10            error of a step
+  restitution = 0.9              e, or { floor = 0.9, wall = 0 } by constraint, 0 <= e <= 1
+  impact_law  = "moreau"         or poisson, sequential
+  samples     = 201              rows of --output F.csv
+
+  moreau simulate FILE --plot F.svg --animate F.html --events F.jsonl
+  moreau simulate FILE --output F.csv --strobe "2*pi/w" --modulo "a=2*pi"
+  moreau simulate FILE --json > end.json; moreau simulate FILE --resume end.json --until 20
+  moreau orbit FILE --over w=1:0.01:3      motions that come back, and how they change
+)text";
+
+constexpr std::string_view liquid_text = R"text([liquid]
+  coordinates = ["x", "y"]                      one to three
+  domain      = "disc(center=[0, 0], radius=1)" interval box disc ball polygon, "{x^2 + 4*y^2 <= 1, y >= 0}"
+  density     = "rho"
+  velocity    = ["-w*y", "w*x"]                 u now; its divergence is 0 where there is no cavity
+  force       = ["0", "-g"]                     F, of a unit of mass
+  cells       = 256                             along the longest side; default: as many as it takes
+[liquid.free]   rim = { where = "y > 0 and x < 1", pressure = "p0" }
+[liquid.walls]  bed = { where = "y <= 0", acceleration = 0 }   along the outward normal
+[liquid.parameters]   rho = 1.0, w = 3.0, g = 9.81, p0 = 3.0
+
+  moreau solve FILE                   whether it parts and where, and the pressure
+  moreau solve FILE --onset w         from which value of w on
+  moreau solve FILE --probe "x=0.5, y=0" --plot F.svg --data F.csv --vtk F.vti
+  moreau solve FILE --animate F.html --over w=0:0.05:3
+--tolerance X is of the largest pressure, 1e-3 by default.
+)text";
+
 constexpr std::string_view settings_text = R"text(  --set "m=3"                 a parameter
   --set "position.x=0.2"      a number of the state; velocity.x as well, and t
   --set simulate.until=2      any other key, by its tables
@@ -96,6 +128,8 @@ constexpr HelpTopic topics[] = {
     {"system", "what a file on a mechanism holds", system_text},
     {"state", "the state of a mechanism, and which contacts are present", state_text},
     {"expressions", "what may stand in an expression", expressions_text},
+    {"motion", "what a file says of a motion, and what may be asked", motion_text},
+    {"liquid", "what a file on a liquid holds: the inception of cavitation", liquid_text},
     {"language", "convex functions, as prox and conjugate read them", language_text},
     {"settings", "values other than those of the file: --set", settings_text},
     {"accuracy", "how right an answer is", accuracy_text},

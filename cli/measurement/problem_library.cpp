@@ -114,21 +114,23 @@ std::vector<LibraryProblem> file_problems(const std::string& file,
     return all;
   }
   const std::string stem = std::filesystem::path(file).stem().string();
+  bool is_told = false;
   try {
     Scene scene = make_scene(problem, file, {});
     if (scene.problem.rows() > 0)
       all.push_back(
           {"scene", stem, stem, file, in_full(scene.problem), scene.coordinates, scene.contact_names()});
-    else
-      left_out(file + ": no contact at its state");
   } catch (const convex::InvalidInput& error) {
     left_out(file + ": " + error.what());
+    is_told = true;
   }
   if (is_system && problem.simulate.until) try {
       add_motion(file, problem, all);
     } catch (const convex::InvalidInput& error) {
       left_out(file + ": its motion: " + error.what());
+      is_told = true;
     }
+  if (all.empty() && !is_told) left_out(file + ": no contact at its state or along its motion");
   return all;
 }
 

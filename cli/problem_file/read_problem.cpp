@@ -24,6 +24,9 @@ const TomlEntry& content_table(const TomlValue& document) {
                          entry.place);
     found = &entry;
   }
+  if (const TomlValue* bodies = document.find("bodies"); found == nullptr && bodies != nullptr)
+    throw InvalidInput("[bodies] alone is no mechanism yet; give a table [system], which may be empty",
+                       bodies->place);
   if (found == nullptr)
     throw InvalidInput(
         "no problem here; give a table [system] (a mechanism), [projection] (numbers), [decomposition] (a "

@@ -63,14 +63,24 @@ Document document_of(const SolvedNumbers& solved) {
   return {std::move(problem), "numbers"};
 }
 
+/// A file that is not there has no place in a text, so it is named.
+auto read_named(const std::string& file) {
+  try {
+    return cli::read_document(file);
+  } catch (const InvalidInput& error) {
+    if (error.place()) throw;
+    throw InvalidInput(file + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 Document read_document(const std::string& source, bool is_text, const std::vector<std::string>& settings,
                        const std::string& name) {
   const std::string file = is_text ? name : source;
-  return {cli::read_problem_document(is_text ? cli::parse_json(source) : cli::read_document(source), file,
-                                     {settings}),
-          file};
+  return {
+      cli::read_problem_document(is_text ? cli::parse_json(source) : read_named(source), file, {settings}),
+      file};
 }
 
 void add_documents(py::module_& module) {

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "cli/motion_files.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/json_writer.hpp"
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli::inline reports {
@@ -14,6 +17,12 @@ using convex::Index;
 using mechanics::ImpactLaw;
 using mechanics::ImpactOutcome;
 using mechanics::ImpactScene;
+
+/// v + change, 0 where that is the rounding of velocities that T allows the coordinate: sqrt(2 T (A⁻¹)_ii).
+double velocity_after(const ImpactScene& scene, const ImpactOutcome& outcome, Index i) {
+  const convex::Vector column = scene.A.solve(convex::Vector::Unit(scene.velocity.size(), i));
+  return without_rounding(scene.velocity[i] + outcome.change[i], std::sqrt(2 * scene.kinetic * column[i]));
+}
 
 /// T+ = T- + (v+ - v-)·(A (v+ + v-)/2 + b).
 double kinetic_after(const ImpactScene& scene, const ImpactOutcome& outcome) {
@@ -92,7 +101,7 @@ std::string impact_laws_text(const FollowedMotion& followed) {
   };
   for (Index i = 0; i < scene->velocity.size(); ++i)
     add(followed.system.coordinates()[static_cast<std::size_t>(i)] + "'", number_text(scene->velocity[i]),
-        [&](const ImpactOutcome& outcome) { return scene->velocity[i] + outcome.change[i]; });
+        [&](const ImpactOutcome& outcome) { return velocity_after(*scene, outcome, i); });
   const std::vector<std::string> contacts = contact_names(followed, *scene);
   for (std::size_t a = 0; a < contacts.size(); ++a)
     add("P of " + contacts[a], "",

@@ -253,6 +253,9 @@ std::string liquid_text(const SolvedLiquid& solved) {
   std::string text = cavity_text(solved);
   text += fmt::format("Largest pressure {} at {}.\n", number_text(found.largest),
                       mechanics::liquid::point_text(names, found.largest_at));
+  if (!solved.scene.has_free_part())
+    text +=
+        "Without a free part the loads alone do not tell p where they balance; this is the least p >= 0.\n";
   if (solved.onset_of) text += onset_text(*solved.onset_of, solved.onset);
   if (!solved.probes.empty()) {
     std::vector<std::string> head = names;

@@ -7,6 +7,7 @@
 #include "cli/motion_files.hpp"
 #include "cli/report/answer.hpp"
 #include "cli/report/json_writer.hpp"
+#include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli::inline reports {
@@ -161,9 +162,11 @@ std::string motion_text(const FollowedMotion& followed) {
   text += end.text();
   text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
                       record.events, record.impacts, number_text(motion.energy()));
+  const double size = record.first_impact ? record.first_impact->kinetic : 0;
   if (record.impacts > 0)
     text += fmt::format("Impacts changed T by {}; the ledger of impulses says {}.\n",
-                        number_text(record.impact_energy), number_text(record.ledger_energy));
+                        number_text(without_rounding(record.impact_energy, size)),
+                        number_text(without_rounding(record.ledger_energy, size)));
   text += fmt::format("Largest penetration, relative to the scale of f: {}{}.\n",
                       number_text(record.largest_penetration),
                       record.most_penetrated < 0
@@ -171,7 +174,10 @@ std::string motion_text(const FollowedMotion& followed) {
                           : " (" + constraints[static_cast<std::size_t>(record.most_penetrated)] + ")");
   if (motion.method() == mechanics::MotionMethod::time_stepping)
     text += fmt::format(
-        "In steps of one length: errors are of the order of the step. Positions were corrected by {} at "
+        "In steps of one length: errors are of the order of the step; impacts that follow each other within "
+        "one are "
+        "not told apart, and what comes of them may be wrong altogether (try a shorter step). Positions were "
+        "corrected by {} at "
         "most; "
         "T + V changed by {} with it.\n",
         number_text(record.corrected_penetration), number_text(record.correction_energy));

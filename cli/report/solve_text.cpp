@@ -128,6 +128,32 @@ std::string refuted_text(const SolvedScene& solved) {
   return text;
 }
 
+/// "y'' = 9/5, a'' = -6; lambda left 0, right 7/2": the answer of the mechanism as written, where its
+/// fractions are short enough to be read.
+std::string fractions_text(const SolvedScene& solved, const mechanics::TextProof& proof) {
+  if (!proof.exact || !proof.contacts_hold || solved.infeasible()) return "";
+  constexpr std::size_t readable = 24, longest_line = 120;
+  bool is_readable = true;
+  const auto shown = [&](const convex::ExactVector& x, std::size_t i) {
+    const std::string text = convex::text(convex::entry(x, i));
+    is_readable = is_readable && text.size() <= readable;
+    return text;
+  };
+  std::string text, multipliers;
+  for (std::size_t i = 0; i < solved.scene.coordinates.size(); ++i)
+    text += fmt::format("{}{}'' = {}", i == 0 ? "" : ", ", solved.scene.coordinates[i],
+                        shown(proof.exact->primal.q, i));
+  for (std::size_t k = 0; k < proof.K.size(); ++k)
+    multipliers += fmt::format("{} {} {}",
+                               k > 0                             ? ","
+                               : proof.exact->multipliers.unique ? "; lambda"
+                                                                 : "; lambda of least norm",
+                               solved.scene.constraints[static_cast<std::size_t>(proof.K[k])],
+                               shown(proof.exact->multipliers.least_norm, k));
+  text += multipliers;
+  return is_readable && text.size() <= longest_line ? "In fractions: " + text + ".\n" : "";
+}
+
 /// What the text of a mechanism proves of the contacts, and of the answer.
 std::string from_text_text(const SolvedScene& solved) {
   if (solved.text == nullptr) return "";
@@ -166,7 +192,7 @@ std::string from_text_text(const SolvedScene& solved) {
         "tell: {} counted as dependent and consistent",
         constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
         proof.dependent.size() == 1 ? "it is" : "they are");
-  return text + ".\n";
+  return text + ".\n" + fractions_text(solved, proof);
 }
 
 const char* proof_text(const std::optional<convex::Certificate>& certificate) {

@@ -212,8 +212,10 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
         remark(RemarkKind::accumulation,
                "impacts of " + constraint_name(ending.front()) +
                    " that bounce up to f = " + number_text(last.next_height()) +
-                   " are not followed one by one; they end at t = " + number_text(end) + " within " +
-                   number_text(std::max(error, epsilon * std::abs(end))),
+                   " are not followed one by one; they end at t = " + number_text(end) +
+                   (std::isfinite(error)
+                        ? " within " + number_text(std::max(error, epsilon * std::abs(end)))
+                        : " or so: too few came for a bound"),
                error);
       return;
     }

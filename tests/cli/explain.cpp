@@ -105,6 +105,15 @@ TEST_CASE("every problem of the library is explained in every form, with the exi
   }
 }
 
+TEST_CASE("columns of a decomposition are columns in every form") {
+  const Folder folder;
+  const std::string file = folder.write("a.toml", "[decomposition]\nf = \"norm1()\"\nz = [3, 1, -2]\n");
+  CHECK(run({"explain", file}).out.find("\n  [0]    3              2              1\n") != std::string::npos);
+  CHECK(run({"explain", "--markdown", file}).out.find("\n| [0] | 3 | 2 | 1 |\n") != std::string::npos);
+  CHECK(run({"explain", "--latex", file}).out.find("\n[0] & 3 & 2 & 1 \\\\\n") != std::string::npos);
+  CHECK(run({"explain", "--html", file}).out.find("<td>2</td><td>1</td></tr>") != std::string::npos);
+}
+
 TEST_CASE("the HTML file asks nothing of a network, and the LaTeX file is whole") {
   const Folder folder;
   for (const std::string& file : problem_library()) {

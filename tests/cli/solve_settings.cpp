@@ -121,3 +121,10 @@ TEST_CASE("an answer that is not solved is no truth to judge the rule of droppin
   CHECK(right.code == 0);
   CHECK(right.out.find("is wrong here (Delassus 1917)") != std::string::npos);
 }
+
+TEST_CASE("fractions that the text proves are told where they can be read") {
+  const std::string told =
+      run({"solve", "--certify", std::string(MOREAU_SOURCE) + "/docs/problems/delassus_drops_too_much.toml"})
+          .out;
+  CHECK(told.find("\nIn fractions: y'' = 9/5, a'' = -6; lambda left 0, right 7/2.\n") != std::string::npos);
+}

@@ -54,7 +54,7 @@ class Files(unittest.TestCase):
             moreau.solve({"system": BALL["system"] | {"kinetc": "1"}, "state": BALL["state"]})
         self.assertEqual(caught.exception.line, 1)
         self.assertGreater(caught.exception.column, 1)
-        with self.assertRaisesRegex(moreau.InvalidInput, "cannot be read|no such|cannot"):
+        with self.assertRaisesRegex(moreau.InvalidInput, "^nowhere.toml: no such file"):
             moreau.solve("nowhere.toml")
         with self.assertRaisesRegex(AttributeError, "a system has no accelerations"):
             moreau.solve(BALL).accelerations
