@@ -12,8 +12,11 @@
 namespace mechanics::inline motions {
 namespace {
 
-/// Times within so many roundings of each other are one: several events at once.
+/// Times since the start within so many roundings of each other are one: several events at once.
 constexpr double roundings_of_time = 64;
+
+/// So many roundings of t itself enter the zero of an expression with t in it.
+constexpr double roundings_of_t = 8;
 
 /// f counts as 0 in an event of other contacts within so many roundings of what it is the sum of.
 constexpr double roundings_of_f = 16;
@@ -46,6 +49,7 @@ Motion::EventDriven::EventDriven(const LagrangianSystem& of, const State& at, Mo
 
 void Motion::EventDriven::begin(const State& at) {
   state = at;
+  start_ = at.t;
   Contacts found = contacts(system, state, options.contact_tolerance, Impending::allowed);
   // What is above 0 by more than rounding and falls closes when it comes there.
   const auto left_by_rounding = [&](Index a) { return roundings_of_f * epsilon * found.rates.f_scale[a]; };
@@ -88,19 +92,20 @@ bool Motion::EventDriven::advance(double until) {
     return false;
   }
   until_ = until;
-  const double before = state.t;
+  const double before = since_start_, low_before = low_;
   try {
     take_step(until);
   } catch (const convex::InvalidInput& error) {
     stop("at t = " + number_text(state.t) + ": " + error.what());
   }
-  events_at_once_ = state.t > before ? 0 : events_at_once_ + 1;
-  kinks_at_once_ = state.t > before ? 0 : kinks_at_once_;
+  const bool goes_on = since_start_ > before;
+  events_at_once_ = goes_on ? 0 : events_at_once_ + 1;
+  kinks_at_once_ = goes_on ? 0 : kinks_at_once_;
   const auto m = static_cast<long>(system.constraints().size());
   if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
     stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
          advice_on_kinks());
-  return status == MotionStatus::done || !events.empty() || state.t > before;
+  return status == MotionStatus::done || !events.empty() || goes_on || low_ > low_before;
 }
 
 /// What comes to 0 on the next arc ends it: constraints that are free, multipliers, arguments of switches.
@@ -137,7 +142,8 @@ void Motion::EventDriven::watch() {
 }
 
 std::vector<Zero> Motion::EventDriven::zeros_before(double end) const {
-  return first_zeros(watched_, end, roundings_of_time * epsilon * (std::abs(state.t) + end));
+  const double of_t = expansion_.uses_time() ? roundings_of_t * std::abs(state.t) : 0;
+  return first_zeros(watched_, end, epsilon * std::max(of_t, roundings_of_time * (since_start_ + end)));
 }
 
 /// A time at which what is 0 is 0 by the text itself, not only by the polynomial.
@@ -174,10 +180,25 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
 }
 
 void Motion::EventDriven::move_time(double by) {
-  const double sum = state.t + by, part = sum - state.t;
-  low_ += (state.t - (sum - part)) + (by - part);
-  state.t = sum + low_;
-  low_ -= state.t - sum;
+  const double sum = since_start_ + by, part = sum - since_start_;
+  low_ += (since_start_ - (sum - part)) + (by - part);
+  since_start_ = sum + low_;
+  low_ -= since_start_ - sum;
+  state.t = start_ + since_start_;
+}
+
+/// Whether rounding leaves it open which of the two comes first. Both follow from one state, so that times
+/// since the start tell them apart; an expression with t in it is known to the rounding of t.
+bool Motion::EventDriven::is_at_once(const Zero& zero, const Zero& first) const {
+  const auto by_t = [&](const Zero& one) {
+    if (!expansion_.uses_time()) return 0.0;
+    if (one.of == Zero::Of::multiplier) return 1.0;
+    if (one.of == Zero::Of::branch)
+      return expansion_.depends_on_time(static_cast<std::size_t>(one.which)) ? 1.0 : 0.0;
+    return std::min(1.0, std::abs(expansion_.drift(one.which) / expansion_.rate(one.which)));
+  };
+  const double of_t = roundings_of_t * std::abs(state.t) * std::max(by_t(zero), by_t(first));
+  return zero.at <= first.at + epsilon * std::max(of_t, roundings_of_time * (since_start_ + first.at));
 }
 
 void Motion::EventDriven::take_step(double until) {
@@ -187,18 +208,19 @@ void Motion::EventDriven::take_step(double until) {
     done.length = 0;
     return handle(now);
   }
-  double end = std::min(step_ahead_, until - state.t);
-  bool is_last = end == until - state.t;
+  const double left = until - start_ - since_start_;
+  double end = std::min(step_ahead_, left);
+  bool is_last = end == left;
   const Ending* ending = endings.empty() ? nullptr : &endings.front();
-  if (ending != nullptr && ending->t - state.t < end) {
-    end = std::max(0.0, ending->t - state.t);
+  if (const double rest = ending != nullptr ? ending->t - start_ - since_start_ : end; rest < end) {
+    end = std::max(0.0, rest);
     is_last = false;
   }
   std::vector<Zero> zeros;
   double tau = end;
   obstacle_.clear();
   for (int halvings = 0;; ++halvings) {
-    if (halvings > 0 && !(state.t + end > state.t))
+    if (halvings > 0 && !(clock() + end > clock()))
       return stop("at t = " + number_text(state.t) + ": " +
                   (obstacle_.empty() ? "no step, however short, keeps the tolerance" : obstacle_) +
                   "; the motion ends here, or the expressions have to be written otherwise");
@@ -212,11 +234,14 @@ void Motion::EventDriven::take_step(double until) {
     end = 0.5 * tau;
     is_last = false;
   }
-  const double together = roundings_of_time * epsilon * (std::abs(state.t) + tau);
-  std::erase_if(zeros, [&](const Zero& zero) { return zero.at > tau + together; });
   ++record.steps;
   const bool is_there = tau > 0;  // by `fits`
   if (!is_there) next.state(tau, there_);
+  if (zeros.size() > 1) {
+    const Zero first = *std::min_element(zeros.begin(), zeros.end(),
+                                         [](const Zero& x, const Zero& y) { return x.at < y.at; });
+    std::erase_if(zeros, [&](const Zero& zero) { return !is_at_once(zero, first); });
+  }
   std::swap(done, next);
   done.length = tau;
   if (tau > 0) last_length_ = tau;
@@ -225,6 +250,7 @@ void Motion::EventDriven::take_step(double until) {
   expansion_.note_reach(state.q);
   if (is_last && zeros.empty()) {
     state.t = until;
+    since_start_ = until - start_;
     low_ = 0;
   } else {
     move_time(tau);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "mechanics/motion/accumulation.hpp"
@@ -29,6 +31,11 @@ class Motion::EventDriven final : public Motion::Course {
   bool is_met(double at, double tau);
   bool is_passed(double tau);
   void move_time(double by);
+  /// What the rounding of a time is of: motions without t in them are the same whenever they start.
+  double clock() const {
+    return expansion_.uses_time() ? std::max(std::abs(state.t), since_start_) : since_start_;
+  }
+  bool is_at_once(const Zero& zero, const Zero& first) const;
   void handle(const std::vector<Zero>& zeros);
   double rounding_of_f(Index a);
   void stop_at_vanishing_gradient(Index a);
@@ -54,7 +61,9 @@ class Motion::EventDriven final : public Motion::Course {
   /// is an impact, a separation, or the end, and nothing is left to do.
   bool meet_kinks(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   void note_behind();
-  std::string jump_of_energy(const std::vector<Index>& switches) const;
+  double difference_at_zero(std::size_t k);
+  std::string jump_of_energy(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  ContactQuestion question_of(const std::vector<Index>& contacts) const;
   std::string advice_on_kinks() const;
   bool has_kink_at(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   /// Why nothing is found that goes on.
@@ -69,9 +78,11 @@ class Motion::EventDriven final : public Motion::Course {
   void look_for_penetration();
   Arc next;  ///< the one ahead of `state`
   Expansion expansion_;
-  std::string obstacle_;        // why a step could not be taken, if an expression said so
-  double low_ = 0;              // the time is state.t + low_
-  std::vector<Index> persist_;  // held on the next arc
+  std::string obstacle_;    // why a step could not be taken, if an expression said so
+  double start_ = 0;        // the time at the start
+  double since_start_ = 0;  // the time is start_ + since_start_ + low_
+  double low_ = 0;
+  std::vector<Index> persist_;                                       // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
   std::vector<bool> is_weak_;                                        // held without a multiplier

@@ -118,17 +118,50 @@ void Motion::EventDriven::note_behind() {
   }
 }
 
+/// The difference of T - V between the branches of a switch, at the zero of its argument: events that
+/// rounding does not tell apart are met at the first of them, where the argument of a later one is not 0 yet,
+/// and T - V with a kink differs by as much of its slope.
+double Motion::EventDriven::difference_at_zero(std::size_t k) {
+  double& branch = expansion_.branch(k);
+  const double ahead = branch, behind = branches_behind_[k], argument = expansion_.switch_argument(k)[0],
+               speed = expansion_.switch_argument(k)[1];
+  const auto difference = [&](const State& at) {
+    double found = 0;
+    for (const double side : {behind, ahead}) {
+      branch = side;
+      expansion_.set(at);
+      found = expansion_.lagrangian() - found;
+    }
+    return found;
+  };
+  const double here = difference(state);
+  if (argument == 0 || ahead == behind || speed == 0) return here;
+  const double step = -argument / speed;
+  const double there = difference({state.t + step, state.q + step * state.v, state.v});
+  const double moved = expansion_.switch_argument(k)[0] - argument;
+  expansion_.set(state);
+  return moved == 0 ? here : here - argument * (there - here) / moved;
+}
+
 /// A jump of T - V over positions is an infinite force, one of p asks for a jump of the velocity that no
 /// impact law tells; a jump of V over time alone is neither. Empty if there is none.
-std::string Motion::EventDriven::jump_of_energy(const std::vector<Index>& switches) const {
+std::string Motion::EventDriven::jump_of_energy(const std::vector<Index>& contacts,
+                                                const std::vector<Index>& switches) {
   const double change = expansion_.lagrangian() - behind_->lagrangian, T = system.kinetic_energy(state),
                scale = T + std::abs(T - expansion_.lagrangian()) + std::abs(T - behind_->lagrangian);
   const bool over_positions = std::any_of(switches.begin(), switches.end(), [&](Index k) {
     return expansion_.depends_on_position(static_cast<std::size_t>(k));
   });
-  if (over_positions && std::abs(change) > half_the_digits * scale)
-    return "the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
-           "force does that; write a step of potential as a steep slope, one of mass as an impact";
+  const auto jumps = [&](Index k) {
+    return std::abs(difference_at_zero(static_cast<std::size_t>(k))) > half_the_digits * scale;
+  };
+  if (over_positions && std::abs(change) > half_the_digits * scale) {
+    if (std::any_of(switches.begin(), switches.end(), jumps))
+      return "the kinetic or the potential energy jumps where one of its expressions changes its branch; no "
+             "force does that; write a step of potential as a steep slope, one of mass as an impact";
+    expansion_.set(state);
+    expansion_.expand(question_of(contacts));
+  }
   const Vector p = expansion_.momentum();
   if (!expansion_.has_branching_energy()) return "";
   const convex::Metric& A = expansion_.inertia();
@@ -144,16 +177,16 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   if (switches.empty()) return false;
   const std::optional<Behind> behind = behind_;
   if (behind)
-    if (const std::string jump = jump_of_energy(switches); !jump.empty()) {
+    if (const std::string jump = jump_of_energy(contacts, switches); !jump.empty()) {
       stop("at t = " + number_text(state.t) + ": " + jump);
       return true;
     }
   behind_.reset();
   // What impacts at one instant, ever slower, have to tell from 0 is what the first of them found there.
   constexpr double at_once = roundings_of_instant * std::numeric_limits<double>::epsilon();
-  if (left_of_f_.size() == 0 || !(state.t - time_of_kinks_ <= at_once * std::abs(state.t)))
+  if (left_of_f_.size() == 0 || !(since_start_ - time_of_kinks_ <= at_once * clock()))
     left_of_f_.setZero(expansion_.constraints());
-  time_of_kinks_ = state.t;
+  time_of_kinks_ = since_start_;
   const double least = record.steps == 0 ? 1 : 0;  // a start is known to the contact tolerance only
   const double length = record.steps == 0 ? 0 : last_length_;
   std::vector<Index> closing, opening, others;
@@ -258,12 +291,17 @@ std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contac
          advice_on_kinks();
 }
 
-/// The right limit on the branches that it itself takes: those across first, then all others.
-std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
-                                                                     const std::vector<Index>& switches) {
+ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& contacts) const {
   ContactQuestion question{{}, contacts};
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) question.held.push_back(a);
+  return question;
+}
+
+/// The right limit on the branches that it itself takes: those across first, then all others.
+std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
+                                                                     const std::vector<Index>& switches) {
+  const ContactQuestion question = question_of(contacts);
   constexpr std::size_t most_tried = 8;
   const std::size_t tried = std::min(switches.size(), most_tried);
   for (const Index k : switches)

@@ -172,7 +172,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (!(outcome.rate[at] > 0)) resting.push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (rate_before < 0)
-      history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, state.t + low_,
+      history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, since_start_ + low_,
                   epsilon * elapsed_[static_cast<std::size_t>(a)] + rounding_of_f(a) / -rate_before,
                   roundings_of_speed * epsilon *
                       std::max(-rate_before, expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
@@ -202,19 +202,19 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                       });
     if (rest) {
       for (const Index a : ending) history_[static_cast<std::size_t>(a)].forget();
-      const double end = time_stands_still() ? state.t + low_ : std::max(state.t + low_, last.end());
-      endings.push_back({end, ending});
+      const double now = since_start_ + low_, end = time_stands_still() ? now : std::max(now, last.end());
+      endings.push_back({start_ + end, ending});
       std::sort(endings.begin(), endings.end(), [](const Ending& x, const Ending& y) { return x.t < y.t; });
       if (time_stands_still()) return;
       // The last impacts may have come, by rounding, after the end that the surer ones before them tell.
       const double error = last.end_error() + (end - last.end());
-      if (last.next_height() > options.tolerance || error > options.tolerance * std::abs(end))
+      if (last.next_height() > options.tolerance || error > options.tolerance * end)
         remark(RemarkKind::accumulation,
                "impacts of " + constraint_name(ending.front()) +
                    " that bounce up to f = " + number_text(last.next_height()) +
-                   " are not followed one by one; they end at t = " + number_text(end) +
+                   " are not followed one by one; they end at t = " + number_text(start_ + end) +
                    (std::isfinite(error)
-                        ? " within " + number_text(std::max(error, epsilon * std::abs(end)))
+                        ? " within " + number_text(std::max(error, epsilon * std::abs(start_ + end)))
                         : " or so: too few came for a bound"),
                error);
       return;
@@ -235,7 +235,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
     const ImpactHistory& history = history_[static_cast<std::size_t>(a)];
     if (!history.shrinks()) return false;
     const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
-    return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * std::abs(state.t) ||
+    return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * clock() ||
            history.count() >= most_impacts_followed;
   };
   for (const Index a : closing)
@@ -244,8 +244,7 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
   if (time_stands_still()) {  // with all that struck at this instant
     for (Index a = 0; a < expansion_.constraints(); ++a) {
       const auto k = static_cast<std::size_t>(a);
-      if (!contains(found, a) && !is_two_sided(a) &&
-          elapsed_[k] <= roundings_of_bounce * epsilon * std::abs(state.t))
+      if (!contains(found, a) && !is_two_sided(a) && elapsed_[k] <= roundings_of_bounce * epsilon * clock())
         found.push_back(a);
     }
     return found;
@@ -270,7 +269,7 @@ void Motion::EventDriven::begin_arc(const std::vector<Index>& contacts, const st
   if (answer && meet_kinks(contacts, switches)) return;
   if (!answer) {
     const std::string obstacle = "at t = " + number_text(state.t) + ": " + obstacle_ahead(contacts, switches);
-    if (state.t < until_ - roundings_of_closed * epsilon * std::abs(until_)) return stop(obstacle);
+    if (until_ - state.t > roundings_of_closed * epsilon * clock()) return stop(obstacle);
     ends_here_ = obstacle;  // asked for no more
     state.t = until_;
     acceleration = done.acceleration(done.length);

@@ -20,7 +20,7 @@ void Motion::EventDriven::tell_blur(const std::vector<Index>& closing) {
     const auto k = static_cast<std::size_t>(a);
     const double blur = rounding_of_f(a) / -expansion_.rate(a);
     const bool has_known_end = std::isfinite(history_[k].end_error());
-    if (is_blurred_[k] || has_known_end || !(blur > options.tolerance * std::abs(state.t))) continue;
+    if (is_blurred_[k] || has_known_end || !(blur > options.tolerance * clock())) continue;
     is_blurred_[k] = true;
     remark(RemarkKind::slow_closing,
            constraint_name(a) + " closes so slowly that the rounding of f leaves the time uncertain by " +

@@ -71,13 +71,13 @@ void Expansion::check_finite() const {
   if (spoiled != 0) refuse_order(1);
 }
 
-bool Expansion::depends_on_position(std::size_t k) const {
+bool Expansion::depends(std::size_t k, expression::Dependence on) const {
   using namespace expression;
   const Tape& tape = equations_.tape;
   const NodeId chooses = steps_.switches[k].node;
   const Operation operation = tape.operation(chooses);
   const bool compares = operation == Operation::max || operation == Operation::min;
-  return (tape.depends(compares ? chooses : tape.a(chooses)) & on_coordinates) != 0;
+  return (tape.depends(compares ? chooses : tape.a(chooses)) & on) != 0;
 }
 
 double Expansion::drift(Index a) const {

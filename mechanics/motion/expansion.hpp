@@ -127,7 +127,9 @@ class Expansion {
   /// Up to here rounding may have made the coefficients of that argument, by order, after `expand`.
   std::vector<double> rounding_of_switch(std::size_t k);
   /// Whether a coordinate stands in that argument.
-  bool depends_on_position(std::size_t k) const;
+  bool depends_on_position(std::size_t k) const { return depends(k, expression::on_coordinates); }
+  /// Whether t itself does.
+  bool depends_on_time(std::size_t k) const { return depends(k, expression::on_time); }
   double& branch(std::size_t k) { return series_.branches()[k]; }
   double branch(std::size_t k) const { return series_.branches()[k]; }
   /// "|x|" as it was written, and where.
@@ -140,6 +142,7 @@ class Expansion {
   /// More than any series has coefficients.
   static constexpr int most_orders = 64;
   static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
+  bool depends(std::size_t k, expression::Dependence on) const;
   void find_inertia();
   void take_branches();
   void check_finite() const;
