@@ -184,7 +184,7 @@ void Motion::EventDriven::move_time(double by) {
   low_ += (since_start_ - (sum - part)) + (by - part);
   since_start_ = sum + low_;
   low_ -= since_start_ - sum;
-  state.t = start_ + since_start_;
+  state.t = start_ + since_start_ + low_;
 }
 
 /// Whether rounding leaves it open which of the two comes first. Both follow from one state, so that times
@@ -208,14 +208,10 @@ void Motion::EventDriven::take_step(double until) {
     done.length = 0;
     return handle(now);
   }
-  const double left = until - start_ - since_start_;
+  const double goal = endings.empty() ? until : std::min(until, endings.front().t);
+  const double left = std::max(0.0, goal - start_ - since_start_ - low_);
   double end = std::min(step_ahead_, left);
   bool is_last = end == left;
-  const Ending* ending = endings.empty() ? nullptr : &endings.front();
-  if (const double rest = ending != nullptr ? ending->t - start_ - since_start_ : end; rest < end) {
-    end = std::max(0.0, rest);
-    is_last = false;
-  }
   std::vector<Zero> zeros;
   double tau = end;
   obstacle_.clear();
@@ -249,8 +245,8 @@ void Motion::EventDriven::take_step(double until) {
   state.v = there_.v;
   expansion_.note_reach(state.q);
   if (is_last && zeros.empty()) {
-    state.t = until;
-    since_start_ = until - start_;
+    state.t = goal;
+    since_start_ = goal - start_;
     low_ = 0;
   } else {
     move_time(tau);

@@ -64,3 +64,14 @@ TEST_CASE("a kink at an impact, as far as the rounding of t tells, is no jump of
       followed(step, {1e8, Vector{{1, -1 - 3e-8}}, Vector{{-1, 1}}}, 1e8 + 1.5, restitution(step, 1));
   CHECK(jump.motion.status() == MotionStatus::stopped);
 }
+
+TEST_CASE("impacts come to an end where doubles hardly tell its time") {
+  // 2 v / (g (1 - e)) after the start, a sum that doubles round to 1.5e-8.
+  const SystemText text = ball();
+  const double lasts = 2 * 0.7 / (9.81 * (1 - 0.5));
+  const Followed motion =
+      followed(text, {-1e8, Vector{{0}}, Vector{{0.7}}}, -1e8 + 1, restitution(text, 0.5));
+  REQUIRE(motion.motion.status() == MotionStatus::done);
+  REQUIRE(motion.of(EventKind::accumulation).size() == 1);
+  CHECK(motion.of(EventKind::accumulation)[0].t == -1e8 + lasts);
+}
