@@ -35,11 +35,13 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   if (z.size() != state.problem.dimension() || s.size() != state.problem.rows())
     throw InvalidInput("z, s: " + std::to_string(z.size()) + " and " + std::to_string(s.size()) +
                        " entries; give one per coordinate and one per row");
+  state.problem.z = z;
+  state.problem.s = s;
+  if (state.small_settled && state.small_gram->solve_on_affine_piece(state.accuracy, state.solution))
+    return state.solution;
   const auto all_finite = dense_kernels().is_finite;
   if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
-  state.problem.z = z;
-  state.problem.s = s;
   if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
     if (SmallGramSolve::fits(state.problem)) {
       if (!state.small_settled) {

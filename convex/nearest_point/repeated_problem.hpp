@@ -9,8 +9,9 @@ namespace convex {
 
 /// Nearest-point problems with the same A and U, one after the other, as a control or a motion asks for them.
 /// What does not change is kept: the factor of A, the whitened rows with their Gram matrix, and the rows that
-/// were active, from which the next solve begins. Answers are those of `active_set`, to the same accuracy and
-/// with the same status; after a solve of the same size nothing is allocated. Not to be shared by threads.
+/// were active, from which the next solve begins; of few coordinates the affine map from z and s to the answer
+/// that holds while these stay. Answers are those of `active_set`, to the same accuracy and with the same
+/// status; once that map is known nothing is allocated. Not to be shared by threads.
 class RepeatedProblem {
  public:
   /// Throws InvalidInput as `validate` does.

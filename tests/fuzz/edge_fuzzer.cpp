@@ -138,6 +138,9 @@ int main(int argc, char** argv) {
       if (repeated) {
         convex::RepeatedProblem again(problem);
         again.solve(problem.z, convex::Vector(problem.s.array() - 1));
+        // So many with one working set find its affine piece.
+        for (convex::Index turn = 0; turn <= 2 * problem.dimension() + 1; ++turn)
+          again.solve(1.5 * problem.z, 1.5 * problem.s);
         found = again.solve(problem.z, problem.s);
       } else {
         found = convex::automatic(problem);

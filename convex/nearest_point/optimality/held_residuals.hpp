@@ -25,14 +25,14 @@ class HeldResiduals {
     const double over = row_scale > 0 ? row_scale : length * scale_;
     gap_ += lambda * slack;
     if (!(over > 0)) return;
-    const double off = is_two_sided ? std::abs(slack) : std::max(0.0, -slack);
-    found_.feasibility = std::max(found_.feasibility, off / over);
-    if (largest_ > 0)
-      found_.complementarity = std::max(found_.complementarity, std::abs(lambda / largest_ * slack) / over);
+    const double off = slack / over;
+    found_.feasibility = std::max(found_.feasibility, is_two_sided ? std::abs(off) : -off);
+    pushed_ = std::max(pushed_, std::abs(lambda * off));
   }
 
   Residuals all() const {
     Residuals found = found_;
+    if (largest_ > 0) found.complementarity = pushed_ / largest_;
     if (scale_ > 0) {
       found.stationarity = stationarity_ / scale_;
       found.duality_gap = std::sqrt(std::max(0.0, gap_)) / scale_;
@@ -41,7 +41,7 @@ class HeldResiduals {
   }
 
  private:
-  double stationarity_, acceleration_norm_, scale_, largest_, gap_;
+  double stationarity_, acceleration_norm_, scale_, largest_, gap_, pushed_ = 0;
   Residuals found_;
 };
 

@@ -116,9 +116,10 @@ bool SmallGramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   if (sweeps_ > sweeps_kept * tableau_.m) return solve(solution.basis, accuracy, solution);
   take_linear_term();
   tableau_.steps = 0;
-  const bool settled = small_kernels().begin_again(tableau_) && settle();
+  if (!small_kernels().begin_again(tableau_) || !settle() || !answer(accuracy, solution)) return false;
   sweeps_ += tableau_.steps;
-  return settled && answer(accuracy, solution);
+  follow_working_set();
+  return true;
 }
 
 /// Pivots until no row is violated. False when something is in doubt.

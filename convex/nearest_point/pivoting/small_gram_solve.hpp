@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/pivoting/affine_piece.hpp"
 #include "convex/nearest_point/pivoting/corrections.hpp"
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 #include "convex/nearest_point/problem.hpp"
@@ -32,6 +34,9 @@ class SmallGramSolve {
   bool solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution);
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
+  /// The same where the affine piece of these rows is known and nothing comes near its edge: all numbers are
+  /// finite then.
+  bool solve_on_affine_piece(const Accuracy& accuracy, Solution& solution);
   std::vector<Index> one_sided_rows_held() const;
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be
   /// proved.
@@ -47,12 +52,15 @@ class SmallGramSolve {
   friend bool finish(Engine&, const Accuracy&, Solution&);
 
   void take_linear_term();
+  void follow_working_set();
+  bool find_affine_piece();
   bool look_at(const Index* rows, Index count);
   bool settle();
   Index fresh_violated_rows(Index* rows);
   bool looks_at_all() const { return slack_ == tableau_.slack; }
   Index place(Index a) const { return looks_at_all() ? a : place_[a]; }
   void measure();
+  void measure_slacks_of_all();
   bool answer(const Accuracy& accuracy, Solution& solution);
   Corrections& corrections() { return known_; }
   /// This part of the scale where multipliers (times lengths) or slacks (over them) are smaller at the point
@@ -85,6 +93,8 @@ class SmallGramSolve {
   Index *close_, *place_ = nullptr;  ///< place_: of a row, -1 for one not looked at; where rows are many
   Index touched_count_ = 0;          ///< so many of close_ are rows touched
   Index sweeps_ = 0;
+  std::unique_ptr<AffinePiece> piece_;
+  Index kept_ = 0;  ///< solves in a row that have ended with the working set of the one before
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
   double zeroed_ = 0;  ///< the multipliers of weak rows, times their lengths

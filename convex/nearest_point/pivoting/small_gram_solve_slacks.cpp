@@ -16,9 +16,12 @@ constexpr Index few_where_sums = 8;
 
 /// Slacks of all rows and what is missing of the equations of motion, in doubles.
 void SmallGramSolve::measure() {
+  small_kernels().measure(tableau_);
+  if (!looks_at_all()) measure_slacks_of_all();
+}
+
+void SmallGramSolve::measure_slacks_of_all() {
   SmallTableau& t = tableau_;
-  small_kernels().measure(t);
-  if (looks_at_all()) return;
   dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), slack_);
   for (Index p = 0; p < t.m; ++p)
     if (t.row[p] >= 0) t.slack[p] = slack_[t.row[p]];

@@ -22,6 +22,13 @@ struct SmallTableauSizes {
   MOREAU_BY_PACKS(bool, settle)
   MOREAU_BY_PACKS(double, margin)
   MOREAU_BY_PACKS(bool, correct)
+  MOREAU_INLINE void take_affine_point(SmallTableau& t, AffinePiece& piece, const double* z,
+                                       const double* s) {
+    if (t.ld == 8 && t.stride == 8)
+      SmallTableauSteps<W, Fused, 1>::take_affine_point(t, piece, z, s);
+    else
+      Four::take_affine_point(t, piece, z, s);
+  }
   MOREAU_BY_PACKS(void, measure_precisely)
   MOREAU_BY_PACKS(void, measure)
 };
@@ -33,6 +40,7 @@ constexpr SmallKernels small_table{Compiled<W, &All::begin>::at,
                                    Compiled<W, &All::settle>::at,
                                    Compiled<W, &All::margin>::at,
                                    Compiled<W, &All::correct>::at,
+                                   Compiled<W, &All::take_affine_point>::at,
                                    Compiled<W, &All::measure_precisely>::at,
                                    Compiled<W, &All::measure>::at,
                                    Compiled<W, &Four::dual_rows>::at,

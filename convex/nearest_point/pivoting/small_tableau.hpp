@@ -60,6 +60,8 @@ struct SmallTableau {
   double growth = 1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
 };
 
+struct AffinePiece;
+
 /// What `SmallGramSolve` does with it, for one processor family. Each is false when something is in doubt.
 struct SmallKernels {
   /// Whitens, and takes in the rows marked in `held` and `two_sided`.
@@ -76,6 +78,9 @@ struct SmallKernels {
   /// One correction of q + q_low with residuals in twice the working precision, in which weak rows may change
   /// sides: by dq, `correction` of held_lambda; `first`.
   bool (*correct)(SmallTableau&);
+  /// The point of the rows held by their affine piece, in place of pivots and corrections, for z and s: q +
+  /// q_low, held_lambda, the norms of q and z, what `measure` finds; and what the piece tells of it.
+  void (*take_affine_point)(SmallTableau&, AffinePiece&, const double* z, const double* s);
   /// slack: Uq - s in twice the working precision.
   void (*measure_precisely)(SmallTableau&);
   /// slack = Uq - s where all rows have been looked at, what is missing of the equations of motion, and

@@ -38,7 +38,6 @@ struct SmallTableauRows : Kernels<W, Fused> {
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
     K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
     t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
-    for (Index r = 0; r < stride(t); r += 8) load_block(t, r);
   }
 
   /// As `side_by_side`; nothing is read beyond `end`.

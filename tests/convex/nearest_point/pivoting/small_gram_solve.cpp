@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
 #include <memory>
 #include <random>
 
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/repeated_problem.hpp"
@@ -54,6 +56,19 @@ std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProbl
   keep(t.slack, t.m);
   keep(&t.stationarity, 1);
   return all;
+}
+
+/// Integers, of which no coordinate, multiplier or slack is close to 0.
+oracles::PlantedProblem clear_of_edges(unsigned seed, Index n, Index m) {
+  auto [problem, truth] = oracles::planted_problem(seed, n, m, Difficulty::none);
+  const Solution found = convex::active_set(problem);
+  REQUIRE(found.status == Status::solved);
+  for (Index a = 0; a < m; ++a)
+    if (found.lambda[a] < 0.01 && found.slack[a] == 0) problem.s[a] -= 3;
+  const Vector shift = (truth.array() == 0).cast<double>();
+  problem.z += problem.A.multiply(shift);
+  problem.s += problem.U.times(shift);
+  return {problem, truth + shift};
 }
 
 }  // namespace
@@ -183,6 +198,40 @@ TEST_CASE("a problem solved again and again, rows coming and going, has the answ
         CHECK(error <= again.error_bound + few_roundings * unit);
       }
     }
+  }
+}
+
+TEST_CASE("the affine piece of a working set has the doubles nearest to the truth, and all others theirs") {
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const Index n = 1 + static_cast<Index>((7 * seed) % 32), m = 1 + static_cast<Index>((11 * seed) % 60);
+    CAPTURE(n);
+    CAPTURE(m);
+    auto [problem, truth] = clear_of_edges(seed, n, m);
+    const Vector z = problem.z, s = problem.s;
+    convex::RepeatedProblem repeated(problem);
+    std::mt19937 generator(seed);
+    for (int k = 1; k <= 160; ++k) {
+      const Solution& again = repeated.solve(k * z, k * s);
+      CHECK(again.status == Status::solved);
+      CHECK(again.q == Vector(k * truth));
+      CHECK(again.error_bound <= few_roundings * problem.A.norm(again.q));
+      if (k < 100 || k % 8 > 0) continue;
+      problem.z = jolted(z, generator);
+      problem.s = jolted(s, generator);
+      const Solution once = convex::active_set(problem);
+      const Solution& other = repeated.solve(problem.z, problem.s);
+      CHECK(other.status == once.status);
+      if (once.status != Status::solved) continue;
+      CHECK(other.basis.size() == once.basis.size());
+      CHECK(problem.A.norm(other.q - once.q) <= few_roundings * scale(problem, once.q));
+    }
+    Vector wrong = z;
+    wrong[n - 1] = std::numeric_limits<double>::infinity();
+    CHECK_THROWS_AS(repeated.solve(wrong, s), convex::InvalidInput);
+    wrong = s;
+    wrong[m - 1] = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(repeated.solve(z, wrong), convex::InvalidInput);
+    CHECK(repeated.solve(z, s).q == truth);
   }
 }
 
