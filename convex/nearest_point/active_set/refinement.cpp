@@ -1,5 +1,8 @@
 #include "convex/nearest_point/active_set/refinement.hpp"
 
+#include <limits>
+#include <utility>
+
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 
 namespace convex::inline dual_active_set {
@@ -42,10 +45,12 @@ RefinedPoint refine(const WorkingSet& set) {
   const double scale = set.scale();
   const double of_A = problem.A.factor_condition(), of_rows = row_condition(set);
   // A residual is rounded once, its terms in twice the precision.
-  point.floor = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
+  const double of_residuals = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
+  const double of_pull = pull_rounding(of_A, 1);
   const double expected = expected_contraction(of_A, of_rows * of_rows, false);
   const double usual = std::min(slowest_contraction / 2, usual_contraction(of_A, of_rows * of_rows));
   double previous = scale;  // the first solve is the correction of nothing
+  double pull = std::numeric_limits<double>::infinity();
   Vector dw, dlambda, r2(set.size());
   Vector dq, step;
   const auto silence_q = [&](auto noise) {
@@ -61,6 +66,9 @@ RefinedPoint refine(const WorkingSet& set) {
       r2[j] = -slack(problem, set.rows()[static_cast<std::size_t>(j)], point.q).value();
     set.correct(problem.A.whiten(r1), r2, dw, dlambda);
     point.last = dw.norm();
+    const double previous_pull = std::exchange(pull, 0);
+    for (Index j = 0; j < set.size(); ++j) pull += std::abs(dlambda[j]) * set.factor().length(j);
+    point.floor = of_residuals + of_pull * pull;
     if (k == 0) point.first = point.last;
     // Once at the rounding of the residuals themselves, corrections no longer shrink: that is the end, not a
     // failure.
@@ -75,7 +83,8 @@ RefinedPoint refine(const WorkingSet& set) {
     if (!(point.contraction < slowest_contraction)) break;
     point.q.add(dq);
     point.lambda.add(step);
-    if (k == 0 && point.contraction <= certain_contraction && point.last > 0) {
+    const bool is_held = of_pull * pull <= enough * scale;
+    if (k == 0 && point.contraction <= certain_contraction && point.last > 0 && is_held) {
       const double missing = 4 * point.remaining() * problem.A.factor_condition();
       silence_q([&](Index i) {
         return std::max(missing / std::sqrt(problem.A.diagonal()[i]), cancelled * std::abs(dq[i]));
@@ -85,7 +94,8 @@ RefinedPoint refine(const WorkingSet& set) {
       });
       return point;
     }
-    if (k > 0 && (point.last <= floor || point.remaining() <= enough * scale)) break;
+    const bool at_the_end = point.last <= floor && (is_held || pull > previous_pull / 2);
+    if (k > 0 && (at_the_end || point.remaining() <= enough * scale)) break;
     previous = point.last;
   }
   if (point.contraction < slowest_contraction) {

@@ -30,6 +30,15 @@ inline double usual_contraction(double factor_condition, double gram_condition) 
   return unit_roundoff * (factor_condition + std::sqrt(gram_condition));
 }
 
+/// What the rounding of a correction leaves of ||dq||_A, by its part that changes the multipliers, times the
+/// lengths of their rows: rows that are nearly opposite cancel there, so that ||dq||_A alone may be far less
+/// than what it was made of. Of orthogonal factors QR = V + E, |E| <= u |V|, Eᵀdlambda is left, `growth` 1;
+/// of the Gram matrix G, (G + E)(dlambda + e) = r, |E| <= u |G|, Vᵀe is left, of the root of the condition of
+/// G; and an inverse of G has a growth of its own (Higham, Accuracy and Stability, 2002, §14.4 and 19.3).
+inline double pull_rounding(double factor_condition, double growth) {
+  return unit_roundoff * (factor_condition + growth);
+}
+
 /// An entry that the correction takes to this part of it is 0 as far as that tells.
 inline constexpr double cancelled = 0x1p-24;
 

@@ -11,26 +11,26 @@ constexpr double slowest_contraction = 0x1p-6;
 
 }  // namespace
 
-bool Corrections::note(double step, bool is_fresh, double factor_condition, double gram_condition,
-                       double inverse_error, double the_scale) {
-  const double previous = step_;
+bool Corrections::note(const Correction& made) {
+  const double previous = step_, step = made.step;
   step_ = step;
-  scale = the_scale;
-  is_fresh_ = is_fresh;
+  scale = made.scale;
+  is_fresh_ = made.is_fresh;
   count_ += 1;
-  factor_condition_ = factor_condition;
-  gram_condition_ = gram_condition;
-  const double seen = is_fresh                                     ? (scale > 0 ? step / scale : 0)
+  factor_condition_ = made.factor_condition;
+  gram_condition_ = made.gram_condition;
+  const double seen = is_fresh_                                    ? (scale > 0 ? step / scale : 0)
                       : step > at_rounding * scale && previous > 0 ? step / previous
                                                                    : 0;
-  const double usual = std::max(seen, usual_contraction(factor_condition, gram_condition));
+  const double usual = std::max(seen, usual_contraction(factor_condition_, gram_condition_));
   // A residual is rounded once, and the factors of A and of the rows held enlarge that; a second correction
-  // with the same rows shows by how much.
+  // with the same rows shows by how much. An inverse is off by the square of its growth where it is small.
   const double contraction = std::max(
-      inverse_error,
-      is_fresh ? std::max(seen, expected_contraction(factor_condition, gram_condition, true)) : usual);
+      unit_roundoff * made.growth * made.growth,
+      is_fresh_ ? std::max(seen, expected_contraction(factor_condition_, gram_condition_, true)) : usual);
   if (!(contraction <= slowest_contraction)) return false;
-  const double floor = floor_of_residuals();
+  const double growth = std::max(std::sqrt(gram_condition_), made.growth);
+  const double floor = floor_of_residuals() + made.pull * pull_rounding(factor_condition_, growth);
   remaining = step * contraction / (1 - contraction) + floor;
   likely_ = std::min(remaining, step * usual + floor);
   return true;

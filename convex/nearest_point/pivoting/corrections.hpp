@@ -11,12 +11,18 @@ class Corrections {
  public:
   /// Before the first correction of a point.
   void begin() { count_ = 0; }
-  /// Notes a correction, of ||dq||_A = `step`; fresh: the first with these rows. gram_condition: of the Gram
-  /// matrix of the rows held, each divided by its length; inverse_error: by how much what stands for its
-  /// inverse may be off, relative to the inverse in the direction where that is small, 0 where there is a
-  /// factor instead. False when corrections shrink too slowly.
-  bool note(double step, bool is_fresh, double factor_condition, double gram_condition, double inverse_error,
-            double scale);
+  /// A correction, of ||dq||_A = `step`, which changed the multipliers times the lengths of their rows by
+  /// `pull` in all; fresh: the first with these rows.
+  struct Correction {
+    double step, pull;
+    bool is_fresh;
+    double factor_condition;
+    double gram_condition;  ///< of the Gram matrix of the rows held, each divided by its length
+    double growth;          ///< what enlarges rounding in its inverse; 0 where there is a factor instead
+    double scale;
+  };
+  /// Notes it. False when corrections shrink too slowly.
+  bool note(const Correction&);
 
   /// A point after a correction: q = q + q_low (n), D the diagonal of A; lambda of the k rows held, what the
   /// correction added to it, and the lengths ||v|| of the rows, 0 in `pull` where a multiplier has no sign.

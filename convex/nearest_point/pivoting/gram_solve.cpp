@@ -18,13 +18,13 @@ GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
       m_(problem.rows()),
       ld_(A_.ld) {
   const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 14) * padded(k) + 4 * padded(places)) / 8 +
+  arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 15) * padded(k) + 5 * padded(places)) / 8 +
               GramPivoting::lines(n_, m_));
   for (double** x : {&z_, &w_free_, &w_, &q_, &q_low_, &r_, &dw_, &dq_, &inverse_diagonal_, &unit_})
     *x = arena.take_filled(n_, 0.0);
   for (double** x : {&row_scale_, &slack_, &touched_slack_}) *x = arena.take<double>(m_);
-  for (double** x : {&load_, &lambda_, &change_, &length_, &pull_}) *x = arena.take<double>(k);
-  for (double** x : {&y_, &held_slack_, &total_, &rest_}) *x = arena.take_filled(places, 0.0);
+  for (double** x : {&load_, &lambda_, &lambda_low_, &change_, &length_, &pull_}) *x = arena.take<double>(k);
+  for (double** x : {&y_, &held_slack_, &total_, &total_low_, &rest_}) *x = arena.take_filled(places, 0.0);
   for (Index** x : {&touched_, &close_, &fresh_}) *x = arena.take<Index>(m_);
   rows_ = arena.take<Index>(k);
   pack_ = arena.take<double>(8 * n_ + 8);  // two vectors at least
@@ -87,6 +87,7 @@ void GramSolve::take_point(bool has_changed) {
   set_->point(w_, q_);
   fill_packs(ld_, 0, q_low_);
   copy_packs(set_->rows().count(), set_->lambda(), total_);
+  fill_packs(set_->rows().count(), 0, total_low_);
   list_rows_held(has_changed);
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
   known_.scale = std::max(acceleration_norm_, z_norm_);
@@ -96,6 +97,7 @@ void GramSolve::list_rows_held(bool have_changed) {
   for (Index j = 0; j < set_->size(); ++j) {
     rows_[j] = set_->row(j);
     lambda_[j] = total_[set_->place(j)];
+    lambda_low_[j] = total_low_[set_->place(j)];
     length_[j] = std::sqrt(set_->rows().square(set_->place(j)));
     pull_[j] = set_->is_two_sided(rows_[j]) ? 0 : length_[j];
   }

@@ -64,8 +64,9 @@ class GramSolve {
   const Index n_, m_, ld_;
   std::optional<GramPivoting> set_;
   double *z_, *w_free_, *w_, *q_, *q_low_, *r_, *dw_, *dq_, *inverse_diagonal_, *unit_, *row_scale_, *slack_;
-  double *load_, *lambda_, *change_, *length_, *pull_;  // of the rows held, rows_
-  double *y_, *total_, *rest_, *held_slack_;  // at places; total_: all multipliers, y_: their last change
+  double *load_, *lambda_, *lambda_low_, *change_, *length_, *pull_;  // of the rows held, rows_
+  // At places; total_ + total_low_: all multipliers, y_: their last change.
+  double *y_, *total_, *total_low_, *rest_, *held_slack_;
   double *touched_slack_, *pack_, *dual_, *products_;  // touched_slack_: at q rounded
   Index *rows_, *touched_, *close_, *fresh_;
   std::optional<SlackOnEdge> edge_;

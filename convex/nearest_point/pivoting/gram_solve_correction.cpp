@@ -41,7 +41,7 @@ bool GramSolve::correct(bool is_first, double small) {
     for (Index j = 0; j < set_->size(); ++j)
       if (set_->is_weak(rows_[j])) {
         zeroed += std::abs(lambda_[j]) * std::sqrt(set_->rows().square(set_->place(j)));
-        lambda_[j] = total_[set_->place(j)] = 0;
+        lambda_[j] = total_[set_->place(j)] = total_low_[set_->place(j)] = 0;
       }
   }
   residual(is_first);
@@ -55,12 +55,25 @@ bool GramSolve::correct(bool is_first, double small) {
   copy_packs(before, set_->lambda(), y_);
   kernels_.combine(n_, before / 8, set_->rows().whitened(), y_, dw_);
   kernels_.add_multiple(ld_, 1, dw_, w_);
-  kernels_.add_multiple(before, 1, y_, total_);
+  for (Index p = 0; p < before; ++p) {
+    const DoubleDouble sum = two_sum(total_[p], total_low_[p] + y_[p]);
+    total_[p] = sum.hi;
+    total_low_[p] = sum.lo;
+  }
   list_rows_held(has_changed);
-  for (Index j = 0; j < set_->size(); ++j) change_[j] = y_[set_->place(j)];
+  double pull = 0;
+  for (Index j = 0; j < set_->size(); ++j) {
+    change_[j] = y_[set_->place(j)];
+    pull += std::abs(change_[j]) * length_[j];
+  }
   acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  if (!known_.note(std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed, is_first || has_changed || small > 0,
-                   problem_.A.factor_condition(), gram_condition_, 0, std::max(acceleration_norm_, z_norm_)))
+  if (!known_.note({.step = std::sqrt(kernels_.dot(ld_, dw_, dw_)) + zeroed,
+                    .pull = pull,
+                    .is_fresh = is_first || has_changed || small > 0,
+                    .factor_condition = problem_.A.factor_condition(),
+                    .gram_condition = gram_condition_,
+                    .growth = 0,
+                    .scale = std::max(acceleration_norm_, z_norm_)}))
     return false;
   copy_packs(ld_, dw_, dq_);
   kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
@@ -77,8 +90,8 @@ void GramSolve::residual(bool is_first) {
                         rows_, lambda_, z_, r_);
   if (is_first) return;
   copy_packs(ld_, r_, dq_);
-  kernels_.residual(n_, problem_.A.dense_gram().data(), q_low_, m_, problem_.U.dense().data(), 0, rows_,
-                    lambda_, dq_, r_);
+  kernels_.residual(n_, problem_.A.dense_gram().data(), q_low_, m_, problem_.U.dense().data(), set_->size(),
+                    rows_, lambda_low_, dq_, r_);
 }
 
 /// rest_ := s_a - u_a·q - v_a·dw of the rows held, or of all that matter, at their places.
@@ -104,7 +117,10 @@ bool GramSolve::take_noise_for_zero(bool more) {
   const bool told = known_.take_noise_for_zero({n_, q_, q_low_, dq_, problem_.A.diagonal().data(), unit_,
                                                 set_->size(), lambda_, change_, length_, pull_},
                                                more);
-  for (Index j = 0; j < set_->size(); ++j) total_[set_->place(j)] = lambda_[j];
+  for (Index j = 0; j < set_->size(); ++j) {
+    total_[set_->place(j)] = lambda_[j];
+    if (lambda_[j] == 0) total_low_[set_->place(j)] = lambda_low_[j] = 0;
+  }
   return told;
 }
 

@@ -233,9 +233,12 @@ void SmallGramSolve::mark_weak(double small) {
         !t.two_sided[a] && !(t.held[a] ? t.lambda[a] * length > small : t.slack[a] > t.row_scale[a] * small);
     if (!t.is_weak[a] || !t.held[a]) continue;
     zeroed_ += std::abs(t.lambda[a]) * length;
-    t.lambda[a] = 0;
+    t.lambda[a] = t.lambda_low[a] = 0;
   }
-  for (Index k = 0; k < t.size; ++k) t.held_lambda[k] = t.lambda[t.place[k]];
+  for (Index k = 0; k < t.size; ++k) {
+    t.held_lambda[k] = t.lambda[t.place[k]];
+    t.held_low[k] = t.lambda_low[t.place[k]];
+  }
 }
 
 bool SmallGramSolve::correct(bool is_first, double small) {
@@ -245,9 +248,15 @@ bool SmallGramSolve::correct(bool is_first, double small) {
   const Index steps = t.steps;
   if (!small_kernels().correct(t)) return false;
   // An inverse loses as much again as a factor: where it is small, it is the difference of large entries.
-  const double grown = std::max(t.gram_condition, t.growth), inverse_error = unit_roundoff * grown * grown;
-  return known_.note(t.first + zeroed_, is_first || small > 0 || t.steps > steps, t.factor_condition,
-                     t.gram_condition, inverse_error, std::max(t.acceleration_norm, t.z_norm));
+  double pull = 0;
+  for (Index k = 0; k < t.size; ++k) pull += std::abs(t.correction[k]) * t.length[k];
+  return known_.note({.step = t.first + zeroed_,
+                      .pull = pull,
+                      .is_fresh = is_first || small > 0 || t.steps > steps,
+                      .factor_condition = t.factor_condition,
+                      .gram_condition = t.gram_condition,
+                      .growth = std::max(t.gram_condition, t.growth),
+                      .scale = std::max(t.acceleration_norm, t.z_norm)});
 }
 
 bool SmallGramSolve::take_noise_for_zero(bool more) {
@@ -255,7 +264,10 @@ bool SmallGramSolve::take_noise_for_zero(bool more) {
   const bool told = known_.take_noise_for_zero(
       {t.n, t.q, t.q_low, t.dq, t.diagonal, t.unit, t.size, t.held_lambda, t.correction, t.length, t.pull},
       more);
-  for (Index k = 0; k < t.size; ++k) t.lambda[t.place[k]] = t.held_lambda[k];
+  for (Index k = 0; k < t.size; ++k) {
+    t.lambda[t.place[k]] = t.held_lambda[k];
+    if (t.held_lambda[k] == 0) t.lambda_low[t.place[k]] = t.held_low[k] = 0;
+  }
   return told;
 }
 

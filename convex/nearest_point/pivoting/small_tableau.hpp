@@ -37,9 +37,9 @@ struct SmallTableau {
   alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
   alignas(64) double slack[most];
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
-  alignas(64) double lambda[most];  ///< of all places, 0 outside
+  alignas(64) double lambda[most], lambda_low[most];  ///< of all places, 0 outside
   /// Of the rows held; length: |v_a|, pull: the same, 0 for a two-sided row.
-  double held_lambda[most], correction[most], length[most], pull[most];
+  double held_lambda[most], held_low[most], correction[most], length[most], pull[most];
   bool is_weak[most];  ///< may change sides in a correction
   Index row[most];     ///< at a place; -1 for none
   Index close[most];   ///< rows whose slack doubles do not tell from 0, where rows are few

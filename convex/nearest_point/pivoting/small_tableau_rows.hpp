@@ -134,7 +134,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
       double& b = t.b[before + l] = t.load[before + l];
       for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
       t.two_sided[before + l] = false;
-      t.lambda[before + l] = 0;
+      t.lambda[before + l] = t.lambda_low[before + l] = 0;
       set_state(t, before + l, false);
     }
     mirror_block(t, before);

@@ -79,12 +79,17 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     for (Index k = 0; k < t.size; ++k) {
       const Index a = t.place[k];
       t.correction[k] = t.b[a];
-      t.held_lambda[k] = t.lambda[a] += t.b[a];
+      const DoubleDouble sum = two_sum(t.lambda[a], t.lambda_low[a] + t.b[a]);
+      t.held_lambda[k] = t.lambda[a] = sum.hi;
+      t.held_low[k] = t.lambda_low[a] = sum.lo;
     }
   }
 
   MOREAU_INLINE void find_point(SmallTableau& t) {
-    for (Index r = 0; r < stride(t); r += 8) P::store(t.lambda + r, Pack{});
+    for (Index r = 0; r < stride(t); r += 8) {
+      P::store(t.lambda + r, Pack{});
+      P::store(t.lambda_low + r, Pack{});
+    }
     take_multipliers(t);
     add_rows(t, t.held_lambda, t.z, t.w);
     K::forward(t.n, ld(t), t.T, t.inverse, t.w);
@@ -221,7 +226,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     if (!t.is_first) {
       each(
           ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
-      K::residual(t.n, t.A, t.q_low, t.all, t.U, 0, t.rows, t.held_lambda, t.dq, t.r);
+      K::residual(t.n, t.A, t.q_low, t.all, t.U, t.size, t.rows, t.held_low, t.dq, t.r);
     }
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });

@@ -42,7 +42,54 @@ NearestPointProblem five_rows_nearly_one() {
   return {convex::Metric::dense(A), z, convex::ConstraintRows(U), s, {}};
 }
 
+/// q* = 0 between two rows that are opposite but for 1e-5 of their lengths where masses differ by 4e9: their
+/// multipliers, times their lengths, are 4e4 times as large as what they hold.
+NearestPointProblem at_rest_between_nearly_opposite_rows() {
+  Matrix A(2, 2);
+  A << 1610612736, 0, 0, 0.375;
+  RowMatrix U(2, 2);
+  U << -1, 2, -1, -1;
+  Vector z(2);
+  z << 5, 0;
+  return {convex::Metric::dense(A), z, convex::ConstraintRows(U), Vector::Zero(2), {}};
+}
+
+/// y >= -1 and -(1 - 2⁻⁴⁴) y >= 1 - 2⁻⁵² contradict each other by 6e-14; a third row keeps the point 1.7e15
+/// away.
+NearestPointProblem contradiction_far_away() {
+  Matrix A(2, 2);
+  A << 4, 3, 3, 7;
+  RowMatrix U(3, 2);
+  U << 0x1p-49, 0x1p-42, 0, 1, 0, 0x1p-44 - 1;
+  Vector z(2), s(3);
+  z << -7, -1;
+  s << 3 - 0x1p-22, -1, 1 - 0x1p-52;
+  return {convex::Metric::dense(A), z, convex::ConstraintRows(U), s, {}};
+}
+
 }  // namespace
+
+TEST_CASE(
+    "the bound of a point between nearly opposite rows counts the rounding of multipliers that cancel") {
+  const NearestPointProblem problem = at_rest_between_nearly_opposite_rows();
+  for (const convex::Method& method : convex::methods()) {
+    if (!method.applies(problem).empty()) continue;
+    CAPTURE(std::string(method.name));
+    const Solution found = method.solve(problem, {});
+    if (found.status != Status::solved) continue;
+    CHECK(problem.A.norm(found.q) <= found.error_bound);
+  }
+}
+
+TEST_CASE("rows that contradict each other by less than the rounding of a far point are never solved") {
+  const NearestPointProblem problem = contradiction_far_away();
+  CHECK(convex::find_method("auto")->solve(problem, {}).status == Status::infeasible);
+  for (const convex::Method& method : convex::methods()) {
+    if (!method.applies(problem).empty()) continue;
+    CAPTURE(std::string(method.name));
+    CHECK(method.solve(problem, {}).status != Status::solved);
+  }
+}
 
 TEST_CASE("where rows meet far away at a small angle, no method calls solved what is not") {
   for (const NearestPointProblem& problem : {opposite_to_a_two_sided_row(), five_rows_nearly_one()}) {
