@@ -50,15 +50,13 @@ class ShapeReading {
       made.shape = Domain::Shape::polygon;
       read_vertices(made);
     } else {
-      const std::string near =
-          convex::nearest_name(shape_.name, {"interval", "box", "disc", "ball", "polygon"});
       fail("\"" + shape_.name + "\" is no shape; " +
-           (near.empty() ? "give interval, box, disc, ball, polygon or {inequalities}"
-                         : "did you mean \"" + near + "\"?"));
+           convex::suggestion(shape_.name, {"interval", "box", "disc", "ball", "polygon"},
+                              "give interval, box, disc, ball, polygon or {inequalities}"));
     }
     for (const auto& [key, value] : shape_.values)
       if (std::find(read_.begin(), read_.end(), key) == read_.end())
-        fail("\"" + key + "\" is no key of " + shape_.name + "; take it out");
+        fail("\"" + key + "\" is no key of " + shape_.name + "; " + convex::suggestion(key, read_));
     return made;
   }
 
@@ -71,10 +69,10 @@ class ShapeReading {
          "; give another domain");
   }
   const ShapeText::Value& value(const std::string& key) {
-    read_.push_back(key);
+    if (std::find(read_.begin(), read_.end(), key) == read_.end()) read_.push_back(key);
     const auto found = shape_.values.find(key);
     if (found != shape_.values.end()) return found->second;
-    for (const auto& [other, unread] : shape_.values)
+    for (const auto& [other, given] : shape_.values)
       if (convex::nearest_name(other, {key}) == key)
         fail("\"" + other + "\" is no key of " + shape_.name + "; did you mean \"" + key + "\"?");
     fail(shape_.name + " has no \"" + key + "\"; give it");
