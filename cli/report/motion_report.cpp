@@ -60,6 +60,12 @@ std::vector<mechanics::MotionRemark> all_remarks(const FollowedMotion& followed)
   return remarks;
 }
 
+/// "at t = 9.42: no branch ..." where the time is told already, in all its digits.
+std::string without_time(const std::string& reason) {
+  const std::size_t end = reason.find(": ");
+  return reason.starts_with("at t = ") && end != std::string::npos ? reason.substr(end + 2) : reason;
+}
+
 }  // namespace
 
 Exit motion_exit(const FollowedMotion& followed) {
@@ -137,7 +143,7 @@ std::string motion_text(const FollowedMotion& followed) {
     text += fmt::format("The motion is followed to t = {}.\n\n", state.t);
   else
     text += fmt::format(
-        "The motion is {} at t = {}: {}.\n{}\n", status(followed), state.t, reason(followed),
+        "The motion is {} at t = {}: {}.\n{}\n", status(followed), state.t, without_time(reason(followed)),
         motion.excluding().empty()
             ? ""
             : "Constraints that exclude each other: " + joined(motion.excluding(), constraints) + ".\n");

@@ -191,7 +191,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
                            hidden_flux(scene, finest, solution.largest);
     solution.cavity_measure = CavityEdge(levels.level(0), found[0]).measure(scene.domain);
     const double size = solution.largest > 0 ? solution.largest : scene.pressure_scale();
-    const bool is_close = solution.error_bound <= accuracy.part() * size;
+    const bool is_close =
+        std::isfinite(solution.error_bound) && solution.error_bound <= accuracy.part() * size;
     if (is_last || is_close) {
       if (!found.front().ended || !is_close) solution.status = LiquidSolution::Status::inaccurate;
       return found;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace mechanics::liquid {
 namespace {
@@ -90,6 +91,11 @@ class HoleSearch {
 }  // namespace
 
 std::optional<Point> hidden_hole(const Domain& domain, const CutCells& cells) {
+  if (domain.shape == Domain::Shape::polygon) {
+    // So wide a strip has a node between its sides, whatever its direction.
+    const auto found = narrow_place(domain.vertices, std::hypot(cells.step[0], cells.step[1]));
+    return found ? std::optional(Point{(*found)[0], (*found)[1], 0}) : std::nullopt;
+  }
   if (!domain.condition) return std::nullopt;
   return HoleSearch(domain, cells).whole();
 }

@@ -16,6 +16,15 @@ bool sides_meet(const Vertex& a, const Vertex& b, const Vertex& c, const Vertex&
   return ((u > 0 && v < 0) || (u < 0 && v > 0)) && ((s > 0 && t < 0) || (s < 0 && t > 0));
 }
 
+double distance(const Vertex& a, const Vertex& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
+
+/// The point of the side from a to b nearest to x.
+Vertex foot_on(const Vertex& a, const Vertex& b, const Vertex& x) {
+  const double ex = b[0] - a[0], ey = b[1] - a[1];
+  const double part = std::clamp(((x[0] - a[0]) * ex + (x[1] - a[1]) * ey) / (ex * ex + ey * ey), 0.0, 1.0);
+  return {a[0] + part * ex, a[1] + part * ey};
+}
+
 }  // namespace
 
 double polygon_area(const std::vector<Vertex>& v) {
@@ -69,16 +78,30 @@ std::vector<Vertex> cut_off(const std::vector<Vertex>& v,
   return kept;
 }
 
+// Of two sides that do not cross, one has its nearest point at an end.
+std::optional<Vertex> narrow_place(const std::vector<Vertex>& v, double width) {
+  constexpr double detour = 4;
+  std::vector<double> along{0};
+  for (std::size_t k = 0; k < v.size(); ++k)
+    along.push_back(along.back() + distance(v[k], v[(k + 1) % v.size()]));
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      if (k == i || (k + 1) % v.size() == i) continue;
+      const Vertex foot = foot_on(v[k], v[(k + 1) % v.size()], v[i]);
+      const double gap = distance(v[i], foot), path = std::abs(along[k] + distance(v[k], foot) - along[i]);
+      if (gap < width && std::min(path, along.back() - path) >= detour * gap)
+        return Vertex{0.5 * (v[i][0] + foot[0]), 0.5 * (v[i][1] + foot[1])};
+    }
+  return std::nullopt;
+}
+
 Vertex polygon_foot(const std::vector<Vertex>& v, const Vertex& x) {
   Vertex best = v[0];
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < v.size(); ++k) {
-    const Vertex &a = v[k], &b = v[(k + 1) % v.size()];
-    const double ex = b[0] - a[0], ey = b[1] - a[1];
-    const double part = std::clamp(((x[0] - a[0]) * ex + (x[1] - a[1]) * ey) / (ex * ex + ey * ey), 0.0, 1.0);
-    const Vertex foot{a[0] + part * ex, a[1] + part * ey};
-    if (const double distance = std::hypot(x[0] - foot[0], x[1] - foot[1]); distance < nearest) {
-      nearest = distance;
+    const Vertex foot = foot_on(v[k], v[(k + 1) % v.size()], x);
+    if (const double here = distance(x, foot); here < nearest) {
+      nearest = here;
       best = foot;
     }
   }

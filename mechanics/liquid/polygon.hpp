@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,11 @@ double polygon_level(const std::vector<Vertex>&, const Vertex&);
 /// What of the polygon lies where a linear excess is <= 0 (Sutherland and Hodgman 1974; edges that only
 /// join pieces run along the cut there and back, and bound no area).
 std::vector<Vertex> cut_off(const std::vector<Vertex>&, const std::function<double(const Vertex&)>& excess);
+
+/// A place where the boundary comes within `width` of itself though it is long from the one point to the
+/// other along it, four times their distance or more: a channel, or a notch, and not a corner or a short
+/// side.
+std::optional<Vertex> narrow_place(const std::vector<Vertex>&, double width);
 
 /// The point of the boundary nearest to x.
 Vertex polygon_foot(const std::vector<Vertex>&, const Vertex& x);
