@@ -175,8 +175,8 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
       if (is_last)
         throw convex::InvalidInput(
             "domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
-            " that lies between the nodes of a grid of " + std::to_string(levels.cells()) +
-            " cells; give more cells, or leave it out");
+            ", or is so narrow there, that it lies between the nodes of a grid of " +
+            std::to_string(levels.cells()) + " cells; give more cells, or leave it out");
       continue;
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);
@@ -223,7 +223,8 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
     throw convex::InvalidInput("domain: the grid has no point inside; give more cells");
   if (scene.domain.condition && !is_connected(levels.finest()))
     throw convex::InvalidInput(
-        "domain: it is not connected; give one part of it, the others files of their own");
+        "domain: it is not connected, or not by nodes of a grid of " + std::to_string(levels.cells()) +
+        " cells; give one part of it, the others files of their own, or give more cells");
   const std::vector<CutSolution> found = solve_well_enough(scene, accuracy, levels, solution);
   solution.unknowns = levels.finest().grid.unknowns();
   solution.cells = levels.cells();

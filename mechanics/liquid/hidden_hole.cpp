@@ -88,15 +88,42 @@ class HoleSearch {
   long boxes_ = 0;
 };
 
+/// A node of a domain that is one node thick at most of those looked at.
+std::optional<Point> thin_place(const Domain& domain, const CutCells& cells) {
+  constexpr Index most_looked_at = 200000;
+  const convex::CutGrid& grid = cells.grid;
+  const auto is_outside = [&](Index k) { return !(domain.level(cells.at(k)) < 0); };
+  const Index every = 1 + grid.size() / most_looked_at;
+  Index inside = 0, thin = 0;
+  std::optional<Point> found;
+  for (Index k = 0; k < grid.size(); k += every) {
+    if (is_outside(k)) continue;
+    ++inside;
+    for (std::size_t axis = 0; axis < domain.dimension; ++axis) {
+      const Index step = grid.stride(axis);
+      if ((k >= step && !is_outside(k - step)) || (k + step < grid.size() && !is_outside(k + step))) continue;
+      ++thin;
+      found = cells.at(k);
+      break;
+    }
+  }
+  return 2 * thin > inside ? found : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Point> hidden_hole(const Domain& domain, const CutCells& cells) {
   if (domain.shape == Domain::Shape::polygon) {
-    // So wide a strip has a node between its sides, whatever its direction.
-    const auto found = narrow_place(domain.vertices, std::hypot(cells.step[0], cells.step[1]));
-    return found ? std::optional(Point{(*found)[0], (*found)[1], 0}) : std::nullopt;
+    // In cells. A strip along an axis that is as wide as one has nodes.
+    std::vector<Vertex> vertices = domain.vertices;
+    for (Vertex& v : vertices) v = {v[0] / cells.step[0], v[1] / cells.step[1]};
+    constexpr double nearly_one = 1 - 1e-6;
+    const auto found = narrow_place(vertices, nearly_one);
+    if (!found) return std::nullopt;
+    return Point{(*found)[0] * cells.step[0], (*found)[1] * cells.step[1], 0};
   }
   if (!domain.condition) return std::nullopt;
+  if (const auto thin = thin_place(domain, cells)) return thin;
   return HoleSearch(domain, cells).whole();
 }
 

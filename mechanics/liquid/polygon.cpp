@@ -78,20 +78,31 @@ std::vector<Vertex> cut_off(const std::vector<Vertex>& v,
   return kept;
 }
 
-// Of two sides that do not cross, one has its nearest point at an end.
 std::optional<Vertex> narrow_place(const std::vector<Vertex>& v, double width) {
-  constexpr double detour = 4;
+  constexpr double detour = 4, strip = 0.125, most_steps = 4096;
   std::vector<double> along{0};
   for (std::size_t k = 0; k < v.size(); ++k)
     along.push_back(along.back() + distance(v[k], v[(k + 1) % v.size()]));
-  for (std::size_t i = 0; i < v.size(); ++i)
-    for (std::size_t k = 0; k < v.size(); ++k) {
-      if (k == i || (k + 1) % v.size() == i) continue;
-      const Vertex foot = foot_on(v[k], v[(k + 1) % v.size()], v[i]);
-      const double gap = distance(v[i], foot), path = std::abs(along[k] + distance(v[k], foot) - along[i]);
-      if (gap < width && std::min(path, along.back() - path) >= detour * gap)
-        return Vertex{0.5 * (v[i][0] + foot[0]), 0.5 * (v[i][1] + foot[1])};
+  const double whole = along.back();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Vertex &from = v[i], &to = v[(i + 1) % v.size()];
+    const double length = along[i + 1] - along[i],
+                 pieces = std::clamp(std::ceil(length / width), 1.0, most_steps);
+    for (double piece = 0; piece < pieces; ++piece) {
+      const double part = piece / pieces;
+      const Vertex x{from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])};
+      for (std::size_t k = 0; k < v.size(); ++k) {
+        if (k == i || (piece == 0 && (k + 1) % v.size() == i)) continue;
+        const Vertex foot = foot_on(v[k], v[(k + 1) % v.size()], x);
+        const double gap = distance(x, foot);
+        if (!(gap < width)) continue;
+        const double way = std::abs(along[k] + distance(v[k], foot) - along[i] - part * length),
+                     path = std::min(way, whole - way);
+        if (path >= strip * whole || (piece == 0 && path >= detour * gap))
+          return Vertex{0.5 * (x[0] + foot[0]), 0.5 * (x[1] + foot[1])};
+      }
     }
+  }
   return std::nullopt;
 }
 

@@ -24,8 +24,9 @@ double polygon_level(const std::vector<Vertex>&, const Vertex&);
 std::vector<Vertex> cut_off(const std::vector<Vertex>&, const std::function<double(const Vertex&)>& excess);
 
 /// A place where the boundary comes within `width` of itself though it is long from the one point to the
-/// other along it, four times their distance or more: a channel, or a notch, and not a corner or a short
-/// side.
+/// other along it: an eighth of the whole, as in a strip, or from a vertex four times their distance, as at
+/// the mouth of a channel or a notch; and not at a corner or a short side. Sides are looked at in steps of
+/// `width`.
 std::optional<Vertex> narrow_place(const std::vector<Vertex>&, double width);
 
 /// The point of the boundary nearest to x.
