@@ -12,8 +12,9 @@ namespace {
 constexpr std::array<int, 3> most_halvings{16, 6, 3};
 /// What hides in a cell is looked for where it may make more than this part of the pressure.
 constexpr double counted_part = 1e-4;
-/// Of what is looked for, this part is left to a leaf.
-constexpr double part_of_leaf = 0.05;
+/// Of what is looked for, this part is left to a leaf; or this part of what the whole cell varies by: what
+/// varies evenly is known by few leaves, a layer keeps its height until they are as thin as it is.
+constexpr double part_of_leaf = 0.05, part_of_cell = 0.25;
 /// A box of many cells is passed by if it is as quiet as this.
 constexpr double part_of_boxes = 0.01;
 /// So many leaves, and so many a node, are taken; intervals that stay wide take no more.
@@ -26,9 +27,9 @@ using convex::Index;
 CellMean::CellMean(const Field& field, const Domain& domain, const CutCells& cells, double pressure_scale)
     : field_(field), domain_(domain), cells_(cells), least_counted_(counted_part * pressure_scale) {
   if (!field.is_constant() && !field.is_bound()) {
-    std::array<Index, 3> last{};
+    Places last{};
     for (std::size_t i = 0; i < last.size(); ++i) last[i] = cells.grid.points[i] - 1;
-    search({}, last);
+    halve_places({}, last, [&](const Places& from, const Places& to) { return tells(from, to); });
   }
   if (!field.has_branches()) return;
   const auto& n = cells.grid.points;
@@ -59,7 +60,7 @@ bool CellMean::is_at_jump(Index k) const {
 }
 
 /// The cells around these nodes.
-Region CellMean::region_of(const std::array<Index, 3>& first, const std::array<Index, 3>& last) const {
+Region CellMean::region_of(const Places& first, const Places& last) const {
   const Point low = cells_.at(cells_.grid.at(first[0], first[1], first[2])),
               high = cells_.at(cells_.grid.at(last[0], last[1], last[2]));
   Region made;
@@ -73,42 +74,32 @@ Region CellMean::region_of(const std::array<Index, 3>& first, const std::array<I
 
 /// In p, of a cell in which the field has values as in a region: ∫ |h - mean| |s - node| is at most an eighth
 /// of width times step², along the longest axis.
-double CellMean::largest_hidden(const Region& at) const {
-  const expression::Range values = field_.range(at);
+double CellMean::largest_hidden(const expression::Range& values) const {
   if (values.is_empty()) return convex::infinity;
   double step = 0;
   for (std::size_t i = 0; i < domain_.dimension; ++i) step = std::max(step, cells_.step[i]);
   return 0.125 * (values.high - values.low) * step * step;
 }
 
-/// Marks nodes in whose cells more may hide than counts; boxes of nodes are halved until they tell.
-void CellMean::search(const std::array<Index, 3>& first, const std::array<Index, 3>& last) {
-  const double most = largest_hidden(region_of(first, last));
+/// Marks nodes in whose cells more may hide than counts.
+bool CellMean::tells(const Places& first, const Places& last) {
+  const double most = largest_hidden(field_.range(region_of(first, last)));
   if (most <= (first == last ? 1 : part_of_boxes) * least_counted_) {
     hidden_ = std::max(hidden_, most);
-    return;
+    return true;
   }
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < first.size(); ++i)
-    if (last[i] - first[i] > last[axis] - first[axis]) axis = i;
-  if (first[axis] == last[axis]) {
-    const Index k = cells_.grid.at(first[0], first[1], first[2]);
-    if (!cells_.grid.is_unknown(k) || !std::isfinite(most)) return;  // beside a pole nothing is known
-    varies_.resize(static_cast<std::size_t>(cells_.grid.size()));
-    varies_[static_cast<std::size_t>(k)] = true;
-    return;
-  }
-  const Index middle = (first[axis] + last[axis]) / 2;
-  std::array<Index, 3> end = last, begin = first;
-  end[axis] = middle;
-  begin[axis] = middle + 1;
-  search(first, end);
-  search(begin, last);
+  if (first != last) return false;
+  const Index k = cells_.grid.at(first[0], first[1], first[2]);
+  if (!cells_.grid.is_unknown(k) || !std::isfinite(most)) return true;  // beside a pole nothing is known
+  varies_.resize(static_cast<std::size_t>(cells_.grid.size()));
+  varies_[static_cast<std::size_t>(k)] = true;
+  return true;
 }
 
 /// Pieces of a cell on each of which the field varies little, or of the last depth: with the half of what it
 /// varies by, where that is known to be finite.
-void CellMean::gather(const Point& low, const Point& high, int halvings, std::vector<Leaf>& leaves) const {
+void CellMean::gather(const Point& low, const Point& high, int halvings, double quiet,
+                      std::vector<Leaf>& leaves) const {
   const std::size_t d = domain_.dimension;
   Region at{};
   Leaf leaf;
@@ -118,11 +109,12 @@ void CellMean::gather(const Point& low, const Point& high, int halvings, std::ve
     leaf.middle[i] = 0.5 * (low[i] + high[i]);
     if (i < d) leaf.volume *= high[i] - low[i];
   }
-  const double most = largest_hidden(at);
-  if (most <= part_of_leaf * least_counted_ || halvings == most_halvings[d - 1]) {
+  const expression::Range values = field_.range(at);
+  const double most = largest_hidden(values);
+  if (halvings == 0) quiet = std::max(quiet, part_of_cell * most);
+  if (most <= quiet || halvings == most_halvings[d - 1]) {
     if (domain_.level(leaf.middle) > domain_.reach()) return;
     leaf.value = field_(leaf.middle);
-    const expression::Range values = field_.range(at);
     leaf.spread = 0.5 * (values.high - values.low);
     if (!std::isfinite(leaf.spread)) leaf.spread = std::abs(leaf.value);
     leaves.push_back(leaf);
@@ -131,7 +123,7 @@ void CellMean::gather(const Point& low, const Point& high, int halvings, std::ve
   for (unsigned code = 0; code < 1U << d; ++code) {
     Point from = low, to = high;
     for (std::size_t i = 0; i < d; ++i) ((code >> i & 1U) != 0 ? from : to)[i] = leaf.middle[i];
-    gather(from, to, halvings + 1, leaves);
+    gather(from, to, halvings + 1, quiet, leaves);
   }
 }
 
@@ -144,10 +136,10 @@ double CellMean::mean_of_leaves(Index k, const Point& x) {
   }
   std::vector<Leaf> leaves;
   if (leaves_ > most_leaves + most_leaves_a_node * static_cast<double>(varies_.size())) {
-    hidden_ = std::max(hidden_, largest_hidden(cell_of(k)));
+    hidden_ = std::max(hidden_, largest_hidden(field_.range(cell_of(k))));
     return field_(x);
   }
-  gather(low, high, 0, leaves);
+  gather(low, high, 0, part_of_leaf * least_counted_, leaves);
   leaves_ += static_cast<double>(leaves.size());
   double total = 0, volume = 0;
   for (const Leaf& leaf : leaves) {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mechanics/liquid/cut_cells.hpp"
+#include "mechanics/liquid/hidden_values.hpp"
 
 namespace mechanics::liquid {
 
@@ -32,11 +32,11 @@ class CellMean {
   };
   bool is_at_jump(convex::Index k) const;
   Region cell_of(convex::Index k) const;
-  Region region_of(const std::array<convex::Index, 3>& first, const std::array<convex::Index, 3>& last) const;
-  double largest_hidden(const Region&) const;
-  void search(const std::array<convex::Index, 3>& first, const std::array<convex::Index, 3>& last);
+  Region region_of(const Places& first, const Places& last) const;
+  double largest_hidden(const expression::Range& values) const;
+  bool tells(const Places& first, const Places& last);
   double mean_of_leaves(convex::Index k, const Point& x);
-  void gather(const Point& low, const Point& high, int halvings, std::vector<Leaf>&) const;
+  void gather(const Point& low, const Point& high, int halvings, double quiet, std::vector<Leaf>&) const;
   void add(const Point& low, const Point& high, int halvings, Sum&) const;
   void offer(const Point&, double volume, Sum&) const;
   const Field& field_;

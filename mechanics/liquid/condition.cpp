@@ -144,6 +144,11 @@ bool Condition::holds(const Point& x, double reach) const {
   if (kind_ == Kind::always) return true;
   if (kind_ == Kind::all) return std::all_of(parts_.begin(), parts_.end(), part_holds);
   if (kind_ == Kind::any) return std::any_of(parts_.begin(), parts_.end(), part_holds);
+  const expression::Range excess = around(x, reach);
+  return strict_ ? excess.high < 0 : excess.low <= 0;
+}
+
+expression::Range Condition::around(const Point& x, double reach) const {
   double least = excess_(x), largest = least;
   for (std::size_t i = 0; i < dimension_; ++i)
     for (const double step : {-reach, reach}) {
@@ -153,7 +158,29 @@ bool Condition::holds(const Point& x, double reach) const {
       least = std::min(least, excess);
       largest = std::max(largest, excess);
     }
-  return strict_ ? largest < 0 : least <= 0;
+  return {least, largest};
+}
+
+std::optional<bool> Condition::holds_all_over(const Region& at, const std::vector<Point>& boundary,
+                                              double reach) const {
+  if (kind_ == Kind::always) return true;
+  if (kind_ == Kind::relation) {
+    const expression::Range excess = excess_.range(at);
+    if (!excess.is_empty() && excess.low > 0) return false;
+    if (!excess.is_empty() && excess.high < 0) return true;
+    for (const Point& x : boundary)
+      if (const expression::Range there = around(x, reach); !(there.low <= 0 && there.high >= 0))
+        return std::nullopt;
+    return !strict_;
+  }
+  const bool decides = kind_ == Kind::any;  // one such part decides
+  std::optional<bool> found = !decides;
+  for (const Condition& part : parts_) {
+    const std::optional<bool> holds = part.holds_all_over(at, boundary, reach);
+    if (holds == decides) return decides;
+    if (!holds) found = std::nullopt;
+  }
+  return found;
 }
 
 double Condition::level(const Point& x) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "mechanics/liquid/liquid_language.hpp"
@@ -20,6 +21,9 @@ class Condition {
   /// Below 0 where every relation of the condition holds with room, above 0 where it does not hold: the
   /// largest (`and`) and least (`or`) of the differences of the sides. -1 for "true".
   double level(const Point&) const;
+  /// What `holds` is at the boundary in a region, where that is known: by ranges, and of relations between
+  /// sides that are equal along the boundary by these points of it.
+  std::optional<bool> holds_all_over(const Region&, const std::vector<Point>& boundary, double reach) const;
   /// All values of the level in a region.
   expression::Range range(const Region&) const;
   /// The differences of the sides of all relations.
@@ -31,6 +35,8 @@ class Condition {
  private:
   enum class Kind { always, relation, all, any };
   Condition() = default;
+  /// The least and the largest excess of a relation at points so near.
+  expression::Range around(const Point&, double reach) const;
   friend class ConditionReading;
   Kind kind_ = Kind::always;
   bool strict_ = false;

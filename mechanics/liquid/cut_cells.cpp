@@ -116,13 +116,15 @@ class Cutting {
     return found;
   }
 
+  std::size_t number_of(const BoundaryPart& part) const { return at(&part - scene_.parts.data()); }
+
   void settle_boundary_point(Index k) {
     const Point x = made_.at(k);
     const BoundaryPart& found = part_or_free_beside(x);
     grid().kind[at(k)] = found.is_free ? CutPoint::fixed : CutPoint::bounded;
     if (!found.is_free) return;
     made_.given[at(k)] = scene_.free_pressure(found, x);
-    made_.pressures.push_back({k, x, made_.given[at(k)]});
+    made_.pressures.push_back({k, x, made_.given[at(k)], number_of(found)});
   }
 
   bool is_near_boundary(Index k) const {
@@ -223,8 +225,7 @@ class Cutting {
   }
 
   void add_piece(Index k, const BoundaryPart& wall, const SurfacePiece& surface, double flux) {
-    made_.walls.push_back(
-        {k, -1, at(&wall - scene_.parts.data()), surface.area, surface.area * flux, surface.at});
+    made_.walls.push_back({k, -1, number_of(wall), surface.area, surface.area * flux, surface.at});
     normals_.push_back(surface.normal);
   }
 
@@ -282,7 +283,7 @@ class Cutting {
     const BoundaryPart& found = part(x);
     if (!found.is_free) return false;
     const double length = std::abs(x[axis] - from[axis]) / made_.step[axis];
-    made_.pressures.push_back({k, x, scene_.free_pressure(found, x)});
+    made_.pressures.push_back({k, x, scene_.free_pressure(found, x), number_of(found)});
     give(k, weight / std::max(length, shortest_link), made_.pressures.back().pressure);
     if (grid().kind[at(other)] == CutPoint::beyond) grid().kind[at(other)] = CutPoint::fixed;
     return true;

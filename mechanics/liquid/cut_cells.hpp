@@ -12,6 +12,7 @@ struct GivenPressure {
   convex::Index from = 0;
   Point at{};
   double pressure = 0;
+  std::size_t part = 0;
 };
 
 /// A piece of a wall: the point of the grid that stands for it, and, where the wall is off that point, the

@@ -11,6 +11,7 @@
 #include "mechanics/liquid/grid_pressure.hpp"
 #include "mechanics/liquid/hidden_flux.hpp"
 #include "mechanics/liquid/hidden_hole.hpp"
+#include "mechanics/liquid/hidden_part.hpp"
 #include "mechanics/liquid/hidden_pressure.hpp"
 #include "mechanics/liquid/largest_pressure.hpp"
 #include "mechanics/liquid/polygon.hpp"
@@ -159,6 +160,19 @@ std::vector<CutSolution> solve_balanced(GridLevels& levels) {
   return found;
 }
 
+/// "... has a hole at ... that lies", of what is not there for a grid; or "".
+std::string hidden_between_nodes(const LiquidScene& scene, const CutCells& cells) {
+  if (const auto hole = hidden_hole(scene.domain, cells))
+    return "domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
+           ", or is so narrow there, that it lies";
+  if (const auto hidden = hidden_part(scene, cells)) {
+    if (hidden->part == nullptr) static_cast<void>(scene.boundary_part(hidden->at));  // throws
+    return std::string(hidden->part->is_free ? "free." : "walls.") + hidden->part->name +
+           ": it has a piece at " + point_text(scene.coordinates, hidden->at) + " that lies";
+  }
+  return "";
+}
+
 /// Grids from the first one on until the pressure is known well enough. Empty when the scene is infeasible.
 std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const LiquidAccuracy& accuracy,
                                            GridLevels& levels, LiquidSolution& solution) {
@@ -171,12 +185,11 @@ std::vector<CutSolution> solve_well_enough(const LiquidScene& scene, const Liqui
       return {};
     }
     const bool is_last = scene.cells || 2 * levels.cells() > most_cells[axis];
-    if (const auto hole = hidden_hole(scene.domain, levels.finest())) {
+    if (const std::string hidden = hidden_between_nodes(scene, levels.finest()); !hidden.empty()) {
       if (is_last)
-        throw convex::InvalidInput(
-            "domain: it has a hole or a gap at " + point_text(scene.coordinates, *hole) +
-            ", or is so narrow there, that it lies between the nodes of a grid of " +
-            std::to_string(levels.cells()) + " cells; give more cells, or leave it out");
+        throw convex::InvalidInput(hidden + " between the nodes of a grid of " +
+                                   std::to_string(levels.cells()) +
+                                   " cells; give more cells, or leave it out");
       continue;
     }
     std::vector<CutSolution> found = closed == Closed::balanced ? solve_balanced(levels) : levels.solve(true);

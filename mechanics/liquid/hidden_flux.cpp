@@ -1,10 +1,8 @@
 #include "mechanics/liquid/hidden_flux.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "convex/infinity.hpp"
+#include "mechanics/liquid/hidden_values.hpp"
 
 namespace mechanics::liquid {
 namespace {
@@ -15,16 +13,6 @@ using convex::Index;
 constexpr std::array<int, 3> halvings_of_a_wall{6, 6, 3};
 constexpr long regions_of_walls = 1'000'000;
 constexpr double part_of_flux = 0.01;
-
-/// Of a flux on one part.
-struct FluxHull {
-  double low = convex::infinity, high = -convex::infinity;
-  void take(double flux) {
-    if (!std::isfinite(flux)) return;
-    low = std::min(low, flux);
-    high = std::max(high, flux);
-  }
-};
 
 class FluxSearch {
  public:
@@ -49,21 +37,31 @@ class FluxSearch {
       normal_ = domain_.outward(domain_.foot(wall.at));
       const Region at = cell_of(wall.point);
       if (!(beyond(at) > least_)) continue;
-      for (unsigned code = 0; code < 1U << d_; ++code) {
-        Point x{};
-        for (std::size_t i = 0; i < d_; ++i) x[i] = (code >> i & 1U) != 0 ? at[i].high : at[i].low;
-        expected_.take(scene_.wall_flux(*part_, domain_.foot(x), normal_));
-      }
-      sum_ = 0;
-      search(at, halvings_of_a_wall[d_ - 1]);
-      most = std::max(most, sum_);
+      for_corners(at, d_, [&](const Point& corner) {
+        expected_.take(scene_.wall_flux(*part_, domain_.foot(corner), normal_));
+      });
+      double sum = 0;
+      search(
+          at, {d_, halvings_of_a_wall[d_ - 1], &regions_},
+          [&](const Region& here) {
+            const double beyond_here = beyond(here);
+            return beyond_here > least_ && meets_wall(here) ? beyond_here : 0;
+          },
+          [&](const Region& here, double most_here, int depth) {
+            if (depth > 0) return false;
+            double size = 0;
+            for (std::size_t i = 0; i < d_; ++i) size = std::max(size, here[i].high - here[i].low);
+            if (size > 0) sum += most_here * size * (1 + std::log(domain_.longest() / size));
+            return false;
+          });
+      most = std::max(most, sum);
     }
     return most;
   }
 
  private:
-  FluxHull around(const WallPiece& wall) const {
-    FluxHull hull;
+  Hull around(const WallPiece& wall) const {
+    Hull hull;
     const auto take = [&](Index k) {
       const auto known = taken_.find({wall.part, k});
       if (known == taken_.end()) return;
@@ -88,49 +86,25 @@ class FluxSearch {
   }
 
   double beyond(const Region& at) const {
-    const expression::Range values = scene_.wall_flux_range(*part_, at, normal_);
-    if (values.is_empty()) return 0;
-    return std::max({values.high - expected_.high, expected_.low - values.low, 0.0});
-  }
-
-  void search(const Region& at, int halvings) {
-    const double most = beyond(at);
-    if (!(most > least_) || !meets_wall(at) || ++regions_ > regions_of_walls) return;
-    if (halvings == 0) {
-      double size = 0;
-      for (std::size_t i = 0; i < d_; ++i) size = std::max(size, at[i].high - at[i].low);
-      if (size > 0) sum_ += most * size * (1 + std::log(domain_.longest() / size));
-      return;
-    }
-    for (unsigned code = 0; code < 1U << d_; ++code) {
-      Region piece = at;
-      for (std::size_t i = 0; i < d_; ++i)
-        ((code >> i & 1U) != 0 ? piece[i].low : piece[i].high) = 0.5 * (at[i].low + at[i].high);
-      search(piece, halvings - 1);
-    }
+    return expected_.left_by(scene_.wall_flux_range(*part_, at, normal_));
   }
 
   bool meets_wall(const Region& at) const {
-    Point middle{};
-    double square = 0;
-    for (std::size_t i = 0; i < d_; ++i) {
-      middle[i] = 0.5 * (at[i].low + at[i].high);
-      square += (at[i].high - at[i].low) * (at[i].high - at[i].low);
-    }
+    const Point middle = middle_of(at);
     const Point foot = domain_.foot(middle);
     double away = 0;
     for (std::size_t i = 0; i < d_; ++i) away += (foot[i] - middle[i]) * (foot[i] - middle[i]);
-    return away <= 0.26 * square && scene_.part_at(foot) == part_;
+    return away <= 0.26 * diagonal_squared(at, d_) && scene_.part_at(foot) == part_;
   }
 
   const LiquidScene& scene_;
   const Domain& domain_;
   const CutCells& cells_;
   std::size_t d_;
-  double least_ = 0, sum_ = 0;
-  long regions_ = 0;
-  std::map<std::pair<std::size_t, Index>, FluxHull> taken_;
-  FluxHull expected_;
+  double least_ = 0;
+  long regions_ = regions_of_walls;
+  std::map<std::pair<std::size_t, Index>, Hull> taken_;
+  Hull expected_;
   const BoundaryPart* part_ = nullptr;
   Point normal_{};
 };

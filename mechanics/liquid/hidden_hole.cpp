@@ -1,92 +1,38 @@
 #include "mechanics/liquid/hidden_hole.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include "mechanics/liquid/hidden_values.hpp"
+#include "mechanics/liquid/polygon.hpp"
 
 namespace mechanics::liquid {
 namespace {
 
 using convex::Index;
-using Places = std::array<Index, 3>;
 
-/// Halvings of a cell along each axis, and boxes that are looked at within cells; intervals that stay wide
-/// take no more.
+/// Halvings of a cell along each axis, and boxes that are looked at within cells.
 constexpr int most_halvings = 10;
 constexpr long most_boxes = 200000;
 
-class HoleSearch {
- public:
-  HoleSearch(const Domain& domain, const CutCells& cells) : domain_(domain), cells_(cells) {}
+Point node(const CutCells& cells, const Places& place) {
+  Point x{};
+  for (std::size_t i = 0; i < cells.grid.dimension; ++i)
+    x[i] = cells.low[i] + static_cast<double>(place[i]) * cells.step[i];
+  return x;
+}
 
-  std::optional<Point> whole() {
-    Places end{1, 1, 1};
-    for (std::size_t i = 0; i < domain_.dimension; ++i)
-      end[i] = std::max<Index>(1, cells_.grid.points[i] - 1);
-    return among({}, end);
+/// Whether all nodes of a cell and of those around it are inside: no boundary that the grid sees is near.
+bool is_far_inside(const Domain& domain, const CutCells& cells, const Places& cell) {
+  Places low{}, high{};
+  for (std::size_t i = 0; i < domain.dimension; ++i) {
+    low[i] = cell[i] - 1;
+    high[i] = cell[i] + 2;
+    if (low[i] < 0 || high[i] >= cells.grid.points[i]) return false;
   }
-
- private:
-  Point node(const Places& place) const {
-    Point x{};
-    for (std::size_t i = 0; i < domain_.dimension; ++i)
-      x[i] = cells_.low[i] + static_cast<double>(place[i]) * cells_.step[i];
-    return x;
-  }
-
-  bool is_inside(const Point& low, const Point& high) const {
-    Region at{};
-    for (std::size_t i = 0; i < at.size(); ++i) at[i] = {low[i], high[i]};
-    return domain_.condition->range(at).high < 0;
-  }
-
-  /// In the cells from `begin` to before `end`.
-  std::optional<Point> among(const Places& begin, const Places& end) {
-    if (is_inside(node(begin), node(end))) return std::nullopt;
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < domain_.dimension; ++i)
-      if (end[i] - begin[i] > end[axis] - begin[axis]) axis = i;
-    if (end[axis] - begin[axis] <= 1)
-      return is_far_inside(begin) ? within(node(begin), node(end), 0) : std::nullopt;
-    Places middle_end = end, middle_begin = begin;
-    middle_end[axis] = middle_begin[axis] = (begin[axis] + end[axis]) / 2;
-    if (const auto found = among(begin, middle_end)) return found;
-    return among(middle_begin, end);
-  }
-
-  /// Whether all nodes of a cell and of those around it are inside: no boundary that the grid sees is near.
-  bool is_far_inside(const Places& cell) const {
-    Places low{}, high{};
-    for (std::size_t i = 0; i < domain_.dimension; ++i) {
-      low[i] = cell[i] - 1;
-      high[i] = cell[i] + 2;
-      if (low[i] < 0 || high[i] >= cells_.grid.points[i]) return false;
-    }
-    for (Index c = low[2]; c <= high[2]; ++c)
-      for (Index b = low[1]; b <= high[1]; ++b)
-        for (Index a = low[0]; a <= high[0]; ++a)
-          if (!(domain_.level(node({a, b, c})) < 0)) return false;
-    return true;
-  }
-
-  std::optional<Point> within(const Point& low, const Point& high, int halvings) {
-    if (++boxes_ > most_boxes || is_inside(low, high)) return std::nullopt;
-    Point middle{};
-    for (std::size_t i = 0; i < domain_.dimension; ++i) middle[i] = 0.5 * (low[i] + high[i]);
-    if (domain_.level(middle) > domain_.reach()) return middle;
-    if (halvings == most_halvings) return std::nullopt;
-    for (unsigned code = 0; code < 1U << domain_.dimension; ++code) {
-      Point from = low, to = high;
-      for (std::size_t i = 0; i < domain_.dimension; ++i) ((code >> i & 1U) != 0 ? from : to)[i] = middle[i];
-      if (const auto found = within(from, to, halvings + 1)) return found;
-    }
-    return std::nullopt;
-  }
-
-  const Domain& domain_;
-  const CutCells& cells_;
-  long boxes_ = 0;
-};
+  for (Index c = low[2]; c <= high[2]; ++c)
+    for (Index b = low[1]; b <= high[1]; ++b)
+      for (Index a = low[0]; a <= high[0]; ++a)
+        if (!(domain.level(node(cells, {a, b, c})) < 0)) return false;
+  return true;
+}
 
 /// A node of a domain that is one node thick at most of those looked at.
 std::optional<Point> thin_place(const Domain& domain, const CutCells& cells) {
@@ -124,7 +70,30 @@ std::optional<Point> hidden_hole(const Domain& domain, const CutCells& cells) {
   }
   if (!domain.condition) return std::nullopt;
   if (const auto thin = thin_place(domain, cells)) return thin;
-  return HoleSearch(domain, cells).whole();
+  const auto level = [&](const Region& at) {
+    const expression::Range values = domain.condition->range(at);
+    return values.is_empty() ? convex::infinity : values.high;
+  };
+  std::optional<Point> found;
+  const auto is_hole = [&](const Region& at, double, int) {
+    const Point middle = middle_of(at);
+    if (domain.level(middle) > domain.reach()) found = middle;
+    return found.has_value();
+  };
+  long boxes = most_boxes;
+  Places last{};
+  for (std::size_t i = 0; i < domain.dimension; ++i) last[i] = std::max<Index>(2, cells.grid.points[i]) - 2;
+  halve_places({}, last, [&](const Places& first, const Places& end) {
+    Places next = end;
+    for (std::size_t i = 0; i < domain.dimension; ++i) ++next[i];
+    const Point low = node(cells, first), high = node(cells, next);
+    const Region at{{{low[0], high[0]}, {low[1], high[1]}, {low[2], high[2]}}};
+    if (found || level(at) < 0) return true;
+    if (first == end && is_far_inside(domain, cells, first))
+      search(at, {domain.dimension, most_halvings, &boxes}, level, is_hole);
+    return false;
+  });
+  return found;
 }
 
 }  // namespace mechanics::liquid

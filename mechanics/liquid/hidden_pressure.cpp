@@ -1,16 +1,13 @@
 #include "mechanics/liquid/hidden_pressure.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
-#include "convex/infinity.hpp"
+#include "mechanics/liquid/hidden_values.hpp"
 
 namespace mechanics::liquid {
 namespace {
 
 using convex::Index;
-using Place = std::array<Index, 3>;
 
 /// How often a cell is halved, by dimension; regions looked at in all.
 constexpr std::array<int, 3> halvings_of_a_cell{6, 6, 3};
@@ -18,25 +15,8 @@ constexpr long regions_in_all = 2'000'000;
 /// Of the scale, what counts as a bump.
 constexpr double part_of_scale = 0.01;
 
-Point middle_of(const Region& at) {
-  Point x{};
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = 0.5 * (at[i].low + at[i].high);
-  return x;
-}
-
-/// Calls work with the halves, along all d axes.
-template <class Work>
-void for_pieces(const Region& at, std::size_t d, Work work) {
-  const Point middle = middle_of(at);
-  for (unsigned code = 0; code < 1U << d; ++code) {
-    Region piece = at;
-    for (std::size_t i = 0; i < d; ++i) ((code >> i & 1U) != 0 ? piece[i].low : piece[i].high) = middle[i];
-    work(piece);
-  }
-}
-
 /// Between nodes first and last of a grid.
-Region region_between(const CutCells& cells, const Place& first, const Place& last) {
+Region region_between(const CutCells& cells, const Places& first, const Places& last) {
   const Point low = cells.at(cells.grid.at(first[0], first[1], first[2])),
               high = cells.at(cells.grid.at(last[0], last[1], last[2]));
   Region made;
@@ -49,64 +29,66 @@ class BumpSearch {
   BumpSearch(const LiquidScene& scene, const CutCells& cells, double scale)
       : scene_(scene), cells_(cells), d_(scene.dimension()), least_(part_of_scale * scale) {
     for (const GivenPressure& given : cells.pressures) {
-      Place cell{};
+      Places cell{};
       for (std::size_t i = 0; i < d_; ++i)
         cell[i] = std::clamp<Index>(
             static_cast<Index>(std::floor((given.at[i] - cells.low[i]) / cells.step[i])) - cells.first[i], 0,
             cells.grid.points[i] - 2);
-      const auto [known, is_new] = given_.try_emplace(cell, Hull{given.pressure, given.pressure});
-      if (is_new) continue;
-      known->second.low = std::min(known->second.low, given.pressure);
-      known->second.high = std::max(known->second.high, given.pressure);
+      given_[cell].take(given.pressure);
     }
   }
 
   double largest() {
-    std::map<Place, bool> seen;
+    std::map<Places, bool> seen;
     for (const auto& [cell, hull] : given_)
-      for_cells_around(cell, [&](const Place& there) {
+      for_cells_around(cell, [&](const Places& there) {
         if (!seen.try_emplace(there, true).second) return;
-        Place end{};
+        Places end{};
         for (std::size_t i = 0; i < d_; ++i) end[i] = there[i] + 1;
-        hull_ = {convex::infinity, -convex::infinity};
-        for_cells_around(there, [&](const Place& near) {
+        hull_ = {};
+        for_cells_around(there, [&](const Places& near) {
           const auto known = given_.find(near);
           if (known == given_.end()) return;
-          hull_.low = std::min(hull_.low, known->second.low);
-          hull_.high = std::max(hull_.high, known->second.high);
+          hull_.take(known->second.low);
+          hull_.take(known->second.high);
         });
         const Region at = region_between(cells_, there, end);
         if (!(most_beyond(at) > least_)) return;
-        given_around_ = hull_;
+        const Hull given_around = hull_;
         take_in_corners(at);
-        search(at, halvings_of_a_cell[d_ - 1]);
+        search(
+            at, {d_, halvings_of_a_cell[d_ - 1], &regions_},
+            [&](const Region& here) {
+              const double most = most_beyond(here);
+              return most > std::max(least_, largest_) && meets_boundary(here) ? most : 0;
+            },
+            [&](const Region& here, double, int depth) {
+              if (depth > 0) return false;
+              const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(here)));
+              if (part != nullptr && beyond(hull_, *part, here) > least_)
+                largest_ = std::max(largest_, beyond(given_around, *part, here));
+              return false;
+            });
       });
     return largest_;
   }
 
  private:
-  struct Hull {
-    double low, high;
-  };
-
   template <class Work>
-  void for_cells_around(const Place& cell, Work work) const {
-    Place low{}, high{};
+  void for_cells_around(const Places& cell, Work work) const {
+    Places low{}, high{};
     for (std::size_t i = 0; i < d_; ++i) {
       low[i] = std::max<Index>(cell[i] - 1, 0);
       high[i] = std::min<Index>(cell[i] + 1, cells_.grid.points[i] - 2);
     }
     for (Index c = low[2]; c <= high[2]; ++c)
       for (Index b = low[1]; b <= high[1]; ++b)
-        for (Index a = low[0]; a <= high[0]; ++a) work(Place{a, b, c});
+        for (Index a = low[0]; a <= high[0]; ++a) work(Places{a, b, c});
   }
 
   /// By how much the values of a part in a region leave those given around.
   double beyond(const Hull& hull, const BoundaryPart& part, const Region& at) const {
-    if (!part.is_free || part.value.is_constant()) return 0;
-    const expression::Range values = part.value.range(at);
-    if (values.is_empty()) return 0;
-    return std::max({values.high - hull.high, hull.low - values.low, 0.0});
+    return part.is_free && !part.value.is_constant() ? hull.left_by(part.value.range(at)) : 0;
   }
 
   double most_beyond(const Region& at) const {
@@ -117,29 +99,11 @@ class BumpSearch {
 
   /// What parts give at the boundary nearest to the corners: they may go on beyond their last crossing.
   void take_in_corners(const Region& at) {
-    for (unsigned code = 0; code < 1U << d_; ++code) {
-      Point x{};
-      for (std::size_t i = 0; i < d_; ++i) x[i] = (code >> i & 1U) != 0 ? at[i].high : at[i].low;
-      x = scene_.domain.foot(x);
-      for (const BoundaryPart& part : scene_.parts) {
-        const double p = part.is_free ? part.value.raw(x) : hull_.low;
-        if (!std::isfinite(p)) continue;
-        hull_.low = std::min(hull_.low, p);
-        hull_.high = std::max(hull_.high, p);
-      }
-    }
-  }
-
-  void search(const Region& at, int halvings) {
-    if (!(most_beyond(at) > std::max(least_, largest_)) || !meets_boundary(at) || ++regions_ > regions_in_all)
-      return;
-    if (halvings > 0) {
-      for_pieces(at, d_, [&](const Region& piece) { search(piece, halvings - 1); });
-      return;
-    }
-    const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(at)));
-    if (part != nullptr)
-      if (beyond(hull_, *part, at) > least_) largest_ = std::max(largest_, beyond(given_around_, *part, at));
+    for_corners(at, d_, [&](const Point& corner) {
+      const Point x = scene_.domain.foot(corner);
+      for (const BoundaryPart& part : scene_.parts)
+        if (part.is_free) hull_.take(part.value.raw(x));
+    });
   }
 
   bool meets_boundary(const Region& at) const {
@@ -147,18 +111,17 @@ class BumpSearch {
       const expression::Range level = scene_.domain.condition->range(at);
       return level.is_empty() || (level.low <= 0 && level.high >= 0);
     }
-    double square = 0;
-    for (std::size_t i = 0; i < d_; ++i) square += (at[i].high - at[i].low) * (at[i].high - at[i].low);
-    return std::abs(scene_.domain.level(middle_of(at))) <= 0.5 * std::sqrt(square) + scene_.domain.reach();
+    return std::abs(scene_.domain.level(middle_of(at))) <=
+           0.5 * std::sqrt(diagonal_squared(at, d_)) + scene_.domain.reach();
   }
 
   const LiquidScene& scene_;
   const CutCells& cells_;
   std::size_t d_;
   double least_, largest_ = 0;
-  long regions_ = 0;
-  std::map<Place, Hull> given_;
-  Hull given_around_{}, hull_{};  ///< of crossings; of what is expected
+  long regions_ = regions_in_all;
+  std::map<Places, Hull> given_;
+  Hull hull_;  ///< of what is expected in a cell
 };
 
 }  // namespace

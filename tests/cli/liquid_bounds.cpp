@@ -2,6 +2,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "tests/cli/program.hpp"
 
@@ -124,5 +125,89 @@ TEST_CASE(
     }
     CHECK(error <= first_error / 8);  // 16 at second order
     CHECK(edge <= first_edge / 4);
+  }
+}
+
+TEST_CASE(
+    "what of a boundary lies between the nodes of a grid, a part of it, a gap or a cut, is refused by name") {
+  const auto refusal = [](const std::string& domain, const std::string& parts) {
+    const Folder folder;
+    const Outcome outcome =
+        run({"solve", folder.write("liquid.toml",
+                                   "[liquid]\ncoordinates = [\"x\", \"y\"]\ndensity = 1\ncells = "
+                                   "64\nforce = [\"0\", \"-1\"]\ndomain = \"" +
+                                       domain + "\"\n" + parts)});
+    return std::pair{outcome.code, outcome.err};
+  };
+  const std::string slit = "x > 0.3001 and x < 0.3006", wall = "w = { where = \"true\", acceleration = 0 }",
+                    square = "box(low=[0, 0], high=[1, 1])", disc = "disc(center=[0, 0], radius=1)";
+  // p = 2 - y as long as the slit is there, and without a free part none at all.
+  const std::string open =
+      "free = { slit = { where = \"y >= 1 and " + slit + "\", pressure = 1 } }\nwalls = { ";
+  for (const auto& [domain, parts, name] : {
+           std::tuple{square, open + wall + " }", "free.slit"},
+           std::tuple{square, open + "top = { where = \"y >= 1\", acceleration = 0 }, " + wall + " }",
+                      "free.slit"},
+           std::tuple{square,
+                      "free = { top = { where = \"y >= 1\", pressure = 1 } }\nwalls = { jet = { where = \"y "
+                      "<= 0 and " +
+                          slit + "\", acceleration = -1000 }, " + wall + " }",
+                      "walls.jet"},
+           std::tuple{
+               square,
+               "free = { top = { where = \"y >= 1\", pressure = 1 }, slit = { where = \"(x - 0.30035)^2 <= "
+               "1e-8\", pressure = 0 } }\nwalls = { " +
+                   wall + " }",
+               "free.slit"},
+           std::tuple{disc,
+                      "free = { slit = { where = \"y > 0 and " + slit +
+                          "\", pressure = 0 }, rest = { where = \"true\", pressure = 1 } }\n",
+                      "free.slit"},
+       }) {
+    const auto [code, words] = refusal(domain, parts);
+    CAPTURE(parts);
+    CHECK(code == 2);
+    CHECK(words.find(name + std::string(": it has a piece at (x = 0.30")) != std::string::npos);
+  }
+  const std::string ends =
+      "free = { left = { where = \"x <= -1\", pressure = 1 }, right = { where = \"x >= 1\", "
+      "pressure = 3 } }\nwalls = { " +
+      wall + " }";
+  for (const char* vertices : {
+           // two boxes joined by a channel, a box nearly cut in two, and a cut that is a wedge
+           "[-1,-0.5],[-0.1,-0.5],[-0.1,0.1001],[0.1,0.1001],[0.1,-0.5],[1,-0.5],[1,0.5],[0.1,0.5],[0.1,0."
+           "1011],"
+           "[-0.1,0.1011],[-0.1,0.5],[-1,0.5]",
+           "[-1,-0.5],[1,-0.5],[1,0.5],[0.1011,0.5],[0.1011,-0.499],[0.1001,-0.499],[0.1001,0.5],[-1,0.5]",
+           "[-1,-0.5],[1,-0.5],[1,0.5],[0.1011,0.5],[0.1005,-0.499],[0.1001,0.5],[-1,0.5]",
+       }) {
+    const auto [code, words] = refusal("polygon(vertices=[" + std::string(vertices) + "])", ends);
+    CAPTURE(vertices);
+    CHECK(code == 2);
+    CHECK(words.find("domain: it has a hole or a gap at (x = ") != std::string::npos);
+  }
+  // A piece that nothing claims.
+  const auto [unclaimed, said] =
+      refusal(square, "free = { all = { where = \"x < 0.3137 or x > 0.3138 or y < 0.5\", pressure = 1 } }\n");
+  CHECK(unclaimed == 2);
+  CHECK(said.find("the boundary point (x = 0.3137") != std::string::npos);
+  // Tips of wedges, of the liquid and into it, and a part that claims a point alone are no such thing.
+  for (const auto& [domain, parts] : {
+           std::pair{
+               std::string("polygon(vertices=[[-1,-0.5],[1,-0.48],[0.2,-0.1],[1,0.5],[0.1,0.2],[-1,0.5]])"),
+               ends},
+           std::pair<std::string, std::string>{
+               square,
+               "free = { corner = { where = \"x >= 1 and y >= 1\", pressure = 5 }, top = { where = \"y "
+               ">= 1\", pressure = 1 }, rest = { where = \"x <= 1\", pressure = 1 } }"},
+           std::pair<std::string, std::string>{square,
+                                               "free = { left = { where = \"x < 0.5\", pressure = 1 }, right "
+                                               "= { where = \"x > 0.5\", pressure = 1 } }"},
+           std::pair<std::string, std::string>{
+               disc, "free = { top = { where = \"x^2 + y^2 >= 1 and y > -2\", pressure = 1 } }\nwalls = { " +
+                         wall + " }"},
+       }) {
+    CAPTURE(parts);
+    CHECK(refusal(domain, parts).second == "");
   }
 }
