@@ -40,16 +40,23 @@ class Way {
     if (!unshown_) unshown_ = distance;
   }
   /// For certain.
-  bool changes(double parameter, double value) const {
-    return (value < 0) != is_negative_ &&
-           !(family_.rounding && std::abs(value) <= family_.rounding(parameter));
+  bool changes(const RoundedValue& found) const {
+    return (found.value < 0) != is_negative_ && (found.rounding == 0 || found.is_certain());
   }
 
-  /// Another sign, and rounding of the size of the values before: farther on nothing can be told.
-  bool is_hidden(double parameter, double value) const {
+  /// The number; none where there is none, or rounding of the size of the values before hides it. Farther on
+  /// than two such, or than one of the other sign, nothing can be told.
+  std::optional<RoundedValue> known(double parameter) {
     constexpr double most_part = 0.5;
-    return (value < 0) != is_negative_ && family_.rounding &&
-           family_.rounding(parameter) > most_part * last_.size;
+    constexpr int most_hidden = 2;
+    const std::optional<RoundedValue> found = family_.value(parameter);
+    if (!found || !(found->rounding > most_part * last_.size)) {
+      hidden_ = 0;
+      return found;
+    }
+    if ((found->value < 0) != is_negative_ || (!found->is_certain() && ++hidden_ == most_hidden))
+      is_open_ = false;
+    return found;
   }
 
   std::optional<std::pair<double, double>> halve(double near, double far) {
@@ -64,10 +71,10 @@ class Way {
       return is_open_ ? halve(middle, far) : std::nullopt;
     }
     ++trials_;
-    const std::optional<double> value = family_.value(b);
-    if (!value || is_hidden(b, *value)) is_open_ = false;
-    if (value && changes(b, *value)) return std::pair{a, b};
-    if (value) note(near);  // it comes close to 0, or touches it
+    const std::optional<RoundedValue> found = known(b);
+    if (!found) is_open_ = false;
+    if (found && changes(*found)) return std::pair{a, b};
+    if (found) note(near);  // it comes close to 0, or touches it
     return std::nullopt;
   }
 
@@ -88,11 +95,10 @@ class Way {
   /// Where the number ends in between, its sign just before that counts; where it comes nearer to 0 and goes
   /// away again, that of the nearest it comes.
   std::optional<std::pair<double, double>> step(double near, double far) {
-    const std::optional<double> value = family_.value(at(far));
-    if (value && changes(at(far), *value)) return std::pair{at(near), at(far)};
-    if (value && is_hidden(at(far), *value)) is_open_ = false;
+    const std::optional<RoundedValue> value = known(at(far));
+    if (value && changes(*value)) return std::pair{at(near), at(far)};
     if (value) {
-      const Seen here{far, std::abs(*value)};
+      const Seen here{far, std::abs(value->value)};
       const bool dips = before_ && last_.size <= before_->size && last_.size < here.size;
       const auto found = dips ? dip(*before_, last_, here) : std::nullopt;
       before_ = std::exchange(last_, here);
@@ -102,8 +108,8 @@ class Way {
     constexpr int halvings = 40;
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (near + far);
-      const std::optional<double> there = family_.value(at(middle));
-      if (there && changes(at(middle), *there)) return std::pair{at(near), at(middle)};
+      const std::optional<RoundedValue> there = family_.value(at(middle));
+      if (there && changes(*there)) return std::pair{at(near), at(middle)};
       (there ? near : far) = middle;
     }
     return std::nullopt;
@@ -127,10 +133,10 @@ class Way {
       double by = -slope / (2 * bend);
       if (!(std::abs(by) > shortest * (low + high))) by = golden * (high > low ? high : -low);
       const double here = m.distance + by;
-      const std::optional<double> value = family_.value(at(here));
+      const std::optional<RoundedValue> value = family_.value(at(here));
       if (!value) break;
-      if (changes(at(here), *value)) return std::pair{at(by > 0 ? m.distance : a.distance), at(here)};
-      const Seen seen{here, std::abs(*value)};
+      if (changes(*value)) return std::pair{at(by > 0 ? m.distance : a.distance), at(here)};
+      const Seen seen{here, std::abs(value->value)};
       if (seen.size < m.size) {
         (by > 0 ? a : b) = m;
         m = seen;
@@ -147,6 +153,7 @@ class Way {
   double side_;
   int& trials_;
   bool is_open_ = true;
+  int hidden_ = 0;                 // values in a row
   std::optional<double> unshown_;  // the first distance
   std::optional<Seen> before_;     // by values alone, the last two
   Seen last_;
@@ -160,12 +167,12 @@ std::optional<double> nearer(std::optional<double> a, std::optional<double> b, d
 }  // namespace
 
 FirstChange find_first_change(const SignedFamily& family, double start) {
-  const std::optional<double> first = family.value(start);
+  const std::optional<RoundedValue> first = family.value(start);
   if (!first) return {std::nullopt, start};
   const double size = start == 0 ? 1 : std::abs(start), farthest = 1e6 * size;
   constexpr double growth = 2;
   int trials = 0;
-  Way down(family, start, *first, -1, trials), up(family, start, *first, 1, trials);
+  Way down(family, start, first->value, -1, trials), up(family, start, first->value, 1, trials);
   double near = 0;
   for (double far = 1e-6 * size; far < farthest; near = far, far *= growth) {
     auto between = down.search(near, far);

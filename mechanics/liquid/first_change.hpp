@@ -1,16 +1,21 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
 
 namespace mechanics::liquid {
 
+/// A number, and what rounding may have done to it: its sign is known where it is larger than that.
+struct RoundedValue {
+  double value = 0, rounding = 0;
+  bool is_certain() const { return std::abs(value) > rounding; }
+};
+
 /// A number that depends on a parameter, with what is known of its sign.
 struct SignedFamily {
-  std::function<std::optional<double>(double)> value;  ///< none where there is none
-  /// What may be wrong with a value: its sign is known where it is larger. Empty: nothing.
-  std::function<double(double)> rounding;
+  std::function<std::optional<RoundedValue>(double)> value;  ///< none where there is none
   /// Shown between two values: it stays below 0, or (false) it does not fall below 0. Empty: nothing is
   /// shown.
   std::function<bool(double, double, bool)> keeps_sign;
@@ -27,7 +32,8 @@ struct FirstChange {
 };
 
 /// Distances from a millionth to a million times the size of `start`, both ways; a way ends where the number
-/// ends. An interval in which a change is not excluded is halved.
+/// ends, and where rounding hides two values in a row. An interval in which a change is not excluded is
+/// halved.
 FirstChange find_first_change(const SignedFamily&, double start);
 
 }  // namespace mechanics::liquid

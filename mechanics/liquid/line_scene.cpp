@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 
 namespace mechanics::liquid {
@@ -246,11 +247,13 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
   return found;
 }
 
-double least_line_pressure(const convex::LineObstacle& line) {
+RoundedValue least_line_pressure(const convex::LineObstacle& line) {
   const LineSolution solution = convex::solve_line(line, false);
-  if (line.at_low.kind != LineEnd::Kind::value && line.at_high.kind != LineEnd::Kind::value)
-    return solution.surplus;
-  return solution.least().value;
+  const bool is_closed =
+      line.at_low.kind != LineEnd::Kind::value && line.at_high.kind != LineEnd::Kind::value;
+  const double least = is_closed ? solution.surplus : solution.least().value;
+  if (solution.nodes > line.most_cells && !line.departure) return {least, convex::infinity};
+  return {least, std::isfinite(solution.error_bound) ? solution.error_bound : 0};
 }
 
 }  // namespace mechanics::liquid

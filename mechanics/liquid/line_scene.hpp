@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/obstacle/line_obstacle.hpp"
+#include "mechanics/liquid/first_change.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 
 namespace mechanics::liquid {
@@ -27,7 +28,8 @@ std::optional<LineScene> as_line(const LiquidScene&);
 LiquidSolution solve_line_scene(const LiquidScene&, const LineScene&, const LiquidAccuracy&);
 
 /// The least value of the pressure without the obstacle, below 0 if and only if cavitation has begun; where
-/// no pressure is given, minus what the walls lack.
-double least_line_pressure(const convex::LineObstacle&);
+/// no pressure is given, minus what the walls lack. With its error, 0 where that is not known; infinite where
+/// more than the cells allowed would have been needed, and no departures say what that makes.
+RoundedValue least_line_pressure(const convex::LineObstacle&);
 
 }  // namespace mechanics::liquid

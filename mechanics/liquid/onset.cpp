@@ -11,11 +11,11 @@
 namespace mechanics::liquid {
 namespace {
 
-using Sign = std::function<std::optional<double>(double)>;
+using Sign = std::function<std::optional<RoundedValue>(double)>;
 
 /// Halving with the secant where it does better; f(a) and f(b) differ in sign.
 LiquidOnset root(const Sign& f, double a, double b, double accuracy, double least_size) {
-  double fa = *f(a), fb = *f(b);
+  double fa = f(a)->value, fb = f(b)->value;
   if ((fa < 0) == (fb < 0)) return {0.5 * (a + b), std::abs(b - a)};  // rounding hides the sign at an end
   int stuck = 0;
   while (std::abs(b - a) > accuracy * std::max({std::abs(a), std::abs(b), least_size})) {
@@ -23,15 +23,16 @@ LiquidOnset root(const Sign& f, double a, double b, double accuracy, double leas
     // A step towards the far end makes the interval short once the root is nearly known.
     if (!(std::min(a, b) < x && x < std::max(a, b))) x = 0.5 * (a + b);
     if (x == a || x == b) break;
-    const std::optional<double> value = f(x);
-    if (!value) break;
+    const std::optional<RoundedValue> found = f(x);
+    if (!found) break;
+    const double value = found->value;
     const double width = std::abs(b - a);
-    if ((*value < 0) == (fa < 0)) {
+    if ((value < 0) == (fa < 0)) {
       a = x;
-      fa = *value;
+      fa = value;
     } else {
       b = x;
-      fb = *value;
+      fb = value;
     }
     stuck = std::abs(b - a) > 0.5 * width ? stuck + 1 : 0;
   }
@@ -40,11 +41,12 @@ LiquidOnset root(const Sign& f, double a, double b, double accuracy, double leas
 
 /// How far from its root the least pressure leaves what rounding may have done to it.
 double rounding_error(const ParameterFamily& family, double root, double size) {
-  const double rounding = family.rounding(root);
+  const std::optional<RoundedValue> there = family.least(root, 0);
+  const double rounding = there ? there->rounding : 0;
   double reach = 1e-13 * size;
   const auto is_near = [&](double value) {
-    const std::optional<double> least = family.least(value, 0);
-    return least && std::abs(*least) <= rounding;
+    const std::optional<RoundedValue> least = family.least(value, 0);
+    return least && std::abs(least->value) <= rounding;
   };
   while (reach < size && (is_near(root - reach) || is_near(root + reach))) reach *= 2;
   return reach;
@@ -53,8 +55,8 @@ double rounding_error(const ParameterFamily& family, double root, double size) {
 /// A change of sign around a value, searched for in steps that double.
 std::optional<std::pair<double, double>> near_bracket(const Sign& f, double value, double step) {
   for (int doubling = 0; doubling < 30; ++doubling, step *= 2) {
-    const std::optional<double> low = f(value - step), high = f(value + step);
-    if (low && high && (*low < 0) != (*high < 0)) return std::pair{value - step, value + step};
+    const std::optional<RoundedValue> low = f(value - step), high = f(value + step);
+    if (low && high && (low->value < 0) != (high->value < 0)) return std::pair{value - step, value + step};
     if (!low && !high) return std::nullopt;
   }
   return std::nullopt;
@@ -72,12 +74,7 @@ OnsetSearch find_onset(const LiquidText& text, const std::string& parameter, con
   const std::array<long, 3> first_cells{64, 32, 8}, most_cells{1024, 512, 64};
   const std::size_t axis = scene.dimension() - 1;
   const bool is_line = as_line(scene).has_value();
-  SignedFamily searched{least_on(first_cells[axis]), {}, {}};
-  if (is_line)
-    searched.rounding = [&family](double value) {
-      const double known_to = family.rounding(value);
-      return std::isfinite(known_to) ? known_to : 0;  // of an h without bound the sum is all that there is
-    };
+  SignedFamily searched{least_on(first_cells[axis]), {}};
   if (family.has_bounds())
     searched.keeps_sign = [&](double low, double high, bool negative) {
       return family.keeps_sign(low, high, negative, first_cells[axis]);

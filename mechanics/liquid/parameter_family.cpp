@@ -11,6 +11,7 @@
 namespace mechanics::liquid {
 namespace {
 
+using convex::Index;
 using convex::LineEnd;
 using expression::Operation;
 using expression::Range;
@@ -104,24 +105,25 @@ ParameterFamily::ParameterFamily(const LiquidText& text, std::string parameter)
   }
 }
 
-std::optional<double> ParameterFamily::least(double value, long cells) const {
+std::optional<RoundedValue> ParameterFamily::least(double value, long cells) const {
   try {
     const LiquidScene scene = read_scene(with_parameter(text_, parameter_, value));
     if (const std::optional<LineScene> line = as_line(scene)) return least_line_pressure(line->problem);
-    return least_grid_pressure(scene, cells);
+    return RoundedValue{least_grid_pressure(scene, cells)};
   } catch (const convex::InvalidInput&) {
     return std::nullopt;
   }
 }
 
-double ParameterFamily::rounding(double value) const {
-  const LiquidScene scene = read_scene(with_parameter(text_, parameter_, value));
-  const std::optional<LineScene> line = as_line(scene);
-  return line ? convex::solve_line(line->problem, false).error_bound : 0;
-}
-
 bool ParameterFamily::keeps_sign(double low, double high, bool negative, long cells) const {
   const auto keeps = [&](double least) { return negative ? least < 0 : least >= 0; };
+  const auto line_keeps = [&](convex::LineObstacle line) {
+    constexpr Index most_cells = 2000;  // a shorter interval asks for fewer
+    line.most_cells = most_cells;
+    if (!is_finite(line)) return false;
+    const RoundedValue least = least_line_pressure(line);
+    return std::isfinite(least.rounding) && keeps(least.value);
+  };
   const Bound bound = negative ? Bound::upper : Bound::lower;
   try {
     LiquidText text = text_;
@@ -129,13 +131,10 @@ bool ParameterFamily::keeps_sign(double low, double high, bool negative, long ce
     const LiquidScene scene = read_scene(text);
     const std::optional<LineScene> line = as_line(scene);
     if (!line) return !moves_domain_ && keeps(least_grid_pressure(scene.bounded(bound), cells));
-    if (moves_domain_) {
-      const convex::LineObstacle made = bounding_line(scene, *line, bound);
-      return is_finite(made) && keeps(least_line_pressure(made));
-    }
+    if (moves_domain_) return line_keeps(bounding_line(scene, *line, bound));
     const LiquidScene side = scene.bounded(bound);
     const std::optional<LineScene> bounded = as_line(side);
-    return bounded && is_finite(bounded->problem) && keeps(least_line_pressure(bounded->problem));
+    return bounded && line_keeps(bounded->problem);
   } catch (const convex::InvalidInput&) {
     return false;
   }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "mechanics/liquid/first_change.hpp"
 #include "mechanics/liquid/liquid_scene.hpp"
 
 namespace mechanics::liquid {
@@ -14,10 +15,9 @@ class ParameterFamily {
  public:
   ParameterFamily(const LiquidText&, std::string parameter);
 
-  /// None where the scene is none (a density of 0, say). `cells`: of the grid, for what is no line.
-  std::optional<double> least(double value, long cells) const;
-  /// What rounding may do to it; of a line.
-  double rounding(double value) const;
+  /// None where the scene is none (a density of 0, say). `cells`: of the grid, for what is no line. Its
+  /// rounding is known of lines; of an h without bound the sum is all that there is.
+  std::optional<RoundedValue> least(double value, long cells) const;
   /// Whether intervals can tell of it: not where the domain, or which part is where, depends on the
   /// parameter, but for the ends of intervals and the radii of balls.
   bool has_bounds() const { return has_bounds_; }

@@ -5,6 +5,7 @@
 #include "tests/cli/program.hpp"
 
 using namespace tests;
+using mechanics::liquid::find_first_change, mechanics::liquid::RoundedValue, mechanics::liquid::SignedFamily;
 using LineJson = nlohmann::json;
 
 namespace {
@@ -102,30 +103,41 @@ TEST_CASE("a wall that is as fast as the liquid beside a cavity is not parted fr
 TEST_CASE(
     "a sign that rounding may have made is no change, and a way whose values rounding hides has ended") {
   int asked = 0;
-  mechanics::liquid::SignedFamily family;
+  const auto sign = [&](double w) {
+    ++asked;
+    return w < -50 ? -1 - w * w : 1;
+  };
+  SignedFamily family;
+  family.value = [&](double w) { return RoundedValue{sign(w)}; };
+  CHECK(find_first_change(family, -1).between.has_value());
+  const int without = asked;
+  family.value = [&](double w) { return RoundedValue{sign(w), w < -50 ? 2 * w * w : 1e-15}; };
+  asked = 0;
+  CHECK_FALSE(find_first_change(family, -1).between.has_value());
+  CHECK(asked < 4 * without);
+  // Of the same sign too: two such values in a row end it, and one does not.
+  const auto hidden = [&](double w) { return RoundedValue{1, w > 7 && w < 7.5 ? 2 : w > 100 ? 1e3 : 1e-15}; };
   family.value = [&](double w) {
     ++asked;
-    return std::optional<double>(w < -50 ? -1 - w * w : 1);
+    return hidden(w);
   };
-  CHECK(mechanics::liquid::find_first_change(family, -1).between.has_value());
-  const int without = asked;
-  family.rounding = [](double w) { return w < -50 ? 2 * w * w : 1e-15; };
   asked = 0;
-  CHECK_FALSE(mechanics::liquid::find_first_change(family, -1).between.has_value());
-  CHECK(asked < 4 * without);
+  CHECK_FALSE(find_first_change(family, 1).between.has_value());
+  CHECK(asked < 3 * without);
+  family.value = [&](double w) { return w > 50 ? RoundedValue{-1} : hidden(w); };
+  CHECK(find_first_change(family, 1).between.has_value());
   // A value that is 0 to rounding, beside values that are not, ends nothing.
-  family.value = [](double w) { return std::optional<double>(2 - w); };
-  family.rounding = [](double) { return 1e-15; };
-  const auto found = mechanics::liquid::find_first_change(family, 1).between;
+  family.value = [](double w) { return RoundedValue{2 - w, 1e-15}; };
+  const auto found = find_first_change(family, 1).between;
   REQUIRE(found);
   CHECK(found->first <= 2);
   CHECK(found->second >= 2);
 }
 
 TEST_CASE("a dip below 0 between values that grow by a quarter is found by the way they bend") {
-  mechanics::liquid::SignedFamily family;
-  family.value = [](double w) { return std::optional<double>((w - 7) * (w - 7) - 1e-6); };
-  const auto found = mechanics::liquid::find_first_change(family, 1).between;
+  SignedFamily family;
+  family.value = [](double w) { return RoundedValue{(w - 7) * (w - 7) - 1e-6}; };
+  const auto found = find_first_change(family, 1).between;
   REQUIRE(found);
   CHECK(std::abs(found->second - 7) <= 1e-3);
 }

@@ -54,6 +54,24 @@ TEST_CASE("the onset is the nearest value at which p passes 0, however near to t
   }
 }
 
+TEST_CASE("the onset is exact where the force has kinks, wherever they lie between the points of a rule") {
+  // p = 1/2 + w k(x) with k = Σ A (x - c)²/2 over c < x is least at the wall, x = 1.9.
+  for (int n = 0; n < 24; ++n) {
+    const double first = std::fmod(0.1234 + 0.61803 * n, 1.7), second = std::fmod(0.05 + 0.41421 * n, 1.7);
+    const std::string text =
+        "[liquid]\ncoordinates = [\"x\"]\ndomain = \"interval(low=0, high=1.9)\"\ndensity = 1\nforce = "
+        "[\"-w*(0.4*max(x - " +
+        std::to_string(first) + ", 0) + 2.5*max(x - " + std::to_string(second) +
+        ", 0))\"]\nfree = { left = { where = \"x <= 1\", pressure = 0.5 } }\nwalls = { right = { where = "
+        "\"true\", acceleration = 0 } }\n[liquid.parameters]\nw = 20\n";
+    const double a = 1.9 - std::stod(std::to_string(first)), b = 1.9 - std::stod(std::to_string(second)),
+                 value = 0.5 / (0.2 * a * a + 1.25 * b * b);
+    const OnsetJson found = onset_of_w(text);
+    CAPTURE(text);
+    CHECK(std::abs(found["onset"]["w"].get<double>() - value) <= 1e-11 * value);
+  }
+}
+
 TEST_CASE("that a parameter has no onset is shown by intervals, or said to be known of samples") {
   const OnsetJson none = onset_of_w(pulled("sin(w)*x", "0.5001", "0.1")),
                   touches = onset_of_w(pulled("x", "1/2 + (w - 3)^2", "1"));

@@ -15,8 +15,6 @@ constexpr double shortest_part = 0x1p-44;
 /// What a sum of terms of this absolute size may be off.
 constexpr double rounding = 16 * unit_roundoff;
 constexpr int most_rounds = 400, most_active_sets = 1000;
-/// An h that varies faster than so many cells resolve is given up; the error bound says so.
-constexpr std::size_t most_cells = 20000;
 
 using Kind = LineEnd::Kind;
 
@@ -177,7 +175,7 @@ class LineCells {
     if (draws(problem_.at_low, 0, 0)) mark(0);
     if (draws(problem_.at_high, last(), last() - 1)) mark(last() - 1);
     if (first() == 1 && !is_zero(1) && value(0, 0) < -rounding_) mark(0);
-    if (cells.size() > most_cells) return false;
+    if (has_many()) return false;
     if (std::none_of(halve.begin(), halve.end(), [](bool b) { return b; })) return false;
     std::vector<double> old_r;
     std::vector<CellLoad> old_cells;
@@ -221,6 +219,7 @@ class LineCells {
   /// p in a cell falls below the lesser of its ends by at most ∫ G |h| w, Green's function G being at most a
   /// quarter of the cell's resistance; twice that, for the rounding.
   double largest_dip(std::size_t cell) const { return 0.5 * cells[cell].resistance * cells[cell].absolute; }
+  bool has_many() const { return static_cast<Index>(cells.size()) > problem_.most_cells; }
   double known_error() const { return rounding_ + unresolved_; }
 
  private:
@@ -247,6 +246,15 @@ class LineCells {
   double hidden_mass(double a, double b, const CellLoad& taken) const {
     return 2 * (problem_.mass(a, b) + taken.absolute) * (problem_.high - problem_.low);
   }
+  /// Where no departure is known: whether h leaves the polynomial through the points of the rule between the
+  /// outer ones and the ends. A jump there changes neither the rule's sum nor those of the halves.
+  bool leaves_at_ends(double a, double b, const CellLoad& whole) const {
+    constexpr double part = 0x1p-30;  // of the mean; what is so small makes less of p than is asked for
+    if (problem_.departure) return false;
+    const double counted = part * whole.absolute / (b - a);
+    return !(std::abs(w_(a) * problem_.h(a) - whole.at_low) <= counted &&
+             std::abs(w_(b) * problem_.h(b) - whole.at_high) <= counted);
+  }
   double seen() const { return resolved_ + 0x1p-50 * ends_ / first_cells; }
   /// [a, b], in parts on which the rule is exact to rounding.
   void add(double a, double b, const CellLoad& whole) {
@@ -258,11 +266,12 @@ class LineCells {
     const double noise = rounding * whole.variation * std::max(std::abs(a), std::abs(b));
     const double noise_of_moment = whole.absolute > 0 ? noise * (whole.absolute_moment / whole.absolute) : 0;
     const bool is_exact =
+        !leaves_at_ends(a, b, whole) &&
         std::abs(whole.moment - moment) <= resolved_ + rounding * whole.absolute_moment + noise_of_moment &&
         std::abs(whole.load - load) * (b - a) <=
             (resolved_ + rounding * whole.absolute * (b - a)) * w_(b) + noise * (b - a);
     const double missed = has_departures_ ? hidden(a, b) : 0;
-    if ((is_exact && missed <= seen()) || b - a <= shortest_ || cells.size() > most_cells) {
+    if ((is_exact && missed <= seen()) || b - a <= shortest_ || has_many()) {
       cells.push_back(whole);
       r.push_back(b);
       unresolved_ += is_exact ? 0 : std::abs(whole.moment - moment);

@@ -29,6 +29,9 @@ struct LineObstacle {
   /// At most |∫ h| over parts of what is between two points, for an h without bound there, with the power 0;
   /// empty: not known.
   std::function<double(double, double)> mass = {};
+  /// An h that varies faster than so many cells resolve is given up; the error bound says so where departures
+  /// are known.
+  Index most_cells = 20000;
 };
 
 /// A maximal interval where p > 0 (liquid) or p = 0 (not).

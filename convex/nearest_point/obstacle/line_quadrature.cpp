@@ -27,6 +27,14 @@ const GaussLegendre& gauss_legendre() {
       made.point[k] = x;
       made.weight[k] = 2 / ((1 - x * x) * slope * slope);
     }
+    for (std::size_t k = 0; k < n; ++k) {  // Lagrange's polynomials
+      made.at_low[k] = made.at_high[k] = 1;
+      for (std::size_t j = 0; j < n; ++j) {
+        if (j == k) continue;
+        made.at_low[k] *= (-1 - made.point[j]) / (made.point[k] - made.point[j]);
+        made.at_high[k] *= (1 - made.point[j]) / (made.point[k] - made.point[j]);
+      }
+    }
     return made;
   }();
   return rule;
@@ -51,6 +59,8 @@ CellLoad cell_load(const std::function<double(double)>& h, LineWeight w, double 
     sum.largest_source = std::max(sum.largest_source, source);
     if (k > 0) sum.variation += std::abs(source - before);
     before = source;
+    sum.at_low += rule.at_low[k] * source;
+    sum.at_high += rule.at_high[k] * source;
     sum.load += load;
     sum.moment += moment;
     sum.absolute += std::abs(load);
