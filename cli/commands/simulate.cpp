@@ -137,16 +137,18 @@ class MotionFiles {
   std::optional<Animation> animation_;
 };
 
-/// Steps, times the square of the numbers of a scene, that take a fraction of a second: as long a second
-/// motion is not noticed.
+/// Steps, times the square of the numbers of a scene, that take a fraction of a second: other motions that
+/// take no more are not noticed.
 constexpr double unnoticed_work = 2e5;
 
-/// Whether a second motion, which tells what a rounding grows to, is taken.
-bool is_followed_twice(const mechanics::LagrangianSystem& system, const mechanics::Motion& motion) {
+/// How many other motions, which tell what a rounding grows to, are followed.
+mechanics::Index motions_beside(const mechanics::LagrangianSystem& system, const mechanics::Motion& motion) {
+  if (motion.method() != mechanics::MotionMethod::event_driven ||
+      motion.status() != mechanics::MotionStatus::done)
+    return 0;
   const auto size = static_cast<double>(system.coordinates().size() + system.constraints().size());
-  return motion.method() == mechanics::MotionMethod::event_driven &&
-         motion.status() == mechanics::MotionStatus::done &&
-         static_cast<double>(motion.record().steps) * size * size <= unnoticed_work;
+  const double work = static_cast<double>(std::max(1L, motion.record().steps)) * size * size;
+  return static_cast<mechanics::Index>(std::min(unnoticed_work / work, unnoticed_work));
 }
 
 /// What is done where events crowd, and said: `auto` goes on in steps, if the motion has a hundred of them.
@@ -210,8 +212,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
     return {motion.record().first_impact ? Exit::solved : Exit::inaccurate, laws};
   }
   followed.interrupted = interrupted != 0 && motion.state().t < until;
-  if (!followed.interrupted && is_followed_twice(*system, motion))
-    followed.growth = mechanics::rounding_growth(*system, state, chosen, motion);
+  if (const mechanics::Index most = motions_beside(*system, motion); !followed.interrupted && most > 0)
+    followed.growth = mechanics::rounding_growth(*system, state, chosen, motion, most);
   files.finish(motion, problem.title.empty() ? file : problem.title);
   followed.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Answer answer{motion_exit(followed), options.json ? motion_json(followed) + "\n" : motion_text(followed)};

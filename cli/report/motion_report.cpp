@@ -48,7 +48,11 @@ std::optional<mechanics::MotionRemark> remark_on_growth(const FollowedMotion& fo
       t,
       "an error of one rounding at the start has grown to " + number_text(growth.change) + " in " +
           followed.system.coordinates()[static_cast<std::size_t>(growth.coordinate)] +
-          (growth.of_velocity ? "'" : "") + ", so that digits beyond that are not determined by the data",
+          (growth.of_velocity ? "'" : "") + ", so that digits beyond that are not determined by the data; " +
+          (growth.bound_over_change > 0
+               ? "to first order, with other signs, to " +
+                     number_text(growth.bound_over_change * growth.change) + " at most"
+               : "with other signs it may have grown to more"),
       1,
       t,
       growth.change};

@@ -1,17 +1,21 @@
 #include "mechanics/motion/rounding_growth.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace mechanics::inline motions {
 namespace {
 
-Vector one_rounding_away(Vector x) {
-  for (double& entry : x)
-    if (entry != 0)
-      entry = std::nextafter(entry, std::copysign(std::numeric_limits<double>::infinity(), entry));
-  return x;
+/// Row k of Sylvester's matrix gives the signs; `number` counts the entries that are not 0.
+void move_by_a_rounding(Vector& x, unsigned k, unsigned& number) {
+  for (double& entry : x) {
+    if (entry == 0) continue;
+    const double away = std::copysign(std::numeric_limits<double>::infinity(), entry);
+    const double next = std::nextafter(entry, away);
+    entry = std::popcount(k & number++) % 2 == 0 ? next : entry - (next - entry);
+  }
 }
 
 /// What has not grown so many times is no loss: numbers that are rounding themselves change by all they are.
@@ -28,40 +32,63 @@ struct Sizes {
   }
 };
 
-}  // namespace
-
-std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, const State& start,
-                                              const MotionOptions& options, const Motion& ended) {
-  const State other{start.t, one_rounding_away(start.q), one_rounding_away(start.v)};
-  if (other.q == start.q && other.v == start.v) return std::nullopt;
-  const State& end = ended.state();
-  Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
-  sizes.take(end);
-  State then;
+/// The end of the motion from there; nothing where it has another one.
+std::optional<State> end_of(const LagrangianSystem& system, const State& start, const MotionOptions& options,
+                            double until, Sizes& sizes) {
   try {
-    Motion motion(system, other, options);
-    while (motion.advance(end.t)) {
+    Motion motion(system, start, options);
+    while (motion.advance(until)) {
       sizes.take(motion.arc().state(0.5 * motion.arc().length));
       sizes.take(motion.state());
     }
-    if (motion.status() != MotionStatus::done || motion.state().t != end.t) return std::nullopt;
-    then = motion.state();
-  } catch (const convex::InvalidInput&) {
-    return std::nullopt;  // contacts that a rounding opens or closes
+    if (motion.status() == MotionStatus::done && motion.state().t == until) return motion.state();
+  } catch (const convex::InvalidInput&) {  // contacts that a rounding opens or closes
   }
-  RoundingGrowth found;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, const State& start,
+                                              const MotionOptions& options, const Motion& ended, Index most) {
+  unsigned numbers = 0;
+  State other = start;
+  move_by_a_rounding(other.q, 0, numbers);
+  move_by_a_rounding(other.v, 0, numbers);
+  if (numbers == 0) return std::nullopt;
   const double dq = (other.q - start.q).lpNorm<Eigen::Infinity>();
-  const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>(), time = end.t - start.t;
+  const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>();
+  const State& end = ended.state();
+  Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
+  sizes.take(end);
+  const unsigned order = std::bit_ceil(numbers);
+  unsigned followed = 0;
+  Vector change_q = Vector::Zero(start.q.size()), change_v = change_q;  // the worst
+  for (unsigned k = 0; k < order && k < most; ++k) {
+    other = start;
+    unsigned number = 0;
+    move_by_a_rounding(other.q, k, number);
+    move_by_a_rounding(other.v, k, number);
+    const std::optional<State> then = end_of(system, other, options, end.t, sizes);
+    if (!then) continue;
+    ++followed;
+    change_q = change_q.cwiseMax((then->q - end.q).cwiseAbs());
+    change_v = change_v.cwiseMax((then->v - end.v).cwiseAbs());
+  }
+  if (followed == 0) return std::nullopt;
+  RoundingGrowth found;
+  const double time = end.t - start.t;
   const auto look = [&](Index i, bool of_velocity, double change, double size, double error) {
     if (change > std::max(found.part * size, least_growth * error))
       found = {i, of_velocity, change, change / size};
   };
-  for (Index i = 0; i < then.q.size(); ++i) {
-    look(i, false, std::abs(then.q[i] - end.q[i]), sizes.q[i], dq + dv * time);
+  for (Index i = 0; i < change_q.size(); ++i) {
+    look(i, false, change_q[i], sizes.q[i], dq + dv * time);
     // An oscillation turns an error of its position into one of its velocity.
     const double rate = std::max(time > 0 ? 1 / time : 0, sizes.q[i] > 0 ? sizes.v[i] / sizes.q[i] : 0);
-    look(i, true, std::abs(then.v[i] - end.v[i]), sizes.v[i], dv + dq * rate);
+    look(i, true, change_v[i], sizes.v[i], dv + dq * rate);
   }
+  if (followed == order) found.bound_over_change = std::sqrt(static_cast<double>(numbers));
   return found;
 }
 

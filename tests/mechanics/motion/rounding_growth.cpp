@@ -12,9 +12,9 @@ using namespace tests;
 namespace {
 
 std::optional<RoundingGrowth> growth(const SystemText& text, const State& start, double until,
-                                     const MotionOptions& options = {}) {
+                                     const MotionOptions& options = {}, Index most = 64) {
   const Followed found = followed(text, start, until, options);
-  return rounding_growth(*found.system, start, options, found.motion);
+  return rounding_growth(*found.system, start, options, found.motion, most);
 }
 
 }  // namespace
@@ -54,4 +54,30 @@ TEST_CASE("of a chaotic motion no digit is left after a minute") {
   const auto found = growth(pendulum, state({2, 2.5}, {0, 0}), 60);
   REQUIRE(found);
   CHECK(found->part > 1e-3);
+}
+
+TEST_CASE("what roundings of all signs grow to is within the bound that is told, and one sign misses it") {
+  // x'' = x: with (dx + dv) e^T / 2, signs that cancel leave nothing to see.
+  const SystemText saddle{{"x"}, "x'^2/2", "-x^2/2", {}, {}, {}, {}};
+  const double T = 20, rounding = 0x1p-52;
+  const auto all = growth(saddle, state({1}, {-1}), T), one = growth(saddle, state({1}, {-1}), T, {}, 1);
+  REQUIRE(all);
+  REQUIRE(one);
+  const double most = rounding * std::exp(T);  // |dx| = |dv| = a rounding
+  CHECK(one->change < 0.5 * most);
+  CHECK(one->bound_over_change == 0);
+  CHECK(all->change <= 1.5 * most);
+  CHECK(all->bound_over_change * all->change >= 0.9 * most);
+  CHECK(all->bound_over_change == std::sqrt(2.0));
+}
+
+TEST_CASE("a bound is told where all rows of the next power of two were tried, and only there") {
+  const SystemText saddle{{"x", "y"}, "(x'^2 + y'^2)/2", "-(x^2 + y^2)/2", {}, {}, {}, {}};
+  const State start = state({1, 1}, {-0.999999, 0});
+  const auto all = growth(saddle, start, 20, {}, 4), some = growth(saddle, start, 20, {}, 3);
+  REQUIRE(all);
+  REQUIRE(some);
+  CHECK(all->bound_over_change == std::sqrt(3.0));
+  CHECK(some->bound_over_change == 0);
+  CHECK(some->change <= all->change);
 }
