@@ -25,7 +25,7 @@ std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& o
 }
 
 /// Of the word operations that fractions may take, what they may for signs within the error bound.
-constexpr double part_for_zeros = 0.05;
+constexpr double part_for_zeros = 0.2;
 
 /// Aq = z + Uᵀlambda, without rounding; false for a sparse A, which is not looked at.
 bool is_in_balance(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {

@@ -247,7 +247,7 @@ class SparseActiveSet {
     const double spread_of_units = scaled_.coordinate.maxCoeff() / scaled_.coordinate.minCoeff();
     const double inverse_norm = 2 * spread_of_units / std::sqrt(delta_);
     if (silence_ > 0) doubtful_ = std::max(doubtful_, silence_ * (1 + size_of_q()));
-    solution.error_bound = 2 * unit * point_.remaining() + solution.rounding +
+    solution.error_bound = unit * (2 * point_.remaining() + point_.silenced) + solution.rounding +
                            unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
                                std::sqrt(static_cast<double>(rows_.size() + 1));
     const bool close =

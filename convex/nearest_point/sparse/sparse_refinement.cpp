@@ -43,15 +43,31 @@ bool plainly_negative(const BalancedProblem& scaled, const std::vector<Index>& r
   return false;
 }
 
+/// The terms of z + U_Wᵀlambda, whose sums in twice the precision are rounded by u² of them: multipliers of
+/// rows that are nearly opposite cancel there.
+double size_of_terms(const BalancedProblem& scaled, const std::vector<Index>& rows,
+                     const DoubleDoubleVector& lambda) {
+  Vector pull = Vector::Zero(scaled.s.size());
+  for (Index k = 0; k < static_cast<Index>(rows.size()); ++k) {
+    const Index a = rows[static_cast<std::size_t>(k)];
+    pull[a] = std::abs(lambda.hi[k]) / scaled.multiplier[a];
+  }
+  return (scaled.z.cwiseAbs() + scaled.U.cwiseAbs().transpose() * pull).norm();
+}
+
 /// Weights of `central_weights` reach from this part of the largest to it.
 constexpr double least_part = 1e-2;
 
 }  // namespace
 
 void silence_noise(const BalancedProblem& scaled, SparsePoint& point) {
+  Vector silenced = Vector::Zero(point.q.size());
   for (Index i = 0; i < point.q.size(); ++i)
-    if (std::abs(point.q.hi[i]) <= 2 * point.remaining() * scaled.coordinate[i])
+    if (std::abs(point.q.hi[i]) <= 2 * point.remaining() * scaled.coordinate[i]) {
+      silenced[i] = point.q.hi[i] / scaled.coordinate[i];
       point.q.hi[i] = point.q.lo[i] = 0;
+    }
+  point.silenced = std::sqrt(std::max(0.0, silenced.dot(scaled.A * silenced)));
 }
 
 Vector even_weights(Index row_count, const std::vector<Index>& rows, double delta) {
@@ -89,6 +105,7 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
   const double scale = std::max(1.0, point.q.hi.cwiseQuotient(scaled.coordinate).norm());
   point.converged = point.wrong_signs = false;
   point.contraction = fastest;
+  point.floor = 0;
   point.last_lambda = Vector::Zero(problem.rows());
   for (int k = 0; k < most_corrections; ++k) {
     const Vector magnitude = silence > 0 ? Vector(point.q.hi.cwiseAbs()) : Vector();
@@ -115,6 +132,8 @@ bool refine_rows(const NearestPointProblem& problem, const BalancedProblem& scal
     point.last = std::sqrt(std::max(0.0, dq.dot(scaled.A * dq)));
     if (!std::isfinite(point.last)) return false;
     const double floor = at_rounding * scale;
+    if (point.last <= floor || point.last <= enough * scale)
+      point.floor = 4 * unit_roundoff * unit_roundoff * size_of_terms(scaled, rows, lambda);
     if (k >= first_corrections && point.last > floor)
       point.contraction = std::max(point.contraction, point.last / previous);
     else if (k > 0 && point.last > floor)

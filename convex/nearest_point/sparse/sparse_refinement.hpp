@@ -12,11 +12,15 @@ struct SparsePoint {
   DoubleDoubleVector q, lambda;      ///< n; m
   Vector last_lambda;                ///< |last correction| of the multipliers, scaled: m
   double last = 0, contraction = 0;  ///< ||dq||_A of the last correction in scaled units, and its shrinking
-  double rest = 0;                   ///< the largest of U_W q - s_W before the last correction, scaled
-  bool to_the_end = false;           ///< corrections go on until rounding ends them
+  double floor = 0;         ///< what the rounding of residuals in twice the precision leaves of it, scaled
+  double silenced = 0;      ///< ||.||_A of what was taken for noise about zero, scaled
+  double rest = 0;          ///< the largest of U_W q - s_W before the last correction, scaled
+  bool to_the_end = false;  ///< corrections go on until rounding ends them
   bool converged = false;
   bool wrong_signs = false;  ///< ended early
-  double remaining() const { return contraction < 1 ? last * contraction / (1 - contraction) : last; }
+  double remaining() const {
+    return (contraction < 1 ? last * contraction / (1 - contraction) : last) + floor;
+  }
 };
 
 /// Makes 0 of what may be missing in an entry of q.
