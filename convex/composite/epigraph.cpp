@@ -50,6 +50,11 @@ class EpigraphAtom final : public Atom {
     const bool inside = f_->recession(d.head(n_)) <= unit_ * side_ * d[n_];
     return inside ? 0 : std::numeric_limits<double>::infinity();
   }
+  /// Of directions along x alone.
+  double domain_support(const Vector& v) const override {
+    return v[n_] == 0 ? f_->domain_support(v.head(n_)) : std::numeric_limits<double>::infinity();
+  }
+  const std::shared_ptr<const Atom>& function() const { return f_; }
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return inside(z) ? z : project(z).point;
   }
@@ -126,6 +131,11 @@ class EpigraphAtom final : public Atom {
 
 std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double unit) {
   return std::make_shared<const EpigraphAtom>(std::move(f), n, unit);
+}
+
+std::shared_ptr<const Atom> function_of_epigraph(const Atom& set) {
+  const auto* epigraph = dynamic_cast<const EpigraphAtom*>(&set);
+  return epigraph ? epigraph->function() : nullptr;
 }
 
 }  // namespace convex::inline composite

@@ -120,10 +120,7 @@ class ProximalPoint {
         problem_.A = curvature_metric(f_, W_, softness_ * soft_.curvature);
         return true;
       } catch (const InvalidInput&) {  // as a sum of rounded numbers it is not definite: hold faster
-        if (!soft_.any)
-          throw InvalidInput(
-              "piecewise linear-quadratic function: H is not positive semidefinite; give H >= 0");
-        if (softness_ > 1) return false;
+        if (!soft_.any || softness_ > 1) return false;
         softness_ /= softness_step;
         least_ = softness_;
       }

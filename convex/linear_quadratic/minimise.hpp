@@ -28,7 +28,7 @@ struct ProgramPoint {
 /// after finitely many rounds (Rockafellar 1976, proposition 8; Ferris 1991), else linearly, with a part of
 /// the remaining error that is made as small as needed. The linear terms of a round are formed in twice the
 /// working precision with the data as they are, so that a fixed point solves the program itself and not a
-/// nearby one. W: n×n; z: n. Throws InvalidInput when H is not positive semidefinite.
+/// nearby one. W: n×n; z: n. Gives up where H and W, as rounded, add up to no definite matrix.
 ProgramPoint minimise(const LinearQuadratic& f, const Metric& W, const Vector& z);
 
 /// A direction in which f is linear, decreasing and never leaves the rows: Gd >= 0, Hd = 0, c·d < 0, d = 0 on

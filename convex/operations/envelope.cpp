@@ -43,6 +43,13 @@ class Envelope : public Operation {
     return proper_sum(terms);
   }
   double recession(const Vector& d) const override { return f_.node().recession(d); }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = M_ ? std::nullopt : f_.node().entry(i);
+    return f ? std::optional(envelope(*f, gamma_)) : std::nullopt;
+  }
+  std::optional<Value> constant_beside_entries() const override {
+    return M_ ? std::nullopt : f_.node().constant_beside_entries();
+  }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto form = f_.node().linear_quadratic(n);
     if (!form) return std::nullopt;

@@ -51,7 +51,7 @@ class InProduct : public Operation {
   /// residual sees W and M as given, and corrects the point Mz by it.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const auto factor = ratio(M_, W);
-    const Metric C = factor ? times(*factor * *factor, W) : congruence(M_, W);
+    const Metric C = factor ? times(*factor, M_) : congruence(M_, W);
     const auto into_point = [&](const Vector& covector) -> Vector {  // M W⁻¹ covector
       return factor ? Vector(*factor * covector) : image(refined_solve(W, covector));
     };

@@ -103,7 +103,7 @@ Metric parallel_sum(const Metric& W, const Metric& V) {
 }
 
 Metric congruence(const Metric& M, const Metric& W) {
-  if (const auto factor = ratio(M, W)) return times(*factor * *factor, W);
+  if (const auto factor = ratio(M, W)) return times(*factor, M);
   if (M.kind() == MetricKind::identity) return inverse(W);
   if (is_diagonal_kind(M) && is_diagonal_kind(W))
     return Metric::diagonal(M.diagonal().cwiseAbs2().cwiseQuotient(W.diagonal()));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/composite/epigraph.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 
@@ -15,8 +16,11 @@ struct DomainRow {
   bool equation = false;
 };
 
-/// Is f, a sum over its entries, +inf where entry i is `end` and the others are inside its domain?
+/// Is f, a sum over its entries or the epigraph of one, +inf wherever entry i is `end`? It is where the
+/// other entries are inside its domain.
 bool is_open_at(const Atom& f, Index n, Index i, double end) {
+  if (const auto above = function_of_epigraph(f)) return i < n - 1 && is_open_at(*above, n - 1, i, end);
+  if (!f.facts().separable) return false;
   Vector at = f.prox_diagonal(Vector::Zero(n), Vector::Ones(n));
   at[i] = end;
   return std::isinf(f.value(at));
@@ -72,7 +76,7 @@ class DomainRows {
         DomainRow row;  // side u_i <= most
         along(row, M, i, -side);
         row.entries.emplace_back(last_, most - side * term.b[i]);
-        if (term.f->facts().separable && is_open_at(*term.f, m, i, side * most)) {
+        if (is_open_at(*term.f, m, i, side * most)) {
           row.bound = 1;
           open_ = true;
         }

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
@@ -50,12 +50,16 @@ class PointwiseMax : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    Value largest{-std::numeric_limits<double>::infinity(), 0};
+    // A part that lies below another by more than its error leaves nothing open.
+    double largest = -infinity, least = -infinity, most = -infinity;
     for (const Function& f : parts_) {
       const Value part = f.evaluate(x);
-      largest = {std::max(largest.value, part.value), std::max(largest.error, part.error)};
+      if (part.value == infinity && part.error == 0) return part;
+      largest = std::max(largest, part.value);
+      if (std::isfinite(part.error)) least = std::max(least, part.value - part.error);
+      most = std::max(most, part.value + part.error);
     }
-    return largest;
+    return {largest, std::isfinite(most) ? std::max(most - largest, largest - least) : infinity};
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const double largest = value(x);
@@ -66,13 +70,13 @@ class PointwiseMax : public Operation {
     return std::nullopt;
   }
   double recession(const Vector& d) const override {
-    double largest = -std::numeric_limits<double>::infinity();
+    double largest = -infinity;
     for (const Function& f : parts_) largest = std::max(largest, f.node().recession(d));
     return largest;
   }
   /// Each part's domain holds the maximum's.
   double domain_support(const Vector& v) const override {
-    double least = std::numeric_limits<double>::infinity();
+    double least = infinity;
     for (const Function& f : parts_) least = std::min(least, f.node().domain_support(v));
     return least;
   }
@@ -101,7 +105,7 @@ class PointwiseMax : public Operation {
   /// ||v||_(W⁻¹) is at most that of a subgradient at z, and at most 2||z||_W and that of a subgradient at 0,
   /// the prox being nonexpansive.
   double first_slope(const Vector& z, const Metric& W) const {
-    double slope = std::numeric_limits<double>::infinity();
+    double slope = infinity;
     if (const auto here = subgradient(z)) slope = here->norm();
     if (const auto at_zero = subgradient(Vector::Zero(z.size())))
       slope = std::min(slope, std::sqrt(W.diagonal().maxCoeff()) * (2 * W.norm(z) + W.dual_norm(*at_zero)));

@@ -8,6 +8,7 @@
 #include "convex/linear_algebra/inverse.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/ball_section.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -193,7 +194,9 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
   if (A.isZero(0) && std::isinf(f(b)))
     refuse(": no point has it finite, A is 0 and f(b) is infinite; give a b in the domain");
   const Function made(std::make_shared<Precompose>(f, A, b));
-  if (!f.facts().finite && !image_metric(Metric::identity(n), A)) require_proper(made, n, "precompose");
+  if (f.facts().finite || image_metric(Metric::identity(n), A)) return made;
+  if (const auto section = ball_section(f, A, b)) return *section;
+  require_proper(made, n, "precompose");
   return made;
 }
 

@@ -33,6 +33,10 @@ constexpr Expression without_points[] = {
      "distance(ball_inf(1), 2))",
      4},
     {"precompose(perspective(norm2(1)), [[3],[3],[0]], [-3,-1,-3])", 1},  // s = -3
+    // 3x > 0 and -2x > 0, in an epigraph
+    {"precompose(pointwise_max(huber(1024), inverse_power(0.5)), [[1],[3],[-2]], [1,0,0])", 1},
+    {"precompose(pointwise_max(norm1(), log_barrier()), [[-3],[0],[-3]], [3,0,3])", 1},  // 0 > 0
+    {"precompose(indicator(ball2(1, [0,1])), [[3],[0]], [0,-0.25])", 1},                 // 5/4 away
     // slopes of one sign, and slopes strictly of the other
     {"inf_convolution(distance(box(-inf,1), 1024), negative_power(0.5))", 4},
 };
@@ -42,6 +46,8 @@ constexpr Expression with_few_points[] = {
     {"precompose(inverse_power(1), [[-1],[1]], [1,-0.99999999999909050530])", 1},
     {"indicator(intersection(ball2(1, [0,-1]), hyperplane([3,0], -3)))", 2},
     {"indicator(intersection(box(-1,2), ball2(1, [3,-1])))", 2},
+    {"precompose(indicator(ball2(1, [-1,3])), [[0],[-2]], [-2,0])", 1},
+    {"precompose(pointwise_max(norm1(), log_barrier()), [[-3],[1e-6]], [3,0])", 1},
     {"indicator(intersection(second_order_cone(), affine([[1,0,0,-1]], 0)))", 4},
     {"sum(log_barrier(), indicator(halfspace([1,1], 1e-6)))", 2},
     {"inf_convolution(distance(hyperplane([-2,2,-3,1], 1), 2), inverse_power(1))", 4},

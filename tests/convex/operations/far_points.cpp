@@ -83,6 +83,14 @@ const Question questions[] = {
      {9, 24, 0, 6, 24, 68, 2, 22, 0, 2, 10, 0, 6, 22, 0, 23}},
     {"inf_convolution(max_affine([[-2],[-1],[-1],[0]], [1,0,0,1]), power(2))", {0}, {}},
     {"envelope(perspective(quadratic([[9,-9,6],[-9,9,-6],[6,-6,4]], [2,-1,3])), 1)", {2, 3, -2, -1}, {}},
+    {"translate(scale(norm1(), 2), 1)", {1e98}, {0.11}},
+    {"pointwise_max(envelope(linear([1.69, 1.52]), 2.46), envelope(envelope(power(4), 0.65), 2.78))",
+     {1.9e-9, 2e-8},
+     {3.48, 0, 0, 3.79}},
+    {"pointwise_max(proximal_average(binary_entropy(), power(1.5), 0.5, 2), "
+     "inf_convolution(squared_distance(polyhedron([[2],[1]], [1,5]), 3), squared_norm2(3)))",
+     {0},
+     {}},
 };
 
 }  // namespace

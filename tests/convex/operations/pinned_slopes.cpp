@@ -72,6 +72,24 @@ TEST_CASE("entries that are pinned beside others that are free are lines, and th
   }
 }
 
+TEST_CASE("one slope in common of a shifted envelope and a ridge makes their infimum a line") {
+  // v = (-3,-1,-3,3) + s (1,-1,-1,3) with no entry above 0: s = -1 alone.
+  const Vector v = Eigen::Vector4d(-4, 0, -2, 0), shift = Eigen::Vector4d(-1, 0, -3, 0);
+  const auto least = samples::function(
+      "inf_convolution(tilt(squared_distance(affine([[1,-1,-1,3]],0),12),[-3,-1,-3,3]),"
+      "envelope(translate(inverse_power(1),[-1,0,-3,0]),3))",
+      4);
+  // ½ s² |a|²/12 of the ridge, v·shift + 3/2 |v|² - 2 sum sqrt(-v_i) of the envelope
+  const double conjugates = 0.5 + v.dot(shift) + 30 - 2 * (2 + std::sqrt(2.0));
+  for (const Vector& x :
+       {Vector(Vector::Zero(4)), Vector(Eigen::Vector4d(3, 0, 3, 3)), Vector(1e8 * shift)}) {
+    const convex::Value found = least.evaluate(x);
+    const double truth = v.dot(x) - conjugates;
+    CHECK(std::abs(found.value - truth) <= 1e-14 * (std::abs(truth) + 100));
+    CHECK(found.error <= 1e-12 * (std::abs(truth) + 100));
+  }
+}
+
 TEST_CASE("where a shift puts a point on the open end of a domain, no finite value is told as known") {
   const auto g = samples::function("tilt(negative_power(0.5),[1])", 1).conjugate();  // 1/(4(1 - v))
   const convex::Value end = g.evaluate(Vector::Ones(1));
@@ -81,7 +99,9 @@ TEST_CASE("where a shift puts a point on the open end of a domain, no finite val
   CHECK(inside.error <= 1e-14);
 }
 
-TEST_CASE("a point whose square leaves the range of doubles has no bound, and below it the bound covers what is lost") {
+TEST_CASE(
+    "a point whose square leaves the range of doubles has no bound, and below it the bound covers what is "
+    "lost") {
   const auto f = samples::function("sum(norm2(1e-200), indicator(orthant()))", 2);
   const Vector z = 1e-200 * Eigen::Vector2d(1, 2);
   const auto split = convex::decompose(f, z, Metric::identity(2));

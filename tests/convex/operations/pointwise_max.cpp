@@ -58,3 +58,15 @@ TEST_CASE("at the prox of a maximum of curved functions, the conjugate is finite
     }
   }
 }
+
+TEST_CASE("what a part leaves open far below another leaves nothing of the maximum open") {
+  const auto below = samples::function("proximal_average(binary_entropy(), power(1.5), 0.5, 2)", 1);
+  const auto f =
+      samples::function("pointwise_max(proximal_average(binary_entropy(), power(1.5), 0.5, 2), norm1())", 1);
+  const Vector z = Vector::Zero(1);
+  REQUIRE(below.evaluate(z).error > 0);
+  REQUIRE(below(z) < -0.1);
+  const convex::Value at_zero = f.evaluate(z);
+  CHECK(at_zero.value == 0);
+  CHECK(at_zero.error == 0);
+}
