@@ -58,6 +58,7 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
   request.tolerance = options.tolerance ? options.tolerance : problem.solve.tolerance;
   request.certify = options.certify;
   request.plot = options.plot;
+  request.plane = options.plane;
   request.title = problem.title.empty() ? file : problem.title;
   const SolvedLiquid solved = solve_liquid_text(liquid.text, request);
   return {solved.exit(), options.json ? liquid_json(solved, file) + "\n"

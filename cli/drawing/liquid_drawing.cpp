@@ -60,14 +60,15 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
 }  // namespace
 
 Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, const std::string& title,
-                       bool with_velocity) {
+                       bool with_velocity, const std::optional<std::string>& plane) {
+  const SectionAxes axes = plane ? section_axes(scene.coordinates, *plane) : SectionAxes{0, 1, 2};
   if (scene.dimension() == 1) {
     if (with_velocity)
       throw convex::InvalidInput(
           "--velocity: arrows are drawn in two or three dimensions; leave it out of a picture of one");
     return liquid_line_drawing(scene, found, title);
   }
-  const LiquidSection section(scene, found);
+  const LiquidSection section(scene, found, axes);
   std::string script = "$p << END\n" + section.field() + "END\n";
   const std::string hatching = section.hatching(), outline = section.outline();
   std::string parted;
@@ -84,7 +85,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
       "nosurface\nunset table\nset surface\nunset contour\n";
   std::string heading = liquid_title(found, title);
   if (scene.dimension() == 3)
-    heading += fmt::format("; section {} = {:.4g}", scene.coordinates[2], section.height());
+    heading += fmt::format("; section {} = {:.4g}", scene.coordinates[axes[2]], section.height());
   if (arrows.fastest > 0) heading += fmt::format("\narrows: the velocity, at most {:.4g}", arrows.fastest);
   const double room = 0.03 * std::max(section.side(0), section.side(1));
   script += fmt::format(
@@ -93,7 +94,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
       "yrange [{}:{}]\nset cblabel 'p'\nset rmargin 10\nset palette defined (0 '#ffffff', 0.3 '#c6dbef', 0.7 "
       "'#6baed6', 1 "
       "'#2171b5')\nset cbrange [0:{}]\n",
-      cli::quoted(heading), cli::quoted(scene.coordinates[0]), cli::quoted(scene.coordinates[1]),
+      cli::quoted(heading), cli::quoted(scene.coordinates[axes[0]]), cli::quoted(scene.coordinates[axes[1]]),
       section.low(0) - room, section.low(0) + section.side(0) + room, section.low(1) - room,
       section.low(1) + section.side(1) + room, std::max(found.largest, 1e-300));
   script += "plot $p using 1:2:3 with image, $contours using 1:2 with lines lc rgb '#505050' lw 0.7";

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "convex/invalid_input.hpp"
+#include "convex/nearest_name.hpp"
+
 namespace cli::inline drawings {
 
 using mechanics::liquid::BoundaryPart;
@@ -20,18 +23,53 @@ constexpr int pixels_of_field = 480, hatches = 80, arrows_along_side = 20;
 
 }  // namespace
 
-LiquidSection::LiquidSection(const LiquidScene& scene, const LiquidSolution& found)
-    : scene_(scene), found_(found) {
-  if (scene.dimension() == 3) height_ = 0.5 * (scene.domain.low[2] + scene.domain.high[2]);
+SectionAxes section_axes(const std::vector<std::string>& coordinates, const std::string& plane) {
+  const auto fail = [&](const std::string& why) -> SectionAxes {
+    throw convex::InvalidInput("--plane " + plane + ": " + why);
+  };
+  if (coordinates.size() < 3) return fail("the liquid has no third coordinate; leave --plane out");
+  const std::size_t comma = plane.find(',');
+  if (comma == std::string::npos)
+    return fail("not two coordinates; write --plane " + coordinates[0] + "," + coordinates[2]);
+  const auto index = [&](const std::string& name) {
+    const auto found = std::find(coordinates.begin(), coordinates.end(), name);
+    if (found == coordinates.end())
+      fail("no coordinate \"" + name + "\"; " + convex::suggestion(name, coordinates));
+    return static_cast<std::size_t>(found - coordinates.begin());
+  };
+  const std::size_t first = index(plane.substr(0, comma)), second = index(plane.substr(comma + 1));
+  if (first == second) return fail("twice the same coordinate; name two");
+  return {first, second, 3 - first - second};
+}
+
+LiquidSection::LiquidSection(const LiquidScene& scene, const LiquidSolution& found, SectionAxes axes)
+    : scene_(scene), found_(found), axes_(axes) {
+  if (scene.dimension() == 3) height_ = 0.5 * (scene.domain.low[axes[2]] + scene.domain.high[axes[2]]);
   step_ = std::max(side(0), side(1)) / pixels_of_field;
 }
 
-double LiquidSection::side(std::size_t i) const { return scene_.domain.high[i] - scene_.domain.low[i]; }
-double LiquidSection::low(std::size_t i) const { return scene_.domain.low[i]; }
+double LiquidSection::side(std::size_t i) const {
+  return scene_.domain.high[axes_[i]] - scene_.domain.low[axes_[i]];
+}
+double LiquidSection::low(std::size_t i) const { return scene_.domain.low[axes_[i]]; }
+
+SectionPoint LiquidSection::in_space(const SectionPoint& x) const {
+  SectionPoint made{};
+  for (std::size_t i = 0; i < axes_.size(); ++i) made[axes_[i]] = x[i];
+  return made;
+}
+
+SectionPoint LiquidSection::in_section(const SectionPoint& x) const {
+  SectionPoint made{};
+  for (std::size_t i = 0; i < axes_.size(); ++i) made[i] = x[axes_[i]];
+  return made;
+}
 
 bool LiquidSection::is_inside(const SectionPoint& x) const {
-  return scene_.domain.level(x) <= scene_.domain.reach();
+  return scene_.domain.level(in_space(x)) <= scene_.domain.reach();
 }
+
+bool LiquidSection::in_cavity(const SectionPoint& x) const { return found_.in_cavity(in_space(x)); }
 
 int LiquidSection::count(std::size_t i) const {
   return std::max(1, static_cast<int>(std::lround(side(i) / step_)));
@@ -45,7 +83,7 @@ std::string LiquidSection::field() const {
       const SectionPoint x = at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny);
       if (is_inside(x))
         fmt::format_to(std::back_inserter(text), "{} {} {}\n", x[0], x[1],
-                       found_.in_cavity(x) ? 0.0 : found_.p(x));
+                       in_cavity(x) ? 0.0 : found_.p(in_space(x)));
       else
         fmt::format_to(std::back_inserter(text), "{} {} NaN\n", x[0], x[1]);
     }
@@ -67,7 +105,7 @@ std::string LiquidSection::hatching() const {
     };
     for (double x = low(0); x <= low(0) + side(0) + step_ / 2; x += step_ / 2) {
       const SectionPoint here = at(x, x - c);
-      const bool hatched = is_inside(here) && found_.in_cavity(here);
+      const bool hatched = is_inside(here) && in_cavity(here);
       if (hatched && !drawing) {
         drawing = true;
         begin = x;
@@ -83,7 +121,7 @@ SectionPoint LiquidSection::edge_between(SectionPoint in, SectionPoint out) cons
   constexpr int halvings = 8;
   for (int k = 0; k < halvings; ++k) {
     const SectionPoint middle = at(0.5 * (in[0] + out[0]), 0.5 * (in[1] + out[1]));
-    (found_.in_cavity(middle) ? in : out) = middle;
+    (in_cavity(middle) ? in : out) = middle;
   }
   return at(0.5 * (in[0] + out[0]), 0.5 * (in[1] + out[1]));
 }
@@ -96,7 +134,7 @@ std::string LiquidSection::outline() const {
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i) {
       const SectionPoint x = node(i, j);
-      state.push_back(!is_inside(x) ? 0 : found_.in_cavity(x) ? 2 : 1);
+      state.push_back(!is_inside(x) ? 0 : in_cavity(x) ? 2 : 1);
     }
   const auto state_at = [&](int i, int j) { return state[static_cast<std::size_t>(j * (nx + 1) + i)]; };
   for (int j = 0; j < ny; ++j)
@@ -126,10 +164,10 @@ std::vector<SectionPoint> LiquidSection::parted() const {
     for (int i = 0; i <= nx; ++i) {
       const SectionPoint x = at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny);
       if (!is_inside(x)) continue;
-      const SectionPoint foot = scene_.domain.foot(x);
+      const SectionPoint there = scene_.domain.foot(in_space(x)), foot = in_section(there);
       if (std::hypot(foot[0] - x[0], foot[1] - x[1], foot[2] - x[2]) > 0.8 * step_) continue;
-      const BoundaryPart* part = scene_.part_at(foot);
-      if (part == nullptr || part->is_free || !(found_.p(foot) <= 1e-3 * found_.largest)) continue;
+      const BoundaryPart* part = scene_.part_at(there);
+      if (part == nullptr || part->is_free || !(found_.p(there) <= 1e-3 * found_.largest)) continue;
       if (std::find(names.begin(), names.end(), part->name) == names.end()) continue;
       points.push_back(foot);
     }
@@ -145,7 +183,8 @@ LiquidSection::Arrows LiquidSection::velocity() const {
     for (double x = low(0) + apart / 2; x < low(0) + side(0); x += apart) {
       const SectionPoint here = at(x, y);
       if (!is_inside(here)) continue;
-      const double u = scene_.velocity[0].raw(here), v = scene_.velocity[1].raw(here);
+      const SectionPoint there = in_space(here);
+      const double u = scene_.velocity[axes_[0]].raw(there), v = scene_.velocity[axes_[1]].raw(there);
       if (!std::isfinite(u) || !std::isfinite(v)) continue;
       drawn.push_back({x, y, u, v});
       arrows.fastest = std::max(arrows.fastest, std::hypot(u, v));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,19 @@
 
 namespace cli::inline drawings {
 
-/// What is drawn of a liquid in two or three dimensions: the first two coordinates, the third at the middle
-/// of the domain. As gnuplot's data.
+/// Two coordinates of a liquid, in the order in which they are drawn, and the third at the middle of the
+/// domain.
+using SectionAxes = std::array<std::size_t, 3>;
+
+/// Reads "x,z", of three dimensions. Throws InvalidInput.
+SectionAxes section_axes(const std::vector<std::string>& coordinates, const std::string& plane);
+
+/// What is drawn of a liquid in two or three dimensions, as gnuplot's data. Points are of the section: the
+/// two coordinates drawn, then the third.
 class LiquidSection {
  public:
-  LiquidSection(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&);
+  LiquidSection(const mechanics::liquid::LiquidScene&, const mechanics::liquid::LiquidSolution&,
+                SectionAxes axes = {0, 1, 2});
 
   double side(std::size_t i) const;
   double low(std::size_t i) const;
@@ -36,11 +45,16 @@ class LiquidSection {
 
  private:
   mechanics::liquid::Point at(double x, double y) const { return {x, y, height_}; }
+  /// In the order of the file's coordinates, and back.
+  mechanics::liquid::Point in_space(const mechanics::liquid::Point&) const;
+  mechanics::liquid::Point in_section(const mechanics::liquid::Point&) const;
   bool is_inside(const mechanics::liquid::Point&) const;
+  bool in_cavity(const mechanics::liquid::Point&) const;
   int count(std::size_t i) const;
   mechanics::liquid::Point edge_between(mechanics::liquid::Point in, mechanics::liquid::Point out) const;
   const mechanics::liquid::LiquidScene& scene_;
   const mechanics::liquid::LiquidSolution& found_;
+  SectionAxes axes_;
   double height_ = 0, step_ = 1;
 };
 

@@ -67,7 +67,8 @@ void write_point(JsonWriter& json, const std::vector<std::string>& names, const 
 void write_files(const SolvedLiquid& solved, const LiquidRequest& request) {
   if (solved.solution.status == Status::infeasible) return;
   if (request.plot)
-    draw(*request.plot, liquid_drawing(solved.scene, solved.solution, request.title, request.velocity));
+    draw(*request.plot,
+         liquid_drawing(solved.scene, solved.solution, request.title, request.velocity, request.plane));
   if (!request.data && !request.vtk) return;
   const auto sample =
       mechanics::liquid::sample(solved.scene, solved.solution, mechanics::liquid::sample_cells(solved.scene));

@@ -17,6 +17,7 @@ struct LiquidRequest {
   std::optional<std::string> onset;            ///< a parameter
   std::optional<std::string> data, vtk, plot;  ///< files to write
   bool velocity = false;                       ///< as arrows in the plot
+  std::optional<std::string> plane;            ///< of three dimensions, what the plot shows
   std::optional<std::string> animate, over;    ///< a page to write, and NAME=first:step:last of a parameter
   std::string title;                           ///< of the page
   std::optional<double> tolerance;

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -34,4 +36,27 @@ TEST_CASE(
   CHECK(left + right == doctest::Approx(4).epsilon(1e-3));
   CHECK(right - left > 1.8);  // 2 less what the boxes and the mouths of the channel take
   CHECK(right - left < 2);
+}
+
+TEST_CASE("a picture of three dimensions shows the plane that is asked for, and names what is not drawn") {
+  // Hydrostatic: p = 1 + 10 (1 - z), the same for all x and y.
+  const Folder folder;
+  const std::string file = folder.write("box.toml",
+                                        "[liquid]\ncoordinates = [\"x\", \"y\", \"z\"]\ndomain = "
+                                        "\"box(low=[0, 0, 0], high=[2, 3, 1])\"\ndensity = "
+                                        "1\nforce = [0, 0, -10]\ncells = 16\nfree = { top = { where = \"z >= "
+                                        "1\", pressure = 1 } }\nwalls = { rest = { "
+                                        "where = \"true\", acceleration = 0 } }\n");
+  const std::string picture = folder.path("p.svg");
+  const auto drawn = [&](const std::string& plane) {
+    const Outcome outcome = run({"solve", "--plot", picture, "--plane", plane, file});
+    CHECK(outcome.code == 0);
+    std::ifstream stream(picture);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  };
+  CHECK(drawn("x,z").find("section y = 1.5") != std::string::npos);
+  CHECK(drawn("y,z").find("section x = 1") != std::string::npos);
+  const Outcome wrong = run({"solve", "--plot", picture, "--plane", "x,w", file});
+  CHECK(wrong.code == 2);
+  CHECK(wrong.err.find("--plane x,w: no coordinate \"w\"") != std::string::npos);
 }
