@@ -55,8 +55,9 @@ void for_grid(const Domain& domain, const Point& low, const Point& high, int n, 
 }
 
 /// Samples miss a thin wedge. Regions beside the box are halved until the level is proved to be above 0 in
-/// them; the box grows to hold those that remain when they are small.
-void take_in_what_is_beyond(Domain& domain) {
+/// them; the box grows to hold those that remain when they are small. Whether it is to be done again: regions
+/// were left open, and points of the domain were met in those before them, which the box holds now.
+bool take_in_what_is_beyond(Domain& domain) {
   constexpr std::size_t most_regions = 100000;
   constexpr double small = 1e-3;
   const std::size_t d = domain.dimension;
@@ -71,8 +72,16 @@ void take_in_what_is_beyond(Domain& domain) {
       open.push_back(beside);
     }
   std::vector<Region> remaining;
+  std::vector<Point> met;
   for (std::size_t tried = 0; !open.empty(); ++tried) {
-    if (tried == most_regions) return;  // intervals do not tell
+    if (tried == most_regions) {  // intervals do not tell
+      for (const Point& x : met)
+        for (std::size_t i = 0; i < d; ++i) {
+          domain.low[i] = std::min(domain.low[i], x[i]);
+          domain.high[i] = std::max(domain.high[i], x[i]);
+        }
+      return !met.empty();
+    }
     Region here = open.back();
     open.pop_back();
     const expression::Range level = domain.condition->range(here);
@@ -85,6 +94,9 @@ void take_in_what_is_beyond(Domain& domain) {
       continue;
     }
     const double middle = 0.5 * (here[widest].low + here[widest].high);
+    Point x{};
+    for (std::size_t i = 0; i < d; ++i) x[i] = 0.5 * (here[i].low + here[i].high);
+    if (level_or_outside(domain, x) < 0) met.push_back(x);
     Region other = here;
     here[widest].high = middle;
     other[widest].low = middle;
@@ -96,6 +108,7 @@ void take_in_what_is_beyond(Domain& domain) {
       domain.low[i] = std::min(domain.low[i], one[i].low);
       domain.high[i] = std::max(domain.high[i], one[i].high);
     }
+  return false;
 }
 
 }  // namespace
@@ -157,7 +170,9 @@ void find_box(Domain& domain, convex::Place place) {
   }
   domain.low = low;
   domain.high = high;
-  take_in_what_is_beyond(domain);
+  constexpr int most_rounds = 50;
+  for (int round = 0; round < most_rounds && take_in_what_is_beyond(domain); ++round) {
+  }
 }
 
 }  // namespace mechanics::liquid
