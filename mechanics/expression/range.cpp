@@ -113,6 +113,18 @@ Range root_of(Range result, double e, Range a) {
   return {-most.high, most.high};
 }
 
+/// Of the point (x, y). Where the box does not meet the cut, y = 0 > x, from below, it is monotone along the
+/// sides, so that corners have the ends.
+Range angle(Range y, Range x) {
+  constexpr Range all_angles{-3.2, 3.2};
+  const bool is_above = y.low >= 0 && !std::signbit(y.low);
+  if (!(is_above || x.low > 0 || y.high < 0) || !std::isfinite(x.low + x.high + y.low + y.high))
+    return all_angles;
+  const double ends[] = {std::atan2(y.low, x.low + 0.0), std::atan2(y.low, x.high + 0.0),
+                         std::atan2(y.high, x.low + 0.0), std::atan2(y.high, x.high + 0.0)};
+  return of_library(*std::min_element(ends, ends + 4), *std::max_element(ends, ends + 4));
+}
+
 }  // namespace
 
 Range intersection(Range a, Range b) { return {std::max(a.low, b.low), std::min(a.high, b.high)}; }
@@ -162,7 +174,7 @@ Range value(Operation operation, Range a, Range b) {
     case Operation::atan:
       return increasing(a, std::atan, all_numbers, {-1.6, 1.6});
     case Operation::atan2:
-      return {-3.2, 3.2};
+      return angle(a, b);
     case Operation::sinh:
       return increasing(a, std::sinh, all_numbers, all_numbers);
     case Operation::cosh:

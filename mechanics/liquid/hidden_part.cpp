@@ -30,7 +30,8 @@ class PartSearch {
       if (!meets_boundary(at)) return true;
       if (first != end) return is_of_one_part(at);
       const Index k = cells_.grid.at(first[0], first[1], first[2]);
-      if (const auto near = seen_.find(k); near != seen_.end()) search_in(at, near->second);
+      if (const auto near = seen_.find(k); near != seen_.end())
+        for_boundary(scene_.domain, at, [&](const Region& side) { search_in(side, near->second); });
       return true;
     });
     return found_;
@@ -82,6 +83,7 @@ class PartSearch {
   }
 
   void search_in(const Region& cell, const Seen& seen) {
+    if (found_) return;
     search(
         cell, {d_, halvings_for_parts[d_ - 1], &regions_},
         [&](const Region& at) { return meets_boundary(at) && may_hold_another(at, seen) ? 1.0 : 0.0; },

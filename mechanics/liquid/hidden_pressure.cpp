@@ -56,19 +56,21 @@ class BumpSearch {
         if (!(most_beyond(at) > least_)) return;
         const Hull given_around = hull_;
         take_in_corners(at);
-        search(
-            at, {d_, halvings_of_a_cell[d_ - 1], &regions_},
-            [&](const Region& here) {
-              const double most = most_beyond(here);
-              return most > std::max(least_, largest_) && meets_boundary(here) ? most : 0;
-            },
-            [&](const Region& here, double, int depth) {
-              if (depth > 0) return false;
-              const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(here)));
-              if (part != nullptr && beyond(hull_, *part, here) > least_)
-                largest_ = std::max(largest_, beyond(given_around, *part, here));
-              return false;
-            });
+        for_boundary(scene_.domain, at, [&](const Region& side) {
+          search(
+              side, {d_, halvings_of_a_cell[d_ - 1], &regions_},
+              [&](const Region& here) {
+                const double most = most_beyond(here);
+                return most > std::max(least_, largest_) && meets_boundary(here) ? most : 0;
+              },
+              [&](const Region& here, double, int depth) {
+                if (depth > 0) return false;
+                const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(here)));
+                if (part != nullptr && beyond(hull_, *part, here) > least_)
+                  largest_ = std::max(largest_, beyond(given_around, *part, here));
+                return false;
+              });
+        });
       });
     return largest_;
   }

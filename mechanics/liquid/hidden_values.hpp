@@ -38,6 +38,20 @@ void for_corners(const Region& at, std::size_t d, Work work) {
   }
 }
 
+/// Calls work with what of the boundary lies in a region: of a box the sides, which are flat, else the
+/// region.
+template <class Work>
+void for_boundary(const Domain& domain, const Region& at, Work work) {
+  if (domain.shape != Domain::Shape::box) return work(at);
+  for (std::size_t i = 0; i < domain.dimension; ++i)
+    for (const double side : {domain.low[i], domain.high[i]}) {
+      if (at[i].low > side + domain.reach() || at[i].high < side - domain.reach()) continue;
+      Region flat = at;
+      flat[i] = {side, side};
+      work(flat);
+    }
+}
+
 /// How often a region is halved along all its d axes; how many may be looked at, counted down: intervals that
 /// stay wide take no more.
 struct Halving {
@@ -58,8 +72,13 @@ bool search(const Region& at, const Halving& halving, const AtMost& bound, const
   const Point middle = middle_of(at);
   for (unsigned code = 0; code < 1U << halving.d; ++code) {
     Region piece = at;
-    for (std::size_t i = 0; i < halving.d; ++i)
-      ((code >> i & 1U) != 0 ? piece[i].low : piece[i].high) = middle[i];
+    bool is_again = false;  // of a flat region
+    for (std::size_t i = 0; i < halving.d; ++i) {
+      const bool is_high = (code >> i & 1U) != 0;
+      is_again = is_again || (is_high && at[i].low == at[i].high);
+      (is_high ? piece[i].low : piece[i].high) = middle[i];
+    }
+    if (is_again) continue;
     if (search(piece, {halving.d, halving.depth - 1, halving.left}, bound, is_found)) return true;
   }
   return false;

@@ -210,6 +210,7 @@ TEST_CASE(
     CHECK(std::log2(coarse.error / fine.error) == doctest::Approx(2.0 / 3).epsilon(0.1));
     const Measured rough = junction("-1", cells), smooth = junction("-1", 2 * cells);
     CHECK(rough.error <= bound_of(rough));
+    CHECK(bound_of(smooth) <= 0.4);  // p0 = 2 + √r sin(θ/2), which hides nothing
     CHECK(std::log2(rough.error / smooth.error) == doctest::Approx(0.5).epsilon(0.1));
   }
   // Grids that cannot be halved twice, and corners on which coarser grids lie otherwise, tell no order.
