@@ -28,7 +28,7 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   DoubleDoubleVector combination(problem.dimension());
   DoubleDouble gap;
-  double terms = 0, magnitude = 0;
+  double terms = 0, magnitude = 0, unsure = 0;  // unsure: what radii of s may make of the gap
   for (Index a = 0; a < problem.rows(); ++a) {
     if (w[a] == 0) continue;
     if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
@@ -36,12 +36,13 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
     gap = add(gap, two_product(w[a], problem.s[a]));
     terms += std::abs(w[a]) * largest_entry(problem.U, a);
     magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
+    if (problem.radii) unsure += std::abs(w[a]) * problem.radii->s[a];
   }
   const Vector rest = combination.value();
   const bool combines =
       rest.size() == 0 || rest.cwiseAbs().maxCoeff() <= combination_roundings * unit_roundoff * terms;
   return combines &&
-         gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach;
+         gap.value() > gap_roundings * unit_roundoff * magnitude + problem.A.dual_norm(rest) * reach + unsure;
 }
 
 }  // namespace convex::inline optimality

@@ -91,6 +91,22 @@ TEST_CASE("rows that contradict each other by less than the rounding of a far po
   }
 }
 
+TEST_CASE("where nothing pulls, rows that disagree by less than their radii are no contradiction") {
+  const double k = -0.1191139186822877;  // a row written twice, the second time by exp
+  RowMatrix U(2, 2);
+  U << 2, 0.3, 2 * k, 0.3 * k;
+  NearestPointProblem problem{convex::Metric::dense(Matrix::Identity(2, 2)),
+                              Vector::Zero(2),
+                              convex::ConstraintRows(U),
+                              Vector(2),
+                              {1}};
+  problem.s << 0, 0x1p-54;
+  problem.radii = convex::DataRadii{Vector::Constant(2, 0x1p-52), Vector::Constant(2, 0x1p-52)};
+  CHECK(convex::find_method("auto")->solve(problem, {}).status != Status::infeasible);
+  problem.s << 0, 0x1p-40;
+  CHECK(convex::find_method("auto")->solve(problem, {}).status == Status::infeasible);
+}
+
 TEST_CASE("where rows meet far away at a small angle, no method calls solved what is not") {
   for (const NearestPointProblem& problem : {opposite_to_a_two_sided_row(), five_rows_nearly_one()}) {
     const Solution truth = convex::find_method("exact")->solve(problem, {});
