@@ -11,6 +11,16 @@ namespace {
 /// Columns eliminated at once.
 constexpr Index block = 4;
 
+/// Eight numbers anywhere, whatever the registers of the machine.
+using Eight [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
+[[gnu::always_inline]] inline const Eight& eight(const double* x) {
+  return *reinterpret_cast<const Eight*>(x);
+}
+[[gnu::always_inline]] inline Eight& eight(double* x) { return *reinterpret_cast<Eight*>(x); }
+[[gnu::always_inline]] inline double total(const Eight& x) {
+  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
+}
+
 /// c_i -= Σ_k a_k w_k for two columns c at once, four columns a.
 MOREAU_CLONES
 void subtract_four_from_two(Index n, double* __restrict c0, double* __restrict c1, const double* a0,
@@ -147,6 +157,49 @@ void subtract_outer(double* C, Index size, const double* panel, Index rows, Inde
   for (Index first = 0; first < columns; first += block)
     subtract_columns(panel, rows, first, std::min(block, columns - first), 0, size, rows - size,
                      [&](Index c) { return C + c * size + c; });
+}
+
+MOREAU_CLONES
+void forward_panel(const double* panel, Index rows, Index columns, double* x) {
+  Index j = 0;
+  for (; j + block <= columns; j += block) {
+    const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
+    const double x0 = x[j], x1 = x[j + 1] -= a[j + 1] * x0, x2 = x[j + 2] -= a[j + 2] * x0 + b[j + 2] * x1,
+                 x3 = x[j + 3] -= (a[j + 3] * x0 + b[j + 3] * x1) + c[j + 3] * x2;
+    for (Index i = j + block; i < rows; i += 8)
+      eight(x + i) -= (eight(a + i) * x0 + eight(b + i) * x1) + (eight(c + i) * x2 + eight(d + i) * x3);
+  }
+  for (; j < columns; ++j) {
+    const double *a = panel + j * rows, x0 = x[j];
+    for (Index i = j + 1; i < rows; i += 8) eight(x + i) -= eight(a + i) * x0;
+  }
+}
+
+MOREAU_CLONES
+void backward_panel(const double* panel, Index rows, Index columns, double* x) {
+  Index end = columns;
+  for (; end % block != 0; --end) {
+    const double* a = panel + (end - 1) * rows;
+    Eight sum{};
+    for (Index i = end; i < rows; i += 8) sum += eight(a + i) * eight(x + i);
+    x[end - 1] = x[end - 1] / a[end - 1] - total(sum);
+  }
+  for (; end > 0; end -= block) {
+    const Index j = end - block;
+    const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
+    Eight s0{}, s1{}, s2{}, s3{};
+    for (Index i = end; i < rows; i += 8) {
+      const Eight y = eight(x + i);
+      s0 += eight(a + i) * y;
+      s1 += eight(b + i) * y;
+      s2 += eight(c + i) * y;
+      s3 += eight(d + i) * y;
+    }
+    const double x3 = x[j + 3] = x[j + 3] / d[j + 3] - total(s3),
+                 x2 = x[j + 2] = x[j + 2] / c[j + 2] - total(s2) - c[j + 3] * x3,
+                 x1 = x[j + 1] = x[j + 1] / b[j + 1] - total(s1) - (b[j + 2] * x2 + b[j + 3] * x3);
+    x[j] = x[j] / a[j] - total(s0) - (a[j + 1] * x1 + (a[j + 2] * x2 + a[j + 3] * x3));
+  }
 }
 
 }  // namespace convex::inline sparse

@@ -14,4 +14,14 @@ bool factor_panel(double* panel, Index rows, Index columns);
 /// panel.
 void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns);
 
+/// So many numbers beyond a panel, which are to be finite, and beyond x below, which are to be 0, are read.
+inline constexpr Index read_beyond = 8;
+
+/// x, one number a row of a factored panel, 0 below its columns: there L⁻¹x; below what that adds to the
+/// rows.
+void forward_panel(const double* panel, Index rows, Index columns, double* x);
+
+/// x, one number a row of a factored panel, below its columns the solution: there that too, of D Lᵀ.
+void backward_panel(const double* panel, Index rows, Index columns, double* x);
+
 }  // namespace convex::inline sparse

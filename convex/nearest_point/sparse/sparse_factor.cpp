@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "convex/nearest_point/sparse/front_kernels.hpp"
-
 namespace convex::inline sparse {
 namespace {
 
@@ -67,6 +65,7 @@ void SparseFactor::find_panels(const std::vector<Index>& parent, const std::vect
     values += run.columns * run.rows;
     rows += run.rows;
     panels_.push_back(panel);
+    longest_ = std::max(longest_, run.rows);
   }
   for (Panel& panel : panels_) {
     const Index up = parent[at(panel.first + panel.columns - 1)];
@@ -74,7 +73,7 @@ void SparseFactor::find_panels(const std::vector<Index>& parent, const std::vect
     const double c = static_cast<double>(panel.columns), r = static_cast<double>(panel.rows);
     flops_ += c * r * r - c * c * r + c * c * c / 3;
   }
-  values_.assign(at(values), 0.0);
+  values_.assign(at(values + read_beyond), 0.0);
   rows_.assign(at(rows), 0);
 }
 
@@ -165,26 +164,26 @@ bool SparseFactor::factor() {
   for (const Panel& panel : panels_)
     if (panel.parent >= 0) ++child_count[at(panel.parent)];
   std::size_t used = 0;
-  std::vector<double> own;
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const Panel& panel = panels_[p];
     const Index below = panel.below();
-    if (own.size() < at(below * below)) own.resize(at(below * below));
-    for (Index j = 0; j < below; ++j) std::fill_n(own.data() + j * (below + 1), below - j, 0.0);
+    const std::size_t size = at(below * below);
+    if (updates_.size() < used + size) updates_.resize(2 * (used + size));
+    double* const own = updates_.data() + used;
+    for (Index j = 0; j < below; ++j) std::fill_n(own + j * (below + 1), below - j, 0.0);
     for (Index c = 0; c < child_count[p]; ++c) {
-      add_update(*pending.back(), updates_.data() + tops.back(), panel, own.data());
       used = tops.back();
+      add_update(*pending.back(), updates_.data() + used, panel, own);
       pending.pop_back();
       tops.pop_back();
     }
     double* values = values_.data() + panel.values;
     if (!factor_panel(values, panel.rows, panel.columns)) return false;
     if (panel.parent < 0) continue;
-    subtract_outer(own.data(), below, values, panel.rows, panel.columns);
-    const std::size_t size = at(below * below);
-    if (updates_.size() < used + size) updates_.resize(2 * (used + size));
-    for (Index j = 0; j < below; ++j)
-      std::copy_n(own.data() + j * (below + 1), below - j, updates_.data() + used + at(j * (below + 1)));
+    subtract_outer(own, below, values, panel.rows, panel.columns);
+    double* const into = updates_.data() + used;  // where those of its children were
+    for (Index j = 0; j < below && into != own; ++j)
+      std::copy_n(own + j * (below + 1), below - j, into + j * (below + 1));
     tops.push_back(used);
     pending.push_back(&panel);
     used += size;
@@ -205,34 +204,22 @@ Vector SparseFactor::pivots() const {
 void SparseFactor::solve(Vector& x) const {
   Vector y(x.size());
   for (Index i = 0; i < x.size(); ++i) y[new_place_[at(i)]] = x[i];
-  Vector rest;
+  Vector local(longest_ + read_beyond);
   for (const Panel& panel : panels_) {
-    const double* L = values_.data() + panel.values;
     const int* list = rows_.data() + panel.row_list;
-    double* own = y.data() + panel.first;
-    rest.setZero(panel.below());
-    for (Index j = 0; j < panel.columns; ++j) {
-      const double* column = L + j * panel.rows;
-      const double value = own[j];
-      for (Index i = j + 1; i < panel.columns; ++i) own[i] -= column[i] * value;
-      for (Index i = 0; i < panel.below(); ++i) rest[i] += column[panel.columns + i] * value;
-    }
-    for (Index i = 0; i < panel.below(); ++i) y[list[panel.columns + i]] -= rest[i];
+    local.head(panel.columns) = y.segment(panel.first, panel.columns);
+    local.segment(panel.columns, panel.below() + read_beyond).setZero();
+    forward_panel(values_.data() + panel.values, panel.rows, panel.columns, local.data());
+    y.segment(panel.first, panel.columns) = local.head(panel.columns);
+    for (Index i = panel.columns; i < panel.rows; ++i) y[list[i]] += local[i];
   }
   for (std::size_t p = panels_.size(); p-- > 0;) {
     const Panel& panel = panels_[p];
-    const double* L = values_.data() + panel.values;
     const int* list = rows_.data() + panel.row_list;
-    double* own = y.data() + panel.first;
-    rest.resize(panel.below());
-    for (Index i = 0; i < panel.below(); ++i) rest[i] = y[list[panel.columns + i]];
-    for (Index j = panel.columns; j-- > 0;) {
-      const double* column = L + j * panel.rows;
-      double sum = own[j] / column[j];
-      for (Index i = j + 1; i < panel.columns; ++i) sum -= column[i] * own[i];
-      sum -= Eigen::Map<const Vector>(column + panel.columns, panel.below()).dot(rest);
-      own[j] = sum;
-    }
+    for (Index i = 0; i < panel.rows; ++i) local[i] = y[list[i]];
+    local.segment(panel.rows, read_beyond).setZero();
+    backward_panel(values_.data() + panel.values, panel.rows, panel.columns, local.data());
+    y.segment(panel.first, panel.columns) = local.head(panel.columns);
   }
   for (Index i = 0; i < x.size(); ++i) x[i] = y[new_place_[at(i)]];
 }

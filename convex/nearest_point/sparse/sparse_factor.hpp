@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "convex/nearest_point/sparse/elimination_order.hpp"
+#include "convex/nearest_point/sparse/front_kernels.hpp"
 
 namespace convex::inline sparse {
 
@@ -34,7 +35,7 @@ class SparseFactor {
 
   Index dimension() const { return static_cast<Index>(new_place_.size()); }
   /// Numbers in L, zeros taken in by gathering columns included; multiplications of a factorisation.
-  double nonzeros() const { return static_cast<double>(values_.size()); }
+  double nonzeros() const { return static_cast<double>(values_.size()) - read_beyond; }
   double flops() const { return flops_; }
   /// Pivots of `factor`, in the order of the coordinates.
   Vector pivots() const;
@@ -59,6 +60,7 @@ class SparseFactor {
   std::vector<double> values_;
   std::vector<double> updates_;  // the stack of update matrices
   double flops_ = 0;
+  Index longest_ = 0;  // rows of a panel
 };
 
 }  // namespace convex::inline sparse
