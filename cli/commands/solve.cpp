@@ -61,8 +61,10 @@ Answer solve_liquid_file(const LiquidProblem& liquid, const Problem& problem, co
   request.plane = options.plane;
   request.title = problem.title.empty() ? file : problem.title;
   const SolvedLiquid solved = solve_liquid_text(liquid.text, request);
-  return {solved.exit(), options.json ? liquid_json(solved, file) + "\n"
-                                      : heading(problem.title, file) + liquid_text(solved)};
+  return {
+      solved.exit(),
+      options.json ? liquid_json(solved, file) + "\n" : heading(problem.title, file) + liquid_text(solved),
+      liquid_warnings(solved)};
 }
 
 /// What is asked of contacts alone, of a problem that has none.

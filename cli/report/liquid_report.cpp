@@ -184,7 +184,7 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
     json.key("surplus").value(found.surplus);
     json.key("cavity").null().key("pressure").null();
     json.key("parted_walls").begin_array().end_array().key("onset").null().key("certificate").null();
-    json.key("probes").begin_array().end_array();
+    json.key("probes").begin_array().end_array().key("warnings").begin_array().end_array();
     return json.key("seconds").value(solved.seconds).end_object().text();
   }
   json.key("cavity").begin_object().key("measure").value(found.cavity_measure);
@@ -239,7 +239,25 @@ std::string liquid_json(const SolvedLiquid& solved, const std::string& file) {
     write_point(json, names, probe.at);
     json.key("p").value(probe.p).key("growth").value(probe.growth).end_object();
   }
+  json.end_array().key("warnings").begin_array();
+  const std::vector<std::string> messages = liquid_warnings(solved);
+  for (std::size_t k = 0; k < messages.size(); ++k)
+    json.begin_object()
+        .key("kind")
+        .value("empty-part")
+        .key("part")
+        .value(found.empty_parts[k])
+        .key("message")
+        .value(messages[k])
+        .end_object();
   return json.end_array().key("seconds").value(solved.seconds).end_object().text();
+}
+
+std::vector<std::string> liquid_warnings(const SolvedLiquid& solved) {
+  std::vector<std::string> lines;
+  for (const std::string& part : solved.solution.empty_parts)
+    lines.push_back("\"" + part + "\" has no point of the boundary: what it gives counts nowhere");
+  return lines;
 }
 
 std::string liquid_text(const SolvedLiquid& solved) {

@@ -49,6 +49,9 @@ SolvedLiquid solve_liquid_text(const mechanics::liquid::LiquidText&, const Liqui
 std::string liquid_json(const SolvedLiquid&, const std::string& file);
 
 /// The readable result below a heading.
+/// What is said on standard error too: parts of no boundary point.
+std::vector<std::string> liquid_warnings(const SolvedLiquid&);
+
 std::string liquid_text(const SolvedLiquid&);
 
 }  // namespace cli::inline reports

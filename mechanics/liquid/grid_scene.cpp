@@ -87,6 +87,18 @@ std::vector<std::string> parted_walls(const LiquidScene& scene, const CutCells& 
   return names;
 }
 
+/// Parts, but for those that take what is left, of no boundary point of the grid.
+std::vector<std::string> empty_parts(const LiquidScene& scene, const CutCells& cells) {
+  std::vector<bool> seen(scene.parts.size());
+  for (const WallPiece& wall : cells.walls) seen[wall.part] = true;
+  for (const GivenPressure& given : cells.pressures)
+    seen[static_cast<std::size_t>(&scene.boundary_part(given.at) - scene.parts.data())] = true;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    if (!seen[k] && !scene.parts[k].where.is_always()) names.push_back(scene.parts[k].name);
+  return names;
+}
+
 void require_no_divergence_in_liquid(const LiquidScene& scene, const CutCells& cells,
                                      const CutSolution& found) {
   if (std::all_of(scene.stretching.begin(), scene.stretching.end(),
@@ -249,6 +261,7 @@ LiquidSolution solve_grid_scene(const LiquidScene& scene, const LiquidAccuracy& 
   require_no_divergence_in_liquid(scene, cells, found.front());
   solution.volume = content(scene, cells);
   solution.parted_walls = parted_walls(scene, cells, found.front());
+  solution.empty_parts = empty_parts(scene, cells);
   const auto pressure = std::make_shared<const GridPressure>(levels.take_finest(), found.front().q);
   const auto edge = std::make_shared<const CavityEdge>(pressure->cells(), found.front());
   if (!edge->is_empty()) {

@@ -232,6 +232,9 @@ LiquidSolution solve_line_scene(const LiquidScene& scene, const LineScene& line,
              high_parts = solution.high_parts && leaves(*line.high, line.problem.high, 1);
   if (low_parts) found.parted_walls.push_back(line.low->name);
   if (high_parts && !(low_parts && line.low == line.high)) found.parted_walls.push_back(line.high->name);
+  for (const BoundaryPart& part : scene.parts)
+    if (&part != line.low && &part != line.high && !part.where.is_always())
+      found.empty_parts.push_back(part.name);
   found.error_bound = solution.error_bound;
   // Where all is cavity there is no pressure that the bound could be a part of, but what would make one.
   const double size = found.largest > 0 ? found.largest : scene.pressure_scale();

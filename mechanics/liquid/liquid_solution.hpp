@@ -27,6 +27,8 @@ struct LiquidSolution {
   double largest = 0;  ///< p, over the closed domain
   Point largest_at{};
   std::vector<std::string> parted_walls;
+  /// Parts that say where they are and have no point of the boundary.
+  std::vector<std::string> empty_parts;
   bool is_proved = false;  ///< `error_bound` is
   std::string unproved;    ///< what stands in the way of a proof that was asked for
   double error_bound = 0;  ///< of |p - p*| in the largest norm, the discretisation included

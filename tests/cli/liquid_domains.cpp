@@ -60,3 +60,27 @@ TEST_CASE("a picture of three dimensions shows the plane that is asked for, and 
   CHECK(wrong.code == 2);
   CHECK(wrong.err.find("--plane x,w: no coordinate \"w\"") != std::string::npos);
 }
+
+TEST_CASE("a part of no boundary point is told by its name, and one that takes what is left is not") {
+  const Folder folder;
+  const auto solved = [&](const std::string& coordinates, const std::string& domain, const std::string& top) {
+    return run(
+        {"solve", "--json",
+         folder.write("tank.toml", "[liquid]\ncoordinates = " + coordinates + "\ndomain = \"" + domain +
+                                       "\"\ndensity = 1\ncells = 8\nfree = { top = { where = \"" + top +
+                                       "\", pressure = 1 } }\nwalls = { rest = { where = \"true\", "
+                                       "acceleration = 0 } }\n")});
+  };
+  for (const auto& [coordinates, domain] : {std::pair{"[\"x\", \"z\"]", "box(low=[0, 0], high=[1, 1])"},
+                                            {"[\"z\"]", "interval(low=0, high=1)"}}) {
+    const Outcome wrong = solved(coordinates, domain, "z >= 2"),
+                  right = solved(coordinates, domain, "z >= 1"), all = solved(coordinates, domain, "z >= -1");
+    const auto json = nlohmann::json::parse(wrong.out);
+    REQUIRE(json["warnings"].size() == 1);
+    CHECK(json["warnings"][0]["part"] == "top");
+    CHECK(wrong.err.find("warning: ") != std::string::npos);
+    CHECK(nlohmann::json::parse(right.out)["warnings"].empty());
+    CHECK(nlohmann::json::parse(all.out)["warnings"].empty());
+    CHECK(all.err.empty());
+  }
+}
