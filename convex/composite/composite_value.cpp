@@ -168,9 +168,16 @@ GraphValue evaluate(const GraphForm& f, const Vector& x) {
   found.error_bound =
       std::isfinite(error.bound) ? error.of_value + missed + 8 * unit_roundoff * size : infinity;
   // The estimate is held against the dual at the same point, where its multipliers are in the domains.
-  if (const Value dual = value_of_dual(problem, point, constant); std::isfinite(dual.value))
-    found.error_bound = std::max(found.error_bound, std::abs(found.value - dual.value) - dual.error);
+  // What rho leaves of it is rounding only where it is nothing beside the value; and multipliers outside of
+  // the domains may be no more than the rounding of D(t - u).
   const double energy = point.u.dot(point.D.cwiseProduct(point.u));
+  if (const Value dual = value_of_dual(problem, point, constant); std::isfinite(dual.value)) {
+    const double apart = std::abs(found.value - dual.value);
+    const double left = dual.error <= tolerance * size ? dual.error : 0;
+    found.error_bound = std::max(found.error_bound, apart - left);
+  } else {
+    found.error_bound = std::max(found.error_bound, unit_roundoff * energy);
+  }
   // What cannot be told from 0 is 0.
   const bool known = std::isfinite(found.error_bound);
   if (known && std::abs(found.value) <= std::max(found.error_bound, rounding_of_rounding * energy))

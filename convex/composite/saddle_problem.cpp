@@ -52,13 +52,7 @@ void set_scales(SaddleProblem& problem) {
       level(d);
   }
   for (double& d : problem.D) d = std::exp2(std::round(std::log2(d)));
-  problem.R = Vector::Zero(problem.k);
-  for (Index c = 0; c < problem.k; ++c) {
-    for (SparseMatrix::InnerIterator entry(problem.M, problem.n + c); entry; ++entry)
-      problem.R[c] += entry.value() * entry.value() * problem.D[entry.row()];
-    if (problem.Q.size() > 0) problem.R[c] += problem.Q(problem.n + c, problem.n + c);
-    if (!(problem.R[c] > 0)) problem.R[c] = 1;
-  }
+  set_scales_of_w(problem);
 }
 
 /// Which terms give x first. A point that misses a set by rounding has the value +inf, and no other function
@@ -93,6 +87,16 @@ void set_pins(SaddleProblem& problem) {
 }
 
 }  // namespace
+
+void set_scales_of_w(SaddleProblem& problem) {
+  problem.R = Vector::Zero(problem.k);
+  for (Index c = 0; c < problem.k; ++c) {
+    for (SparseMatrix::InnerIterator entry(problem.M, problem.n + c); entry; ++entry)
+      problem.R[c] += entry.value() * entry.value() * problem.D[entry.row()];
+    if (problem.Q.size() > 0) problem.R[c] += problem.Q(problem.n + c, problem.n + c);
+    if (!(problem.R[c] > 0)) problem.R[c] = 1;
+  }
+}
 
 SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look) {
   const Index size = f.n + f.k;

@@ -44,6 +44,9 @@ struct SaddleProblem {
 
 SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& W, const Look& look = {});
 
+/// R of D, M and Q.
+void set_scales_of_w(SaddleProblem& problem);
+
 /// A point of the graphs of the terms' subdifferentials beside a ξ, after Minty: t gives u = prox_D t and
 /// y = D(t - u), a subgradient of the term at u. Solved when r and rho are 0.
 struct SaddlePoint {

@@ -132,18 +132,32 @@ double miss(const SaddleProblem& problem, const SaddlePoint& point) {
   return worst;
 }
 
-/// D enlarged to |y|/|u| in the terms where it is much smaller; false when there is none.
+/// The sum of what a value is made of, without signs.
+double size_of_value(const SaddleProblem& problem, const SaddlePoint& point) {
+  double size = point.xi.cwiseAbs().dot(problem.c.cwiseAbs());
+  if (problem.Q.size() > 0) size += 0.5 * std::abs(point.xi.dot(problem.Q * point.xi));
+  for (const SaddleTerm& term : problem.terms)
+    size += term.scale * std::abs(term.f->value(point.u.segment(term.first, term.rows)));
+  return size;
+}
+
+/// D changed to |y|/|u| in the terms where it is much smaller, and of a value where it is so much larger that
+/// the rounding of D(t - u) is more than the value's: nothing else gave D its size there. False when there is
+/// no such term.
 bool balance(SaddleProblem& problem, const SaddlePoint& point) {
   bool changed = false;
+  const double rounding = accuracy_of_prox / unit_roundoff * size_of_value(problem, point);
   for (const SaddleTerm& term : problem.terms) {
     const double u = size_of_parts(problem, point, term);
     auto d = problem.D.segment(term.first, term.rows);
     const double y = point.y.segment(term.first, term.rows).norm();
-    const double factor = y / (u * d.maxCoeff());
-    if (!(factor > unbalanced && std::isfinite(factor))) continue;
+    const double factor = std::max(y / (u * d.maxCoeff()), unit_roundoff);  // y is known to this
+    const bool too_large = problem.n == 0 && unbalanced * factor < 1 && d.maxCoeff() * u * u > rounding;
+    if (!(factor > unbalanced || too_large) || !std::isfinite(factor)) continue;
     d *= std::exp2(std::floor(std::log2(factor)));
     changed = true;
   }
+  if (changed && problem.n == 0) set_scales_of_w(problem);
   return changed;
 }
 
@@ -204,15 +218,6 @@ SaddleSolution solve_balanced(SaddleProblem problem) {
                                                                   : error_of(problem, other.point) <
                                                                         error_of(problem, solution.point));
   return better ? other : solution;
-}
-
-/// The sum of what a value is made of, without signs.
-double size_of_value(const SaddleProblem& problem, const SaddlePoint& point) {
-  double size = point.xi.cwiseAbs().dot(problem.c.cwiseAbs());
-  if (problem.Q.size() > 0) size += 0.5 * std::abs(point.xi.dot(problem.Q * point.xi));
-  for (const SaddleTerm& term : problem.terms)
-    size += term.scale * std::abs(term.f->value(point.u.segment(term.first, term.rows)));
-  return size;
 }
 
 bool is_settled(const SaddleProblem& problem, const SaddleSolution& solution) {

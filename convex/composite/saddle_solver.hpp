@@ -19,6 +19,8 @@ bool domains_apart(const GraphForm& f);
 /// Solves a saddle problem as far as rounding lets it; `point.residual` says how far it got. Where
 /// multipliers turn out larger than D times the u they belong to (they cancel in Mᵀy), D is enlarged to
 /// match, and the solution goes on from there: a miss of M ξ + b then weighs more.
+/// Without x, for a value far out, D may also be so much too large that the rounding of D(t - u) hides y:
+/// then it is made smaller.
 ///
 /// D is chosen by the sizes of W and M alone, and the curvature of the terms may be of another. In a look at
 /// other scales, others are tried where the steps do not come to rounding; the smallest error is taken.

@@ -83,6 +83,7 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
   // f and g are those at points that the bounds leave open, to first order, where these are rounding.
   const double X = W.norm(x), Y = W.norm(y), least = roundings_of_a_term * unit_roundoff * (W.norm(z) + X);
   made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;
+  made.open = made.error > largest_open_part * size_of_values(split);
   made.split = std::move(split);
   return made;
 }
@@ -183,7 +184,6 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
     made.split.inner += at_x.value - made.split.f_x;
     made.split.f_x = at_x.value;
   }
-  made.open = made.error > largest_open_part * size_of_values(made.split);
   return made;
 }
 

@@ -229,7 +229,8 @@ Value between_bounds(const Value& found, const std::optional<Vector>& x, const F
 Value settled_value(const Value& by_program, const std::optional<Vector>& x, const Function& f,
                     const Vector& v) {
   const Value found = between_bounds(by_program, x, f, v);
-  const double size = std::max(std::abs(found.value), small);
+  // Of one entry the search costs little, and a small value is asked for relative to itself.
+  const double size = std::max(std::abs(found.value), v.size() == 1 && found.value != 0 ? 0 : small);
   const bool exact = f.facts().piecewise_quadratic && found.error < infinity;
   const bool decided = exact || (std::isfinite(found.value) && found.error <= settled * size);
   const OneAtATime question(OneAtATime::Kind::supremum);

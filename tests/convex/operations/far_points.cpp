@@ -87,6 +87,15 @@ const Question questions[] = {
     {"pointwise_max(envelope(linear([1.69, 1.52]), 2.46), envelope(envelope(power(4), 0.65), 2.78))",
      {1.9e-9, 2e-8},
      {3.48, 0, 0, 3.79}},
+    {"tilt(dilate(inf_convolution(squared_distance(orthant(), 1), negative_power(0.5)), 0.0009765625), "
+     "[2,1,1,1])",
+     {-2, -3, 0, 1e8},
+     {0.5, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0.03125}},
+    {"proximal_average(dilate(pointwise_max(quadratic([[9,-9,9],[-9,9,-9],[9,-9,9]], [2,-2,3]), "
+     "max_affine([[1,-3,3],[3,3,1]], [-2,2])), 0.0009765625), perspective(perspective(indicator(ball2(1, "
+     "[-3])))), 0.5, 1)",
+     {2, 2, 2},
+     {2, 0, 0, 0, 1, 0, 0, 0, 0.03125}},
     {"pointwise_max(proximal_average(binary_entropy(), power(1.5), 0.5, 2), "
      "inf_convolution(squared_distance(polyhedron([[2],[1]], [1,5]), 3), squared_norm2(3)))",
      {0},

@@ -113,6 +113,18 @@ TEST_CASE(
   CHECK(std::isinf(far.error_bound));
 }
 
+TEST_CASE("the value of a program far out is known to its own size, not to that of the point") {
+  // min over w of 1/2 (x - w)²- - sqrt(w), which is -sqrt(x) - 1/(8x) + O(x^-5/2)
+  const auto f = samples::function("inf_convolution(squared_distance(orthant(),1),negative_power(0.5))", 1);
+  for (const double x : {1e6, 1e8, 1e9, 1e10, 1e11, 1e12, 1e15}) {
+    CAPTURE(x);
+    const convex::Value found = f.evaluate(Vector::Constant(1, x));
+    const double truth = -std::sqrt(x) - 1 / (8 * x);
+    CHECK(std::abs(found.value - truth) <= found.error + 1e-15 * std::sqrt(x));
+    CHECK(found.error <= 1e-12 * std::sqrt(x));
+  }
+}
+
 TEST_CASE("the value of a program is not that of scales at which its misses look small") {
   // The support function of [0, 1/4], whose program has more rows than it needs.
   const auto g = samples::function(
