@@ -172,7 +172,9 @@ double CellMean::operator()(Index k, const Point& x) {
   }
   Sum sum;
   add(low, high, 0, sum);
-  return sum.volume > 0 ? sum.total / sum.volume : field_(x);
+  if (!(sum.volume > 0)) return field_(x);
+  hidden_ = std::max(hidden_, largest_hidden(sum.values));
+  return sum.total / sum.volume;
 }
 
 /// Where the node, its cell, and the boundary's point that stands for it are.
@@ -216,8 +218,10 @@ void CellMean::add(const Point& low, const Point& high, int halvings, Sum& sum) 
 
 void CellMean::offer(const Point& x, double volume, Sum& sum) const {
   if (domain_.level(x) > domain_.reach()) return;
-  sum.total += volume * field_(x);
+  const double value = field_(x);
+  sum.total += volume * value;
   sum.volume += volume;
+  sum.values = {std::min(sum.values.low, value), std::max(sum.values.high, value)};
 }
 
 }  // namespace mechanics::liquid

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "convex/infinity.hpp"
 #include "mechanics/liquid/hidden_values.hpp"
 
 namespace mechanics::liquid {
@@ -25,6 +26,7 @@ class CellMean {
  private:
   struct Sum {
     double total = 0, volume = 0;
+    expression::Range values{convex::infinity, -convex::infinity};
   };
   struct Leaf {
     Point middle{};

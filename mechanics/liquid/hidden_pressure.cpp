@@ -55,7 +55,10 @@ class BumpSearch {
         const Region at = region_between(cells_, there, end);
         if (!(most_beyond(at) > least_)) return;
         const Hull given_around = hull_;
-        take_in_corners(at);
+        // What is given may go on beyond its last crossing as it goes between the others.
+        const double width = std::max(hull_.high - hull_.low, 0.0);
+        hull_.low -= width;
+        hull_.high += width;
         for_boundary(scene_.domain, at, [&](const Region& side) {
           search(
               side, {d_, halvings_of_a_cell[d_ - 1], &regions_},
@@ -97,15 +100,6 @@ class BumpSearch {
     double most = 0;
     for (const BoundaryPart& part : scene_.parts) most = std::max(most, beyond(hull_, part, at));
     return most;
-  }
-
-  /// What parts give at the boundary nearest to the corners: they may go on beyond their last crossing.
-  void take_in_corners(const Region& at) {
-    for_corners(at, d_, [&](const Point& corner) {
-      const Point x = scene_.domain.foot(corner);
-      for (const BoundaryPart& part : scene_.parts)
-        if (part.is_free) hull_.take(part.value.raw(x));
-    });
   }
 
   bool meets_boundary(const Region& at) const {
