@@ -41,7 +41,7 @@ TEST_CASE(
 
   // p = (1 + r²)/2, largest on the rim, nearly all of which is a wall.
   for (const int cells : {48, 100, 256}) {
-    CAPTURE(std::string(cells));
+    CAPTURE(cells);
     const Told disc = told(
         "disc(center=[0, 0], radius=1)", "[\"x\", \"y\"]",
         "free = { tip = { where = \"x >= 0.99999\", pressure = 1 } }\nwalls = { rim = { where = \"true\", "
@@ -60,7 +60,7 @@ TEST_CASE(
   for (const int cells : {16, 32, 64, 128})
     for (const double beyond : {0.1, 0.3, 0.45, 0.49}) {
       const double edge = 0.5 + beyond / cells;
-      CAPTURE(std::string(cells));
+      CAPTURE(cells);
       CAPTURE(beyond);
       const Told answer =
           told("box(low=[0, 0], high=[1, 1])", "[\"x\", \"0\"]",
@@ -230,7 +230,7 @@ TEST_CASE(
   };
   const double fine = pressure("512").first;
   for (const char* cells : {"24", "32", "36", "52", "64", "100"}) {
-    CAPTURE(std::string(cells));
+    CAPTURE(cells);
     const auto [p, bound] = pressure(cells);
     CHECK(std::abs(p - fine) <= bound);
   }
