@@ -27,6 +27,8 @@ std::string latex_words(const std::string& words) {
     if (done) continue;
     if (c == '\\')
       text += "\\textbackslash{}";
+    else if (c == '[')
+      text += "{[}";  // at the beginning of a row it would be an option of the break before
     else if (c == '~')
       text += "\\textasciitilde{}";
     else if (c == '^')

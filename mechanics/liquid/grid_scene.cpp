@@ -92,7 +92,8 @@ std::vector<std::string> empty_parts(const LiquidScene& scene, const CutCells& c
   std::vector<bool> seen(scene.parts.size());
   for (const WallPiece& wall : cells.walls) seen[wall.part] = true;
   for (const GivenPressure& given : cells.pressures)
-    seen[static_cast<std::size_t>(&scene.boundary_part(given.at) - scene.parts.data())] = true;
+    if (const BoundaryPart* part = scene.part_at(given.at))
+      seen[static_cast<std::size_t>(part - scene.parts.data())] = true;
   std::vector<std::string> names;
   for (std::size_t k = 0; k < seen.size(); ++k)
     if (!seen[k] && !scene.parts[k].where.is_always()) names.push_back(scene.parts[k].name);

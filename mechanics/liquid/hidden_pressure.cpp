@@ -41,22 +41,16 @@ class BumpSearch {
   double largest() {
     std::map<Places, bool> seen;
     for (const auto& [cell, hull] : given_)
-      for_cells_around(cell, [&](const Places& there) {
+      for_cells_around(cell, 1, [&](const Places& there) {
         if (!seen.try_emplace(there, true).second) return;
         Places end{};
         for (std::size_t i = 0; i < d_; ++i) end[i] = there[i] + 1;
-        hull_ = {};
-        for_cells_around(there, [&](const Places& near) {
-          const auto known = given_.find(near);
-          if (known == given_.end()) return;
-          hull_.take(known->second.low);
-          hull_.take(known->second.high);
-        });
+        hull_ = given_around(there, 1);
         const Region at = region_between(cells_, there, end);
         if (!(most_beyond(at) > least_)) return;
-        const Hull given_around = hull_;
+        const Hull near = hull_, wide = given_around(there, 2);
         // What is given may go on beyond its last crossing as it goes between the others.
-        const double width = std::max(hull_.high - hull_.low, 0.0);
+        const double width = wide.high - wide.low;
         hull_.low -= width;
         hull_.high += width;
         for_boundary(scene_.domain, at, [&](const Region& side) {
@@ -70,7 +64,7 @@ class BumpSearch {
                 if (depth > 0) return false;
                 const BoundaryPart* part = scene_.part_at(scene_.domain.foot(middle_of(here)));
                 if (part != nullptr && beyond(hull_, *part, here) > least_)
-                  largest_ = std::max(largest_, beyond(given_around, *part, here));
+                  largest_ = std::max(largest_, beyond(near, *part, here));
                 return false;
               });
         });
@@ -80,15 +74,27 @@ class BumpSearch {
 
  private:
   template <class Work>
-  void for_cells_around(const Places& cell, Work work) const {
+  void for_cells_around(const Places& cell, Index reach, Work work) const {
     Places low{}, high{};
     for (std::size_t i = 0; i < d_; ++i) {
-      low[i] = std::max<Index>(cell[i] - 1, 0);
-      high[i] = std::min<Index>(cell[i] + 1, cells_.grid.points[i] - 2);
+      low[i] = std::max<Index>(cell[i] - reach, 0);
+      high[i] = std::min<Index>(cell[i] + reach, cells_.grid.points[i] - 2);
     }
     for (Index c = low[2]; c <= high[2]; ++c)
       for (Index b = low[1]; b <= high[1]; ++b)
         for (Index a = low[0]; a <= high[0]; ++a) work(Places{a, b, c});
+  }
+
+  /// Between the values at the crossings in cells so near.
+  Hull given_around(const Places& cell, Index reach) const {
+    Hull hull;
+    for_cells_around(cell, reach, [&](const Places& near) {
+      const auto known = given_.find(near);
+      if (known == given_.end()) return;
+      hull.take(known->second.low);
+      hull.take(known->second.high);
+    });
+    return hull;
   }
 
   /// By how much the values of a part in a region leave those given around.
