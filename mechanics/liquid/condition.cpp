@@ -46,6 +46,8 @@ class ConditionReading {
       const char c = text_.text[k], before = k > begin ? text_.text[k - 1] : ' ';
       if (c == '&') fail(k, "& is no sign here; write and");
       if (c == '|') fail(k, "| is no sign here; write or");
+      if (c == '=' && k + 1 < end && (text_.text[k + 1] == '>' || text_.text[k + 1] == '<'))
+        fail(k, std::string("=") + text_.text[k + 1] + " is no sign here; write " + text_.text[k + 1] + "=");
       if (c == '=' && before != '<' && before != '>')
         fail(k, "= alone is no relation here; write <= or >=, which hold on the boundary too");
     }
