@@ -15,6 +15,7 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
       steps_(system.equations_of_motion().series.steps),
       order_(order),
       series_(system.equations_of_motion().series, order),
+      columns_(equations_, series_),
       lambda_(static_cast<std::size_t>(equations_.constraints() * (order - 1))),
       f_(static_cast<std::size_t>(equations_.constraints() * (order + 1))),
       magnitude_(series_) {

@@ -7,6 +7,7 @@
 
 #include "mechanics/lagrangian_system.hpp"
 #include "mechanics/motion/held_rows.hpp"
+#include "mechanics/motion/inertia_columns.hpp"
 #include "mechanics/motion/inertia_factor.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 #include "mechanics/motion/taylor_magnitude.hpp"
@@ -182,11 +183,11 @@ class Expansion {
   convex::Matrix small_, found_;  // A of few coordinates, and where it is looked for
   InertiaFactor factor_;          // the same
   mutable std::optional<convex::Metric> A_;
-  Vector r_, force_;             // what velocities of the order looked for are solved from; that of order 0
-  std::vector<double> columns_;  // of every series, when velocities of highest order change
-  std::vector<double> lambda_;   // by constraint and order
-  std::vector<double> f_;        // likewise
-  TaylorMagnitude magnitude_;    // while it is open who persists
+  InertiaColumns columns_;
+  Vector r_, force_;            // what velocities of the order looked for are solved from; that of order 0
+  std::vector<double> lambda_;  // by constraint and order
+  std::vector<double> f_;       // likewise
+  TaylorMagnitude magnitude_;   // while it is open who persists
   bool magnitude_is_begun_ = false;
   int magnitudes_found_ = 0;  // orders of the question
   convex::Matrix inverse_;    // |A⁻¹| of its entries, for few coordinates

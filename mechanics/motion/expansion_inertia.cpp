@@ -14,45 +14,27 @@ namespace {
 /// Up to so many coordinates A is written down in full.
 constexpr Index small_system = 32;
 
-/// Columns of A found in one sweep.
-constexpr std::size_t lanes_at_once = 8;
-
 }  // namespace
 
-/// A = ∂p/∂q', by columns.
+/// A = ∂p/∂q', its symmetric part.
 void Expansion::find_inertia() {
+  if (!columns_.find() && (factor_.is_made() || A_)) return;
   const Index n = coordinates();
-  const auto lanes = std::min(lanes_at_once, static_cast<std::size_t>(n));
-  // What depends on velocities is filled in by each sweep, and all else stays 0.
-  columns_.resize(series_.series() * lanes);
-  const bool is_small = n <= small_system;
-  if (is_small) found_.resize(n, n);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index first = 0; first < n; first += static_cast<Index>(lanes)) {
-    const Index count = std::min(static_cast<Index>(lanes), n - first);
-    const auto seed = [&](double one) {
-      for (Index l = 0; l < count; ++l)
-        columns_[equations_.program.velocity(index(first + l)) * lanes + index(l)] = one;
-    };
-    seed(1);
-    series_.carry(columns_, lanes);
-    for (Index i = 0; i < n; ++i)
-      for (Index l = 0; l < count; ++l)
-        if (const double a = columns_[equations_.momentum[index(i)] * lanes + index(l)]; is_small)
-          found_(i, first + l) = a;
-        else if (a != 0)
-          entries.emplace_back(i, first + l, a);
-    seed(0);
-  }
-  if (is_small) {
+  if (n <= small_system) {
+    found_.setZero(n, n);
+    for (const auto& [i, j, a] : columns_.entries()) found_(i, j) = a;
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < i; ++j) found_(i, j) = found_(j, i) = 0.5 * (found_(i, j) + found_(j, i));
-    if (small_.size() == found_.size() && small_ == found_) return;  // and so is all that follows from it
+    if (factor_.is_made() && small_.size() == found_.size() && small_ == found_) return;
     small_ = found_;
     A_.reset();
     if (!factor_.make(small_)) inertia();
     return;
   }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [i, j, a] : columns_.entries())
+    if (a != 0) entries.emplace_back(i, j, a);
+  A_.reset();
   convex::SparseMatrix columns(n, n);
   columns.setFromTriplets(entries.begin(), entries.end());
   const convex::SparseMatrix transposed = columns.transpose();

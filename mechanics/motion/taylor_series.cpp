@@ -254,19 +254,6 @@ bool TaylorSeries::find_free(const InertiaFactor& A, std::span<const double> for
   return true;
 }
 
-void TaylorSeries::carry(std::vector<double>& change, std::size_t count) const {
-  for (const std::uint32_t r : rows_.by_velocity) {
-    const TaylorRows::Row& row = rows_.rows[r];
-    double* f = change.data() + row.out * count;
-    std::fill(f, f + count, 0.0);
-    for (std::uint32_t t = row.first; t < row.end; ++t) {
-      const TaylorRows::Term& term = terms_[t];
-      const double* a = change.data() + term.series * count;
-      for (std::size_t l = 0; l < count; ++l) f[l] += term.c * a[l];
-    }
-  }
-}
-
 double value_at(std::span<const double> c, double tau) {
   double sum = 0;
   for (std::size_t k = c.size(); k-- > 0;) sum = sum * tau + c[k];

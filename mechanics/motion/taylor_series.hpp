@@ -53,10 +53,9 @@ class TaylorSeries {
   /// The last coefficient of a variable, which nothing depends on any more.
   void end(Slot variable, double coefficient) { at(variable)[order_] = coefficient; }
 
-  /// The highest coefficients of velocities enter those of the series of group 0 in a linear way:
-  /// `change`, filled in for the velocities, is filled in for the series that depend on them.
-  /// `lanes` changes at once, so many numbers a series; 0 for series that do not depend on velocities.
-  void carry(std::vector<double>& change, std::size_t lanes) const;
+  /// The recurrences, and their terms with the partial derivatives at order 0.
+  const TaylorRows& rows() const { return rows_; }
+  const std::vector<TaylorRows::Term>& terms() const { return terms_; }
   std::size_t series() const { return rows_.series; }
   /// How many operations lead to a coefficient of order 0 at most.
   std::size_t operations() const { return steps_->steps.size(); }
