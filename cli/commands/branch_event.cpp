@@ -48,9 +48,21 @@ const char* event_name(BranchEvent event) {
   return "";
 }
 
+long impacts_of(const mechanics::Orbit& orbit, convex::Index constraint, const mechanics::Orbit& other) {
+  const auto has = [&](const std::vector<convex::Index>& all) {
+    return std::find(all.begin(), all.end(), constraint) != all.end();
+  };
+  if (has(orbit.accumulating) || has(other.accumulating)) return 0;
+  return std::count_if(orbit.impacts.begin(), orbit.impacts.end(),
+                       [&](const mechanics::MotionEvent& impact) { return has(impact.constraints); });
+}
+
 BranchEvent event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free) {
-  if (before.impacts.size() != now.impacts.size() || !before.multipliers || !now.multipliers)
-    return BranchEvent::grazing;
+  const bool is_crowd = !before.accumulating.empty() || !now.accumulating.empty();
+  bool has_other_impacts = !is_crowd && before.impacts.size() != now.impacts.size();
+  for (convex::Index a = 0; a < now.least_gap.size(); ++a)
+    has_other_impacts = has_other_impacts || impacts_of(before, a, now) != impacts_of(now, a, before);
+  if (has_other_impacts || !before.multipliers || !now.multipliers) return BranchEvent::grazing;
   const auto all_outside = [&](const mechanics::Orbit& orbit) {
     return outside(BranchEvent::flip, orbit, is_free) + outside(BranchEvent::branching, orbit, is_free) +
            2 * outside(BranchEvent::torus, orbit, is_free);

@@ -15,6 +15,10 @@ const char* table_name(BranchEvent);
 /// As the picture tells it.
 const char* event_name(BranchEvent);
 
+/// How many impacts of that constraint an orbit has; none are counted where they come to their end in either
+/// one, for infinitely many are no number.
+long impacts_of(const mechanics::Orbit& orbit, convex::Index constraint, const mechanics::Orbit& other);
+
 /// What a branch passes between two orbits that do not lie on two sides of a fold. Of an orbit of free period
 /// the multiplier 1 along it crosses nothing.
 BranchEvent event_between(const mechanics::Orbit& before, const mechanics::Orbit& now, bool is_free);

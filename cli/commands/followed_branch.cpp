@@ -26,6 +26,9 @@ double distance(const mechanics::State& x, const mechanics::State& y) {
   return std::hypot((x.q - y.q).norm(), (x.v - y.v).norm());
 }
 
+/// Orbits that a polynomial goes through.
+constexpr std::size_t most_of_trail = 5;
+
 /// The first orbit is a fold itself if that is no further from it than this part of a step.
 constexpr double at_fold = 1e-8;
 
@@ -46,6 +49,12 @@ std::string FollowedBranch::follow() {
       begin(*next);
       continue;
     }
+    if (next && comes_back_sooner(*next) && !comes_back_sooner(*last_))
+      return fmt::format(
+          "the branch ends between {} = {} and {}, in the flip of an orbit of fewer periods; for that one "
+          "give a "
+          "smaller --periods",
+          range_.parameter, last_->value, value);
     if (next) {
       arrive(*next);
       if (is_lost_)
@@ -106,6 +115,23 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_along(const Stati
   return attempt(value, guess, b.orbit.period);
 }
 
+/// Neville's scheme.
+std::optional<FollowedBranch::Station> FollowedBranch::attempt_by_polynomial(
+    const std::vector<Station>& through, double value) {
+  const std::size_t count = std::min(through.size(), most_of_trail), first = through.size() - count;
+  std::vector<mechanics::State> x;
+  for (std::size_t i = 0; i < count; ++i) x.push_back(through[first + i].orbit.start);
+  for (std::size_t width = 1; width < count; ++width)
+    for (std::size_t i = 0; i + width < count; ++i) {
+      const double from = through[first + i].value, to = through[first + i + width].value;
+      if (from == to) return std::nullopt;
+      const double part = (value - from) / (to - from);
+      x[i].q += part * (x[i + 1].q - x[i].q);
+      x[i].v += part * (x[i + 1].v - x[i].v);
+    }
+  return attempt(value, x[0], through.back().orbit.period);
+}
+
 mechanics::OrbitFamily FollowedBranch::family() const {
   return {[this](double value) {
             const Problem at = with_parameter(problem_, range_.parameter, value);
@@ -146,16 +172,26 @@ bool FollowedBranch::follows(const Station& next) const {
   return away <= factor * usual + least * size && (same_way ? onward > 0 : onward < 0);
 }
 
+bool FollowedBranch::has_its_impacts(const Station& next) {
+  const Station last = trail_.back();
+  if (grazed(last, next) < 0 || !last.orbit.multipliers || !next.orbit.multipliers) return true;
+  BranchEvent event = BranchEvent::grazing;
+  const bool is_behind_graze = locate(last, next, event).has_value();
+  is_lost_ = false;
+  return is_behind_graze;
+}
+
 std::optional<FollowedBranch::Station> FollowedBranch::attempt_from_last(double value, int depth) {
-  constexpr int deepest = 8;
   const Station last = trail_.back();
   std::optional<Station> found;
   if (trail_.size() > 1) {
     found = attempt_along(trail_[trail_.size() - 2], last, value);
-    if (found && !follows(*found)) found.reset();
+    if (found && !(follows(*found) && has_its_impacts(*found))) found.reset();
+    if (!found && trail_.size() > 2) found = attempt_by_polynomial(trail_, value);
+    if (found && !(follows(*found) && has_its_impacts(*found))) found.reset();
   }
   if (!found) found = attempt(value, last.orbit.start, last.orbit.period);
-  if (found && !follows(*found)) {
+  if (found && !(follows(*found) && has_its_impacts(*found))) {
     why_ = "the nearest orbit there is of another branch";
     found.reset();
   }
@@ -167,12 +203,29 @@ std::optional<FollowedBranch::Station> FollowedBranch::attempt_from_last(double 
   }
   if (found) {
     trail_.push_back(*found);
-    constexpr std::size_t enough = 2;
-    if (trail_.size() > enough) trail_.erase(trail_.begin());
+    if (trail_.size() > most_of_trail) trail_.erase(trail_.begin());
     choose_instant();
     found = trail_.back();
   }
   return found;
+}
+
+bool FollowedBranch::comes_back_sooner(const Station& at) const {
+  const double T = at.orbit.period, t = at.orbit.start.t;
+  for (long k = 2; k <= options_.periods; ++k) {
+    if (options_.periods % k != 0) continue;
+    const Station later = moved(at, t + T / static_cast<double>(k));
+    double away = (later.orbit.start.v - at.orbit.start.v).norm();
+    for (convex::Index i = 0; i < later.orbit.start.q.size(); ++i) {
+      const double turn = asked_.modulo.size() > 0 ? asked_.modulo[i] : 0;
+      double gone = later.orbit.start.q[i] - at.orbit.start.q[i];
+      if (turn > 0) gone -= turn * std::round(gone / turn);
+      away = std::hypot(away, gone);
+    }
+    constexpr double one_orbit = 1e-8;
+    if (away <= one_orbit * std::hypot(at.orbit.start.q.norm(), at.orbit.start.v.norm())) return true;
+  }
+  return false;
 }
 
 void FollowedBranch::row(const Station& at, BranchEvent event) {

@@ -45,6 +45,9 @@ class FollowedBranch {
   std::optional<Station> attempt(double value, const mechanics::State& guess, double period);
   /// Between, or beyond, two orbits.
   std::optional<Station> attempt_along(const Station& a, const Station& b, double value);
+  /// From the polynomial through the last orbits of several: nearer than a line where Newton's method has
+  /// little room, as beside a graze, where a multiplier grows without bound.
+  std::optional<Station> attempt_by_polynomial(const std::vector<Station>& through, double value);
 
   mechanics::OrbitFamily family() const;
   mechanics::OrbitQuestion question(const mechanics::LagrangianSystem&, double value) const;
@@ -57,8 +60,16 @@ class FollowedBranch {
   /// Whether an orbit is where the last two lead; if not, Newton's method went to another branch.
   bool follows(const Station& next) const;
 
+  /// Whether its impacts are those of the last one, or a graze lies between them: near a graze orbits of two
+  /// branches, with the impact and without it, are so near to each other that only this tells them apart.
+  bool has_its_impacts(const Station& next);
+
   /// The orbit at a value from the last ones, with shorter steps between where these lead elsewhere.
   std::optional<Station> attempt_from_last(double value, int depth = 0);
+  static constexpr int deepest = 8;
+
+  /// Whether an orbit of several periods comes back in fewer.
+  bool comes_back_sooner(const Station&) const;
 
   void row(const Station& at, BranchEvent event);
 
@@ -77,6 +88,10 @@ class FollowedBranch {
   /// Where the gap, or the speed of the impact, of a contact comes to 0 behind two orbits, before `beyond`.
   std::optional<Station> locate_grazing(const Station& a, const Station& b, double beyond, convex::Index);
 
+  /// The graze at which the impacts of a contact end, from orbits that lack them beside the value to which
+  /// its speed leads: Newton's method finds these however near, and those with the impact only from nearby.
+  std::optional<Station> locate_from_behind(convex::Index contact);
+
   /// The last orbit that is found before a value, and the next value at which none is.
   std::pair<Station, double> approach(double beyond);
 
@@ -86,7 +101,8 @@ class FollowedBranch {
   /// Whether it ends there as a contact is grazed. If so, that is told, and it goes on with the orbits that
   /// have the impact, or are without it, where there are any, `is_on`.
   bool graze(double beyond, bool& is_on);
-  bool begin_behind_grazing(const Station& at);
+  /// `impacts`: those of the orbits before.
+  bool begin_behind_grazing(const Station& at, std::size_t impacts);
 
   /// How far `to` is from `from` in the direction of the branch at the fold.
   double along(const mechanics::State& from, const mechanics::State& to) const;
@@ -104,7 +120,7 @@ class FollowedBranch {
   BranchRange range_;
   double t_ = 0;                 // of the file's state
   std::optional<Station> last_;  // in the table
-  std::vector<Station> trail_;   // the last two, those between values of the range too
+  std::vector<Station> trail_;   // the last few, those between values of the range too
   long count_ = 0;
   std::string table_, why_;
   std::vector<BranchPoint> points_;

@@ -22,12 +22,6 @@ double apart(const mechanics::State& x, const mechanics::State& y) {
   return std::hypot((x.q - y.q).norm(), (x.v - y.v).norm());
 }
 
-long impacts_of(const mechanics::Orbit& orbit, Index a) {
-  return std::count_if(orbit.impacts.begin(), orbit.impacts.end(), [a](const mechanics::MotionEvent& impact) {
-    return std::find(impact.constraints.begin(), impact.constraints.end(), a) != impact.constraints.end();
-  });
-}
-
 /// The x at which y is 0 by the polynomial x(y) through the last points (Neville).
 double where_zero(const std::vector<std::pair<double, double>>& points) {
   constexpr std::size_t most_points = 5;
@@ -47,16 +41,23 @@ double where_zero(const std::vector<std::pair<double, double>>& points) {
 /// Jarratt 1971); halving where there is none.
 std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station b, BranchEvent& event) {
   if (event == BranchEvent::grazing)
-    if (const Index contact = grazed(a, b); contact >= 0)
+    if (const Index contact = grazed(a, b); contact >= 0) {
+      bool has_none = false;  // told by where the gap, or the speed, goes
       for (const bool from_a : {true, false}) {
         // From the side without the impact, and otherwise from the one with it.
-        const Station &here = (impacts_of(a.orbit, contact) < impacts_of(b.orbit, contact)) == from_a ? a : b,
+        const Station &here = (impacts_of(a.orbit, contact, b.orbit) <
+                               impacts_of(b.orbit, contact, a.orbit)) == from_a
+                                  ? a
+                                  : b,
                       &there = &here == &a ? b : a;
         const auto second = attempt_along(here, there, 0.9 * here.value + 0.1 * there.value);
         if (!second || second->orbit.impacts.size() != here.orbit.impacts.size()) continue;
         if (const auto at = locate_grazing(here, *second, there.value, contact))
           return behind(*at, a, b, event);
+        has_none = true;
       }
+      if (has_none) return std::nullopt;
+    }
   Crossing crossing(event, a.orbit, b.orbit, asked_.is_free);
   auto left = crossing(a.orbit), right = crossing(b.orbit);
   const double step = std::abs(range_.step);
@@ -104,7 +105,7 @@ std::optional<FollowedBranch::Passage> FollowedBranch::locate(Station a, Station
   is_lost_ = is_located && away > jump * std::hypot(b.orbit.start.q.norm(), b.orbit.start.v.norm());
   if (is_lost_) return std::nullopt;
   constexpr double near = 1e-3;  // part of a step: else it is not known well enough for a row
-  if (!is_located && std::abs(b.value - a.value) > near * step) return std::nullopt;
+  if (std::abs(b.value - a.value) > near * step) return std::nullopt;
   return Passage{b, b};
 }
 
@@ -119,7 +120,7 @@ FollowedBranch::Passage FollowedBranch::behind(const Station& at, const Station&
 
 Index FollowedBranch::grazed(const Station& a, const Station& b) {
   for (Index contact = 0; contact < a.orbit.least_gap.size(); ++contact)
-    if (impacts_of(a.orbit, contact) != impacts_of(b.orbit, contact)) return contact;
+    if (impacts_of(a.orbit, contact, b.orbit) != impacts_of(b.orbit, contact, a.orbit)) return contact;
   return -1;
 }
 
@@ -131,10 +132,11 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate_grazing(const Stat
   };
   const std::size_t impacts = a.orbit.impacts.size();
   std::vector<std::pair<double, double>> points{{a.value, nearness(a.orbit)}, {b.value, nearness(b.orbit)}};
-  Station last = a, now = b;
+  std::vector<Station> met{a, b};
   double before = std::numeric_limits<double>::quiet_NaN();
   constexpr int most_steps = 24;
   for (int i = 0; i < most_steps; ++i) {
+    const Station now = met.back();
     for (const auto& [value, y] : points)
       if (!std::isfinite(y)) return std::nullopt;
     const double zero = where_zero(points);
@@ -149,16 +151,49 @@ std::optional<FollowedBranch::Station> FollowedBranch::locate_grazing(const Stat
       if (!is_between || !(std::abs(zero - now.value) <= halved * std::abs(range_.step))) return std::nullopt;
       return Station{zero, now.orbit};
     }
-    auto found = attempt_along(last, now, next);
-    if (!found || found->orbit.impacts.size() != impacts ||
-        !(nearness(found->orbit) < points.back().second)) {
+    const auto is_nearer = [&](const std::optional<Station>& found) {
+      return found && found->orbit.impacts.size() == impacts && nearness(found->orbit) < points.back().second;
+    };
+    auto found = attempt_along(met[met.size() - 2], now, next);
+    if (!is_nearer(found)) found = attempt_by_polynomial(met, next);
+    if (!is_nearer(found)) {
       beyond = next;
       continue;
     }
     points.emplace_back(found->value, nearness(found->orbit));
-    last = std::move(now);
-    now = std::move(*found);
+    met.push_back(std::move(*found));
   }
+  return std::nullopt;
+}
+
+std::optional<FollowedBranch::Station> FollowedBranch::locate_from_behind(Index contact) {
+  if (trail_.size() < 3) return std::nullopt;
+  std::vector<std::pair<double, double>> speeds;
+  for (const Station& station : trail_)
+    speeds.emplace_back(station.value, station.orbit.least_closing[contact]);
+  const Station &last = trail_.back(), &before = trail_[trail_.size() - 2];
+  const double falls = speeds[speeds.size() - 2].second - speeds.back().second;
+  if (!(falls > 0 && std::isfinite(falls))) return std::nullopt;
+  const double zero = where_zero(speeds), ahead = zero - last.value;
+  constexpr double farthest = 4;  // times the last step
+  if (!(ahead * (last.value - before.value) > 0) ||
+      !(std::abs(ahead) <= farthest * std::abs(last.value - before.value)))
+    return std::nullopt;
+  const auto lacks_it = [&](const std::optional<Station>& found) {
+    return found && found->orbit.impacts.size() + 1 == last.orbit.impacts.size() &&
+           grazed(last, *found) == contact;
+  };
+  for (const double part : {1.0, 0.1, 1e-2})
+    for (const double side : {-1.0, 1.0}) {
+      const double far = zero + side * part * ahead, near = zero + 0.5 * side * part * ahead;
+      const auto one = attempt(far, last.orbit.start, last.orbit.period);
+      if (!lacks_it(one)) continue;
+      const auto two = attempt_along(last, *one, near);
+      if (!lacks_it(two)) continue;
+      const auto at = locate_grazing(*one, *two, zero - side * part * ahead, contact);
+      // Where the speed leads, and not another graze.
+      if (at && std::abs(at->value - zero) <= 0.5 * std::abs(ahead)) return at;
+    }
   return std::nullopt;
 }
 

@@ -23,7 +23,7 @@ std::pair<FollowedBranch::Station, double> FollowedBranch::approach(double beyon
   constexpr int halvings = 10;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (near.value + none);
-    if (auto found = attempt_from_last(middle))
+    if (auto found = attempt_from_last(middle, deepest - 1))
       near = std::move(*found);
     else
       none = middle;
@@ -36,23 +36,32 @@ bool FollowedBranch::turn(double beyond) {
   fold_ = mechanics::find_turning_point(family(), near.value, near.orbit);
   const double apart = fold_ ? std::abs(fold_->value - none) : 0;
   if (!fold_ || apart > std::abs(none - near.value) + near_fold * std::abs(range_.step)) return false;
-  const Station& last = trail_.front();
+  const Station& last = trail_[trail_.size() - 2];
   if (along(last.orbit.start, fold_->orbit.start) < 0) fold_->along = -fold_->along;
   row({fold_->value, fold_->orbit}, BranchEvent::fold);
   return true;
 }
 
 bool FollowedBranch::graze(double beyond, bool& is_on) {
+  const std::size_t impacts = trail_.back().orbit.impacts.size();
   const auto go_on = [&](const Station& at) {
-    is_on = begin_behind_grazing(at);
-    if (!is_on) why_ = "its orbit grazes a contact there, and none goes on from it";
+    is_on = begin_behind_grazing(at, impacts);
+    if (!is_on)
+      why_ =
+          "its orbit grazes a contact there, and none is found that goes on from it; for those beyond, begin "
+          "at the state of one";
     return true;
   };
   if (!trail_.back().orbit.multipliers) return go_on(Station(trail_.back()));  // told already
   const auto [near, none] = approach(beyond);
   const double reach = none + grazing_reach * (none - near.value);
   for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
-    if (const auto at = locate_grazing(trail_.front(), near, reach, contact)) {
+    if (const auto at = locate_grazing(trail_[trail_.size() - 2], near, reach, contact)) {
+      row(*at, BranchEvent::grazing);
+      return go_on(*at);
+    }
+  for (Index contact = 0; contact < near.orbit.least_gap.size(); ++contact)
+    if (const auto at = locate_from_behind(contact)) {
       row(*at, BranchEvent::grazing);
       return go_on(*at);
     }
@@ -60,20 +69,22 @@ bool FollowedBranch::graze(double beyond, bool& is_on) {
 }
 
 /// Behind a graze orbits with the impact leave it by the root of the distance, on either side of its value.
-bool FollowedBranch::begin_behind_grazing(const Station& at) {
+bool FollowedBranch::begin_behind_grazing(const Station& at, std::size_t impacts) {
   const double step = std::abs(range_.step), onward = way();
   const auto distance = [&](const Station& to) {
     return std::hypot((to.orbit.start.q - at.orbit.start.q).norm(),
                       (to.orbit.start.v - at.orbit.start.v).norm());
   };
-  constexpr double shorter = 1.0 / 16, nearer = 0.6;
+  constexpr double shorter = 1.0 / 16, nearer = 0.6, as_one = 1e-9;
+  const double size = std::hypot(at.orbit.start.q.norm(), at.orbit.start.v.norm());
   for (const double part : {1e-3, 1e-2, 1e-1})
     for (const double side : {onward, -onward}) {
       const auto two = attempt(at.value + side * part * step, at.orbit.start, at.orbit.period);
-      if (!two || two->orbit.impacts.size() == at.orbit.impacts.size()) continue;
+      if (!two || two->orbit.impacts.size() == impacts) continue;
       const auto one = attempt_along(at, *two, at.value + side * part * shorter * step);
       if (!one || one->orbit.impacts.size() != two->orbit.impacts.size()) continue;
-      if (!(distance(*one) <= nearer * distance(*two))) continue;
+      // Orbits without impacts need not depend on the parameter at all.
+      if (!(distance(*one) <= nearer * distance(*two) + as_one * size)) continue;
       if (side != onward) forward_ = -forward_;
       trail_ = {*one, *two};
       last_ = *two;
@@ -95,7 +106,7 @@ bool FollowedBranch::begin_behind_fold(double value) {
   const double reach = std::min(std::abs(fold_->value - value), 0.05 * std::abs(range_.step));
   // The parabola from the side that we came from.
   Station from = trail_.back();
-  if (std::abs(fold_->value - from.value) < 1e-6 * reach) from = trail_.front();
+  if (std::abs(fold_->value - from.value) < 1e-6 * reach) from = trail_[trail_.size() - 2];
   const double before = along(from.orbit.start, fold_->orbit.start);
   const double curvature = std::abs(fold_->value - from.value) / (before * before);
   const double distance = std::sqrt(reach / curvature);

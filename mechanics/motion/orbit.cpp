@@ -238,8 +238,11 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   }
   orbit.is_found = true;
   note_passage(flight, system, orbit);
-  for (const MotionEvent& event : flight.events())
+  for (const MotionEvent& event : flight.events()) {
     if (event.kind == EventKind::impact) orbit.impacts.push_back(event);
+    if (event.kind == EventKind::accumulation)
+      orbit.accumulating.insert(orbit.accumulating.end(), event.constraints.begin(), event.constraints.end());
+  }
   chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
   const auto D = for_multipliers(map, *chart, orbit.period, flight);
   if (!D) return orbit;

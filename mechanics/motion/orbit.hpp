@@ -38,6 +38,9 @@ struct Orbit {
   /// multipliers are nearly one.
   double circle_width = 0;
   std::vector<MotionEvent> impacts;
+  /// Constraints of which infinitely many impacts come to an end on the way; `impacts` has so many of them as
+  /// were followed.
+  std::vector<Index> accumulating;
   /// The state of the orbit at the instant of the period from `start` that is furthest from all events, free
   /// of contacts if there is such a one, and how far the events are from it, and from the start.
   State quiet;

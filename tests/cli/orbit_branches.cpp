@@ -183,6 +183,57 @@ TEST_CASE("a graze is told at its closed form, and the branch goes on with the i
   CHECK(rows.back().impacts == 1);
 }
 
+TEST_CASE("orbits with an impact, unstable, lead to the graze of those without, where the branch turns") {
+  const std::string text =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[system.parameters]\nd "
+      "= 0\n"
+      "[system.forces]\nx = \"cos(1.8*t) - 0.1*x'\"\n[system.constraints]\nstop = \"x <= d\"\n"
+      "[simulate]\nrestitution = 0.8\n[state]\nposition = { x = -0.1 }\nvelocity = { x = 0.3 }\n";
+  const std::vector<Row> rows = branch(text, {"--period", "2*pi/1.8", "--over", "d=0:0.05:1"});
+  const double amplitude = 1 / std::hypot(1.8 * 1.8 - 1, 0.1 * 1.8);
+  int folds = 0, grazes = 0;
+  for (const Row& row : rows) {
+    folds += row.event == "fold";
+    if (row.event == "grazing") {
+      ++grazes;
+      CHECK(std::abs(row.value - amplitude) <= 1e-11);
+    }
+    CHECK(row.impacts == (grazes == 0));
+  }
+  CHECK(folds == 1);
+  CHECK(grazes == 1);
+  CHECK(rows.back().value == doctest::Approx(1));
+}
+
+TEST_CASE("a branch of twice the period ends where it meets the orbit whose flip it came from") {
+  const std::string text =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n[system.parameters]\nd "
+      "= 0.1\n"
+      "[system.forces]\nx = \"cos(2.5*t) - 0.1*x'\"\n[system.constraints]\nstop = \"x <= d\"\n"
+      "[simulate]\nrestitution = 0.8\n[state]\nposition = { x = -0.3255549131881714 }\n"
+      "velocity = { x = 0.048380115709108426 }\n";
+  const std::vector<Row> doubled =
+      branch(text, {"--period", "2*pi/2.5", "--periods", "2", "--over", "d=0.1:-0.002:0.06"}, 3);
+  REQUIRE(!doubled.empty());
+  const std::vector<Row> single = branch(text, {"--period", "2*pi/2.5", "--over", "d=0.1:-0.002:0.06"});
+  double flip = 0;
+  for (const Row& row : single)
+    if (row.event == "flip") flip = row.value;
+  CHECK(doubled.back().value > flip);
+  CHECK(doubled.back().value - 0.002 < flip);
+}
+
+TEST_CASE("how many bounces of an accumulation are followed is no event of a branch") {
+  const std::string cam =
+      "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\npotential = \"9.81*y + 50*(y+0.1)^2\"\n"
+      "[system.parameters]\nn = 30\n[system.constraints]\nfollower = \"y >= 0.02*sin(n*t)^3\"\n"
+      "[simulate]\nrestitution = 0.2\n[state]\nposition = { y = 0 }\n";
+  const std::vector<Row> rows = branch(cam, {"--period", "2*pi/n", "--over", "n=32:1:36"});
+  REQUIRE(rows.size() == 5);
+  CHECK(rows.front().impacts != rows.back().impacts);
+  for (const Row& row : rows) CHECK(row.event == "");
+}
+
 TEST_CASE("where a multiplier passes 1 and the branch does not turn is no fold") {
   // Rest at 0 between two springs, over the stiffness: its symmetry breaks at 0, where two more places of
   // rest appear.
