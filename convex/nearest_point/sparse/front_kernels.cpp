@@ -1,15 +1,21 @@
 #include "convex/nearest_point/sparse/front_kernels.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
+#include "convex/dense/packs.hpp"
 #include "convex/processor.hpp"
 
 namespace convex::inline sparse {
 namespace {
 
-/// Columns eliminated at once.
+/// Columns eliminated one by one before they are taken off the others, and columns that a vector takes at
+/// once.
 constexpr Index block = 4;
+
+/// Products are summed over so many columns at a time: their weights stay in the cache nearest to the
+/// processor.
+constexpr Index most_summed = 128;
 
 /// Eight numbers anywhere, whatever the registers of the machine.
 using Eight [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
@@ -21,142 +27,164 @@ using Eight [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
-/// c_i -= Σ_k a_k w_k for two columns c at once, four columns a.
-MOREAU_CLONES
-void subtract_four_from_two(Index n, double* __restrict c0, double* __restrict c1, const double* a0,
-                            const double* a1, const double* a2, const double* a3, const double* w0,
-                            const double* w1) {
-  const double p0 = w0[0], p1 = w0[1], p2 = w0[2], p3 = w0[3], r0 = w1[0], r1 = w1[1], r2 = w1[2], r3 = w1[3];
-  for (Index i = 0; i < n; ++i) {
-    const double x0 = a0[i], x1 = a1[i], x2 = a2[i], x3 = a3[i];
-    c0[i] -= (x0 * p0 + x1 * p1) + (x2 * p2 + x3 * p3);
-    c1[i] -= (x0 * r0 + x1 * r1) + (x2 * r2 + x3 * r3);
-  }
-}
+/// L D Lᵀ of some factored columns, to be taken off columns from … to - 1 of a lower triangle: its entry
+/// (i, j) is C[j stride + i], that of column k of L is L[k rows + i], and its pivot D[k (rows + 1)].
+struct Products {
+  double* C;
+  Index stride, from, to, end;  ///< rows before `end`
+  const double* L;
+  const double* D;
+  Index rows, count;
+  bool is_new = false;  ///< what C holds is not to be read
+};
 
-/// The same for four columns c, where there are registers for sixteen weights; w_k of column j is w[4 j + k].
-MOREAU_CLONES
-void subtract_four_from_four(Index n, double* __restrict c0, double* __restrict c1, double* __restrict c2,
-                             double* __restrict c3, const double* a0, const double* a1, const double* a2,
-                             const double* a3, const double* w) {
-  const double p0 = w[0], p1 = w[1], p2 = w[2], p3 = w[3], r0 = w[4], r1 = w[5], r2 = w[6], r3 = w[7];
-  const double s0 = w[8], s1 = w[9], s2 = w[10], s3 = w[11], t0 = w[12], t1 = w[13], t2 = w[14], t3 = w[15];
-  for (Index i = 0; i < n; ++i) {
-    const double x0 = a0[i], x1 = a1[i], x2 = a2[i], x3 = a3[i];
-    c0[i] -= (x0 * p0 + x1 * p1) + (x2 * p2 + x3 * p3);
-    c1[i] -= (x0 * r0 + x1 * r1) + (x2 * r2 + x3 * r3);
-    c2[i] -= (x0 * s0 + x1 * s1) + (x2 * s2 + x3 * s3);
-    c3[i] -= (x0 * t0 + x1 * t1) + (x2 * t2 + x3 * t3);
-  }
-}
+template <int W>
+struct Tiles {
+  using P = dense::Packs<W, true>;
+  using Pack = typename P::Pack;
+  /// What is summed in registers at a time: so many packs of eight rows of so many columns.
+  static constexpr Index packs_at_once = W == 8 ? 2 : 1, columns_at_once = W == 8 ? 8 : W == 4 ? 4 : 2;
 
-/// The same with two columns a.
-MOREAU_CLONES
-void subtract_two_from_four(Index n, double* __restrict c0, double* __restrict c1, double* __restrict c2,
-                            double* __restrict c3, const double* a0, const double* a1, const double* w) {
-  const double p0 = w[0], p1 = w[1], r0 = w[4], r1 = w[5], s0 = w[8], s1 = w[9], t0 = w[12], t1 = w[13];
-  for (Index i = 0; i < n; ++i) {
-    const double x0 = a0[i], x1 = a1[i];
-    c0[i] -= x0 * p0 + x1 * p1;
-    c1[i] -= x0 * r0 + x1 * r1;
-    c2[i] -= x0 * s0 + x1 * s1;
-    c3[i] -= x0 * t0 + x1 * t1;
+  /// Rows i … i + 8 packs - 1 of columns j … j + columns - 1, of which those exist that the triangle has.
+  template <Index packs, Index columns>
+  MOREAU_INLINE void subtract_tile(const Products& of, Index i, Index j, const double* L, Index count,
+                                   const double* weight, bool is_new) {
+    Pack sum[columns][packs];
+#pragma GCC unroll 8
+    for (Index c = 0; c < columns; ++c) P::clear(sum[c]);
+    for (Index k = 0; k < count; ++k, L += of.rows, weight += columns_at_once) {
+      Pack x[packs];
+#pragma GCC unroll 2
+      for (Index p = 0; p < packs; ++p) x[p] = P::load(L + i + 8 * p);
+#pragma GCC unroll 8
+      for (Index c = 0; c < columns; ++c)
+#pragma GCC unroll 2
+        for (Index p = 0; p < packs; ++p) P::add_product(sum[c][p], x[p], weight[c]);
+    }
+    const bool is_whole = i >= j + columns - 1 && i + 8 * packs <= of.end && j + columns <= of.to;
+#pragma GCC unroll 8
+    for (Index c = 0; c < columns; ++c) {
+      double* const to = of.C + (j + c) * of.stride + i;
+#pragma GCC unroll 2
+      for (Index p = 0; p < packs; ++p) {
+        if (is_whole) {
+          P::store(to + 8 * p, P::minus(is_new ? Pack{} : P::load(to + 8 * p), sum[c][p]));
+          continue;
+        }
+        if (j + c >= of.to) break;
+        double part[8];
+        P::store(part, sum[c][p]);
+        const Index first = std::max(Index{0}, j + c - i - 8 * p),
+                    last = std::min(Index{8}, of.end - i - 8 * p);
+        for (Index r = first; r < last; ++r) to[8 * p + r] = (is_new ? 0 : to[8 * p + r]) - part[r];
+      }
+    }
   }
-}
 
-const bool has_many_registers = processor() == Processor::avx512;
+  template <Index columns>
+  MOREAU_INLINE void subtract_rows(const Products& of, Index j, const double* L, Index count,
+                                   const double* weight, bool is_new) {
+    Index i = j;
+    for (; i + 8 < of.end; i += 8 * packs_at_once)
+      subtract_tile<packs_at_once, columns>(of, i, j, L, count, weight, is_new);
+    if (i < of.end) subtract_tile<1, columns>(of, i, j, L, count, weight, is_new);
+  }
+
+  MOREAU_INLINE void subtract(const Products& of) {
+    alignas(64) double weights[most_summed * columns_at_once];
+    for (Index first = 0; first < of.count; first += most_summed) {
+      const Index count = std::min(most_summed, of.count - first);
+      const double* L = of.L + first * of.rows;
+      for (Index j = of.from; j < of.to; j += columns_at_once) {
+        for (Index k = 0; k < count; ++k) {
+          const double pivot = of.D[(first + k) * (of.rows + 1)];
+          for (Index c = 0; c < columns_at_once; ++c)
+            weights[k * columns_at_once + c] = L[k * of.rows + j + c] * pivot;
+        }
+        if (of.to - j <= columns_at_once / 2)
+          subtract_rows<columns_at_once / 2>(of, j, L, count, weights, of.is_new && first == 0);
+        else
+          subtract_rows<columns_at_once>(of, j, L, count, weights, of.is_new && first == 0);
+      }
+    }
+  }
+};
+
+// Products and sums may be fused, as in the dense kernels.
+#pragma GCC push_options
+#pragma GCC optimize("fp-contract=fast")
+void subtract_by_two(const Products& of) { Tiles<2>::subtract(of); }
+#ifdef MOREAU_HAS_FAMILIES
+[[gnu::target("avx2,fma")]] void subtract_by_four(const Products& of) { Tiles<4>::subtract(of); }
+[[gnu::target("avx512f")]] void subtract_by_eight(const Products& of) { Tiles<8>::subtract(of); }
+#endif
+#pragma GCC pop_options
+
+void subtract(const Products& of) {
+#ifdef MOREAU_HAS_FAMILIES
+  static const Processor machine = processor();
+  if (machine == Processor::avx512) return subtract_by_eight(of);
+  if (machine == Processor::avx2) return subtract_by_four(of);
+#endif
+  subtract_by_two(of);
+}
 
 MOREAU_CLONES
 void subtract_one(Index n, double* __restrict c, const double* a, double w) {
   for (Index i = 0; i < n; ++i) c[i] -= a[i] * w;
 }
 
-/// Columns first … first + count - 1 of L, times their pivots, at row i.
-void scaled_row(const double* panel, Index rows, Index first, Index count, Index i, double* w) {
-  for (Index k = 0; k < count; ++k) {
-    const double* column = panel + (first + k) * rows;
-    w[k] = column[i] * column[first + k];
-  }
+MOREAU_CLONES
+void scale(Index n, double* c, double w) {
+  for (Index i = 0; i < n; ++i) c[i] *= w;
 }
 
-/// Takes `count` factored columns off columns c = from … to - 1 of a lower triangle whose column c begins, at
-/// its diagonal, at target(c) and belongs to row offset + c of the panel.
-template <class Target>
-void subtract_columns(const double* panel, Index rows, Index first, Index count, Index from, Index to,
-                      Index offset, Target target) {
-  std::array<double, block> w0{}, w1{};
-  std::array<double, 4 * block> w{};
-  Index c = from;
-  for (; c + 4 <= to && (has_many_registers || count < block); c += 4) {
-    const Index i = offset + c, n = rows - i;
-    const double* a = panel + first * rows + i;
-    double *c0 = target(c), *c1 = target(c + 1), *c2 = target(c + 2), *c3 = target(c + 3);
-    for (Index j = 0; j < 4; ++j) scaled_row(panel, rows, first, count, i + j, w.data() + 4 * j);
-    // Columns that are not there weigh nothing.
-    const Index second = count > 1 ? rows : 0, third = count > 2 ? 2 * rows : 0,
-                last = count > 3 ? 3 * rows : 0;
-    // The corner above the rows that all four have.
-    const auto entry = [&](Index row, Index j) {
-      const double *v = w.data() + 4 * j, *x = a + row;
-      return (x[0] * v[0] + x[second] * v[1]) + (x[third] * v[2] + x[last] * v[3]);
-    };
-    for (Index row = 0; row < 3; ++row) {
-      c0[row] -= entry(row, 0);
-      if (row >= 1) c1[row - 1] -= entry(row, 1);
-      if (row >= 2) c2[row - 2] -= entry(row, 2);
-    }
-    if (count > 2)
-      subtract_four_from_four(n - 3, c0 + 3, c1 + 2, c2 + 1, c3, a + 3, a + second + 3, a + third + 3,
-                              a + last + 3, w.data());
-    else
-      subtract_two_from_four(n - 3, c0 + 3, c1 + 2, c2 + 1, c3, a + 3, a + second + 3, w.data());
+/// Columns first … first + count - 1, from which those before have been taken: the first half of them, then
+/// the others without it.
+bool factor_columns(double* panel, Index rows, Index first, Index count) {
+  if (count > block) {
+    const Index half = (count / 2 + block - 1) / block * block, middle = first + half;
+    if (!factor_columns(panel, rows, first, half)) return false;
+    const double* L = panel + first * rows;
+    subtract({panel, rows, middle, first + count, rows, L, L + first, rows, half});
+    return factor_columns(panel, rows, middle, count - half);
   }
-  for (; c < to; c += 2) {
-    const Index i = offset + c, n = rows - i;
-    scaled_row(panel, rows, first, count, i, w0.data());
-    const bool pair = c + 1 < to;
-    if (pair) scaled_row(panel, rows, first, count, i + 1, w1.data());
-    const double* a = panel + first * rows + i;
-    double *c0 = target(c), *c1 = pair ? target(c + 1) : nullptr;
-    if (count == block && pair) {
-      c0[0] -= (a[0] * w0[0] + a[rows] * w0[1]) + (a[2 * rows] * w0[2] + a[3 * rows] * w0[3]);
-      subtract_four_from_two(n - 1, c0 + 1, c1, a + 1, a + rows + 1, a + 2 * rows + 1, a + 3 * rows + 1,
-                             w0.data(), w1.data());
-    } else {
-      for (Index k = 0; k < count; ++k) {
-        subtract_one(n, c0, a + k * rows, w0[static_cast<std::size_t>(k)]);
-        if (pair) subtract_one(n - 1, c1, a + k * rows + 1, w1[static_cast<std::size_t>(k)]);
-      }
+  for (Index k = first; k < first + count; ++k) {
+    double* column = panel + k * rows;
+    for (Index j = first; j < k; ++j) {
+      const double* done = panel + j * rows;
+      subtract_one(rows - k, column + k, done + k, done[k] * done[j]);
     }
+    const double pivot = column[k];
+    if (!std::isfinite(pivot) || !(std::abs(pivot) > 0)) return false;
+    scale(rows - k - 1, column + k + 1, 1 / pivot);
   }
+  return true;
 }
 
 }  // namespace
 
 bool factor_panel(double* panel, Index rows, Index columns) {
-  for (Index first = 0; first < columns; first += block) {
-    const Index count = std::min(block, columns - first);
-    for (Index k = first; k < first + count; ++k) {
-      double* column = panel + k * rows;
-      for (Index j = first; j < k; ++j) {
-        const double* done = panel + j * rows;
-        subtract_one(rows - k, column + k, done + k, done[k] * done[j]);
-      }
-      const double pivot = column[k];
-      if (!std::isfinite(pivot) || !(std::abs(pivot) > 0)) return false;
-      const double inverse = 1 / pivot;
-      for (Index i = k + 1; i < rows; ++i) column[i] *= inverse;
-    }
-    subtract_columns(panel, rows, first, count, first + count, columns, 0,
-                     [&](Index c) { return panel + c * rows + c; });
-  }
-  return true;
+  return factor_columns(panel, rows, 0, columns);
 }
 
-void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns) {
-  for (Index first = 0; first < columns; first += block)
-    subtract_columns(panel, rows, first, std::min(block, columns - first), 0, size, rows - size,
-                     [&](Index c) { return C + c * size + c; });
+void outer_product(double* C, Index size, const double* panel, Index rows, Index columns) {
+  subtract({C, size, 0, size, size, panel + rows - size, panel, rows, columns, true});
+}
+
+/// Rows that follow each other in both are added together: as a rule there are a few such runs.
+MOREAU_CLONES
+void add_columns(const double* update, Index size, Index from, Index to, const int* place, double* target,
+                 Index stride) {
+  for (Index first = from, end = from; first < size; first = end) {
+    for (end = first + 1; end < size && place[end] == place[end - 1] + 1;) ++end;
+    const Index shift = place[first] - first;
+    for (Index j = from; j < std::min(to, end); ++j) {
+      const double* given = update + j * size;
+      double* sum = target + place[j] * stride + shift;
+      for (Index i = std::max(first, j); i < end; ++i) sum[i] += given[i];
+    }
+  }
 }
 
 MOREAU_CLONES

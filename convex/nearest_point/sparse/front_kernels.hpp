@@ -10,9 +10,14 @@ namespace convex::inline sparse {
 /// not stored, the diagonal keeps D), what is below becomes L too. False when a pivot is 0 or not finite.
 bool factor_panel(double* panel, Index rows, Index columns);
 
-/// C -= L D Lᵀ, C: size×size, of which the lower triangle is touched; L: the last `size` rows of a factored
+/// C = -L D Lᵀ, C: size×size, of which the lower triangle is written; L: the last `size` rows of a factored
 /// panel.
-void subtract_outer(double* C, Index size, const double* panel, Index rows, Index columns);
+void outer_product(double* C, Index size, const double* panel, Index rows, Index columns);
+
+/// Adds columns from … to - 1 of the lower triangle of an update, size×size: its entry (i, j) to the number
+/// target[place_j stride + place_i]. place: growing.
+void add_columns(const double* update, Index size, Index from, Index to, const int* place, double* target,
+                 Index stride);
 
 /// So many numbers beyond a panel, which are to be finite, and beyond x below, which are to be 0, are read.
 inline constexpr Index read_beyond = 8;

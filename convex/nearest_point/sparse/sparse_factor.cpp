@@ -13,6 +13,9 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 constexpr Index narrow = 8;
 constexpr double zero_part = 0.15;
 
+/// Where what a child has to add belongs.
+enum class Part { panel, below };
+
 }  // namespace
 
 SparseFactor::SparseFactor(Index n, const std::vector<Place>& places) {
@@ -102,6 +105,7 @@ void SparseFactor::find_rows(const Neighbours& graph, const std::vector<int>& ol
       for (Index k = below.columns; k < below.rows; ++k) take(rows_[at(below.row_list + k)]);
     }
     std::sort(list + panel.columns, list + panel.rows);
+    panel.children = children[p].size();
     if (panel.parent >= 0) children[at(panel.parent)].push_back(static_cast<int>(p));
     for (Index k = 0; k < panel.rows; ++k) position[at(list[k])] = k;
     for (int child : children[p]) {
@@ -111,6 +115,8 @@ void SparseFactor::find_rows(const Neighbours& graph, const std::vector<int>& ol
         below_in_parent_.push_back(static_cast<int>(position[at(rows_[at(below.row_list + k)])]));
     }
   }
+  for (std::size_t p = panels_.size(); p-- > 0;)
+    if (Panel& panel = panels_[p]; panel.parent >= 0) panel.stack = 1 - panels_[at(panel.parent)].stack;
 }
 
 std::vector<Index> SparseFactor::slots(const std::vector<Place>& places) const {
@@ -138,55 +144,47 @@ std::vector<Index> SparseFactor::slots(const std::vector<Place>& places) const {
   return found;
 }
 
-void SparseFactor::add_update(const Panel& child, const double* update, const Panel& parent,
-                              double* parent_update) {
-  const int* place = below_in_parent_.data() + child.below_in_parent;
-  const Index size = child.below(), below = parent.below();
-  double* panel = values_.data() + parent.values;
-  for (Index j = 0; j < size; ++j) {
-    const double* from = update + j * size;
-    const Index column = place[j];
-    if (column < parent.columns) {
-      double* to = panel + column * parent.rows;
-      for (Index i = j; i < size; ++i) to[place[i]] += from[i];
-    } else {
-      double* to = parent_update + (column - parent.columns) * below - parent.columns;
-      for (Index i = j; i < size; ++i) to[place[i]] += from[i];
-    }
-  }
-}
-
 bool SparseFactor::factor() {
-  // Children stand right before their parent, so their updates are on top of the stack.
-  std::vector<std::size_t> tops;  // where each update begins
-  std::vector<const Panel*> pending;
-  std::vector<Index> child_count(panels_.size(), 0);
-  for (const Panel& panel : panels_)
-    if (panel.parent >= 0) ++child_count[at(panel.parent)];
-  std::size_t used = 0;
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Panel& panel = panels_[p];
-    const Index below = panel.below();
-    const std::size_t size = at(below * below);
-    if (updates_.size() < used + size) updates_.resize(2 * (used + size));
-    double* const own = updates_.data() + used;
-    for (Index j = 0; j < below; ++j) std::fill_n(own + j * (below + 1), below - j, 0.0);
-    for (Index c = 0; c < child_count[p]; ++c) {
-      used = tops.back();
-      add_update(*pending.back(), updates_.data() + used, panel, own);
-      pending.pop_back();
-      tops.pop_back();
-    }
+  // Children stand before their parent, so that their updates are on top of the stack.
+  struct Pending {
+    const Panel* panel;
+    std::size_t begin;
+  };
+  std::array<std::vector<Pending>, 2> pending;
+  std::array<std::size_t, 2> used{};
+  for (const Panel& panel : panels_) {
+    std::vector<Pending>& children = pending[1 - panel.stack];
+    std::vector<double>& theirs = updates_[1 - panel.stack];
+    std::vector<double>& own = updates_[panel.stack];
     double* values = values_.data() + panel.values;
+    const auto add_children = [&](auto part, double* to, Index stride) {
+      for (std::size_t c = children.size() - panel.children; c < children.size(); ++c) {
+        const Panel& child = *children[c].panel;
+        const int* place = below_in_parent_.data() + child.below_in_parent;
+        const double* update = theirs.data() + children[c].begin;
+        const Index size = child.below();
+        const Index inside = std::lower_bound(place, place + size, panel.columns) - place;
+        if (part == Part::panel)
+          add_columns(update, size, 0, inside, place, to, stride);
+        else
+          add_columns(update, size, inside, size, place, to, stride);
+      }
+    };
+    add_children(Part::panel, values, panel.rows);
     if (!factor_panel(values, panel.rows, panel.columns)) return false;
+    const Index below = panel.below();
+    const std::size_t begin = used[panel.stack], size = at(below * below);
+    if (panel.parent >= 0) {
+      if (own.size() < begin + size) own.resize(2 * (begin + size));
+      double* const update = own.data() + begin;
+      outer_product(update, below, values, panel.rows, panel.columns);
+      add_children(Part::below, update - panel.columns * (below + 1), below);
+    }
+    if (panel.children > 0) used[1 - panel.stack] = children[children.size() - panel.children].begin;
+    children.resize(children.size() - panel.children);
     if (panel.parent < 0) continue;
-    subtract_outer(own, below, values, panel.rows, panel.columns);
-    double* const into = updates_.data() + used;  // where those of its children were
-    for (Index j = 0; j < below && into != own; ++j)
-      std::copy_n(own + j * (below + 1), below - j, into + j * (below + 1));
-    tops.push_back(used);
-    pending.push_back(&panel);
-    used += size;
+    pending[panel.stack].push_back({&panel, begin});
+    used[panel.stack] += size;
   }
   return true;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "convex/nearest_point/sparse/elimination_order.hpp"
@@ -45,12 +46,13 @@ class SparseFactor {
   struct Panel {
     Index first = 0, columns = 0, rows = 0;  ///< rows: columns, then those below
     Index values = 0, row_list = 0, parent = -1, below_in_parent = 0;
+    std::size_t children = 0;
+    std::size_t stack = 0;  ///< of its update: not the one that has those of its children
     Index below() const { return rows - columns; }
   };
 
   void find_panels(const std::vector<Index>& parent, const std::vector<Index>& count);
   void find_rows(const Neighbours&, const std::vector<int>& old_place);
-  void add_update(const Panel& child, const double* update, const Panel& parent, double* parent_update);
 
   std::vector<int> new_place_;  // of a coordinate
   std::vector<Panel> panels_;
@@ -58,7 +60,7 @@ class SparseFactor {
   std::vector<int> rows_;             // row lists of the panels
   std::vector<int> below_in_parent_;  // where the rows below a panel are among those of its parent
   std::vector<double> values_;
-  std::vector<double> updates_;  // the stack of update matrices
+  std::array<std::vector<double>, 2> updates_;  // stacks of update matrices
   double flops_ = 0;
   Index longest_ = 0;  // rows of a panel
 };
