@@ -48,16 +48,11 @@ class ScalarSum : public Atom {
     return size;
   }
 
-  double value(const Vector& x) const override {
-    const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
-    double sum = 0;
-    for (Index i = 0; i < x.size(); ++i) sum += law_.value(inside(x[i], allowance, i), i);
-    return sum;
-  }
+  double value(const Vector& x) const override { return sum_of_entries(x).value; }
 
   /// Inside of the domain +inf is a number beyond all doubles.
   Value evaluate(const Vector& x) const override {
-    Value found = FunctionNode::evaluate(x);
+    Value found = sum_of_entries(x);
     bool is_inside = found.value == std::numeric_limits<double>::infinity();
     for (Index i = 0; i < x.size() && is_inside; ++i) {
       const auto [low, high] = law_.domain(i);
@@ -112,7 +107,19 @@ class ScalarSum : public Atom {
   }
 
  private:
-  static constexpr double roundings_of_x = 4;
+  static constexpr double roundings_of_x = 4, roundings_of_a_term = 4;
+
+  /// Entries of both signs may cancel: the rounding is relative to their sizes.
+  Value sum_of_entries(const Vector& x) const {
+    const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
+    double sum = 0, size = 0;
+    for (Index i = 0; i < x.size(); ++i) {
+      const double part = law_.value(inside(x[i], allowance, i), i);
+      sum += part;
+      size += std::abs(part);
+    }
+    return {sum, std::isfinite(sum) ? roundings_of_a_term * unit_roundoff * size : 0};
+  }
 
   /// x, moved to the end of the domain that it misses by no more than `allowance`.
   double inside(double x, double allowance, Index i) const {

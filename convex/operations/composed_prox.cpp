@@ -5,6 +5,7 @@
 
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {

@@ -7,6 +7,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 /// The epigraph of a function and its perspective: each other's conjugates, through f* and a change of sign.
 namespace convex::inline operations {
@@ -163,7 +164,7 @@ class Perspective : public Lifted {
     const double size = x.norm();
     if (s < -membership_tolerance * size) return {infinity, 0};
     if (s > membership_tolerance * membership_tolerance * size) {
-      const Value inside = multiple_of(s, value_near(f_, x.head(n) / s, size / s));
+      const Value inside = multiple_of(s, value_near(f_, quotient(x.head(n), s), size / s));
       if (std::isfinite(inside.value)) return inside;
       if (s > membership_tolerance * size) return inside;
     }

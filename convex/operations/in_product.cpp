@@ -4,6 +4,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {

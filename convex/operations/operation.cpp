@@ -29,10 +29,6 @@ constexpr double roundings_of_a_move = 4;
 /// A linear or quadratic program is solved to so much of the value.
 constexpr double accuracy_of_a_program = 64 * unit_roundoff;
 
-/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
-/// domain.
-constexpr double nearest_point_weight = 1e12, stiffest_weight = 1e30;
-
 [[noreturn]] void refuse(const FunctionNode& f, const char* what) {
   throw InvalidInput(
       f.call().name + ": its " + what +
@@ -224,26 +220,6 @@ Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const V
 Value product(const Vector& a, const Vector& b) {
   const double rounding = static_cast<double>(a.size() + 1) * unit_roundoff;
   return {a.dot(b), rounding * a.cwiseAbs().dot(b.cwiseAbs())};
-}
-
-Value value_near(const Function& f, const Vector& y, double size) {
-  const Value value = f.evaluate(y);
-  if (!(value.value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
-  // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less.
-  const double near = std::min(size, 1.0);
-  for (const double stiff : {stiffest_weight, nearest_point_weight}) {
-    const double weight = f.facts().indicator ? 1 : stiff / (near * near);
-    if (!std::isfinite(weight) || !(weight > 0) || WorkLimit::passed()) continue;
-    WorkLimit::count(WorkLimit::of_a_nearest_point);
-    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
-    if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
-    const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
-    if (!std::isfinite(inside.value)) continue;
-    // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
-    const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
-    return {inside.value, inside.error + 2 * rise};
-  }
-  return value;
 }
 
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name) {

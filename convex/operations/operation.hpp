@@ -80,10 +80,6 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
 using DualProx = std::function<std::optional<Prox>(const Vector& point, const Metric& W)>;
 std::optional<Prox> by_moreau(const DualProx& dual, const Vector& z, const Metric& W);
 
-/// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
-/// `membership_tolerance` of that, the value there.
-Value value_near(const Function& f, const Vector& y, double size);
-
 /// Throws InvalidInput "where: c has … entries" unless all are finite and f takes as many.
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name);
 

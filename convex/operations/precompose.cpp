@@ -15,6 +15,7 @@
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/sum.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -44,7 +45,7 @@ class Precompose : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    return value_near(f_, image_of(x), (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
+    return value_near(f_, accurate_image(x), (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const std::optional<Vector> v = f_.subgradient(image_of(x));
@@ -110,13 +111,19 @@ class Precompose : public Operation {
   }
 
  private:
-  /// Ax + b, rounded once: its terms may cancel where f is steep.
-  Vector image_of(const Vector& x) const {
+  /// Ax + b in twice the precision: its terms may cancel where f is steep.
+  DoubleDoubleVector accurate_image(const Vector& x) const {
     DoubleDoubleVector sum(b_);
     for (Index j = 0; j < x.size(); ++j)
       add_multiple(A_.rows(), A_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
-    return sum.value();
+    for (Index i = 0; i < A_.rows(); ++i) {
+      const DoubleDouble tidy = two_sum(sum.hi[i], sum.lo[i]);
+      sum.hi[i] = tidy.hi;
+      sum.lo[i] = tidy.lo;
+    }
+    return sum;
   }
+  Vector image_of(const Vector& x) const { return accurate_image(x).hi; }
 
   Function f_;
   Matrix A_;

@@ -7,6 +7,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -43,7 +44,9 @@ class Scale : public Operation {
     if (alpha_ != 1) made = merged("scale", "alpha", std::move(made), alpha_);
     return made;
   }
-  Value evaluate(const Vector& x) const override { return multiple_of(alpha_, f_.evaluate(x / rho_)); }
+  Value evaluate(const Vector& x) const override {
+    return multiple_of(alpha_, rho_ == 1 ? f_.evaluate(x) : value_near(f_, quotient(x, rho_), 0));
+  }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x / rho_);
     if (v) *v *= alpha_ / rho_;

@@ -3,6 +3,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -20,7 +21,9 @@ class Translate : public Operation {
     return facts;
   }
   Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
-  Value evaluate(const Vector& x) const override { return value_near(f_, x - by_, x.norm() + by_.norm()); }
+  Value evaluate(const Vector& x) const override {
+    return value_near(f_, difference(x, by_), x.norm() + by_.norm());
+  }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
   std::vector<Function> maximum_of() const override {

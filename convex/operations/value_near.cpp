@@ -1,0 +1,90 @@
+#include "convex/operations/value_near.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/node.hpp"
+
+namespace convex::inline operations {
+namespace {
+
+/// So much of the scale squared weighs more than any function: the prox is then the nearest point of the
+/// domain.
+constexpr double nearest_point_weight = 1e12, stiffest_weight = 1e30;
+
+/// The product with y.lo is right to so many roundings of its terms.
+constexpr double roundings_of_a_term = 4;
+
+/// Values that are right to more than so many roundings of themselves are not those of a formula.
+constexpr double roundings_of_a_formula = 64;
+
+/// The neighbours of y among doubles on the side that `lo` lies on.
+Vector beyond(const Vector& y, const Vector& lo) {
+  Vector next = y;
+  for (Index i = 0; i < y.size(); ++i)
+    if (lo[i] != 0) next[i] = std::nextafter(y[i], lo[i] * std::numeric_limits<double>::infinity());
+  return next;
+}
+
+}  // namespace
+
+Value value_near(const Function& f, const Vector& y, double size) {
+  const Value value = f.evaluate(y);
+  if (!(value.value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
+  // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less.
+  const double near = std::min(size, 1.0);
+  for (const double stiff : {stiffest_weight, nearest_point_weight}) {
+    const double weight = f.facts().indicator ? 1 : stiff / (near * near);
+    if (!std::isfinite(weight) || !(weight > 0) || WorkLimit::passed()) continue;
+    WorkLimit::count(WorkLimit::of_a_nearest_point);
+    const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
+    if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
+    const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
+    if (!std::isfinite(inside.value)) continue;
+    // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
+    const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
+    return {inside.value, inside.error + 2 * rise};
+  }
+  return value;
+}
+
+Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {
+  Value found = value_near(f, y.hi, size);
+  const bool by_formula = found.error <= roundings_of_a_formula * unit_roundoff * std::abs(found.value);
+  if (!std::isfinite(found.value) || !by_formula || y.lo.isZero(0) || !y.lo.allFinite()) return found;
+  const std::optional<Vector> v = f.subgradient(y.hi);
+  if (!v || !v->allFinite()) return found;
+  const double more = v->dot(y.lo);
+  found.value += more;
+  found.error += roundings_of_a_term * unit_roundoff * v->cwiseAbs().dot(y.lo.cwiseAbs());
+  if (std::abs(more) <= unit_roundoff * std::abs(found.value)) return found;
+  // Along y.lo the slope is between those at both ends.
+  const std::optional<Vector> at_end = f.subgradient(beyond(y.hi, y.lo));
+  const bool bounded = at_end && at_end->allFinite();
+  found.error += bounded ? (*at_end - *v).cwiseAbs().dot(y.lo.cwiseAbs()) : std::abs(more);
+  return found;
+}
+
+DoubleDoubleVector quotient(const Vector& x, double s) {
+  DoubleDoubleVector found(Vector(x / s));
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble back = two_product(s, found.hi[i]);
+    const double left = ((x[i] - back.hi) - back.lo) / s;
+    if (std::isfinite(left)) found.lo[i] = left;
+  }
+  return found;
+}
+
+DoubleDoubleVector difference(const Vector& x, const Vector& b) {
+  DoubleDoubleVector found(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble exact = two_sum(x[i], -b[i]);
+    found.hi[i] = exact.hi;
+    found.lo[i] = exact.lo;
+  }
+  return found;
+}
+
+}  // namespace convex::inline operations

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "convex/double_double.hpp"
+#include "convex/functions/function.hpp"
+
+namespace convex::inline operations {
+
+/// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
+/// `membership_tolerance` of that, the value there.
+Value value_near(const Function& f, const Vector& y, double size);
+
+/// The same of a y of twice the precision. Where f cancels, as x log x at 1, its value at the rounded y is
+/// not f(y) to roundings of itself: to first order y.lo adds v·y.lo, v a subgradient at y.hi; what the slopes
+/// leave open of that is counted. Values that a program finds are less accurate than that and stay.
+Value value_near(const Function& f, const DoubleDoubleVector& y, double size);
+
+/// x / s, s not 0, to twice the precision.
+DoubleDoubleVector quotient(const Vector& x, double s);
+
+/// x - b exactly.
+DoubleDoubleVector difference(const Vector& x, const Vector& b);
+
+}  // namespace convex::inline operations

@@ -1,0 +1,55 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "convex/functions/separable_functions.hpp"
+#include "convex/operations/operations.hpp"
+
+/// x log x at a point next to 1 is x log1p(x - 1): of the value itself the rounding of the point, where an
+/// operation makes it, leaves no digit.
+using namespace convex;
+
+namespace {
+
+/// (1 + t) log(1 + t).
+double entropy_above_one(double t) { return (1 + t) * std::log1p(t); }
+
+void check_near(const Value& found, double truth) {
+  CHECK(std::abs(found.value - truth) <= 16 * unit_roundoff * std::abs(truth));
+  CHECK(std::abs(found.value - truth) <= found.error);
+  CHECK(found.error <= 64 * unit_roundoff * std::abs(truth));
+}
+
+}  // namespace
+
+TEST_CASE("where a function cancels, operations tell its value to roundings of the value") {
+  SUBCASE("a perspective, whose quotient is rounded") {
+    for (const double s : {3.0, 1e8 + 1, 3e12 + 1}) {
+      const double x = s - 0.375;
+      check_near(perspective(entropy()).evaluate(Vector{{x, s}}), s * entropy_above_one(-0.375 / s));
+    }
+  }
+  SUBCASE("a translate, whose difference is rounded") {
+    for (const double t : {1e-12, -3e-17, 1e-30})
+      check_near(translate(entropy(), Vector::Constant(1, -t)).evaluate(Vector::Ones(1)),
+                 entropy_above_one(t));
+  }
+  SUBCASE("a dilate, whose quotient is rounded") {
+    const double x = std::nextafter(3.0, 4.0);
+    check_near(dilate(entropy(), 3).evaluate(Vector::Constant(1, x)), entropy_above_one((x - 3) / 3));
+  }
+  SUBCASE("an affine map, whose sum is rounded") {
+    const Function f = precompose(entropy(), Matrix{{1, 1}}, Vector::Constant(1, -1));
+    check_near(f.evaluate(Vector{{2, 3e-17}}), entropy_above_one(3e-17));
+  }
+}
+
+TEST_CASE("the error of a sum over entries is relative to the entries") {
+  for (const double x : {0.2, 1e-200, 1e150}) {
+    // -log x - log y = -log(1 + (x y - 1)).
+    const double y = 1 / x, truth = -std::log1p(std::fma(x, y, -1));
+    const Value found = log_barrier().evaluate(Vector{{x, y}});
+    CHECK(std::abs(found.value - truth) <= found.error);
+    CHECK(found.error <= 64 * unit_roundoff * std::abs(std::log(x)));
+  }
+}
