@@ -240,6 +240,31 @@ TEST_CASE("a rod written twice stays redundant, and a proof that is not found ch
   }
 }
 
+TEST_CASE("a one-sided row beside a two-sided one that says the same by exp counts as dependent") {
+  for (const char* side : {"y + u/10 >= 11/100", "y + u/10 <= 11/100"})
+    for (const char* same : {"exp(0.8*y + 0.08*u) = exp(0.088)", "exp(-0.7*y - 0.07*u) = exp(-0.077)"})
+      for (const double pull : {2.7237, -2.7237, 0.0}) {
+        CAPTURE(std::string(side));
+        CAPTURE(std::string(same));
+        CAPTURE(pull);
+        const Asked question = asked({{"y", "u"},
+                                      "y'^2/2 + u'^2/4",
+                                      "",
+                                      {},
+                                      {},
+                                      {{"u", std::to_string(pull)}},
+                                      {{"side", side}, {"same", same}}},
+                                     tests::state_text({{"y", "0.1"}, {"u", "0.1"}}));
+        const CertifiedSolution found = certified(question);
+        CHECK(found.solution.primal.status == convex::Status::solved);
+        CHECK_FALSE(found.solution.multipliers.unique);
+        CHECK(found.certificate.level == ProofLevel::none);
+        // Along y = -u/10: (1/100 + 1/2) u'' = pull.
+        const double u = pull / 0.51;
+        CHECK((found.solution.primal.q - Vector{{-u / 10, u}}).norm() <= 1e-14 * (1 + std::abs(u)));
+      }
+}
+
 TEST_CASE("a rod written twice at a rational angle is proved in fractions") {
   for (const char* angle : {"asin(3/5)", "asin(5/13)", "asin(-7/25)"}) {
     CAPTURE(std::string(angle));

@@ -82,7 +82,7 @@ bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split)
 }
 
 bool is_flat_wedge(const WorkingSet& set, Index, const WorkingSet::Split& split) {
-  if (is_exact_combination(set, split)) return false;
+  if (split.within_radii || is_exact_combination(set, split)) return false;
   bool can_give_way = false;
   for (Index k = 0; k < set.size(); ++k) {
     if (!set.one_sided(k) || is_noise(set, k, split)) continue;

@@ -46,6 +46,7 @@ void WorkingSet::split(Index p, Split& into) {
   factor_.solve_upper(into.coefficients);
   into.magnitude = into.length;
   into.rest = into.rho;
+  into.within_radii = false;
   if (into.rho < doubtful_part * into.length) sharpen(p, into);
 }
 
@@ -72,6 +73,7 @@ void WorkingSet::sharpen(Index p, Split& split) {
     unsure = radii->row[p];
     for (Index k = 0; k < size(); ++k)
       unsure += std::abs(r.hi[k]) * radii->row[rows_[static_cast<std::size_t>(k)]];
+    split.within_radii = split.rho <= unsure && unsure > 0;
     unsure = std::max(unsure, smallest_rest * split.magnitude);
   }
   if (split.rho <= unsure) split.rho = 0;

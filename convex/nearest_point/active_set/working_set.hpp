@@ -41,10 +41,11 @@ class WorkingSet {
   /// twice the working precision, so that d keeps its digits whatever the angle.
   struct Split {
     Vector c, coefficients, direction;
-    double length = 0;     ///< |v_p|
-    double rho = 0;        ///< |d|; 0 when the row is dependent within the rounding of the data
-    double rest = 0;       ///< |d| as twice the working precision has it
-    double magnitude = 0;  ///< |v_p| + Σ |r_k| |v_k|: what rounding of the rows is relative to
+    double length = 0;          ///< |v_p|
+    double rho = 0;             ///< |d|; 0 when the row is dependent within the rounding of the data
+    double rest = 0;            ///< |d| as twice the working precision has it
+    double magnitude = 0;       ///< |v_p| + Σ |r_k| |v_k|: what rounding of the rows is relative to
+    bool within_radii = false;  ///< rho is 0 because of the radii that the rows came with
   };
   void split(Index p, Split& into);
 
