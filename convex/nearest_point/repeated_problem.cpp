@@ -2,20 +2,34 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
+#include "convex/nearest_point/pivoting/factored_rows.hpp"
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
-#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+#include "convex/nearest_point/pivoting/swept_rows.hpp"
 
 namespace convex {
 
 struct RepeatedProblem::State {
+  /// A working set and what is decided on it; settled: it ended with rows to begin from.
+  template <class Rows>
+  struct Engine {
+    template <class Room>
+    Engine(const NearestPointProblem& problem, Room& room) : rows(problem, room) {}
+    bool solve(const Accuracy& accuracy, Solution& solution) {
+      settled = settled ? decisions.solve_again(accuracy, solution) : decisions.solve({}, accuracy, solution);
+      return settled && solution.status == Status::solved;
+    }
+    Rows rows;
+    GramSolve decisions{rows};
+    bool settled = false;
+  };
+
   NearestPointProblem problem;
   Accuracy accuracy;
-  Arena arena;
-  std::optional<GramSolve> gram;
   std::unique_ptr<SmallTableau> tableau;
-  std::optional<SmallGramSolve> small_gram;
-  bool settled = false, small_settled = false;  // each ended with rows to begin from
+  std::optional<Engine<SweptRows>> swept;
+  Arena arena;
+  std::optional<Engine<FactoredRows>> factored;
   Solution solution;
 };
 
@@ -23,7 +37,7 @@ RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& ac
   validate(problem);
   if (has_gram_matrix(problem) && problem.A.kind() == MetricKind::diagonal)
     problem = with_dense_metric(std::move(problem));
-  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, false, false, {}});
+  state_ = std::make_unique<State>(State{std::move(problem), accuracy, {}, {}, {}, {}, {}});
 }
 
 RepeatedProblem::~RepeatedProblem() = default;
@@ -37,28 +51,22 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
                        " entries; give one per coordinate and one per row");
   state.problem.z = z;
   state.problem.s = s;
-  if (state.small_settled && state.small_gram->solve_on_affine_piece(state.accuracy, state.solution))
+  if (state.swept && state.swept->settled &&
+      state.swept->decisions.solve_on_affine_piece(state.accuracy, state.solution))
     return state.solution;
   const auto all_finite = dense_kernels().is_finite;
   if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
   if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
-    if (SmallGramSolve::fits(state.problem)) {
-      if (!state.small_settled) {
-        if (!state.tableau) state.tableau = std::make_unique<SmallTableau>();
-        state.small_gram.emplace(state.problem, *state.tableau);
-        state.small_settled = state.small_gram->solve({}, state.accuracy, state.solution);
-      } else {
-        state.small_settled = state.small_gram->solve_again(state.accuracy, state.solution);
-      }
-      if (state.small_settled && state.solution.status == Status::solved) return state.solution;
+    if (SweptRows::fits(state.problem)) {
+      if (!state.tableau) state.tableau = std::make_unique_for_overwrite<SmallTableau>();
+      if (!state.swept || !state.swept->settled) state.swept.emplace(state.problem, *state.tableau);
+      if (state.swept->solve(state.accuracy, state.solution)) return state.solution;
     }
-    if (state.settled && state.gram->solve_again(state.accuracy, state.solution) &&
-        state.solution.status == Status::solved)
+    if (state.factored && state.factored->settled && state.factored->solve(state.accuracy, state.solution))
       return state.solution;
-    state.gram.emplace(state.problem, state.arena);
-    state.settled = state.gram->solve({}, state.accuracy, state.solution);
-    if (state.settled && state.solution.status == Status::solved) return state.solution;
+    state.factored.emplace(state.problem, state.arena);
+    if (state.factored->solve(state.accuracy, state.solution)) return state.solution;
   }
   state.solution = active_set(state.problem, state.accuracy, state.solution.basis);
   return state.solution;

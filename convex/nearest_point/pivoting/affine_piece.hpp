@@ -27,6 +27,7 @@ struct AffinePiece {
   /// The least of (q, lambda_W), each times its scale, and where rows are few of the slacks of those not
   /// held, beyond `near_zero` of their level, over their lengths.
   double least = 0;
+  bool has_all = false;  ///< the slacks of all rows outside are in `least`
 };
 
 }  // namespace convex::inline pivoting

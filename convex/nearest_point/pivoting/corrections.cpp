@@ -11,10 +11,12 @@ constexpr double slowest_contraction = 0x1p-6;
 
 }  // namespace
 
-bool Corrections::note(const Correction& made) {
+bool Corrections::note(const GramPoint& made) {
   const double previous = step_, step = made.step;
+  double pull = 0;
+  for (Index k = 0; k < made.size; ++k) pull += std::abs(made.change[k]) * made.length[k];
   step_ = step;
-  scale = made.scale;
+  scale = made.norm();
   is_fresh_ = made.is_fresh;
   count_ += 1;
   factor_condition_ = made.factor_condition;
@@ -30,7 +32,7 @@ bool Corrections::note(const Correction& made) {
       is_fresh_ ? std::max(seen, expected_contraction(factor_condition_, gram_condition_, true)) : usual);
   if (!(contraction <= slowest_contraction)) return false;
   const double growth = std::max(std::sqrt(gram_condition_), made.growth);
-  const double floor = floor_of_residuals() + made.pull * pull_rounding(factor_condition_, growth);
+  const double floor = floor_of_residuals() + pull * pull_rounding(factor_condition_, growth);
   remaining = step * contraction / (1 - contraction) + floor;
   likely_ = std::min(remaining, step * usual + floor);
   return true;
@@ -41,7 +43,7 @@ double Corrections::floor_of_residuals() const {
   return 4 * unit_roundoff * unit_roundoff * factor_condition_ * (1 + std::sqrt(gram_condition_)) * scale;
 }
 
-bool Corrections::take_noise_for_zero(const Point& point, bool more) {
+bool Corrections::take_noise_for_zero(GramPoint& point, bool more) {
   const double usual = usual_contraction(factor_condition_, gram_condition_);
   const double missing = 4 * likely_ * factor_condition_;
   // An entry is noise up to the larger of `of_unit` units and this part of its step; the second correction of
@@ -72,15 +74,16 @@ bool Corrections::take_noise_for_zero(const Point& point, bool more) {
     }
   }
   const double rows = std::sqrt(gram_condition_);
-  for (Index j = 0; j < point.k; ++j) {
+  for (Index j = 0; j < point.size; ++j) {
     // Rows may be told in units far apart: each multiplier is measured by the length of its own.
     const double size = std::abs(point.lambda[j]), pull = -point.lambda[j] * point.pull[j];
     if (size * point.length[j] <= of_multiplier * rows || size <= of_step * std::abs(point.change[j])) {
-      point.lambda[j] = 0;
+      point.lambda[j] = point.lambda_low[j] = point.lambda_low_at[point.place[j]] = 0;
       let_pull += std::max(0.0, pull);
     } else {
       wrong = std::max(wrong, pull);
     }
+    point.lambda_at[point.place[j]] = point.lambda[j];
   }
   rounding = std::sqrt(static_cast<double>(point.n) * rounded);
   silenced = std::sqrt(static_cast<double>(point.n) * zeroed);

@@ -1,8 +1,9 @@
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
+#include "convex/nearest_point/pivoting/factored_rows.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
-#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+#include "convex/nearest_point/pivoting/swept_rows.hpp"
 
 namespace convex::inline pivoting {
 namespace {
@@ -32,25 +33,22 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
   if (problem.A.kind() == MetricKind::diagonal)
     return solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
   Solution& solution = found.solution.emplace();
-  const auto is_contradiction = [&](const std::optional<Vector>& weights, double scale, Index steps) {
-    if (weights) solution = infeasible_answer(problem, *weights, scale, steps);
+  const auto is_solved_by = [&](GramWorkingSet& set) {
+    if (GramSolve(set).solve(found.rows, accuracy, solution) && solution.status == Status::solved)
+      return true;
+    const std::optional<Vector> weights = set.contradiction();
+    if (weights) solution = infeasible_answer(problem, *weights, set.point().norm(), set.point().steps);
+    found.rows = set.one_sided_rows_held();
     return weights && solution.status == Status::infeasible;
   };
-  if (SmallGramSolve::fits(problem)) {
+  if (SweptRows::fits(problem)) {
     thread_local const auto tableau = std::make_unique_for_overwrite<SmallTableau>();
-    SmallGramSolve small(problem, *tableau);
-    if (small.solve(guess, accuracy, solution) && solution.status == Status::solved) return found;
-    found.rows = small.one_sided_rows_held();
-    if (is_contradiction(small.contradiction(), small.scale(), small.steps())) return found;
+    SweptRows swept(problem, *tableau);
+    if (is_solved_by(swept)) return found;
   }
   thread_local Arena arena;
-  GramSolve gram(problem, arena);
-  const bool solved = (gram.solve(found.rows, accuracy, solution) && solution.status == Status::solved) ||
-                      is_contradiction(gram.set().contradiction(), gram.scale(), gram.set().steps());
-  if (!solved) {
-    found.solution.reset();
-    found.rows = gram.set().one_sided_rows_held();
-  }
+  FactoredRows factored(problem, arena);
+  if (!is_solved_by(factored)) found.solution.reset();
   if (arena.lines() > most_kept_lines) arena.give_back();
   return found;
 }

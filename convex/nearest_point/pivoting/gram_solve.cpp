@@ -3,170 +3,163 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/invariant.hpp"
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
+#include "convex/nearest_point/pivoting/affine_piece.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
-GramSolve::GramSolve(const NearestPointProblem& problem, Arena& arena)
-    : problem_(problem),
-      kernels_(dense_kernels()),
-      A_(problem.A.dense_factor()),
-      n_(problem.dimension()),
-      m_(problem.rows()),
-      ld_(A_.ld) {
-  const Index k = std::min(n_, m_), places = m_ + 136;  // no fewer than `set_` has
-  arena.start((10 * ld_ + 6 * padded(m_) + 8 * n_ + 8 + (n_ + 15) * padded(k) + 5 * padded(places)) / 8 +
-              GramPivoting::lines(n_, m_));
-  for (double** x : {&z_, &w_free_, &w_, &q_, &q_low_, &r_, &dw_, &dq_, &inverse_diagonal_, &unit_})
-    *x = arena.take_filled(n_, 0.0);
-  for (double** x : {&row_scale_, &slack_, &touched_slack_}) *x = arena.take<double>(m_);
-  for (double** x : {&load_, &lambda_, &lambda_low_, &change_, &length_, &pull_}) *x = arena.take<double>(k);
-  for (double** x : {&y_, &held_slack_, &total_, &total_low_, &rest_}) *x = arena.take_filled(places, 0.0);
-  for (Index** x : {&touched_, &close_, &fresh_}) *x = arena.take<Index>(m_);
-  rows_ = arena.take<Index>(k);
-  pack_ = arena.take<double>(8 * n_ + 8);  // two vectors at least
-  dual_ = arena.take<double>(n_ * padded(k));
-  products_ = arena.take<double>(8 * padded(k));
-  const double* diagonal = problem_.A.diagonal().data();
-  for (Index i = 0; i < n_; ++i) {
-    inverse_diagonal_[i] = 1 / diagonal[i];
-    unit_[i] = std::sqrt(inverse_diagonal_[i]);
-  }
-  kernels_.squares(m_, n_, problem_.U.dense().data(), inverse_diagonal_, row_scale_);
-  for (Index a = 0; a < m_; ++a) row_scale_[a] = std::sqrt(row_scale_[a]);
-  set_.emplace(problem, arena, w_free_, row_scale_);
-}
 
-void GramSolve::whiten_z() {
-  for (Index i = 0; i < n_; ++i) z_[i] = problem_.z[i];
-  copy_packs(ld_, z_, w_free_);
-  kernels_.forward(n_, ld_, A_.T, A_.inverse, w_free_);
-  known_.scale = z_norm_ = std::sqrt(kernels_.dot(ld_, w_free_, w_free_));
-}
-
-bool GramSolve::solve(const std::vector<Index>& guess, const Accuracy& accuracy, Solution& solution) {
-  whiten_z();
-  return set_->settle(guess) && finish_settled(true, accuracy, solution);
-}
+GramSolve::GramSolve(GramWorkingSet& set) : set_(set), problem_(set.problem()), p_(set.point()) {}
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
-  whiten_z();
-  const Index size = set_->size();
-  return set_->settle_again() &&
-         finish_settled(set_->steps() > 0 || set_->size() != size, accuracy, solution);
-}
-
-bool GramSolve::finish_settled(bool has_changed, const Accuracy& accuracy, Solution& solution) {
-  take_point(has_changed);
-  return (!accuracy.refine && answer_of_doubles(accuracy, solution)) || finish(*this, accuracy, solution);
-}
-
-bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
-  if (std::all_of(q_, q_ + n_, [](double x) { return x == 0; })) acceleration_norm_ = 0;
-  const double enough_for_all = accuracy.tolerance * std::max(1.0, acceleration_norm_);
-  if (!(known_.bound <= enough_for_all) && is_exact_vertex()) known_.bound = 0;
-  write_point(solution);
-  solution.residuals = residuals_of_active();
-  solution.error_bound = known_.bound + moved_;
-  solution.status = solution.error_bound <= enough_for_all ? Status::solved : Status::inaccurate;
+  if (!set_.settle_again() || !answer(accuracy, solution)) return false;
+  set_.follow_working_set();
   return true;
 }
 
-/// Whether as many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
-/// multipliers are, so far as their signs are told, the point is that one.
-bool GramSolve::is_exact_vertex() const {
-  return set_->size() == n_ && !problem_.radii &&
-         keeps_rows(problem_, Eigen::Map<const Vector>(q_, n_), {rows_, rows_ + n_}, {}, nullptr);
+bool GramSolve::solve_on_affine_piece(const Accuracy& accuracy, Solution& solution) {
+  const AffinePiece* const piece = set_.take_affine_point();
+  if (!piece) return false;
+  set_held_slacks_apart();
+  known_ = Corrections();
+  known_.scale = p_.norm();
+  known_.remaining = piece->remaining;
+  known_.rounding = std::sqrt(static_cast<double>(p_.n)) * piece->rounded;
+  known_.bound = 2 * known_.remaining + known_.rounding;
+  moved_ = touched_violation_ = 0;
+  return piece->least > near_zero * std::max(known_.scale, p_.magnitude) &&
+         known_.remaining <= enough * known_.scale &&
+         known_.bound <= accuracy.tolerance * std::max(1.0, p_.acceleration_norm) &&
+         (piece->has_all || is_clear(known_.scale)) && write(accuracy, solution);
 }
 
-/// q and lambda of the rows held, in doubles.
-void GramSolve::take_point(bool has_changed) {
-  set_->point(w_, q_);
-  fill_packs(ld_, 0, q_low_);
-  copy_packs(set_->rows().count(), set_->lambda(), total_);
-  fill_packs(set_->rows().count(), 0, total_low_);
-  list_rows_held(has_changed);
-  acceleration_norm_ = std::sqrt(kernels_.dot(ld_, w_, w_));
-  known_.scale = std::max(acceleration_norm_, z_norm_);
+bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {
+  known_ = Corrections();
+  known_.scale = p_.norm();
+  moved_ = touched_violation_ = 0;
+  const double close = accuracy.tolerance * std::max(1.0, p_.acceleration_norm);
+  return !accuracy.refine && doubles_do(close) ? write(accuracy, solution)
+                                               : correct_until_told(accuracy, solution);
 }
 
-void GramSolve::list_rows_held(bool have_changed) {
-  for (Index j = 0; j < set_->size(); ++j) {
-    rows_[j] = set_->row(j);
-    lambda_[j] = total_[set_->place(j)];
-    lambda_low_[j] = total_low_[set_->place(j)];
-    length_[j] = std::sqrt(set_->rows().square(set_->place(j)));
-    pull_[j] = set_->is_two_sided(rows_[j]) ? 0 : length_[j];
-  }
-  if (!have_changed) return;
-  inverse_norm_ = set_->inverse_norm();
-  gram_condition_ = set_->condition(load_);
-}
-
-/// The answer as doubles give it. False when a row is close to tipping over, or the bound by what is missing
-/// of the equations does not do.
-bool GramSolve::answer_of_doubles(const Accuracy& accuracy, Solution& solution) {
-  fill_packs(ld_, 0, q_low_);
-  known_.remaining = known_.rounding = known_.silenced = 0;
-  for (Index j = 0; j < set_->size(); ++j)
-    if (!set_->is_two_sided(rows_[j]) &&
-        !(lambda_[j] * std::sqrt(set_->rows().square(set_->place(j))) > near_zero * known_.scale))
-      return false;
-  if (measure_slacks() != Slacks::kept || touched_count_ > 0) return false;
-  for (Index a = 0; a < m_; ++a)
-    if (!set_->holds(a) && !(slack_[a] > near_zero * (std::abs(problem_.s[a]) +
-                                                      row_scale_[a] * std::max(magnitude_, known_.scale))))
-      return false;
-  const double condition = problem_.A.factor_condition() * (1 + std::sqrt(gram_condition_));
+/// Whether the answer in doubles is within so much, no row close to tipping over.
+bool GramSolve::doubles_do(double close) {
+  set_.measure();
+  set_held_slacks_apart();
+  Index weak = 0;
   double missing = 0;
-  for (Index j = 0; j < set_->size(); ++j)
-    missing += held_slack_[set_->place(j)] * held_slack_[set_->place(j)];
-  solution.residuals = residuals_of_active();
-  known_.bound =
-      bound_of_doubles(n_, set_->size(), solution.residuals.stationarity * known_.scale,
-                       inverse_norm_ * std::sqrt(missing), condition * (known_.scale + magnitude_));
-  write_point(solution);
-  solution.status = Status::solved;
-  return known_.bound <= accuracy.tolerance * std::max(1.0, acceleration_norm_);
+  for (Index k = 0; k < p_.size; ++k) {
+    weak += p_.pull[k] > 0 && !(p_.lambda[k] * p_.length[k] > near_zero * known_.scale);
+    missing += p_.held_slack[k] * p_.held_slack[k];
+  }
+  if (weak > 0 || !is_clear(known_.scale)) return false;
+  set_.measure_balance();
+  const double condition = p_.factor_condition * (1 + std::sqrt(p_.gram_condition));
+  known_.bound = bound_of_doubles(p_.n, p_.size, p_.stationarity, p_.inverse_norm * std::sqrt(missing),
+                                  condition * (known_.scale + p_.magnitude));
+  return known_.bound <= close;
 }
 
-bool GramSolve::touches_rows() const {
-  return std::any_of(touched_, touched_ + touched_count_, [&](Index a) { return !(slack_[a] > 0); });
+/// Whether no row outside is close, of ||q||_A or that size if it is larger.
+bool GramSolve::is_clear(double size) {
+  return close_rows(near_zero, near_zero * std::max(size, p_.magnitude) + known_.missing_slack(1)) == 0;
 }
 
-void GramSolve::write_point(Solution& solution) const {
+/// Corrects the point of the rows held until all is told. What multipliers and slacks are wrong then, by
+/// rounding, is the scale of a problem of the same kind, for those that are that small: pivoting goes on
+/// there, on the same Gram matrix, until nothing is wrong. Those that doubles leave open at once have a part
+/// in the first correction (`near_scale`). False when something is in doubt.
+bool GramSolve::correct_until_told(const Accuracy& accuracy, Solution& solution) {
+  constexpr double room_for_change = 256;  // wrong numbers and those up to so many times them change sides
+  constexpr double small_in_doubles =
+      0x1p-36;                        // of the scale: violations that do not count in doubles are less
+  constexpr double plenty = 0x1p-76;  // corrections are cheap here: so little of the scale is to be left
+  constexpr int most_more = 3;        // corrections beyond what is enough, for entries that are close to 0
+  constexpr int most_passes = 12;     // before pivoting has lost its way
+  double small = near_scale(small_in_doubles);
+  int more = most_more;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    if (!set_.correct(pass == 0, small) || !known_.note(p_)) return false;
+    small = 0;
+    if (!(known_.remaining <= plenty * known_.scale)) continue;
+    known_.wrong = 0;
+    if (!known_.take_noise_for_zero(p_, more > 0)) {
+      more -= 1;
+      continue;
+    }
+    if (measure_slacks() == Slacks::doubtful) return false;
+    if (known_.wrong > 0) {
+      small = room_for_change * known_.wrong;
+      continue;
+    }
+    set_.measure_balance();
+    return write(accuracy, solution);
+  }
+  return false;
+}
+
+/// This part of the scale where multipliers (times lengths) or slacks (over them) are smaller at the point
+/// settled on: the first correction tells their signs already. 0 where there are none, or where one of these
+/// rows, which are looked at for it, depends on those held.
+double GramSolve::near_scale(double part) {
+  constexpr Index few = 8;
+  const double small = part * known_.scale;
+  if (!set_.is_near(small)) return 0;
+  set_held_slacks_apart();
+  Index near = 0;
+  for (Index a = 0; a < p_.all; ++a) {
+    if (!(p_.slack[a] <= p_.row_scale[a] * small)) continue;
+    if (near == p_.n - p_.size) return 0;
+    p_.close[near++] = a;
+  }
+  for (Index first = 0, end = std::min(few, near); first < near; first = end, end = near) {
+    const std::span<const Index> rows(p_.close + first, p_.close + end);
+    if (!set_.look_at(rows) || !set_.are_independent(rows, least_independent)) return 0;
+  }
+  bool any = near > 0;
+  for (Index k = 0; k < p_.size; ++k) any = any || (p_.pull[k] > 0 && p_.lambda[k] * p_.length[k] <= small);
+  return any ? small : 0;
+}
+
+bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
+  if (std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; })) p_.acceleration_norm = 0;
+  const double close = accuracy.tolerance * std::max(1.0, p_.acceleration_norm);
+  // As many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
+  // multipliers are, so far as their signs are told, the point is that one.
+  if (!(known_.bound <= close) && p_.size == p_.n && !problem_.radii && keeps_close(0)) known_.bound = 0;
+  solution.residuals = residuals();
   solution.method = "active-set";
   solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
   solution.model.islands.clear();
-  solution.steps = set_->steps();
-  solution.q = Eigen::Map<const Vector>(q_, n_);
-  solution.lambda.setZero(m_);
-  for (Index j = 0; j < set_->size(); ++j) solution.lambda[rows_[j]] = lambda_[j];
-  solution.slack = Eigen::Map<const Vector>(slack_, m_);
-  solution.basis.assign(rows_, rows_ + set_->size());
-  solution.acceleration_norm = acceleration_norm_;
-  solution.force_norm = z_norm_;
+  solution.steps = p_.steps;
+  solution.q = Eigen::Map<const Vector>(p_.q, p_.n);
+  solution.lambda.setZero(p_.all);
+  solution.slack = Eigen::Map<const Vector>(p_.slack, p_.all);
+  for (Index k = 0; k < p_.size; ++k) {
+    solution.lambda[p_.rows[k]] = p_.lambda[k];
+    solution.slack[p_.rows[k]] = 0;
+  }
+  solution.basis.assign(p_.rows, p_.rows + p_.size);
+  solution.acceleration_norm = p_.acceleration_norm;
+  solution.force_norm = p_.z_norm;
   solution.rounding = known_.rounding;
-  solution.error_bound = known_.bound;
+  solution.error_bound = known_.bound + moved_;
+  solution.status = solution.error_bound <= close ? Status::solved : Status::inaccurate;
+  return true;
 }
 
-/// `residuals`, to which only the rows held and touched matter; measured in doubles.
-Residuals GramSolve::residuals_of_active() {
-  kernels_.residual(n_, problem_.A.dense_gram().data(), q_, m_, problem_.U.dense().data(), set_->size(),
-                    rows_, lambda_, z_, r_);
-  kernels_.forward(n_, ld_, A_.T, A_.inverse, r_);
-  const double stationarity = std::sqrt(kernels_.dot(ld_, r_, r_));
+/// `convex::residuals`, to which only the rows held and touched matter; measured in doubles.
+Residuals GramSolve::residuals() const {
   double most = 0;
-  for (Index j = 0; j < set_->size(); ++j) most = std::max(most, std::abs(lambda_[j]));
-  HeldResiduals held(stationarity, acceleration_norm_, known_.scale, most);
-  for (Index j = 0; j < set_->size(); ++j)
-    held.add(problem_.s[rows_[j]], std::sqrt(set_->rows().square(set_->place(j))), lambda_[j],
-             held_slack_[set_->place(j)], set_->is_two_sided(rows_[j]));
+  for (Index k = 0; k < p_.size; ++k) most = std::max(most, std::abs(p_.lambda[k]));
+  HeldResiduals held(p_.stationarity, p_.acceleration_norm, known_.scale, most);
+  for (Index k = 0; k < p_.size; ++k)
+    held.add(problem_.s[p_.rows[k]], p_.length[k], p_.lambda[k], p_.held_slack[k], !(p_.pull[k] > 0));
   Residuals found = held.all();
-  found.feasibility = violation_of_touched_rows(found.feasibility);
+  found.feasibility = std::max(found.feasibility, touched_violation_);
   return found;
 }
 

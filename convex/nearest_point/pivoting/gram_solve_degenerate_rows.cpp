@@ -1,256 +1,230 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/exact/exact_sum.hpp"
-#include "convex/invariant.hpp"
-#include "convex/nearest_point/optimality/exact_slack.hpp"
+#include "convex/nearest_point/pivoting/gram_pivoting.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
+#include "convex/nearest_point/pivoting/small_tableau.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Where more rows are held, a look in twice the precision costs less than one for sums of them.
+constexpr Index few_held = 20;
 
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
 
 }  // namespace
 
-/// Slacks at q in doubles; those of rows held count as 0 and go to `held_slack_`.
-void GramSolve::set_slacks_of_doubles() {
-  kernels_.slacks(m_, n_, problem_.U.dense().data(), q_, problem_.s.data(), slack_);
-  magnitude_ = 0;
-  for (Index i = 0; i < n_; ++i) magnitude_ += q_[i] * q_[i] / inverse_diagonal_[i];
-  magnitude_ = std::sqrt(magnitude_);
-  Index held = 0;
-  for (Index a = 0; a < m_; ++a) {
-    if (!set_->holds(a)) continue;
-    held += 1;
-    held_slack_[set_->rows().place(a)] = slack_[a];
-    slack_[a] = 0;
-  }
-  invariant(held == set_->size(), "a row that counts as held is among the rows held");
+/// Lists the rows outside whose slack is not above `absolute` |s| + `by_length` times the length.
+Index GramSolve::close_rows(double absolute, double by_length) {
+  const double* const s = problem_.s.data();
+  return small_kernels().close_rows(p_.all, p_.slack, s, s + p_.all, p_.row_scale, absolute, by_length,
+                                    p_.close);
 }
 
-/// Slacks at the refined point. Rows violated have been looked at then.
-Slacks GramSolve::measure_slacks() {
-  set_slacks_of_doubles();
-  const double rounding = 2 * static_cast<double>(n_) * unit_roundoff;
-  Index violated = 0;
-  touched_count_ = 0;
-  for (Index a = 0; a < m_; ++a) {
-    if (set_->holds(a)) continue;
-    const double unsure = rounding * (std::abs(problem_.s[a]) + row_scale_[a] * magnitude_) +
-                          known_.missing_slack(row_scale_[a]);
-    if (slack_[a] > unsure) continue;
-    if (slack_[a] < -unsure) {
-      close_[violated++] = a;
-      known_.wrong = std::max(known_.wrong, -slack_[a] / row_scale_[a]);
-    } else {
-      touched_[touched_count_++] = a;
-    }
-  }
-  moved_ = 0;
-  if (violated > 0) return look_at_violated(violated);
-  if (known_.wrong > 0) return Slacks::kept;
-  return touched_count_ == 0 ? Slacks::kept : decide_degenerate_rows();
+void GramSolve::set_held_slacks_apart() {
+  for (Index k = 0; k < p_.size; ++k)
+    p_.held_slack[k] = std::exchange(p_.slack[p_.rows[k]], std::numeric_limits<double>::infinity());
 }
 
-/// Looks at the first `count` rows of close_, for the next correction to take them in.
-Slacks GramSolve::look_at_violated(Index count) {
-  Index fresh = 0;
-  for (Index k = 0; k < count; ++k)
-    if (set_->rows().place(close_[k]) < 0) fresh_[fresh++] = close_[k];
-  return fresh == 0 || set_->look_at(fresh_, fresh) ? Slacks::violated : Slacks::doubtful;
+/// Whether q is 0, the point of the rows held, and keeps all others, without rounding.
+bool GramSolve::is_at_rest() const {
+  const Vector& s = problem_.s;
+  return std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; }) && !problem_.radii &&
+         (dense_kernels().largest_size(p_.all, s.data()) == 0 || s.maxCoeff() <= 0) &&
+         std::all_of(p_.rows, p_.rows + p_.size, [&](Index a) { return s[a] == 0; });
 }
 
-/// Rounding alone may hide that the exact point p of the rows held violates a row outside by 2⁻⁹⁵ or so.
-/// Where the doubles q are p and keep all rows without rounding, as at most vertices and at rest, nothing is
-/// left to tell; nor for a row that is a sum of rows held, not one bit left over, and asks for no more than
-/// they do. Where a motion e along the rows held raises all others that p touches, p + t e keeps all rows for
-/// a tiny t. Then ||q* - p|| <= t ||e||, q* the solution, since f grows by the square of that: a bound
-/// (`moved_`), whatever the angles are at which the rows meet. False when there is doubt.
-Slacks GramSolve::decide_degenerate_rows() {
-  if (keeps_rows(problem_, Eigen::Map<const Vector>(q_, n_), {rows_, rows_ + set_->size()},
-                 {touched_, touched_ + touched_count_}, touched_slack_)) {
-    for (Index k = 0; k < touched_count_; ++k) slack_[touched_[k]] = touched_slack_[k];
+bool GramSolve::touches_rows() const {
+  for (Index a = 0; a < p_.all; ++a)
+    if (!(p_.slack[a] > 0)) return true;
+  return false;
+}
+
+/// Slacks at the refined point. Rows violated have been looked at then, for the next correction to take them
+/// in.
+GramSolve::Slacks GramSolve::measure_slacks() {
+  set_.measure();
+  set_held_slacks_apart();
+  moved_ = touched_violation_ = 0;
+  if (known_.wrong == 0 && is_at_rest()) {
+    for (Index a = 0; a < p_.all; ++a) p_.slack[a] = 0 - problem_.s[a];
     return Slacks::kept;
   }
-  if (const Index violated = measure_touched_slacks(); violated > 0) return look_at_violated(violated);
-  Index open = 0;  // close_ has so many rows that no exact sum has told of
-  for (Index k = 0; k < touched_count_; ++k)
-    if (!(slack_[touched_[k]] > 0)) close_[open++] = touched_[k];
-  open = leave_sums_of_rows_held(open);
-  if (open < 0) return Slacks::doubtful;
-  Index count = 0, fresh = 0;
-  for (Index k = 0; k < open; ++k) {
-    const Index a = close_[k];
-    if (const std::optional<double> on_edge = slack_by_parallel_row(a)) {
-      if (*on_edge < 0) return Slacks::doubtful;
-      slack_[a] = *on_edge;
-      continue;
-    }
-    close_[count++] = a;
-    if (set_->rows().place(a) < 0) fresh_[fresh++] = a;
-  }
-  if (count == 0) return Slacks::kept;
-  if (fresh > 0 && !set_->look_at(fresh_, fresh)) return Slacks::doubtful;
-  if (!are_independent(close_, count, GramPivoting::near_dependence)) return Slacks::doubtful;
-  const bool rises = set_->hold_also(close_, count) && find_way_up(count);
-  set_->hold_no_more();
-  return rises ? Slacks::kept : Slacks::doubtful;
+  const double rounding = 2 * static_cast<double>(p_.n) * unit_roundoff,
+               by_length = rounding * p_.magnitude + known_.missing_slack(1);
+  const Index open = close_rows(rounding, by_length);
+  const Index touched = std::partition(p_.close, p_.close + open,
+                                       [&](Index a) {
+                                         return !(p_.slack[a] < -(rounding * std::abs(problem_.s[a]) +
+                                                                  by_length * p_.row_scale[a]));
+                                       }) -
+                        p_.close;
+  if (touched < open) return look_at_violated(touched, open);
+  if (known_.wrong > 0) return Slacks::violated;
+  return touched == 0 ? Slacks::kept : decide_degenerate_rows(touched);
 }
 
-/// Slacks of the rows touched in twice the precision. The number of those that are negative beyond rounding,
-/// listed in close_.
-Index GramSolve::measure_touched_slacks() {
+GramSolve::Slacks GramSolve::look_at_violated(Index first, Index end) {
+  for (Index a : close(first, end)) known_.wrong = std::max(known_.wrong, -p_.slack[a] / p_.row_scale[a]);
+  // Not finite where 0 >= s > 0.
+  return std::isfinite(known_.wrong) && set_.look_at(close(first, end)) ? Slacks::violated : Slacks::doubtful;
+}
+
+bool GramSolve::keeps_close(Index count) {
+  return keeps_rows(problem_, Eigen::Map<const Vector>(p_.q, p_.n), {p_.rows, p_.rows + p_.size},
+                    close(0, count), p_.touched_slack);
+}
+
+/// Of the first `count` rows that are close, which the point touches: rounding alone may hide that the exact
+/// point p of the rows held violates a row outside by 2⁻⁹⁵ or so. Where the doubles q are p and keep all rows
+/// without rounding, as at most vertices and at rest, nothing is left to tell; nor for a row that is a sum of
+/// rows held, not one bit left over, and asks for no more than they do. Where a motion e along the rows held
+/// raises all others that p touches, p + t e keeps all rows for a tiny t. Then ||q* - p|| <= t ||e||, q* the
+/// solution, since f grows by the square of that: a bound (`moved_`), whatever the angles are at which the
+/// rows meet.
+GramSolve::Slacks GramSolve::decide_degenerate_rows(Index count) {
+  if (keeps_close(count)) {
+    for (Index k = 0; k < count; ++k) p_.slack[p_.close[k]] = p_.touched_slack[k];
+    return Slacks::kept;
+  }
+  find_violation_of_touched_rows(count);
+  const bool looks_first = p_.size > few_held;
+  if (looks_first && (count = measure_precisely(count)) < 0) return look_at_violated(0, -count);
+  count = leave_sums_of_rows_held(count);
+  if (!looks_first && (count = measure_precisely(count)) < 0) return look_at_violated(0, -count);
+  bool asks_more = false;
+  count = std::remove_if(p_.close, p_.close + count,
+                         [&](Index a) {
+                           const std::optional<double> on_edge = slack_by_parallel_row(a);
+                           if (!on_edge) return false;
+                           asks_more = asks_more || *on_edge < 0;
+                           p_.slack[a] = *on_edge;
+                           return true;
+                         }) -
+          p_.close;
+  if (asks_more) return Slacks::doubtful;
+  if (count == 0) return Slacks::kept;
+  return set_.look_at(close(0, count)) &&
+                 set_.are_independent(close(0, count), GramPivoting::near_dependence) && find_way_up(count)
+             ? Slacks::kept
+             : Slacks::doubtful;
+}
+
+/// Violated at q rounded, in doubles, by the rows that the point touches.
+void GramSolve::find_violation_of_touched_rows(Index count) {
+  // ||u||_(A⁻¹) is at least this part of ||u||_(D⁻¹).
+  const double part = 1 / std::sqrt(static_cast<double>(p_.n));
+  for (Index a : close(0, count)) {
+    const double size = std::abs(problem_.s[a]) + part * p_.row_scale[a] * p_.acceleration_norm;
+    if (p_.slack[a] < 0 && size > 0) touched_violation_ = std::max(touched_violation_, -p_.slack[a] / size);
+  }
+}
+
+/// Slacks of the first `count` rows that are close, in twice the precision, 0 within their rounding. So many
+/// of them as are 0 come first; or, where some are negative, minus their number, and these come first.
+Index GramSolve::measure_precisely(Index count) {
   alignas(64) double s[8] = {}, rest[8], low[8];
-  Index violated = 0;
-  for (Index first = 0; first < touched_count_; first += 8) {
-    const Index count = std::min<Index>(8, touched_count_ - first);
-    for (Index k = 0; k < count; ++k) s[k] = problem_.s[touched_[first + k]];
-    set_->rows().copy_rows(touched_ + first, count, pack_);
-    kernels_.precise_slacks(n_, pack_, q_, s, rest);
-    kernels_.dots(n_, pack_, q_low_, low);
-    for (Index k = 0; k < count; ++k) {
-      const Index a = touched_[first + k];
-      const double sum = rest[k] + low[k], rounding = slack_noise(a);
-      if (!(sum >= -rounding)) {
-        close_[violated++] = a;
-        known_.wrong = std::max(known_.wrong, -sum / row_scale_[a]);
-      }
-      touched_slack_[first + k] = rest[k];
-      slack_[a] = std::abs(sum) <= rounding ? 0 : sum;
+  for (Index first = 0; first < count; first += 8) {
+    const Index some = std::min<Index>(8, count - first);
+    const Index* const rows = p_.close + first;
+    for (Index k = 0; k < some; ++k) s[k] = problem_.s[rows[k]];
+    side_by_side(p_.n, p_.U, rows, some, p_.pack);
+    dense_kernels().precise_slacks(p_.n, p_.pack, p_.q, s, rest);
+    dense_kernels().dots(p_.n, p_.pack, p_.q_low, low);
+    for (Index k = 0; k < some; ++k) {
+      const double sum = rest[k] + low[k];
+      p_.slack[rows[k]] = std::abs(sum) <= slack_noise(rows[k]) ? 0 : sum;
     }
   }
-  return violated;
+  Index *const first = p_.close, *const end = first + count;
+  const Index violated = std::partition(first, end, [&](Index a) { return !(p_.slack[a] >= 0); }) - first;
+  return violated > 0 ? -violated
+                      : std::partition(first, end, [&](Index a) { return !(p_.slack[a] > 0); }) - first;
 }
 
 double GramSolve::slack_noise(Index a) const {
-  return zero_of_pairs * (std::abs(problem_.s[a]) + row_scale_[a] * known_.scale) +
-         known_.missing_slack(row_scale_[a]);
+  return zero_of_pairs * (std::abs(problem_.s[a]) + p_.row_scale[a] * known_.scale) +
+         known_.missing_slack(p_.row_scale[a]);
 }
 
 /// The slack of row a, with its sign, where a row held that is parallel to it, not one bit off, holds with
 /// equality; none where there is no such row.
 std::optional<double> GramSolve::slack_by_parallel_row(Index a) const {
-  const double *const U = problem_.U.dense().data(), *const u = U + a * n_;
-  const double part = std::abs(u[0]) / row_scale_[a];
-  for (Index j = 0; j < set_->size(); ++j) {
-    const double* const v = U + rows_[j] * n_;
-    if (std::abs(std::abs(v[0]) - part * row_scale_[rows_[j]]) > zero_coefficient * std::abs(v[0])) continue;
-    const Index p = std::find_if(v, v + n_, [](double x) { return x != 0; }) - v;
+  const double *const U = p_.U, *const u = U + a * p_.n;
+  const double part = std::abs(u[0]) / p_.row_scale[a];
+  for (Index j = 0; j < p_.size; ++j) {
+    const double* const v = U + p_.rows[j] * p_.n;
+    if (std::abs(std::abs(v[0]) - part * p_.row_scale[p_.rows[j]]) > zero_coefficient * std::abs(v[0]))
+      continue;
+    const Index p = std::find_if(v, v + p_.n, [](double x) { return x != 0; }) - v;
     Index i = 0;
-    while (i < n_ && u[i] * v[p] == u[p] * v[i]) ++i;
-    if (i < n_ || u[p] == 0) continue;
+    while (i < p_.n && u[i] * v[p] == u[p] * v[i]) ++i;
+    if (i < p_.n || u[p] == 0) continue;
     const auto cross = [&](double x, double y) {  // v[p] x - u[p] y
       ExactSum sum;
       sum.add_product(v[p], x);
       sum.add_product(-u[p], y);
       return sum;
     };
-    for (i = 0; i < n_ && cross(u[i], v[i]).sign() == 0; ++i) continue;
+    for (i = 0; i < p_.n && cross(u[i], v[i]).sign() == 0; ++i) continue;
     // u = (u_p / v_p) v, so that v_p (u·q - s_a) = u_p s_v - v_p s_a.
-    if (i == n_) return quotient_with_sign(cross(problem_.s[a], problem_.s[rows_[j]]), -v[p]);
+    if (i == p_.n) return quotient_with_sign(cross(problem_.s[a], problem_.s[p_.rows[j]]), -v[p]);
   }
   return std::nullopt;
 }
 
-/// Whether rows that have been looked at each have more than this part, squared, outside the span of those
-/// held.
-bool GramSolve::are_independent(const Index* rows, Index count, double part) {
-  double distance[8];
-  for (Index first = 0; first < count; first += 8) {
-    const Index some = std::min<Index>(8, count - first);
-    set_->distances(rows + first, some, products_, distance);
-    for (Index k = 0; k < some; ++k)
-      if (!(distance[k] > part * set_->rows().square(set_->rows().place(rows[first + k])))) return false;
-  }
-  return true;
-}
-
-/// dual_ := A⁻¹u_j of the rows held, by eights side by side.
-void GramSolve::find_dual_rows() {
-  const Index k = set_->size();
-  for (Index first = 0; first < k; first += 8) {
-    double* const into = dual_ + first * n_;
-    for (Index l = 0; l < 8; ++l) {
-      const Index place = first + l < k ? set_->place(first + l) : 0;
-      const double* const from = set_->rows().whitened() + place / 8 * 8 * n_ + place % 8;
-      for (Index i = 0; i < n_; ++i) into[8 * i + l] = first + l < k ? from[8 * i] : 0;
-    }
-    kernels_.backward_pack(n_, ld_, A_.T, A_.inverse, into);
-  }
-}
-
-/// Takes out of the first `count` rows of close_ those that are sums of rows held with short fractions as
-/// coefficients, not one bit left over, and ask for no more than they do. The number of those left; -1 when
-/// one asks for more.
+/// Takes out of the first `count` rows that are close those that are sums of rows held with short fractions
+/// as coefficients, not one bit left over, and ask for no more than they do. The number of those left.
 Index GramSolve::leave_sums_of_rows_held(Index count) {
-  const Index k = set_->size();
-  if (count == 0 || k == 0) return count;
-  find_dual_rows();
-  if (!edge_) edge_.emplace(problem_, row_scale_);
+  if (count == 0 || p_.size == 0) return count;
+  if (!edge_) edge_.emplace(problem_, p_.row_scale);
   edge_->begin();
   Index left = 0;
   for (Index first = 0; first < count; first += 8) {
-    const Index rows = std::min<Index>(8, count - first);
-    set_->rows().copy_rows(close_ + first, rows, pack_);
-    for (Index j = 0; j < k; j += 8) kernels_.gram(n_, pack_, dual_ + j * n_, products_ + 8 * j, 8);
-    set_->solve_pack(products_);
-    for (Index l = 0; l < rows; ++l) {
-      for (Index j = 0; j < k; ++j) load_[j] = products_[8 * j + l];
-      const std::optional<double> on_edge = edge_->slack(close_[first + l], rows_, k, load_);
-      if (on_edge && *on_edge < 0) return -1;
-      if (on_edge)
-        slack_[close_[first + l]] = *on_edge;
+    const Index some = std::min<Index>(8, count - first);
+    set_.combine(close(first, first + some));
+    for (Index l = 0; l < some; ++l) {
+      const Index a = p_.close[first + l];
+      const double *const c = p_.coefficients + l * padded(p_.size), *const u = p_.U + a * p_.n;
+      double rest = u[0];  // most rows that are no sum show it in their first entry
+      for (Index k = 0; k < p_.size; ++k) rest -= c[k] * p_.U[p_.rows[k] * p_.n];
+      std::optional<double> on_edge;
+      if (!(std::abs(rest) * p_.unit[0] > zero_coefficient * p_.row_scale[a]))
+        on_edge = edge_->slack(a, p_.rows, p_.size, c);
+      if (on_edge && *on_edge >= 0)
+        p_.slack[a] = *on_edge;
       else
-        close_[left++] = close_[first + l];
+        p_.close[left++] = a;
     }
   }
   return left;
 }
 
-/// Looks for the motion e that raises the first `count` rows of close_, as far as independent held as well.
-/// False when there is none such.
+/// Looks for the motion e that raises the first `count` rows that are close, as far as independent held as
+/// well. False when there is none such.
 bool GramSolve::find_way_up(Index count) {
-  const Index k = set_->size(), blocks = set_->rows().count() / 8;
-  for (Index j = 0; j < padded(k); ++j)
-    load_[j] = set_->firm() <= j && j < k ? std::sqrt(set_->rows().square(set_->place(j))) : 0;
-  set_->solve(load_);
-  fill_packs(8 * blocks, 0, y_);
-  for (Index j = 0; j < k; ++j) y_[set_->place(j)] = load_[j];
-  fill_packs(ld_, 0, dw_);
-  kernels_.combine(n_, blocks, set_->rows().whitened(), y_, dw_);
-  copy_packs(ld_, dw_, dq_);
-  kernels_.backward(n_, ld_, A_.T, A_.inverse, dq_);
+  const double norm = set_.raise(close(0, count));
+  if (!(norm > 0)) return false;
   constexpr double zero = 0;
   double t = 0, up = 0, length = 0;  // ||e||_D, D the diagonal of A
-  for (Index l = 0; l < count; ++l) {
-    kernels_.slacks(1, n_, problem_.U.dense().data() + close_[l] * n_, dq_, &zero, &up);
-    if (!(up > least_rise * row_scale_[close_[l]])) return false;
-    t = std::max(t, slack_noise(close_[l]) / up);
+  for (Index a : close(0, count)) {
+    dense_kernels().slacks(1, p_.n, p_.U + a * p_.n, p_.dq, &zero, &up);
+    if (!(up > least_rise * p_.row_scale[a])) return false;
+    t = std::max(t, slack_noise(a) / up);
   }
-  for (Index i = 0; i < n_; ++i) length += dq_[i] * dq_[i] / inverse_diagonal_[i];
+  for (Index i = 0; i < p_.n; ++i) length += p_.dq[i] * p_.dq[i] * p_.diagonal[i];
   length = std::sqrt(length);
-  moved_ = t * std::sqrt(kernels_.dot(ld_, dw_, dw_));
-  for (Index a = 0; a < m_; ++a)
-    if (slack_[a] > 0 && slack_[a] < t * row_scale_[a] * length) return false;
+  moved_ = t * norm;
+  for (Index a = 0; a < p_.all; ++a)
+    if (p_.slack[a] > 0 && p_.slack[a] < t * p_.row_scale[a] * length) return false;
   return true;
-}
-
-/// The largest relative violation of the rows touched at q rounded, as in `residuals`, as far as it exceeds
-/// what is known; or more, for ||u||_(A⁻¹) is at least the length that is taken here.
-double GramSolve::violation_of_touched_rows(double known) const {
-  const double part = 1 / std::sqrt(static_cast<double>(n_));
-  for (Index k = 0; k < touched_count_; ++k) {
-    const Index a = touched_[k];
-    const double size = std::abs(problem_.s[a]) + part * row_scale_[a] * acceleration_norm_;
-    if (!(-touched_slack_[k] > known * size)) continue;
-    known = -touched_slack_[k] / (size > 0 ? size : part * row_scale_[a] * known_.scale);
-  }
-  return known;
 }
 
 }  // namespace convex::inline pivoting

@@ -29,8 +29,8 @@ struct SmallTableauSizes {
     else
       Four::take_affine_point(t, piece, z, s);
   }
-  MOREAU_BY_PACKS(void, measure_precisely)
   MOREAU_BY_PACKS(void, measure)
+  MOREAU_BY_PACKS(void, measure_balance)
 };
 
 template <int W, class All, class Four = typename All::Four>
@@ -41,8 +41,8 @@ constexpr SmallKernels small_table{Compiled<W, &All::begin>::at,
                                    Compiled<W, &All::margin>::at,
                                    Compiled<W, &All::correct>::at,
                                    Compiled<W, &All::take_affine_point>::at,
-                                   Compiled<W, &All::measure_precisely>::at,
                                    Compiled<W, &All::measure>::at,
+                                   Compiled<W, &All::measure_balance>::at,
                                    Compiled<W, &Four::dual_rows>::at,
                                    Compiled<W, &Four::close_rows>::at,
                                    Compiled<W, &Four::rough_inverse_roots>::at,
@@ -61,6 +61,19 @@ constinit const SmallKernels* chosen_small =
     (chosen_small = small_tables[static_cast<std::size_t>(processor())], true);
 
 }  // namespace
+
+SmallTableau::SmallTableau() {
+  double** const vectors[] = {&diagonal, &inverse_diagonal, &unit, &z, &w_free, &w, &q, &q_low, &dq, &r};
+  for (int k = 0; k < 10; ++k) *vectors[k] = room.coordinates[k];
+  double** const of_held[] = {&lambda, &lambda_low, &change, &length, &pull, &held_slack};
+  for (int k = 0; k < 6; ++k) *of_held[k] = room.held[k];
+  lambda_at = room.at_places[0];
+  lambda_low_at = room.at_places[1];
+  pack = room.pack;
+  coefficients = room.coefficients;
+  rows = room.rows;
+  place = room.place;
+}
 
 std::span<const SmallKernels* const> all_small_kernels() {
   return {small_tables, static_cast<std::size_t>(processor()) + 1};

@@ -5,21 +5,22 @@
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/pivoting/arena.hpp"
+#include "convex/nearest_point/pivoting/gram_point.hpp"
 
 namespace convex::inline pivoting {
 
-/// What `SmallGramSolve` and its kernels work on: the rows looked at of a dense problem of few coordinates,
-/// in arrays that stay in the first caches. Each has a place; blocks are of eight rows side by side
+/// What `SweptRows` and its kernels work on: the rows looked at of a dense problem of few coordinates, in
+/// arrays that stay in the first caches. Each has a place; blocks are of eight rows side by side
 /// (`DenseKernels`). Places without a row hold zeros.
-struct SmallTableau {
+struct SmallTableau : GramPoint {
   static constexpr Index most_coordinates = 32, most = 64;  // of places
   /// Up to so many rows all are looked at from the start, row a at place a.
   static constexpr Index few_rows = 32;
 
-  Index n = 0, m = 0, ld = 0, stride = 0;  // m: places; stride: m in whole packs
-  Index all = 0;                           // rows of the problem
-  const double *T = nullptr, *inverse = nullptr, *A = nullptr, *U = nullptr;
-  double factor_condition = 1;
+  SmallTableau();
+  SmallTableau(const SmallTableau&) = delete;
+
+  Index m = 0, stride = 0;  // m: places; stride: m in whole packs
 
   alignas(64) double raw[most_coordinates * most];       ///< u_a
   alignas(64) double whitened[most_coordinates * most];  ///< v_a = L⁻¹u_a
@@ -28,41 +29,38 @@ struct SmallTableau {
   alignas(64) double swept[most * most];
   /// lambda_a of a row held, s_a - u_a·q of another.
   alignas(64) double b[most];
-  alignas(64) double load[most];   ///< s_a - v_a·w_free
-  alignas(64) double level[most],  ///< s_a
-      square[most], row_scale[most], inverse_scale[most], diagonal[most], inverse_diagonal[most], unit[most];
+  alignas(64) double load[most];                           ///< s_a - v_a·w_free
+  alignas(64) double level[most], square[most];            ///< s_a, |v_a|²
+  alignas(64) double scale_at[most], inverse_scale[most];  ///< `row_scale`, and 1 over it
   /// Per row, by its state: `leave` is minus the scale of a row that may leave, `enter` the inverse of that
   /// of one that may enter, 0 otherwise; share: 1 for a row held.
   alignas(64) double leave[most], enter[most], share[most];
-  alignas(64) double z[most], w_free[most], w[most], q[most], q_low[most], dq[most], r[most];
-  alignas(64) double slack[most];
+  alignas(64) double slack_at[most];  ///< where all rows are looked at, `slack` too
   alignas(64) double rest[most];  ///< s_a - u_a·q - v_a·dw, dw what the equations of motion miss, whitened
-  alignas(64) double lambda[most], lambda_low[most];  ///< of all places, 0 outside
-  /// Of the rows held; length: |v_a|, pull: the same, 0 for a two-sided row.
-  double held_lambda[most], held_low[most], correction[most], length[most], pull[most];
-  bool is_weak[most];  ///< may change sides in a correction
-  Index row[most];     ///< at a place; -1 for none
-  Index close[most];   ///< rows whose slack doubles do not tell from 0, where rows are few
-  double touched_slack[most];
-  Arena all_rows;                           ///< arrays for all rows, where these are many
-  Index rows[most], place[most], size = 0;  ///< rows held, their places, and how many
+  bool is_weak[most];             ///< may change sides in a correction
+  Index row[most];                ///< at a place; -1 for none
+  Arena all_rows;                 ///< arrays for all rows, where these are many
   bool held[most], two_sided[most];
   bool is_listed = false;  ///< no row has come or gone since those held were listed
 
-  Index steps = 0;
-  double z_norm = 0, acceleration_norm = 0, inverse_norm = 0, first = 0, stationarity = 0;
-  double magnitude = 0;  ///< ||q||_D, D the diagonal of A
   Index dependent = -1;  ///< the violated row that is nearly dependent on those held, if pivoting met one
   bool is_first = true;  ///< the next correction is; q_low is 0 then
   bool any_weak = false;
-  double gram_condition =
-      0;              ///< of the Gram matrix of the rows held, each divided by its length; an estimate
-  double growth = 1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
+  double sweep_growth =
+      1;  ///< by what sweeps may have enlarged rounding: the largest of |v_k|² over its pivot
+
+  struct Room {
+    alignas(64) double coordinates[10][most_coordinates];
+    alignas(64) double held[6][most], at_places[2][most];
+    alignas(64) double pack[8 * most_coordinates], coefficients[8 * most_coordinates],
+        touched_slack[few_rows];
+    Index rows[most], place[most], close[few_rows];
+  } room;  ///< what `GramPoint` points to
 };
 
 struct AffinePiece;
 
-/// What `SmallGramSolve` does with it, for one processor family. Each is false when something is in doubt.
+/// What `SweptRows` does with it, for one processor family. Each is false when something is in doubt.
 struct SmallKernels {
   /// Whitens, and takes in the rows marked in `held` and `two_sided`.
   bool (*begin)(SmallTableau&);
@@ -76,16 +74,16 @@ struct SmallKernels {
   /// may come in, at the point settled on.
   double (*margin)(SmallTableau&);
   /// One correction of q + q_low with residuals in twice the working precision, in which weak rows may change
-  /// sides: by dq, `correction` of held_lambda; `first`.
+  /// sides: by dq, `change` of lambda; `step`.
   bool (*correct)(SmallTableau&);
   /// The point of the rows held by their affine piece, in place of pivots and corrections, for z and s: q +
-  /// q_low, held_lambda, the norms of q and z, what `measure` finds; and what the piece tells of it.
+  /// q_low, lambda, the norms of q and z, what `measure` and `measure_balance` find; and what the piece
+  /// tells.
   void (*take_affine_point)(SmallTableau&, AffinePiece&, const double* z, const double* s);
-  /// slack: Uq - s in twice the working precision.
-  void (*measure_precisely)(SmallTableau&);
-  /// slack = Uq - s where all rows have been looked at, what is missing of the equations of motion, and
-  /// `magnitude`, in doubles.
+  /// `slack` where all rows have been looked at, and `magnitude`, in doubles.
   void (*measure)(SmallTableau&);
+  /// What is missing of the equations of motion, in doubles.
+  void (*measure_balance)(SmallTableau&);
   /// n runs of `size` in whole packs: combined by a row u of U they are its coefficients over the rows held.
   void (*dual_rows)(const SmallTableau&, double* dual);
   /// Lists the rows of m whose slack is not above `absolute` |s| + `by_length` times the length; s may be

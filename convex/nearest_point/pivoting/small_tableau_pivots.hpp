@@ -26,7 +26,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
 
   /// Whether row k, outside, lies in the span of those held, as far as doubles tell; or nearly so.
   MOREAU_INLINE bool is_dependent(const SmallTableau& t, Index k) {
-    const double rounding = sweep_roundings * unit_roundoff * t.growth;
+    const double rounding = sweep_roundings * unit_roundoff * t.sweep_growth;
     return !(t.swept[k * (stride(t) + 1)] >
              (GramPivoting::dependence > rounding ? GramPivoting::dependence : rounding) * t.square[k]);
   }
@@ -40,7 +40,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
     const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
-    t.growth = growth > t.growth ? growth : t.growth;
+    t.sweep_growth = growth > t.sweep_growth ? growth : t.sweep_growth;
     alignas(64) double part[SmallTableau::most];
     Pack c[packs], scaled[packs];
     const double load = t.b[k] * inverse;
@@ -159,7 +159,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       const bool dependent = is_dependent(t, a);
       if (!dependent && is_nearly_dependent(t, a)) return false;
       // What falls fast enough beside the length of row a that it is no rounding comes to 0 after b / column.
-      const double least = zero_coefficient * t.row_scale[a];
+      const double least = zero_coefficient * t.scale_at[a];
       for (Index r = 0; r < stride(t); r += 8) {
         const Pack c = P::load(column + r);
         P::store(falls + r, P::where_larger(P::times(c, P::times(P::load(t.leave + r), -1)), least,

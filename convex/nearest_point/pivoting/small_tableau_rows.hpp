@@ -29,7 +29,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
     t.held[a] = held;
     t.share[a] = held ? 1 : 0;
     const bool may_leave = held && !t.two_sided[a];
-    t.leave[a] = may_leave ? -t.row_scale[a] : 0;
+    t.leave[a] = may_leave ? -t.scale_at[a] : 0;
     t.enter[a] = held ? 0 : t.inverse_scale[a];
   }
 
@@ -65,13 +65,13 @@ struct SmallTableauRows : Kernels<W, Fused> {
       P::store(whitened + 8 * i, u);
       P::add_products(scale, P::times(u, t.inverse_diagonal[i]), u);
     }
-    P::store(t.row_scale + r, scale);
+    P::store(t.scale_at + r, scale);
     K::forward_pack(t.n, ld(t), t.T, t.inverse, whitened);
     for (Index other = 0; other <= r; other += 8)
       K::gram(t.n, t.whitened + other * t.n, whitened, t.swept + r * stride(t) + other, stride(t));
     for (Index a = r; a < r + 8; ++a) {
-      t.row_scale[a] = std::sqrt(t.row_scale[a]);
-      t.inverse_scale[a] = t.row_scale[a] > 0 ? 1 / t.row_scale[a] : 0;
+      t.scale_at[a] = std::sqrt(t.scale_at[a]);
+      t.inverse_scale[a] = t.scale_at[a] > 0 ? 1 / t.scale_at[a] : 0;
       t.square[a] = t.swept[a * (stride(t) + 1)];
     }
   }
@@ -134,7 +134,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
       double& b = t.b[before + l] = t.load[before + l];
       for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
       t.two_sided[before + l] = false;
-      t.lambda[before + l] = t.lambda_low[before + l] = 0;
+      t.lambda_at[before + l] = t.lambda_low_at[before + l] = 0;
       set_state(t, before + l, false);
     }
     mirror_block(t, before);

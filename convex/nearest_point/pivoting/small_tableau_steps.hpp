@@ -32,7 +32,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       mirror_block(t, r);
     }
     find_loads(t);
-    t.growth = 1;
+    t.sweep_growth = 1;
     t.is_listed = false;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallTableau::most];
@@ -78,20 +78,20 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     list_rows_held(t);
     for (Index k = 0; k < t.size; ++k) {
       const Index a = t.place[k];
-      t.correction[k] = t.b[a];
-      const DoubleDouble sum = two_sum(t.lambda[a], t.lambda_low[a] + t.b[a]);
-      t.held_lambda[k] = t.lambda[a] = sum.hi;
-      t.held_low[k] = t.lambda_low[a] = sum.lo;
+      t.change[k] = t.b[a];
+      const DoubleDouble sum = two_sum(t.lambda_at[a], t.lambda_low_at[a] + t.b[a]);
+      t.lambda[k] = t.lambda_at[a] = sum.hi;
+      t.lambda_low[k] = t.lambda_low_at[a] = sum.lo;
     }
   }
 
   MOREAU_INLINE void find_point(SmallTableau& t) {
     for (Index r = 0; r < stride(t); r += 8) {
-      P::store(t.lambda + r, Pack{});
-      P::store(t.lambda_low + r, Pack{});
+      P::store(t.lambda_at + r, Pack{});
+      P::store(t.lambda_low_at + r, Pack{});
     }
     take_multipliers(t);
-    add_rows(t, t.held_lambda, t.z, t.w);
+    add_rows(t, t.lambda, t.z, t.w);
     K::forward(t.n, ld(t), t.T, t.inverse, t.w);
     t.acceleration_norm = std::sqrt(K::dot(ld(t), t.w, t.w));
     each(
@@ -130,7 +130,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
           P::store(t.w_free + i, x);
           P::store(piece.x + i, x);
         });
-    const bool has_all = t.all <= SmallTableau::few_rows;
+    const bool has_all = piece.has_all = t.all <= SmallTableau::few_rows;
     for (Index r = 0; has_all && r < stride(t); r += 8)
       P::store(t.level + r, P::load_before(s + r, s + t.all));
     for (Index k = 0; k < t.size; ++k) piece.x[n + k] = t.level[t.place[k]] = s[t.rows[k]];
@@ -147,7 +147,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       const Pack size = P::larger(P::times(y, length), P::times(y, P::load(piece.pull + i)));
       least = P::smaller(P::where_larger(length, 0, size, infinite), least);
     }
-    for (Index k = 0; k < t.size; ++k) t.held_lambda[k] = piece.y[n + k];
+    for (Index k = 0; k < t.size; ++k) t.lambda[k] = piece.y[n + k];
     for (Index i = 0; i < ld(t); i += 8) {
       const Pack q = P::first(P::load(piece.y + i), n - i), low = P::first(P::load(piece.y_low + i), n - i),
                  diagonal = P::load(t.diagonal + i);
@@ -174,10 +174,10 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
           P::add_products(sum[5], r, r);
         });
     for (Index r = 0; has_all && r < stride(t); r += 8) {
-      K::dots(n, t.raw + r * n, t.q, t.slack + r);
-      const Pack level = P::load(t.level + r), slack = P::minus(P::load(t.slack + r), level),
+      K::dots(n, t.raw + r * n, t.q, t.slack_at + r);
+      const Pack level = P::load(t.level + r), slack = P::minus(P::load(t.slack_at + r), level),
                  enter = P::load(t.enter + r);
-      P::store(t.slack + r, slack);
+      P::store(t.slack_at + r, slack);
       const Pack clear = P::times(P::minus(slack, P::times(K::size(level), near_zero)), enter);
       least = P::smaller(P::where_larger(enter, 0, clear, infinite), least);
       P::add_product(sum[6], clear, 0);  // not 0 where a level is not finite
@@ -222,11 +222,11 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
 
   /// Multipliers of weak rows count as 0 here: what they are is found anew.
   MOREAU_INLINE bool correct(SmallTableau& t) {
-    K::stationarity(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
+    K::stationarity(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.lambda, t.z, t.r);
     if (!t.is_first) {
       each(
           ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
-      K::residual(t.n, t.A, t.q_low, t.all, t.U, t.size, t.rows, t.held_low, t.dq, t.r);
+      K::residual(t.n, t.A, t.q_low, t.all, t.U, t.size, t.rows, t.lambda_low, t.dq, t.r);
     }
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.dq + i, P::load(t.r + i)); });
@@ -256,9 +256,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       if (!settled) return false;
     }
     take_multipliers(t);
-    add_rows(t, t.correction, t.r, t.dq);
+    add_rows(t, t.change, t.r, t.dq);
     K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
-    t.first = std::sqrt(K::dot(ld(t), t.dq, t.dq));
+    t.step = std::sqrt(K::dot(ld(t), t.dq, t.dq));
     K::backward(t.n, ld(t), t.T, t.inverse, t.dq);
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) {
@@ -270,23 +270,11 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     return true;
   }
 
-  MOREAU_INLINE void measure_precisely(SmallTableau& t) {
-    for (Index r = 0; r < stride(t); r += 8) {
-      K::precise_slacks(t.n, t.raw + r * t.n, t.q, t.level + r, t.slack + r);
-      alignas(64) double low[8];
-      K::dots(t.n, t.raw + r * t.n, t.q_low, low);
-      P::store(t.slack + r, P::plus(P::load(t.slack + r), P::load(low)));
-    }
-  }
-
   MOREAU_INLINE void measure(SmallTableau& t) {
     for (Index r = 0; r < stride(t) && t.all <= SmallTableau::few_rows; r += 8) {
-      K::dots(t.n, t.raw + r * t.n, t.q, t.slack + r);
-      P::store(t.slack + r, P::minus(P::load(t.slack + r), P::load(t.level + r)));
+      K::dots(t.n, t.raw + r * t.n, t.q, t.slack_at + r);
+      P::store(t.slack_at + r, P::minus(P::load(t.slack_at + r), P::load(t.level + r)));
     }
-    K::residual(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.held_lambda, t.z, t.r);
-    K::forward(t.n, ld(t), t.T, t.inverse, t.r);
-    t.stationarity = std::sqrt(K::dot(ld(t), t.r, t.r));
     Pack square{};
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) {
@@ -294,6 +282,12 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
           P::add_products(square, P::times(q, P::load(t.diagonal + i)), q);
         });
     t.magnitude = std::sqrt(P::total(square));
+  }
+
+  MOREAU_INLINE void measure_balance(SmallTableau& t) {
+    K::residual(t.n, t.A, t.q, t.all, t.U, t.size, t.rows, t.lambda, t.z, t.r);
+    K::forward(t.n, ld(t), t.T, t.inverse, t.r);
+    t.stationarity = std::sqrt(K::dot(ld(t), t.r, t.r));
   }
 };
 

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+#include "convex/nearest_point/pivoting/swept_rows.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,17 +9,18 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
+#include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/nearest_point/repeated_problem.hpp"
 #include "tests/oracles/planted_problem.hpp"
 
 using convex::Accuracy;
 using convex::Index;
 using convex::NearestPointProblem;
-using convex::SmallGramSolve;
 using convex::SmallKernels;
 using convex::SmallTableau;
 using convex::Solution;
 using convex::Status;
+using convex::SweptRows;
 using convex::Vector;
 using oracles::Difficulty;
 
@@ -42,8 +43,7 @@ Vector jolted(const Vector& x, std::mt19937& generator) {
 std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProblem& problem) {
   const auto scene = std::make_unique<SmallTableau>();
   SmallTableau& t = *scene;
-  SmallGramSolve way(problem, t);
-  way.begin({});
+  SweptRows(problem, t).begin({});
   std::vector<double> all;
   const auto keep = [&](const double* x, Index count) { all.insert(all.end(), x, x + count); };
   if (!kernels.begin(t) || !kernels.settle(t)) return all;
@@ -51,11 +51,18 @@ std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProbl
   keep(t.q, t.n);
   kernels.correct(t);
   keep(t.dq, t.n);
-  keep(t.correction, t.size);
+  keep(t.change, t.size);
   kernels.measure(t);
+  kernels.measure_balance(t);
   keep(t.slack, t.m);
   keep(&t.stationarity, 1);
   return all;
+}
+
+bool is_answered(const NearestPointProblem& problem, Solution& found) {
+  SmallTableau tableau;
+  SweptRows rows(problem, tableau);
+  return convex::GramSolve(rows).solve({}, {}, found);
 }
 
 /// Integers, of which no coordinate, multiplier or slack is close to 0.
@@ -94,7 +101,7 @@ TEST_CASE("rows looked at later have the columns of rows looked at at once") {
     for (const SmallKernels* kernels : convex::all_small_kernels()) {
       const auto at_once = std::make_unique<SmallTableau>(), later = std::make_unique<SmallTableau>();
       for (SmallTableau* t : {at_once.get(), later.get()}) {
-        SmallGramSolve(problem, *t).begin({1, 4, 6});
+        SweptRows(problem, *t).begin({1, 4, 6});
         if (t == later.get()) t->m = t->stride = 8;
         REQUIRE(kernels->begin(*t));
       }
@@ -121,10 +128,9 @@ TEST_CASE("with many rows to few coordinates the small tableau is right, and its
       CAPTURE(static_cast<int>(difficulty));
       const Index n = 1 + static_cast<Index>((5 * seed) % 32), m = 33 + static_cast<Index>((37 * seed) % 400);
       const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
-      const auto scene = std::make_unique<SmallTableau>();
       Solution found;
       ++asked;
-      if (!SmallGramSolve(problem, *scene).solve({}, {}, found)) continue;
+      if (!is_answered(problem, found)) continue;
       ++answered;
       CHECK(found.status == Status::solved);
       const double error = problem.A.norm(found.q - truth), unit = scale(problem, truth);
@@ -149,9 +155,8 @@ TEST_CASE("where the small tableau answers, it is right to rounding, and its bou
       CAPTURE(static_cast<int>(difficulty));
       const Index n = 1 + static_cast<Index>((5 * seed) % 32), m = 1 + static_cast<Index>((11 * seed) % 32);
       const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
-      const auto scene = std::make_unique<SmallTableau>();
       Solution found;
-      if (!SmallGramSolve(problem, *scene).solve({}, {}, found)) continue;
+      if (!is_answered(problem, found)) continue;
       ++answered;
       CHECK(found.status == Status::solved);
       const double error = problem.A.norm(found.q - truth), unit = scale(problem, truth);
@@ -165,10 +170,9 @@ TEST_CASE("where the small tableau answers, it is right to rounding, and its bou
   const convex::GalleryFamily& family = *convex::find_family("well-posed");
   for (const Index n : {4, 6, 8, 9, 16, 17, 25, 32}) {
     const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
-    if (!SmallGramSolve::fits(instance.problem)) continue;
-    const auto scene = std::make_unique<SmallTableau>();
+    if (!SweptRows::fits(instance.problem)) continue;
     Solution found;
-    REQUIRE(SmallGramSolve(instance.problem, *scene).solve({}, {}, found));
+    REQUIRE(is_answered(instance.problem, found));
     CHECK(instance.problem.A.norm(found.q - instance.solution.hi) <=
           few_roundings * scale(instance.problem, instance.solution.hi));
   }

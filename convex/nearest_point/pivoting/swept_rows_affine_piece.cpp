@@ -2,7 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "convex/nearest_point/pivoting/small_gram_solve.hpp"
+#include "convex/nearest_point/pivoting/corrections.hpp"
+#include "convex/nearest_point/pivoting/swept_rows.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
@@ -16,14 +17,15 @@ constexpr int most_corrections = 6;
 /// After a solve with pivots and corrections. The piece of a working set costs about as much as a solve for
 /// each of its columns: it is found when so many solves have kept the set, so that it at most doubles what
 /// all have cost, whatever comes after.
-void SmallGramSolve::follow_working_set() {
+void SweptRows::follow_working_set() {
   const SmallTableau& t = tableau_;
+  sweeps_ += t.steps;
   if (t.steps > 0) kept_ = 0;
   if (++kept_ == t.n + t.size && !find_affine_piece()) piece_.reset();
 }
 
 /// False when a column cannot be told to twice the working precision.
-bool SmallGramSolve::find_affine_piece() {
+bool SweptRows::find_affine_piece() {
   SmallTableau& t = tableau_;
   if (!piece_) piece_ = std::make_unique_for_overwrite<AffinePiece>();
   AffinePiece& piece = *piece_;
@@ -48,7 +50,7 @@ bool SmallGramSolve::find_affine_piece() {
     std::copy_n(j < n ? t.A + j * n : t.U + t.rows[j - n] * n, n, column);
   }
   // A row of zeros has no length that its slack could be compared with.
-  bool is_known = std::all_of(t.row_scale, t.row_scale + t.m, [](double length) { return length > 0; });
+  bool is_known = std::all_of(t.scale_at, t.scale_at + t.m, [](double length) { return length > 0; });
   // No row changes sides, whatever its sign.
   fill_packs(t.stride, 0, t.leave);
   fill_packs(t.stride, 0, t.enter);
@@ -60,10 +62,10 @@ bool SmallGramSolve::find_affine_piece() {
     (j < n ? t.z[j] : t.level[t.place[j - n]]) = 1;
     is_known = small_kernels().begin_again(t) && small_kernels().settle(t);
     double before[SmallTableau::most];
-    known_.begin();
-    for (int pass = 0; is_known && (pass < 2 || t.first > at_rounding * known_.scale); ++pass) {
-      std::copy_n(t.held_lambda, t.size, before);
-      is_known = pass < most_corrections && correct(pass == 0, 0);
+    Corrections known;
+    for (int pass = 0; is_known && (pass < 2 || t.step > at_rounding * known.scale); ++pass) {
+      std::copy_n(t.lambda, t.size, before);
+      is_known = pass < most_corrections && correct(pass == 0, 0) && known.note(t);
     }
     double *const high = piece.high + j * piece.stride, *const low = piece.low + j * piece.stride;
     fill_packs(piece.stride, 0, high);
@@ -75,44 +77,31 @@ bool SmallGramSolve::find_affine_piece() {
       square += t.diagonal[i] * t.q[i] * t.q[i];
     }
     for (Index k = 0; k < t.size; ++k) {
-      const DoubleDouble sum = two_sum(before[k], t.correction[k]);
+      const DoubleDouble sum = two_sum(before[k], t.change[k]);
       high[n + k] = sum.hi;
       low[n + k] = sum.lo;
     }
     // Of sums of so many products in twice the working precision (Ogita, Rump and Oishi 2005), and of what
     // underflows.
-    piece.error[j] = known_.remaining + root * (2 * roundings * roundings * std::sqrt(square) +
-                                                unit * std::numeric_limits<double>::min());
+    piece.error[j] = known.remaining + root * (2 * roundings * roundings * std::sqrt(square) +
+                                               unit * std::numeric_limits<double>::min());
     is_known = is_known && std::isfinite(piece.error[j]);
   }
   for (Index a = 0; a < t.stride; ++a) {
-    t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.row_scale[a] : 0;
+    t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.scale_at[a] : 0;
     t.enter[a] = t.held[a] ? 0 : t.inverse_scale[a];
   }
   return is_known;
 }
 
-bool SmallGramSolve::solve_on_affine_piece(const Accuracy& accuracy, Solution& solution) {
+const AffinePiece* SweptRows::take_affine_point() {
   SmallTableau& t = tableau_;
   if (!piece_ || piece_->columns != t.n + t.size || !std::equal(t.rows, t.rows + t.size, piece_->rows))
-    return false;
+    return nullptr;
   small_kernels().take_affine_point(t, *piece_, problem_.z.data(), problem_.s.data());
-  known_ = Corrections();
-  known_.scale = std::max(t.acceleration_norm, t.z_norm);
-  known_.remaining = piece_->remaining;
-  known_.rounding = std::sqrt(static_cast<double>(t.n)) * piece_->rounded;
-  known_.bound = 2 * known_.remaining + known_.rounding;
-  touched_violation_ = 0;
+  if (!looks_at_all()) measure_slacks_of_all();
   t.steps = 0;
-  if (!(piece_->least > near_zero * std::max(known_.scale, t.magnitude)) ||
-      !(known_.remaining <= enough * known_.scale) ||
-      !(known_.bound <= accuracy.tolerance * std::max(1.0, t.acceleration_norm)))
-    return false;
-  if (!looks_at_all()) {
-    measure_slacks_of_all();
-    if (!is_clear(known_.scale)) return false;
-  }
-  return write(accuracy, solution);
+  return piece_.get();
 }
 
 }  // namespace convex::inline pivoting
