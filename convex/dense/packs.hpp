@@ -13,13 +13,15 @@
 
 namespace convex::inline dense {
 
-/// `at` is f, compiled for the family of processors with registers of W doubles.
+/// `at` is f, compiled for the family of processors with registers of W doubles; `apart` too, once for all
+/// that call it, where f is long and compiling it into each of them would take most of the time of a build.
 template <int W, auto f>
 struct Compiled;
-#define MOREAU_COMPILED(W, target)                 \
-  template <class R, class... X, R (*f)(X...)>     \
-  struct Compiled<W, f> {                          \
-    target static R at(X... x) { return f(x...); } \
+#define MOREAU_COMPILED(W, target)                                      \
+  template <class R, class... X, R (*f)(X...)>                          \
+  struct Compiled<W, f> {                                               \
+    target static R at(X... x) { return f(x...); }                      \
+    target [[gnu::noinline]] static R apart(X... x) { return f(x...); } \
   };
 MOREAU_COMPILED(2, )
 #ifdef MOREAU_HAS_FAMILIES

@@ -6,17 +6,15 @@
 namespace convex::inline pivoting {
 namespace {
 
-/// The steps for as many packs as there are.
+/// The steps for one pack, or for any number. Old processors have them once, for all sizes.
 template <int W, bool Fused>
 struct SmallTableauSizes {
+  using One = SmallTableauSteps<W, Fused, 1>;
   using Four = SmallTableauSteps<W, Fused, 4>;
+  MOREAU_INLINE bool is_one_pack(const SmallTableau& t) { return t.ld == 8 && t.stride == 8; }
 
-#define MOREAU_BY_PACKS(Result, f)                                                      \
-  MOREAU_INLINE Result f(SmallTableau& t) {                                             \
-    return t.ld == 8 && t.stride == 8           ? SmallTableauSteps<W, Fused, 1>::f(t)  \
-           : t.stride <= SmallTableau::few_rows ? Four::f(t)                            \
-                                                : SmallTableauSteps<W, Fused, 8>::f(t); \
-  }
+#define MOREAU_BY_PACKS(Result, f) \
+  MOREAU_INLINE Result f(SmallTableau& t) { return W > 2 && is_one_pack(t) ? One::f(t) : Four::f(t); }
   MOREAU_BY_PACKS(bool, begin)
   MOREAU_BY_PACKS(bool, begin_again)
   MOREAU_BY_PACKS(bool, settle)
@@ -24,8 +22,8 @@ struct SmallTableauSizes {
   MOREAU_BY_PACKS(bool, correct)
   MOREAU_INLINE void take_affine_point(SmallTableau& t, AffinePiece& piece, const double* z,
                                        const double* s) {
-    if (t.ld == 8 && t.stride == 8)
-      SmallTableauSteps<W, Fused, 1>::take_affine_point(t, piece, z, s);
+    if (W > 2 && is_one_pack(t))
+      One::take_affine_point(t, piece, z, s);
     else
       Four::take_affine_point(t, piece, z, s);
   }

@@ -36,16 +36,26 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
 
   /// Takes row k in or out.
   MOREAU_INLINE void sweep(SmallTableau& t, Index k) {
+    if constexpr (packs == 1)
+      Compiled<W, &SmallTableauPivots::template sweep_packs<1>>::apart(t, k);
+    else if (t.stride <= SmallTableau::few_rows)
+      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::few_rows / 8>>::apart(t, k);
+    else
+      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::most / 8>>::apart(t, k);
+  }
+  /// A column has `most` packs at most.
+  template <int most>
+  MOREAU_INLINE void sweep_packs(SmallTableau& t, Index k) {
     const Index step = stride(t);
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
     const double growth = t.held[k] ? -pivot * t.square[k] : t.square[k] * inverse;
     t.sweep_growth = growth > t.sweep_growth ? growth : t.sweep_growth;
     alignas(64) double part[SmallTableau::most];
-    Pack c[packs], scaled[packs];
+    Pack c[most], scaled[most];
     const double load = t.b[k] * inverse;
 #pragma GCC unroll 8
-    for (int r = 0; r < packs; ++r) {
+    for (int r = 0; r < most; ++r) {
       if (8 * r == step) break;
       c[r] = P::load(column + 8 * r);
       scaled[r] = P::times(c[r], inverse);
@@ -57,7 +67,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     for (Index j = 0; j < t.m; ++j) {
       double* const other = t.swept + j * step;
 #pragma GCC unroll 8
-      for (int r = 0; r < packs; ++r) {
+      for (int r = 0; r < most; ++r) {
         if (8 * r == step) break;
         Pack x = P::load(other + 8 * r);
         P::subtract_product(x, c[r], part[j]);
@@ -66,7 +76,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       other[k] = sign * part[j];
     }
 #pragma GCC unroll 8
-    for (int r = 0; r < packs; ++r) {
+    for (int r = 0; r < most; ++r) {
       if (8 * r == step) break;
       P::store(column + 8 * r, P::times(scaled[r], sign));
     }
@@ -126,6 +136,9 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
   /// column tells by how much all others change with it; those held whose multiplier comes down to 0 on the
   /// way go. norm: ||·|| of the whitened linear term that the load is of.
   MOREAU_INLINE bool pivot(SmallTableau& t, const double* load, double norm) {
+    return Compiled<W, &SmallTableauPivots::pivot_rows>::apart(t, load, norm);
+  }
+  MOREAU_INLINE bool pivot_rows(SmallTableau& t, const double* load, double norm) {
     const Index patience = t.steps + 4 * t.m + 8;
     alignas(64) double wrong[SmallTableau::most];
     for (;; ++t.steps) {

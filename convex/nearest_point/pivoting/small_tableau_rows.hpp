@@ -8,8 +8,8 @@
 namespace convex::inline pivoting {
 
 /// The rows that a `SmallTableau` looks at: whitened, with their Gram matrix, swept as that of those before.
-/// Packs of places at most: 1 when n and they are at most 8, so that loops over packs vanish; 4 or 8
-/// otherwise.
+/// Packs of places: 1 when n and they are at most 8, so that loops over packs vanish; else 4, which stands
+/// for any number.
 template <int W, bool Fused, int packs>
 struct SmallTableauRows : Kernels<W, Fused> {
   using K = Kernels<W, Fused>;

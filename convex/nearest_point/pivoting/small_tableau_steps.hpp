@@ -7,8 +7,7 @@
 
 namespace convex::inline pivoting {
 
-/// `SmallKernels`, to be compiled for a processor family each. Packs of places at most: 1 when n and they are
-/// at most 8, so that loops over packs vanish; 4 or 8 otherwise.
+/// `SmallKernels`, to be compiled for a processor family each. Packs of places as in `SmallTableauRows`.
 template <int W, bool Fused, int packs>
 struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using Rows = SmallTableauRows<W, Fused, packs>;
