@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cli/measurement/progress.hpp"
 #include "cli/motion_settings.hpp"
 #include "mechanics/motion/orbit_section.hpp"
 
@@ -41,8 +42,13 @@ std::string FollowedBranch::follow() {
   t_ = guess.t;
   constexpr int most_turns = 16;
   int turns = 0;
+  Progress progress(static_cast<int>(range_.count()));
+  long reached = 0;
   for (long k = 0; k >= 0 && k < range_.count(); k += forward_) {
     const double value = range_.value(k);
+    for (; reached < k; ++reached) progress.step();
+    progress.now(fmt::format("{} = {}", range_.parameter, value));
+    if (Progress::interrupted()) return fmt::format("interrupted before {} = {}", range_.parameter, value);
     std::optional<Station> next = last_ ? attempt_from_last(value) : attempt(value, guess, 0);
     if (next && !last_) {
       trail_ = {*next};

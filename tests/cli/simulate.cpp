@@ -262,6 +262,24 @@ TEST_CASE("Ctrl-C keeps what is done of a motion, and says where it was") {
   CHECK(Json::parse(kept.back())["t"].get<double>() <= told["t"].get<double>());
 }
 
+TEST_CASE("Ctrl-C keeps the rows of a branch of orbits that are done") {
+  const Folder folder;
+  const std::string
+      file = folder.write(
+          "o.toml",
+          "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\npotential = \"x^2/2\"\n"
+          "[system.parameters]\nw = 2\n[system.forces]\nx = \"cos(w*t) - 0.2*x'\"\n[state]\nposition = { x "
+          "= 0 }\n"),
+      table = folder.path("b.csv"), out = folder.path("out.txt");
+  const Ended found =
+      ended({"orbit", file, "--period", "2*pi/w", "--over", "w=2:0.00001:9", "--output", table}, out, 700);
+  CHECK(found.code == 3);
+  const auto rows = lines(table);
+  CHECK(rows.at(0).rfind("w,period,", 0) == 0);
+  CHECK(rows.size() > 2);
+  CHECK(rows.size() < 700'000);
+}
+
 TEST_CASE("a motion ends at an expression in the parameters, of the file and of the command line") {
   const Folder folder;
   const auto file = [&](const std::string& until) {
