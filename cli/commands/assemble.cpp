@@ -56,7 +56,7 @@ void write_names(JsonWriter& json, const char* key, const std::vector<std::strin
   json.end_array();
 }
 
-std::vector<std::string> constraint_names(const LagrangianSystem& system, const std::vector<Index>& chosen) {
+std::vector<std::string> names_of_chosen(const LagrangianSystem& system, const std::vector<Index>& chosen) {
   std::vector<std::string> names;
   for (const Index a : chosen) names.push_back(system.constraints()[static_cast<std::size_t>(a)].name);
   return names;
@@ -77,10 +77,10 @@ std::string assembly_json(const LagrangianSystem& system, const mechanics::Assem
   json.key("velocity").numbers(system.coordinates(), found.state.v);
   json.key("residual").value(found.residual).key("moved").value(found.moved);
   write_names(json, "held", coordinate_names(system, question.held));
-  write_names(json, "in_contact", constraint_names(system, question.contacts));
-  write_names(json, "fighting", constraint_names(system, found.fighting));
+  write_names(json, "in_contact", names_of_chosen(system, question.contacts));
+  write_names(json, "fighting", names_of_chosen(system, found.fighting));
   if (found.status == AssemblyStatus::infeasible) json.key("proved").value(found.proved);
-  if (!found.singular.empty()) write_names(json, "singular", constraint_names(system, found.singular));
+  if (!found.singular.empty()) write_names(json, "singular", names_of_chosen(system, found.singular));
   return json.end_object().text();
 }
 

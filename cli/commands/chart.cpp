@@ -41,8 +41,8 @@ struct ChartOptions : MeasurementOptions, Overrides {
 /// A direct method has one accuracy; the others are asked for each of these, and no further once two in a row
 /// were not reached.
 constexpr double direct_setting = 1e-9;
-constexpr std::array ladder{1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
-                            1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
+constexpr std::array tolerances{1e-1, 1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7, 1e-8,
+                                1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15};
 
 /// With --quick only each third step.
 constexpr std::size_t quick_step = 3;
@@ -72,11 +72,11 @@ void chart_one(const Contest& contest, const TrialLimits& limits, std::size_t st
   };
   if (contest.kind == MethodKind::iterative) {
     int missed = 0;
-    for (std::size_t k = 0; k < ladder.size(); k += step) {
-      if (!add({.tolerance = ladder[k], .polish = false})) return;
+    for (std::size_t k = 0; k < tolerances.size(); k += step) {
+      if (!add({.tolerance = tolerances[k], .polish = false})) return;
       const Trial& last = trials.back();
       if (last.verdict() == Verdict::refused) return;
-      const bool reached = last.is_right() && last.judgement.error <= 10 * ladder[k];
+      const bool reached = last.is_right() && last.judgement.error <= 10 * tolerances[k];
       missed = reached ? 0 : missed + 1;
       if (missed == 2 || last.verdict() == Verdict::too_slow) break;
     }

@@ -161,33 +161,33 @@ constexpr int first_number = 100;
 
 std::string legend(int height) {
   std::string text;
-  const auto out = std::back_inserter(text);
   int number = first_number;
   const auto at = [&](double x, double y) {
     return fmt::format("screen {},{}", x / page_width, 1 - y / height);
   };
   constexpr double cell = 26, top = 12, bottom = 28, from = 200;
-  fmt::format_to(out, "set label {} \"digits of accuracy\" at {} right font \",9\"\n", number++,
-                 at(from - 12, (top + bottom) / 2));
+  text += fmt::format("set label {} \"digits of accuracy\" at {} right font \",9\"\n", number++,
+                      at(from - 12, (top + bottom) / 2));
   for (std::size_t k = 0; k < scale.size(); ++k) {
     const double left = from + cell * static_cast<double>(k);
-    fmt::format_to(out, "set object {} rect from {} to {} fs solid 1 noborder fc rgb \"{}\" front\n", number,
-                   at(left, bottom), at(left + cell, top), scale[k]);
-    fmt::format_to(out, "set label {} \"{}\" at {} center front font \",8\" tc rgb \"{}\"\n", number++, 2 * k,
-                   at(left + cell / 2, (top + bottom) / 2), k > scale.size() / 2 ? "#000000" : "#ffffff");
+    text += fmt::format("set object {} rect from {} to {} fs solid 1 noborder fc rgb \"{}\" front\n", number,
+                        at(left, bottom), at(left + cell, top), scale[k]);
+    text +=
+        fmt::format("set label {} \"{}\" at {} center front font \",8\" tc rgb \"{}\"\n", number++, 2 * k,
+                    at(left + cell / 2, (top + bottom) / 2), k > scale.size() / 2 ? "#000000" : "#ffffff");
   }
-  fmt::format_to(out, "set label {} \"= every digit\" at {} left font \",9\"\n", number++,
-                 at(from + cell * static_cast<double>(scale.size()) + 12, (top + bottom) / 2));
+  text += fmt::format("set label {} \"= every digit\" at {} left font \",9\"\n", number++,
+                      at(from + cell * static_cast<double>(scale.size()) + 12, (top + bottom) / 2));
   double x = 40;
   for (const Mark& mark : marks) {
     constexpr double upper = 38, lower = 54;
-    fmt::format_to(
-        out, "set object {} rect from {} to {} fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" front\n",
-        number, at(x, lower), at(x + 16, upper), mark.background);
-    fmt::format_to(out, "set label {} \"\" at {} front point pt {} ps 0.6 lw 1.3 lc rgb \"{}\"\n", number++,
-                   at(x + 8, (upper + lower) / 2), mark.point, mark.colour);
-    fmt::format_to(out, "set label {} \"{}\" at {} left font \",9\"\n", number++, mark.words,
-                   at(x + 22, (upper + lower) / 2));
+    text += fmt::format(
+        "set object {} rect from {} to {} fs solid 1 border lc rgb \"#888888\" fc rgb \"{}\" front\n", number,
+        at(x, lower), at(x + 16, upper), mark.background);
+    text += fmt::format("set label {} \"\" at {} front point pt {} ps 0.6 lw 1.3 lc rgb \"{}\"\n", number++,
+                        at(x + 8, (upper + lower) / 2), mark.point, mark.colour);
+    text += fmt::format("set label {} \"{}\" at {} left font \",9\"\n", number++, mark.words,
+                        at(x + 22, (upper + lower) / 2));
     x += 22 + text_width(mark.words, 9) + 14;
   }
   return text;

@@ -19,7 +19,7 @@ constexpr double label_points = 11, axis_points = 9, title_points = 11;
 
 std::string number_rows(const Polygon& points) {
   std::string text;
-  for (const Point& p : points) fmt::format_to(std::back_inserter(text), "{} {}\n", p.x(), p.y());
+  for (const Point& p : points) text += fmt::format("{} {}\n", p.x(), p.y());
   return text;
 }
 
@@ -51,7 +51,7 @@ void LabelledPage::add(const Polygon& points, const std::string& how) {
   if (points.empty()) return;
   // Of two pictures on one page each has data of its own.
   const std::string name = fmt::format("$d{}_{}", area_.left, count_);
-  fmt::format_to(std::back_inserter(blocks_), "{} << EOD\n{}EOD\n", name, number_rows(points));
+  blocks_ += fmt::format("{} << EOD\n{}EOD\n", name, number_rows(points));
   plots_ += fmt::format("{}{} using 1:2 {}", count_ > 0 ? ", \\\n  " : "", name, how);
   ++count_;
 }
@@ -70,8 +70,8 @@ void LabelledPage::point(const Point& p, const std::string& how) {
 }
 
 void LabelledPage::arrow(const Point& from, const Point& to, const char* style) {
-  fmt::format_to(std::back_inserter(blocks_), "set arrow from {},{} to {},{} {} front\n", from.x(), from.y(),
-                 to.x(), to.y(), style);
+  blocks_ +=
+      fmt::format("set arrow from {},{} to {},{} {} front\n", from.x(), from.y(), to.x(), to.y(), style);
   labels_.avoid_line({window_.pixel(from), window_.pixel(to)});
 }
 
@@ -80,10 +80,9 @@ bool LabelledPage::label(const Polygon& anchors, const std::vector<std::string>&
   for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
   const auto placed = labels_.place(pixels, texts, label_size * area_.letters());
   if (!placed) return false;
-  fmt::format_to(std::back_inserter(blocks_),
-                 "set label {} at screen {},{} {} front font \",{:g}\" tc rgb \"{}\"\n", quoted(placed->text),
-                 across(placed->at.x()), placed->at.y() / page_size, placed->aligned,
-                 label_points * area_.letters(), tint);
+  blocks_ += fmt::format("set label {} at screen {},{} {} front font \",{:g}\" tc rgb \"{}\"\n",
+                         quoted(placed->text), across(placed->at.x()), placed->at.y() / page_size,
+                         placed->aligned, label_points * area_.letters(), tint);
   return true;
 }
 

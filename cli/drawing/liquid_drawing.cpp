@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -33,8 +32,8 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
     const double x = scene.domain.low[0] + (scene.domain.high[0] - scene.domain.low[0]) * k / points;
     if (scene.domain.level({x, 0, 0}) > scene.domain.reach()) continue;
     const bool in_cavity = found.in_cavity({x, 0, 0});
-    fmt::format_to(std::back_inserter(curve), "{} {}\n", x, in_cavity ? 0.0 : found.p({x, 0, 0}));
-    if (in_cavity) fmt::format_to(std::back_inserter(cavity), "{} {}\n", x, found.largest);
+    curve += fmt::format("{} {}\n", x, in_cavity ? 0.0 : found.p({x, 0, 0}));
+    if (in_cavity) cavity += fmt::format("{} {}\n", x, found.largest);
   }
   const bool hatched = !cavity.empty();
   std::string parted;  // the ends at which the liquid leaves a wall, clear of the frame
@@ -42,7 +41,7 @@ Drawing liquid_line_drawing(const LiquidScene& scene, const LiquidSolution& foun
     const BoundaryPart* part = scene.part_at({x, 0, 0});
     const auto& names = found.parted_walls;
     if (part != nullptr && std::find(names.begin(), names.end(), part->name) != names.end())
-      fmt::format_to(std::back_inserter(parted), "{} 0\n", x);
+      parted += fmt::format("{} 0\n", x);
   }
   const double room = 0.02 * (scene.domain.high[0] - scene.domain.low[0]);
   return {"$p << END\n" + curve + "END\n" + (hatched ? "$cavity << END\n" + cavity + "END\n" : "") +
@@ -72,8 +71,7 @@ Drawing liquid_drawing(const LiquidScene& scene, const LiquidSolution& found, co
   std::string script = "$p << END\n" + section.field() + "END\n";
   const std::string hatching = section.hatching(), outline = section.outline();
   std::string parted;
-  for (const mechanics::liquid::Point& x : section.parted())
-    fmt::format_to(std::back_inserter(parted), "{} {}\n", x[0], x[1]);
+  for (const mechanics::liquid::Point& x : section.parted()) parted += fmt::format("{} {}\n", x[0], x[1]);
   const LiquidSection::Arrows arrows = with_velocity ? section.velocity() : LiquidSection::Arrows{};
   if (!arrows.vectors.empty()) script += "$velocity << END\n" + arrows.vectors + "END\n";
   if (!hatching.empty())

@@ -82,10 +82,9 @@ std::string LiquidSection::field() const {
     for (int i = 0; i <= nx; ++i) {
       const SectionPoint x = at(low(0) + side(0) * i / nx, low(1) + side(1) * j / ny);
       if (is_inside(x))
-        fmt::format_to(std::back_inserter(text), "{} {} {}\n", x[0], x[1],
-                       in_cavity(x) ? 0.0 : found_.p(in_space(x)));
+        text += fmt::format("{} {} {}\n", x[0], x[1], in_cavity(x) ? 0.0 : found_.p(in_space(x)));
       else
-        fmt::format_to(std::back_inserter(text), "{} {} NaN\n", x[0], x[1]);
+        text += fmt::format("{} {} NaN\n", x[0], x[1]);
     }
     text += "\n";
   }
@@ -99,8 +98,7 @@ std::string LiquidSection::hatching() const {
     bool drawing = false;
     double begin = 0;
     const auto end_at = [&](double x) {
-      if (drawing)
-        fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", begin, begin - c, x - begin, x - begin);
+      if (drawing) text += fmt::format("{} {} {} {}\n", begin, begin - c, x - begin, x - begin);
       drawing = false;
     };
     for (double x = low(0); x <= low(0) + side(0) + step_ / 2; x += step_ / 2) {
@@ -149,8 +147,8 @@ std::string LiquidSection::outline() const {
         crossed.push_back(here == 2 ? edge_between(x, y) : edge_between(y, x));
       }
       for (std::size_t k = 0; k + 1 < crossed.size(); k += 2)
-        fmt::format_to(std::back_inserter(text), "{} {} {} {}\n", crossed[k][0], crossed[k][1],
-                       crossed[k + 1][0] - crossed[k][0], crossed[k + 1][1] - crossed[k][1]);
+        text += fmt::format("{} {} {} {}\n", crossed[k][0], crossed[k][1], crossed[k + 1][0] - crossed[k][0],
+                            crossed[k + 1][1] - crossed[k][1]);
     }
   return text;
 }
@@ -192,7 +190,7 @@ LiquidSection::Arrows LiquidSection::velocity() const {
   for (const auto& [x, y, u, v] : drawn) {
     if (!(std::hypot(u, v) > 0)) continue;
     const double dx = apart * (u / arrows.fastest), dy = apart * (v / arrows.fastest);
-    fmt::format_to(std::back_inserter(arrows.vectors), "{} {} {} {}\n", x - dx / 2, y - dy / 2, dx, dy);
+    arrows.vectors += fmt::format("{} {} {} {}\n", x - dx / 2, y - dy / 2, dx, dy);
   }
   return arrows;
 }

@@ -169,8 +169,8 @@ Drawing MotionDrawing::drawing(const std::string& title) const {
   std::map<mechanics::EventKind, std::string> kinds;
   for (const auto& [kind, place] : events_) {
     const double t = begin_ + (end_ - begin_) * static_cast<double>(place) / static_cast<double>(mark_places);
-    fmt::format_to(std::back_inserter(made.script),
-                   "set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
+    made.script +=
+        fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 nohead {1} back\n", t, style(kind));
     kinds[kind] = fmt::format(", \\\n  NaN with lines {} title {}", style(kind), quoted(name(kind)));
   }
   for (std::size_t k = 0; k < panels.size(); ++k) {

@@ -70,18 +70,16 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
   const std::vector<double> placed = label_positions(wanted, name_height, 0.03, y_end - 0.03);
   Drawing drawing;
   drawing.height = 460;
-  const auto out = std::back_inserter(drawing.script);
   std::string plots;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const Curve& c = curves[k];
     const bool is_default = c.method == "auto";
     const std::string colour = is_default ? "#d55e00" : curve_colours[k % curve_colours.size()];
-    fmt::format_to(out,
-                   "$m{} << EOD\n{}EOD\n$l{} << EOD\n{} {}\n{} {}\nEOD\n$s{} << EOD\n{} {}\n{} {}\nEOD\n$t{} "
-                   "<< EOD\n{} {} {}\nEOD\n",
-                   k, c.steps, k, curves_end, c.end, sample_at, placed[k], k, sample_at, placed[k], names_at,
-                   placed[k], k, names_at, placed[k],
-                   quoted(fmt::format("{} ({} of {})", c.method, c.solved, quickest.size())));
+    drawing.script += fmt::format(
+        "$m{} << EOD\n{}EOD\n$l{} << EOD\n{} {}\n{} {}\nEOD\n$s{} << EOD\n{} {}\n{} {}\nEOD\n$t{} "
+        "<< EOD\n{} {} {}\nEOD\n",
+        k, c.steps, k, curves_end, c.end, sample_at, placed[k], k, sample_at, placed[k], names_at, placed[k],
+        k, names_at, placed[k], quoted(fmt::format("{} ({} of {})", c.method, c.solved, quickest.size())));
     plots += fmt::format(
         "{0}$m{1} using 1:2 with steps lc rgb \"{2}\" lw {3} dt {4} notitle, \\\n"
         "  $l{1} using 1:2 with lines lc rgb \"{2}\" lw 0.4 notitle, \\\n"
@@ -90,8 +88,7 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
         k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / curve_colours.size(),
         is_default ? "Helvetica:Bold" : "");
   }
-  fmt::format_to(
-      out,
+  drawing.script += fmt::format(
       "set xrange [0:{}]\nset yrange [0:{}]\nset grid lc rgb \"#dddddd\" lw 0.5 dt 1\nunset key\n"
       "set border 3 lc rgb \"#666666\" lw 0.7\nset tics nomirror font \",9\"\n"
       "set xtics (\"1\" 0, \"10\" 1, \"100\" 2, \"1000\" 3)\n"

@@ -162,7 +162,7 @@ class Panel {
  private:
   void plot(const std::string& name, const std::string& block, const std::string& how) {
     if (block.empty()) return;
-    fmt::format_to(std::back_inserter(data_), "${}{} << EOD\n{}EOD\n", name, index_, block);
+    data_ += fmt::format("${}{} << EOD\n{}EOD\n", name, index_, block);
     plots_ += fmt::format("{}${}{} {} notitle", plots_.empty() ? "" : ", \\\n  ", name, index_, how);
   }
 
@@ -241,9 +241,8 @@ std::string key(double width, double height, const std::vector<Trial>& trials, c
   std::string text;
   int number = 10;
   const auto add = [&](double x, double pixel, const std::string& words, const std::string& point) {
-    fmt::format_to(std::back_inserter(text),
-                   "set label {} {} at screen {},{} left font \",9\" tc rgb \"#111111\" {}\n", number++,
-                   quoted(words), x / width, y(pixel), point);
+    text += fmt::format("set label {} {} at screen {},{} left font \",9\" tc rgb \"#111111\" {}\n", number++,
+                        quoted(words), x / width, y(pixel), point);
   };
   add(14, 14,
       fmt::format("{} against true error{}: lower and further left is better.",
@@ -310,10 +309,8 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
   drawing.width = static_cast<int>(layout.page_width());
   drawing.height = static_cast<int>(heading + panel * static_cast<double>(rows));
   const double height = drawing.height;
-  const auto out = std::back_inserter(drawing.script);
-  fmt::format_to(out, "{}set multiplot\n", key(layout.page_width(), height, applied, drawn));
-  fmt::format_to(
-      out,
+  drawing.script += fmt::format("{}set multiplot\n", key(layout.page_width(), height, applied, drawn));
+  drawing.script += fmt::format(
       "set xrange [{}:{}]\nset grid lc rgb \"#dddddd\" lw 0.6 dt 1\nset tics font \",9\" nomirror scale 0.5\n"
       "set border lw 0.7 lc rgb \"#666666\"\nunset key\n"
       "set xtics (\"exact\" {}, \"1e-12\" -12, \"1e-8\" -8, \"1e-4\" -4, \"1\" 0)\n"
@@ -328,7 +325,7 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
                  down = heading + panel * static_cast<double>(k / columns);
     drawing.script += Panel(applied, problems[k], k, styles, drawn, layout).script(across, down, height);
     if (k > 0) continue;
-    for (int label = 10; label < 16; ++label) fmt::format_to(out, "unset label {}\n", label);
+    for (int label = 10; label < 16; ++label) drawing.script += fmt::format("unset label {}\n", label);
   }
   drawing.script += "unset multiplot\n";
   return drawing;

@@ -28,17 +28,16 @@ std::string field(const std::string& text) {
 std::string chart_csv(const std::vector<Trial>& trials) {
   std::string text = "problem,n,m,method,setting,seconds,error,status\n";
   for (const Trial& t : trials)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", field(t.problem), t.n, t.m,
-                   t.method, field(t.setting), field(t.seconds), field(t.judgement.error),
-                   verdict_text(t.verdict()));
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", field(t.problem), t.n, t.m, t.method, field(t.setting),
+                        field(t.seconds), field(t.judgement.error), verdict_text(t.verdict()));
   return text;
 }
 
 std::string stress_csv(const std::vector<StressTrial>& trials) {
   std::string text = "family,difficulty,n,m,method,seconds,error,status\n";
   for (const auto& [family, knob, difficulty, t] : trials)
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", family, field(difficulty), t.n, t.m,
-                   t.method, field(t.seconds), field(t.judgement.error), verdict_text(t.verdict()));
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", family, field(difficulty), t.n, t.m, t.method,
+                        field(t.seconds), field(t.judgement.error), verdict_text(t.verdict()));
   return text;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace cli::inline problem_files {
 namespace {
 
@@ -12,8 +10,7 @@ using convex::Index;
 template <typename Entries>
 std::string list_text(const Entries& entries) {
   std::string text = "[";
-  for (Index i = 0; i < entries.size(); ++i)
-    fmt::format_to(std::back_inserter(text), "{}{}", i > 0 ? ", " : "", entries[i]);
+  for (Index i = 0; i < entries.size(); ++i) text += fmt::format("{}{}", i > 0 ? ", " : "", entries[i]);
   return text + "]";
 }
 
@@ -48,7 +45,7 @@ std::string projection_text(const convex::NearestPointProblem& problem, const st
   if (!problem.two_sided.empty()) {
     const Eigen::Map<const Eigen::Matrix<Index, Eigen::Dynamic, 1>> rows(
         problem.two_sided.data(), static_cast<Index>(problem.two_sided.size()));
-    fmt::format_to(std::back_inserter(text), "two_sided = {}\n", list_text(rows));
+    text += fmt::format("two_sided = {}\n", list_text(rows));
   }
   return text;
 }
@@ -58,7 +55,7 @@ std::string matrix_market_text(const convex::SparseRows& M) {
                                  M.cols(), M.nonZeros());
   for (Index i = 0; i < M.rows(); ++i)
     for (convex::SparseRows::InnerIterator entry(M, i); entry; ++entry)
-      fmt::format_to(std::back_inserter(text), "{} {} {}\n", i + 1, entry.col() + 1, entry.value());
+      text += fmt::format("{} {} {}\n", i + 1, entry.col() + 1, entry.value());
   return text;
 }
 

@@ -15,7 +15,7 @@ template <class Value>
 std::string data_array(const char* name, const LiquidSample& sample, Value value) {
   std::string text = fmt::format("<DataArray type=\"Float64\" Name=\"{}\" format=\"ascii\">\n", name);
   for (std::size_t k = 0; k < sample.inside.size(); ++k)
-    fmt::format_to(std::back_inserter(text), "{}{}", static_cast<double>(value(k)), k % 8 == 7 ? '\n' : ' ');
+    text += fmt::format("{}{}", static_cast<double>(value(k)), k % 8 == 7 ? '\n' : ' ');
   return text + "\n</DataArray>\n";
 }
 
@@ -29,10 +29,8 @@ void write_liquid_table(const std::string& file, const std::vector<std::string>&
   for (std::size_t k = 0; k < sample.inside.size(); ++k) {
     if (!sample.inside[k]) continue;
     const mechanics::liquid::Point x = sample.at(k);
-    for (std::size_t i = 0; i < coordinates.size(); ++i)
-      fmt::format_to(std::back_inserter(text), "{},", x[i]);
-    fmt::format_to(std::back_inserter(text), "{},{},{}\n", sample.p[k], sample.growth[k],
-                   sample.cavity[k] ? 1 : 0);
+    for (std::size_t i = 0; i < coordinates.size(); ++i) text += fmt::format("{},", x[i]);
+    text += fmt::format("{},{},{}\n", sample.p[k], sample.growth[k], sample.cavity[k] ? 1 : 0);
   }
   write_file(file, text);
 }
