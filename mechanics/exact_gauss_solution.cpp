@@ -91,13 +91,13 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
   const bool is_default = options.method == &convex::methods().front();
   const bool is_dependent = depends_within_radii(problem, found.multipliers);
-  if ((ended && primal.undecided.empty() && !is_dependent) || !is_default || !(options.accuracy.limit > 0))
-    return;
-  const std::string_view open = !primal.undecided.empty() ? primal.undecided
-                                : is_dependent            ? convex::open_question::dependence
-                                                          : convex::open_question::conditioning;
-  if (const std::optional<convex::ExactProblem> exact = data())
-    solve_on_exact_data(found, *exact, problem, options, open);
+  if (ended && primal.undecided.empty() && !is_dependent) return;
+  const std::string_view open = is_dependent                ? convex::open_question::dependence
+                                : !primal.undecided.empty() ? primal.undecided
+                                                            : convex::open_question::conditioning;
+  if (is_default && options.accuracy.limit > 0)
+    if (const std::optional<convex::ExactProblem> exact = data())
+      solve_on_exact_data(found, *exact, problem, options, open);
   if (!found.as_written) found.primal.undecided = open;
 }
 

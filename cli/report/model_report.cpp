@@ -148,6 +148,18 @@ std::string methods_that_ran(const SolvedScene& solved) {
   return ran.empty() ? "the free motion, which keeps all contacts" : listed(ran);
 }
 
+std::string left_open_text(const SolvedScene& solved) {
+  const std::string_view open = solved.solution.primal.undecided;
+  if (open.empty() || !(solved.scene.written || solved.scene.problem.radii)) return "";
+  return fmt::format(
+      "The rounding of A, z, U, s leaves open {}, and {}; rows that depend on each other within their "
+      "rounding "
+      "count as dependent and consistent.\n",
+      open,
+      solved.asked_method ? "a method that was named is not helped by fractions"
+                          : "the text does not decide it in fractions");
+}
+
 std::string model_text(const SolvedScene& solved) {
   const Index n = static_cast<Index>(solved.scene.coordinates.size());
   const Index m = static_cast<Index>(solved.scene.contacts.size());
@@ -160,12 +172,8 @@ std::string model_text(const SolvedScene& solved) {
       text += fmt::format("Doubles left open {}: decided in fractions ({}).\n", island.in_fractions,
                           plural(island.coordinates, "coordinate") + ", " + plural(island.rows, "contact"));
   const std::string_view open = solved.solution.primal.undecided;
-  if (!open.empty() && solved.scene.written)
-    text += fmt::format(
-        "The rounding of A, z, U, s leaves open {}, and the text does not decide it in fractions; rows that "
-        "depend on each other within their rounding count as dependent and consistent.\n",
-        open);
-  else if (!open.empty() && solved.solution.primal.status != convex::Status::solved)
+  if (!open.empty() && left_open_text(solved).empty() &&
+      solved.solution.primal.status != convex::Status::solved)
     text +=
         fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n", open);
   if (solved.solution.reduced) {

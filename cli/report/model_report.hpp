@@ -15,6 +15,10 @@ void write_model(JsonWriter&, const SolvedScene&);
 /// The same in a few lines.
 std::string model_text(const SolvedScene&);
 
+/// What the rounding of A, z, U, s leaves open of rows, where the text does not decide it either; else
+/// nothing.
+std::string left_open_text(const SolvedScene&);
+
 /// "active-set", or what solved the islands: "closed-form and active-set"; "no method, no contact presses"
 /// where nothing had to run.
 std::string methods_that_ran(const SolvedScene&);

@@ -295,7 +295,8 @@ std::string solve_text(const SolvedScene& solved) {
   return text + verdict_line(solved) + constraint_table(solved, read) + coordinate_table(solved, read) +
          added_rows_text(solved) + touching_text(solved) + uniqueness_text(solved) +
          (tells_hypothesis ? hypothesis_text(solved) : "") + (tells_how ? model_text(solved) : "") +
-         dual_text(solved) + accuracy_text(solved) + from_text_text(solved) + sensitivity_text(solved);
+         left_open_text(solved) + dual_text(solved) + accuracy_text(solved) + from_text_text(solved) +
+         sensitivity_text(solved);
 }
 
 }  // namespace cli::inline reports

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/zero_tolerances.hpp"
+
 namespace convex::inline dual_active_set {
 namespace {
 
@@ -23,17 +25,17 @@ bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split) {
 
 namespace {
 
-/// s_p - Σ r_k s_k, the sum of the sizes of its terms, what of it the rounding of s can explain, and the sum
-/// of the sizes of terms whose r_k is noise.
+/// s_p - Σ r_k s_k, the sum of the sizes of its terms, what of it the rounding of s can explain, the sum of
+/// the sizes of terms whose r_k is noise, and how far the radii of the rows leave open that they cancel.
 struct Gap {
-  double value = 0, magnitude = 0, explained = 0, silenced = 0;
+  double value = 0, magnitude = 0, explained = 0, silenced = 0, turn = 0;
 };
 
 Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   const Vector& s = set.problem().s;
   const std::optional<DataRadii>& radii = set.problem().radii;
   DoubleDouble sum{s[p], 0};
-  Gap gap{0, std::abs(s[p]), radii ? radii->s[p] : 0, 0};
+  Gap gap{0, std::abs(s[p]), radii ? radii->s[p] : 0, 0, radii ? radii->row[p] : 0};
   for (Index k = 0; k < set.size(); ++k) {
     const DoubleDouble term = two_product(-split.coefficients[k], s[set.rows()[static_cast<std::size_t>(k)]]);
     if (is_noise(set, k, split)) {
@@ -42,8 +44,10 @@ Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
     }
     sum = add(sum, term);
     gap.magnitude += std::abs(term.hi);
-    if (radii)
-      gap.explained += std::abs(split.coefficients[k]) * radii->s[set.rows()[static_cast<std::size_t>(k)]];
+    if (!radii) continue;
+    const Index row = set.rows()[static_cast<std::size_t>(k)];
+    gap.explained += std::abs(split.coefficients[k]) * radii->s[row];
+    gap.turn += std::abs(split.coefficients[k]) * radii->row[row];
   }
   gap.explained += (radii ? rounding_of_sum : row_gap_roundings) * unit_roundoff * gap.magnitude;
   gap.value = sum.value();
@@ -54,7 +58,8 @@ Gap gap_of(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
 
 double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split) {
   const Gap gap = gap_of(set, p, split);
-  const double threshold = gap.explained + gap.silenced + 2 * split.direction.norm() * set.scale();
+  const double threshold =
+      gap.explained + gap.silenced + (2 * split.direction.norm() + farthest_motion * gap.turn) * set.scale();
   return std::abs(gap.value) > threshold ? gap.value : 0;
 }
 

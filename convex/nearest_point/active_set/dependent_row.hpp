@@ -14,8 +14,8 @@ bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split);
 /// rises; -1 for none.
 Index blocking_row(const WorkingSet& set, const WorkingSet::Split& split);
 
-/// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding;
-/// else 0.
+/// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding and
+/// what some motion up to `farthest_motion` times the scale makes of the radii; else 0.
 double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& split);
 
 /// Whether a row is a combination of W with coefficients that are 0 or beyond rounding, nothing left over.

@@ -28,7 +28,7 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   DoubleDoubleVector combination(problem.dimension());
   DoubleDouble gap;
-  double terms = 0, magnitude = 0, unsure = 0;  // unsure: what radii of s may make of the gap
+  double terms = 0, magnitude = 0, unsure = 0;  // unsure: what radii may make of the gap
   for (Index a = 0; a < problem.rows(); ++a) {
     if (w[a] == 0) continue;
     if (w[a] < 0 && !two_sided[static_cast<std::size_t>(a)]) return false;
@@ -36,7 +36,7 @@ bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, d
     gap = add(gap, two_product(w[a], problem.s[a]));
     terms += std::abs(w[a]) * largest_entry(problem.U, a);
     magnitude = std::max(magnitude, std::abs(w[a] * problem.s[a]));
-    if (problem.radii) unsure += std::abs(w[a]) * problem.radii->s[a];
+    if (problem.radii) unsure += std::abs(w[a]) * (problem.radii->s[a] + problem.radii->row[a] * reach);
   }
   const Vector rest = combination.value();
   const bool combines =

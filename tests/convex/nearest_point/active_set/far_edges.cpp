@@ -107,6 +107,25 @@ TEST_CASE("where nothing pulls, rows that disagree by less than their radii are 
   CHECK(convex::find_method("auto")->solve(problem, {}).status == Status::infeasible);
 }
 
+TEST_CASE("rows that a turn within their radii makes meet, however far away, are no contradiction") {
+  // x >= 0 and -x + e y >= 1e-13 with e up to the radius of a row: the rows meet at y = 1e-13 / e, here 450.
+  const double radius = 0x1p-53, gap = 1e-13;
+  RowMatrix U(2, 2);
+  U << 1, 0, -1, 0;
+  NearestPointProblem problem{
+      convex::Metric::identity(2), Vector{{-10, 0}}, convex::ConstraintRows(U), Vector{{0, gap}}, {}};
+  problem.radii = convex::DataRadii{Vector::Constant(2, radius), Vector::Zero(2)};
+  for (const char* method : {"auto", "active-set", "nnls", "lemke"}) {
+    CAPTURE(std::string(method));
+    const Solution found = convex::find_method(method)->solve(problem, {});
+    CHECK(found.status == Status::solved);
+    CHECK(std::abs(found.q[0]) <= gap);
+  }
+  CHECK_FALSE(convex::find_method("auto")->solve(problem, {}).undecided.empty());
+  problem.s[1] = 1e-10;  // nothing within the scale of the problem
+  CHECK(convex::find_method("auto")->solve(problem, {}).status == Status::infeasible);
+}
+
 TEST_CASE("where rows meet far away at a small angle, no method calls solved what is not") {
   for (const NearestPointProblem& problem : {opposite_to_a_two_sided_row(), five_rows_nearly_one()}) {
     const Solution truth = convex::find_method("exact")->solve(problem, {});
