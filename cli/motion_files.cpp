@@ -14,11 +14,6 @@ namespace {
 using convex::Index;
 using convex::InvalidInput;
 
-/// A heading of a CSV column: in quotation marks where it has a comma.
-std::string heading(const std::string& name) {
-  return name.find(',') == std::string::npos ? name : "\"" + name + "\"";
-}
-
 void append(std::string& line, double x) {
   std::array<char, 32> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), x + 0.0).ptr;
@@ -27,7 +22,13 @@ void append(std::string& line, double x) {
 
 }  // namespace
 
+std::string column_heading(const std::string& name) {
+  return name.find(',') == std::string::npos ? name : "\"" + name + "\"";
+}
+
 std::ofstream opened(const std::string& path) {
+  if (path == "-")
+    throw InvalidInput("- is standard output, which has the report; give the name of a file, or /dev/stderr");
   std::ofstream file(path, std::ios::binary);
   if (!file) throw InvalidInput("cannot write " + path + "; check the folder and its permissions");
   return file;
@@ -71,8 +72,9 @@ TrajectoryFile::TrajectoryFile(const std::string& path, const mechanics::Lagrang
     : file_(opened(path)), path_(path), system_(system), instants_(instants), modulo_(std::move(modulo)) {
   std::string line = "t";
   for (const char* mark : {"", "'", "''"})
-    for (const std::string& name : system.coordinates()) line += "," + heading(name + mark);
-  for (const std::string& name : constraint_names(system)) line += "," + heading("lambda[" + name + "]");
+    for (const std::string& name : system.coordinates()) line += "," + column_heading(name + mark);
+  for (const std::string& name : constraint_names(system))
+    line += "," + column_heading("lambda[" + name + "]");
   file_ << line << ",energy\n";
 }
 

@@ -64,6 +64,9 @@ class EventsFile {
   std::vector<std::string> coordinates_, constraints_;
 };
 
+/// A heading of a CSV column: in quotation marks where it has a comma.
+std::string column_heading(const std::string& name);
+
 /// A file to be written; throws InvalidInput when it cannot be opened.
 std::ofstream opened(const std::string& path);
 /// Closes it; throws InvalidInput when something could not be written.

@@ -236,11 +236,13 @@ bool FollowedBranch::comes_back_sooner(const Station& at) const {
 
 void FollowedBranch::row(const Station& at, BranchEvent event) {
   const mechanics::Orbit& orbit = at.orbit;
-  table_ += fmt::format("{},{},{},{},{},{}\n", at.value, orbit.period,
+  const mechanics::Orbit told = moved(at, t_).orbit;
+  table_ += fmt::format("{},{},{},{},{},{},{},{}\n", at.value, orbit.period,
                         orbit.multipliers ? (orbit.is_stable ? "1" : "0") : "",
                         orbit.multipliers ? fmt::format("{}", std::abs(orbit.multipliers->front())) : "",
-                        orbit.impacts.size(), table_name(event));
-  points_.push_back({at.value, moved(at, t_).orbit, event_name(event)});
+                        orbit.impacts.size(), table_name(event), fmt::join(told.start.q, ","),
+                        fmt::join(told.start.v, ","));
+  points_.push_back({at.value, told, event_name(event)});
   if (event == BranchEvent::branching)
     remarks_.push_back(fmt::format(
         "at {} = {} a multiplier passes 1 and the branch does not turn: another branch crosses it "

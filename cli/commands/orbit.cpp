@@ -114,6 +114,8 @@ Answer orbit_file(const std::string& file, const OrbitOptions& options) {
     if (!(period > 0)) throw InvalidInput("--period " + *options.period + ": not positive; give a time > 0");
     question.period = period * static_cast<double>(options.periods);
   }
+  if (options.output && !options.over)
+    throw InvalidInput("--output writes a branch of orbits; give --over \"w=1:0.01:3\" too, or --json");
   if (options.plot && !options.over)
     throw InvalidInput("--plot draws a branch of orbits; give --over \"w=1:0.01:3\" too");
   if (options.over) return orbit_branch(file, problem, question, options);

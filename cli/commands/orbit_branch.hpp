@@ -18,7 +18,8 @@ struct OrbitOptions : FileOptions, MotionChoice {
 };
 
 /// `orbit --over w=1:0.01:3`: the orbit of each value from that of the one before, as a table with the
-/// columns w, period, stable, largest_multiplier, impacts, event.
+/// columns w, period, stable, largest_multiplier, impacts, event, and the state: each coordinate, each
+/// velocity.
 Answer orbit_branch(const std::string& file, const Problem&, const mechanics::OrbitQuestion&,
                     const OrbitOptions&);
 

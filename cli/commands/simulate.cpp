@@ -173,7 +173,8 @@ Answer simulate_file(const std::string& file, const SimulateOptions& options) {
       options.resume ? resumed_state(*options.resume, *system) : system->state(text->state);
   const double until = end_of_motion(problem, *system, options.until);
   if (!(until >= state.t))
-    throw InvalidInput("simulate.until: before the time of the state; the motion goes forward");
+    throw InvalidInput("simulate.until: before the time of the state; the motion goes forward",
+                       options.until ? std::nullopt : std::optional(problem.simulate.until->begin));
   const mechanics::MotionOptions chosen = motion_options(problem, *system, options);
   const MotionWay way = motion_way(problem.simulate, *system, options);
   std::optional<mechanics::Motion> begun;

@@ -42,8 +42,8 @@ Animation::Animation(const mechanics::LagrangianSystem& system, const DrawnScene
 
 void Animation::add(const mechanics::State& state, const Vector& lambda) {
   Vector values = scene_.values(state);
-  std::vector<ContactArrow> arrows = arrows_.at(state, values, lambda);
-  frames_.push_back({state.t, std::move(values), lambda, std::move(arrows)});
+  ContactArrows::Drawn forces = arrows_.at(state, values, lambda);
+  frames_.push_back({state.t, std::move(values), lambda, std::move(forces)});
 }
 
 void Animation::follow(const mechanics::Motion& motion) {
@@ -91,7 +91,7 @@ std::string Animation::data(const std::string& title) const {
     for (Index a = 0; a < frame.lambda.size(); ++a)
       if (frame.lambda[a] != 0) json.begin_array().value(a).value(seen(frame.lambda[a])).end_array();
     json.end_array().key("arrows").begin_array();
-    for (const ContactArrow& arrow : frame.arrows)
+    for (const ContactArrow& arrow : frame.forces.arrows)
       json.begin_array()
           .value(arrow.constraint)
           .value(seen(arrow.at[0]))
@@ -99,7 +99,9 @@ std::string Animation::data(const std::string& title) const {
           .value(seen(arrow.force[0]))
           .value(seen(arrow.force[1]))
           .end_array();
-    json.end_array().end_object();
+    json.end_array();
+    if (frame.forces.left_out > 0) json.key("forces_left_out").value(frame.forces.left_out);
+    json.end_object();
   }
   json.end_array().key("events").begin_array();
   for (const mechanics::MotionEvent& event : events_) {

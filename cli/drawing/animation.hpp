@@ -25,7 +25,7 @@ class Animation {
   struct Frame {
     double t;
     convex::Vector values, lambda;
-    std::vector<ContactArrow> arrows;
+    ContactArrows::Drawn forces;
   };
   void add(const mechanics::State&, const convex::Vector& lambda);
   std::string data(const std::string& title) const;

@@ -186,13 +186,16 @@ function drawSliders(frame) {
   }
 }
 
-// Forces that act on no place that is drawn stand as numbers.
+// Forces that act on no place that is drawn stand as numbers. Of very many, the strongest are drawn.
 function drawForces(frame) {
   const drawn = new Set(frame.arrows.map((a) => a[0]));
-  const others = frame.lambda.filter(([a]) => !drawn.has(a)).slice(0, 8);
+  const others = frame.forces_left_out > 0 ? [] : frame.lambda.filter(([a]) => !drawn.has(a));
   pen.fillStyle = red;
   pen.font = "13px system-ui, sans-serif";
-  others.forEach(([a, lambda], k) => pen.fillText("lambda[" + motion.constraints[a] + "] = " + lambda.toPrecision(5),
+  if (frame.forces_left_out > 0)
+    pen.fillText(drawn.size + " of " + frame.lambda.length + " forces are drawn, the strongest", 10, canvas.height - 12);
+  if (others.length > 8) pen.fillText("and " + (others.length - 8) + " more", 10, canvas.height - 12 - 16 * 8);
+  others.slice(0, 8).forEach(([a, lambda], k) => pen.fillText("lambda[" + motion.constraints[a] + "] = " + lambda.toPrecision(5),
                                                  10, canvas.height - 12 - 16 * k));
 }
 

@@ -1,5 +1,6 @@
 #include "cli/drawing/contact_arrows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
@@ -64,13 +65,31 @@ ContactArrows::Places ContactArrows::places_of(const Vector& u, const mechanics:
   return {};
 }
 
-std::vector<ContactArrow> ContactArrows::at(const mechanics::State& state, const Vector& values,
-                                            const Vector& lambda) {
-  std::vector<ContactArrow> arrows;
-  if (places_.empty()) return arrows;
-  for (Index a = 0; a < lambda.size() && arrows.size() < most_arrows; ++a) {
-    if (lambda[a] == 0) continue;
-    const Vector u = Vector(system_.contact_rows(state, {a}).U.row(0).transpose());
+ContactArrows::Drawn ContactArrows::at(const mechanics::State& state, const Vector& values,
+                                       const Vector& lambda) {
+  Drawn drawn;
+  std::vector<ContactArrow>& arrows = drawn.arrows;
+  if (places_.empty()) return drawn;
+  std::vector<Index> loaded;
+  for (Index a = 0; a < lambda.size(); ++a)
+    if (lambda[a] != 0) loaded.push_back(a);
+  const convex::SparseRows U = system_.contact_rows(state, loaded).U;
+  Vector strength(static_cast<Index>(loaded.size()));
+  std::vector<Index> strongest;
+  for (Index k = 0; k < strength.size(); ++k) {
+    strength[k] = std::abs(lambda[loaded[static_cast<std::size_t>(k)]]) * U.row(k).norm();
+    strongest.push_back(k);
+  }
+  if (loaded.size() > most_arrows)
+    std::stable_sort(strongest.begin(), strongest.end(),
+                     [&](Index i, Index j) { return strength[i] > strength[j]; });
+  for (const Index row : strongest) {
+    const Index a = loaded[static_cast<std::size_t>(row)];
+    if (arrows.size() >= most_arrows) {
+      ++drawn.left_out;
+      continue;
+    }
+    const Vector u = Vector(U.row(row).transpose());
     std::optional<Places>& places = found_[static_cast<std::size_t>(a)];
     if (!places) places = places_of(u, state);
     if (places->empty()) continue;
@@ -95,7 +114,7 @@ std::vector<ContactArrow> ContactArrows::at(const mechanics::State& state, const
       arrows.push_back(arrow);
     }
   }
-  return arrows;
+  return drawn;
 }
 
 }  // namespace cli::inline drawings

@@ -21,9 +21,14 @@ struct ContactArrow {
 class ContactArrows {
  public:
   ContactArrows(const mechanics::System&, const DrawnScene&);
+  /// Of an instant. Where there are too many to be drawn, the strongest are; `left_out` counts the contacts
+  /// of the others.
+  struct Drawn {
+    std::vector<ContactArrow> arrows;
+    convex::Index left_out = 0;
+  };
   /// lambda: one number a constraint.
-  std::vector<ContactArrow> at(const mechanics::State&, const convex::Vector& values,
-                               const convex::Vector& lambda);
+  Drawn at(const mechanics::State&, const convex::Vector& values, const convex::Vector& lambda);
 
  private:
   struct Place {

@@ -47,7 +47,7 @@ std::vector<ContactArrow> arrows_of(const SolvedScene& solved, const DrawnScene&
   Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
   const Vector readable = readable_numbers(solved, most_rows).lambda;
   lambda.head(readable.size()) = readable;
-  return ContactArrows(*solved.scene.system, drawn).at(solved.scene.state, values, lambda);
+  return ContactArrows(*solved.scene.system, drawn).at(solved.scene.state, values, lambda).arrows;
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ constexpr std::string_view motion_text = R"text([simulate]
   until       = 10.0             where it ends; --until wins
   method      = "event-driven"   or time-stepping, auto
   tolerance   = 1e-10            error of a step
+  step        = 1e-3             length of a step of time-stepping
   restitution = 0.9              e, or { floor = 0.9, wall = 0 } by constraint, 0 <= e <= 1
   impact_law  = "moreau"         or poisson, sequential
   samples     = 201              rows of --output F.csv
@@ -67,7 +68,7 @@ constexpr std::string_view motion_text = R"text([simulate]
   moreau simulate FILE --plot F.svg --animate F.html --events F.jsonl
   moreau simulate FILE --output F.csv --strobe "2*pi/w" --modulo "a=2*pi"
   moreau simulate FILE --json > end.json; moreau simulate FILE --resume end.json --until 20
-  moreau orbit FILE --over w=1:0.01:3      motions that come back, and how they change
+  moreau orbit FILE --period "2*pi/w" --over w=1:0.01:3     motions that come back, and how they change
 )text";
 
 constexpr std::string_view liquid_text = R"text([liquid]

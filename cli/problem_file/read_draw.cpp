@@ -44,6 +44,9 @@ DrawnShape drawn_shape(DrawnShape::Kind kind, const TomlEntry& entry, const std:
                                ": missing; write { centre = [\"x\", \"y\"], radius = \"r\" }",
                            entry.place);
       add_place(shape, *centre, where + ".centre");
+      if (radius->is_number() && radius->number < 0)
+        throw InvalidInput(where + ".radius: " + shown(radius->text) + " is negative; give a length",
+                           radius->place);
       shape.numbers.push_back(drawn_number(*radius, where + ".radius"));
     }
   }

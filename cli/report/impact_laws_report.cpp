@@ -9,6 +9,7 @@
 #include "cli/report/json_writer.hpp"
 #include "cli/report/readable_numbers.hpp"
 #include "cli/report/text_table.hpp"
+#include "mechanics/motion/impulses.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -39,6 +40,20 @@ std::string trouble(const FollowedMotion& followed, const ImpactScene& scene, co
   return text;
 }
 
+/// What a law makes of the impact; where Moreau's law leaves P open, the P of least norm.
+struct LawOutcome : ImpactOutcome {
+  bool has_one_impulse = true;
+};
+
+LawOutcome outcome_of(const ImpactScene& scene, ImpactLaw law) {
+  LawOutcome outcome{mechanics::impact(scene.A, scene.contacts, law)};
+  if (law != ImpactLaw::moreau || outcome.impulse.size() == 0) return outcome;
+  mechanics::MoreauImpulses all = mechanics::moreau_impulses(scene.A, scene.contacts);
+  outcome.has_one_impulse = all.unique;
+  if (!all.unique) outcome.impulse = std::move(all.least_norm);
+  return outcome;
+}
+
 std::vector<std::string> contact_names(const FollowedMotion& followed, const ImpactScene& scene) {
   const std::vector<std::string> names = constraint_names(followed.system);
   std::vector<std::string> chosen;
@@ -61,7 +76,7 @@ std::string impact_laws_json(const FollowedMotion& followed) {
   json.numbers(followed.system.coordinates(), scene->velocity).key("kinetic_before").value(scene->kinetic);
   json.key("laws").begin_object();
   for (const ImpactLaw law : mechanics::impact_laws) {
-    const ImpactOutcome outcome = mechanics::impact(scene->A, scene->contacts, law);
+    const LawOutcome outcome = outcome_of(*scene, law);
     json.key(mechanics::name(law)).begin_object();
     if (const std::string why = trouble(followed, *scene, outcome); !why.empty()) {
       json.key("why").value(why).end_object();
@@ -69,6 +84,7 @@ std::string impact_laws_json(const FollowedMotion& followed) {
     }
     json.key("velocity_after").numbers(followed.system.coordinates(), scene->velocity + outcome.change);
     json.key("impulses").numbers(contacts, outcome.impulse);
+    if (law == ImpactLaw::moreau) json.key("impulses_unique").value(outcome.has_one_impulse);
     json.key("kinetic_after").value(kinetic_after(*scene, outcome));
     if (!outcome.remark.empty()) json.key("remark").value(outcome.remark);
     json.end_object();
@@ -83,14 +99,17 @@ std::string impact_laws_text(const FollowedMotion& followed) {
   text += fmt::format("The first impact is at t = {}; T before it is {}.\n\n", scene->t,
                       number_text(scene->kinetic));
   std::vector<std::string> head{"", "before"};
-  std::vector<ImpactOutcome> outcomes;
+  std::vector<LawOutcome> outcomes;
   std::string said;
   for (const ImpactLaw law : mechanics::impact_laws) {
     head.emplace_back(mechanics::name(law));
-    outcomes.push_back(mechanics::impact(scene->A, scene->contacts, law));
+    outcomes.push_back(outcome_of(*scene, law));
     std::string why = trouble(followed, *scene, outcomes.back());
     if (why.empty()) why = std::string(outcomes.back().remark);
     if (!why.empty()) said += std::string(mechanics::name(law)) + ": " + why + ".\n";
+    if (!outcomes.back().has_one_impulse)
+      said += std::string(mechanics::name(law)) +
+              ": v+ is unique, P is not: others give the same v+; these have the least norm.\n";
   }
   TextTable table(head);
   const auto add = [&](const std::string& what, const std::string& before, auto&& number) {

@@ -164,12 +164,16 @@ std::string motion_text(const FollowedMotion& followed) {
   }
   TextTable end({"", "q", "q'", "q''"});
   const bool is_known = motion.acceleration().size() == state.q.size();
-  for (std::size_t i = 0; i < followed.system.coordinates().size(); ++i) {
+  const std::size_t coordinates = followed.system.coordinates().size();
+  constexpr auto shown_rows = static_cast<std::size_t>(most_rows);
+  for (std::size_t i = 0; i < std::min(coordinates, shown_rows); ++i) {
     const auto k = static_cast<Index>(i);
     end.add({followed.system.coordinates()[i], number_text(state.q[k]), number_text(state.v[k]),
-             is_known ? number_text(motion.acceleration()[k]) : ""});
+             is_known ? number_text(motion.acceleration()[k]) : "-"});
   }
   text += end.text();
+  if (coordinates > shown_rows)
+    text += fmt::format("  … {} more coordinates; --json has them all\n", coordinates - shown_rows);
   text += fmt::format("\nSteps: {}. Events: {}, impacts among them: {}. T + V = {}.\n", record.steps,
                       record.events, record.impacts, number_text(motion.energy()));
   const double size = record.first_impact ? record.first_impact->kinetic : 0;

@@ -89,6 +89,7 @@ bool Motion::EventDriven::advance(double until) {
   if (!may_advance(until)) return false;
   if (!ends_here_.empty()) {
     stop(ends_here_);
+    forget_right_limits();
     return false;
   }
   until_ = until;
@@ -105,6 +106,7 @@ bool Motion::EventDriven::advance(double until) {
   if (status == MotionStatus::done && events_at_once_ > most_events_at_once * (m + 1))
     stop("at t = " + number_text(state.t) + ": events follow each other without end at one instant" +
          advice_on_kinks());
+  if (status != MotionStatus::done && next.t != state.t) forget_right_limits();
   return status == MotionStatus::done || !events.empty() || goes_on || low_ > low_before;
 }
 
@@ -205,6 +207,7 @@ void Motion::EventDriven::take_step(double until) {
   if (const std::vector<Zero> now = closing_at_once(); !now.empty()) {
     ++record.steps;
     std::swap(done, next);
+    next.t = not_begun;
     done.length = 0;
     return handle(now);
   }
@@ -239,6 +242,7 @@ void Motion::EventDriven::take_step(double until) {
     std::erase_if(zeros, [&](const Zero& zero) { return !is_at_once(zero, first); });
   }
   std::swap(done, next);
+  next.t = not_begun;
   done.length = tau;
   if (tau > 0) last_length_ = tau;
   state.q = there_.q;

@@ -76,7 +76,13 @@ class Motion::EventDriven final : public Motion::Course {
   void fill_next();
   void close_together(std::vector<Zero>& zeros) const;
   void look_for_penetration();
-  Arc next;  ///< the one ahead of `state`
+  /// Where no arc follows there is neither q'' nor a multiplier.
+  void forget_right_limits() {
+    acceleration.resize(0);
+    multipliers.resize(0);
+  }
+  static constexpr double not_begun = std::numeric_limits<double>::quiet_NaN();
+  Arc next;  ///< the one ahead of `state`; its t is not a number until it is begun
   Expansion expansion_;
   std::string obstacle_;    // why a step could not be taken, if an expression said so
   double start_ = 0;        // the time at the start

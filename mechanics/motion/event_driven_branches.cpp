@@ -244,7 +244,7 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
 }
 
 std::string Motion::EventDriven::advice_on_kinks() const {
-  if (expansion_.switches() == 0) return "";
+  if (expansion_.switches() == 0 || expansion_.constraints() == 0) return "";
   return "; a contact with a kink is written as two, y >= x and y >= -x for y >= abs(x)";
 }
 

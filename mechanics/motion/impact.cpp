@@ -4,6 +4,7 @@
 
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
+#include "mechanics/motion/impulses.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -32,6 +33,18 @@ convex::NearestPointProblem least_change(const convex::Metric& A, const std::vec
                                       two_sided};
   problem.radii = convex::rounding_radii(problem, roundings_of_rows);
   return problem;
+}
+
+/// That of Moreau's law.
+convex::NearestPointProblem moreau_problem(const convex::Metric& A,
+                                           const std::vector<ImpactContact>& contacts) {
+  Vector s(static_cast<Index>(contacts.size()));
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const ImpactContact& contact = contacts[a];
+    const double e = contact.two_sided || contact.rate > 0 ? 0 : contact.restitution;
+    s[static_cast<Index>(a)] = -(1 + e) * contact.rate;
+  }
+  return least_change(A, contacts, s);
 }
 
 ImpactOutcome excluded(const convex::Solution& solution) {
@@ -125,15 +138,17 @@ ImpactOutcome impact(const convex::Metric& A, const std::vector<ImpactContact>& 
 ImpactOutcome moreau_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
   if (contacts.size() == 1 && !contacts.front().two_sided)
     if (std::optional<ImpactOutcome> outcome = single_impact(A, contacts.front())) return *std::move(outcome);
-  Vector s(static_cast<Index>(contacts.size()));
-  for (std::size_t a = 0; a < contacts.size(); ++a) {
-    const ImpactContact& contact = contacts[a];
-    const double e = contact.two_sided || contact.rate > 0 ? 0 : contact.restitution;
-    s[static_cast<Index>(a)] = -(1 + e) * contact.rate;
-  }
-  convex::Solution solution = convex::automatic(least_change(A, contacts, s));
+  convex::Solution solution = convex::automatic(moreau_problem(A, contacts));
   if (solution.status == convex::Status::infeasible) return excluded(solution);
   return rounded_outcome(A, contacts, std::move(solution.q), std::move(solution.lambda));
+}
+
+MoreauImpulses moreau_impulses(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
+  const convex::NearestPointProblem problem = moreau_problem(A, contacts);
+  const convex::Solution solution = convex::automatic(problem);
+  if (solution.status == convex::Status::infeasible) return {};
+  convex::Multipliers all = convex::multipliers(problem, solution, alike, false);
+  return {all.unique, std::move(all.least_norm)};
 }
 
 ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {

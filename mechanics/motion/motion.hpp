@@ -117,7 +117,7 @@ class Motion {
   const std::vector<MotionEvent>& events() const;
   /// The state now, after events.
   const State& state() const;
-  /// Right limits at this state: q'' and the multipliers of all constraints.
+  /// Right limits at this state: q'' and the multipliers of all constraints; empty where the motion has none.
   const Vector& acceleration() const;
   const Vector& multipliers() const;
   double energy() const;

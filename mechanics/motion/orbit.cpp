@@ -7,6 +7,7 @@
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/motion/first_return.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 #include "mechanics/motion/orbit_section.hpp"
 
@@ -35,44 +36,12 @@ constexpr double near_start = 1e-2;
 /// Error of the derivative by the variational equations, relative to its norm.
 constexpr double derivative_error = 1e-12;
 
-/// Points of an arc that are looked at when a return is searched for.
-constexpr int looks_per_arc = 16;
-
 /// A motion with so many times the steps of the guess, and some, leads to no orbit near it.
 constexpr long far_steps = 8, some_steps = 100;
 
 /// A free period is looked for within this factor of the guess: where there is no orbit, as beyond a fold,
 /// Newton's method leads to flights without end.
 constexpr double farthest_period = 4;
-
-/// A free period is searched for within so many steps.
-constexpr long most_steps_to_return = 20'000;
-
-/// The time after which the motion comes back to the plane through x across its direction, in that direction,
-/// nearer to x than half of how far it was away; 0 if it does not.
-double return_time(const LagrangianSystem& system, const State& guess, const MotionOptions& options) {
-  Motion motion(system, guess, options);
-  const Vector x = as_one(guess), direction = as_one({guess.t, guess.v, motion.acceleration()});
-  double farthest = 0, last = 0;
-  bool was_behind = false;
-  for (long step = 0; step < most_steps_to_return; ++step) {
-    // Without an end in time a step goes as far as its series or an event; a motion without either has no
-    // return.
-    if (!motion.advance(guess.t + 1e9)) return 0;
-    const Arc& arc = motion.arc();
-    for (int k = 1; k <= looks_per_arc; ++k) {
-      const double tau = arc.length * k / looks_per_arc;
-      const Vector away = as_one(arc.state(tau)) - x;
-      const double along = away.dot(direction);
-      farthest = std::max(farthest, away.norm());
-      const double time = arc.t - guess.t + tau;
-      if (was_behind && along >= 0 && away.norm() < 0.5 * farthest) return 0.5 * (time + last);
-      was_behind = along < 0;
-      last = time;
-    }
-  }
-  return 0;
-}
 
 /// The derivative of the map, or what leads on where it has none.
 std::optional<Matrix> for_newton(const PeriodMap& map, const TangentChart& chart, double period,
@@ -154,8 +123,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   std::optional<TangentChart> chart(std::in_place, system, guess);
   orbit.start = chart->origin();
   orbit.period = question.period;
-  if (question.is_free && !(orbit.period > 0))
-    orbit.period = return_time(system, orbit.start, question.motion);
+  if (question.is_free && !(orbit.period > 0)) orbit.period = return_time(system, orbit.start, question);
   if (!(orbit.period > 0)) {
     orbit.why = "the motion from the state of the file does not come near it again";
     return orbit;
@@ -187,6 +155,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
                                   ? 10 * derivative_error
                                   : std::numeric_limits<double>::epsilon() * static_cast<double>(unknowns);
   Vector across = Vector::Zero(2 * n);
+  std::string stopped;  // why a motion on the last line searched was
   for (int i = 0; i < most_iterations && orbit.residual > 0; ++i) {
     if (i > 0) chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
     const auto D = for_newton(map, *chart, orbit.period, flight);
@@ -212,12 +181,16 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
     }
     const Vector step = convex::linear_algebra::CompleteOrthogonal(J, undetermined).solve(right);
     bool is_better = false;
+    stopped.clear();
     for (double part = 1; part > shortest_part && !is_better; part *= 0.5) {
       const Vector next = chart->state_of(part * step.head(size));
       const double period = orbit.period + (question.is_free ? part * step[size] : 0);
       if (!(period >= shortest && period <= longest)) continue;
       Flight tried = map.fly(next, period);
-      if (!tried.arrives) continue;
+      if (!tried.arrives) {
+        if (stopped.empty() && !tried.pieces.empty()) stopped = tried.why;
+        continue;
+      }
       const Vector missed = map.miss(tried, next);
       const double residual = residual_of(missed, tried, next);
       if (!(residual < (1 - 0.1 * part) * orbit.residual)) continue;
@@ -234,6 +207,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   orbit.start.v = x.tail(n);
   if (!(orbit.residual <= met)) {
     orbit.why = "Newton's method finds no motion near this state that comes back; begin nearer to one";
+    if (!stopped.empty()) orbit.why += ". Those that it tries do not go on: " + stopped;
     return orbit;
   }
   orbit.is_found = true;

@@ -194,8 +194,13 @@ bool Motion::TimeStepping::find_velocity(double h, double end) {
     }
     last = change;
   }
-  stop("at t = " + number_text(state.t) + ": forces change too much in a step of " + number_text(h) +
-       "; take a shorter one, [simulate] step");
+  stop(
+      "at t = " + number_text(state.t) + ": forces change too much in a step of " + number_text(h) +
+      "; take a shorter one, [simulate] step" +
+      (system.model().tape.has_branches()
+           ? "; none is short enough where the motion slides along the place at which |x| or sign(x) changes "
+             "its branch, as with dry friction"
+           : ""));
   return false;
 }
 

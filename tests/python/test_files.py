@@ -100,11 +100,24 @@ class Motions(unittest.TestCase):
         self.assertEqual((remark["t"], remark["count"], remark["last"]), (0, 1, 0))
         self.assertIn("floor", remark["message"])
 
+    def test_where_a_motion_does_not_go_on_it_has_no_acceleration(self):
+        block = {"system": {"coordinates": ["x"], "kinetic": "x'^2/2", "potential": "2*x^2",
+                            "forces": {"x": "-0.5*sign(x')"}}, "state": {"position": {"x": 1.1}}}
+        motion = moreau.Motion(block)
+        self.assertEqual(motion.acceleration.shape, (1,))
+        motion.run(10)
+        self.assertEqual((motion.status, motion.acceleration, motion.multipliers), ("stopped", None, None))
+
     def test_what_cannot_move_is_refused(self):
         with self.assertRaisesRegex(moreau.InvalidInput, "nothing here moves"):
             moreau.Motion({"projection": {"A": [[1]], "z": [1], "U": [[1]], "s": [0]}})
         with self.assertRaisesRegex(moreau.InvalidInput, "floor"):
             moreau.Motion(BALL, set={"position.y": -1})
+        for times in ([3, 0.1], [-1]):
+            with self.assertRaisesRegex(ValueError, "times: (3|-1)"):
+                moreau.Motion(BALL).run(until=2, times=times)
+        with self.assertRaisesRegex(ValueError, "before t = 0"):
+            moreau.Motion(BALL).run(until=-1)
         with self.assertRaisesRegex(ValueError, "until"):
             moreau.Motion({key: BALL[key] for key in ("system", "state")}).run()
 

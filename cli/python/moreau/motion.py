@@ -67,19 +67,29 @@ class Motion:
             until = self._motion.until
         if until is None:
             raise ValueError("until: missing; give it, or write until = 3.0 below [simulate]")
+        if not until >= self.t:
+            raise ValueError(f"until: {until} is before t = {self.t}; the motion goes forward")
         if times is None:
             times = np.linspace(self.t, until, samples)
         times = np.sort(np.asarray(times, dtype=float)).tolist()
+        for time in times[:1] + times[-1:]:
+            if not self.t <= time <= until:
+                raise ValueError(f"times: {time} is not from t = {self.t} to until = {until}")
         *tables, events = self._motion.run(float(until), times)
         events = [Event(*event) for event in events]
         self.events += events
         return Trajectory(self.coordinates, self.constraints, *tables, events)
 
+    def _right_limit(self, numbers):
+        return None if self._motion.acceleration.size == 0 else numbers
+
     t = property(lambda self: self._motion.t, doc="The time.")
     position = property(lambda self: self._motion.position, doc="q: n numbers.")
     velocity = property(lambda self: self._motion.velocity, doc="q': n numbers.")
-    acceleration = property(lambda self: self._motion.acceleration, doc="q'' to the right of t: n numbers.")
-    multipliers = property(lambda self: self._motion.multipliers, doc="lambda to the right of t, of all constraints.")
+    acceleration = property(lambda self: self._right_limit(self._motion.acceleration),
+                            doc="q'' to the right of t: n numbers; None where the motion does not go on.")
+    multipliers = property(lambda self: self._right_limit(self._motion.multipliers),
+                           doc="lambda to the right of t, of all constraints; None where it does not go on.")
     energy = property(lambda self: self._motion.energy, doc="T + V.")
     status = property(lambda self: self._motion.status, doc="'done', 'stopped' or 'infeasible'.")
     why = property(lambda self: self._motion.why, doc="Why it was stopped, or what excludes what.")

@@ -168,3 +168,21 @@ TEST_CASE("why a motion ends is what is there, not what lies a little further") 
   CHECK(motion.status() == mechanics::MotionStatus::stopped);
   CHECK(motion.why().find("dry friction") != std::string::npos);
 }
+
+TEST_CASE(
+    "a motion that stops where no branch goes on has no acceleration there; one stopped by a limit has") {
+  // Half periods of pi/2 around -+1/8: it turns at 1.1, -0.85, 0.6, -0.35, 0.1, where friction holds it.
+  const SystemText text{{"x"}, "x'^2/2", "2*x^2", {}, {}, {{"x", "-0.5*sign(x')"}}, {}};
+  const Followed sticks = followed(text, state({1.1}, {0}), 10);
+  REQUIRE(sticks.motion.status() == mechanics::MotionStatus::stopped);
+  CHECK(sticks.end().t == doctest::Approx(2 * std::acos(-1.0)).epsilon(1e-12));
+  CHECK(sticks.motion.acceleration().size() == 0);
+  CHECK(sticks.motion.multipliers().size() == 0);
+  mechanics::MotionOptions few;
+  few.step_limit = 3;
+  const Followed limited = followed(text, state({1.1}, {0}), 10, few);
+  REQUIRE(limited.motion.status() == mechanics::MotionStatus::stopped);
+  REQUIRE(limited.motion.acceleration().size() == 1);
+  const double expected = -4 * limited.end().q[0] - 0.5;  // from -0.35 on x' > 0
+  CHECK(limited.motion.acceleration()[0] == doctest::Approx(expected).epsilon(1e-12));
+}

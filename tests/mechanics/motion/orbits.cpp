@@ -166,3 +166,52 @@ TEST_CASE("an orbit told from another instant is the same one; on an impact it i
   REQUIRE(there.multipliers);
   CHECK(std::abs((*there.multipliers)[0] - 3.44640644840723306477424) <= 1e-12);
 }
+
+TEST_CASE("a pendulum that turns over comes back up to a turn, and its free period is found") {
+  // a'^2/2 - cos(a) = E > 1: a turn takes 4/sqrt(2 (E + 1)) K(k), k^2 = 2/(E + 1).
+  const auto made = system({{"a"}, "a'^2/2", "-cos(a)", {}, {}, {}, {}});
+  const double pi = std::acos(-1.0);
+  OrbitQuestion question;
+  question.is_free = true;
+  question.modulo = Vector::Constant(1, 2 * pi);
+  for (const double speed : {2.5, -2.5, 8.0}) {
+    const Orbit found = find_orbit(*made, state({1}, {speed}), question);
+    REQUIRE(found.is_found);
+    const double E = speed * speed / 2 - std::cos(1.0);
+    const double turn = 4 / std::sqrt(2 * (E + 1)) * std::comp_ellint_1(std::sqrt(2 / (E + 1)));
+    CHECK(std::abs(found.period / turn - 1) <= 1e-12);
+  }
+  // Under a torque with drag one turn attracts.
+  const auto driven = system({{"a"}, "a'^2/2", "-cos(a)", {}, {}, {{"a", "1.2 - 0.3*a'"}}, {}});
+  const Orbit found = find_orbit(*driven, state({0}, {4}), question);
+  REQUIRE(found.is_found);
+  CHECK(found.is_stable);
+  CHECK(found.period == doctest::Approx(1.6).epsilon(0.1));
+}
+
+TEST_CASE("a free period is found from a state that stands on a contact and leaves it") {
+  // r'' = 10 - 6 r from the stop with speed 1: it is there again after 2 acos(1/sqrt(7))/sqrt(6).
+  const SystemText text{{"r"}, "(r'^2 + 4*r^2)/2", "5*(r-1)^2", {}, {}, {}, {{"stop", "r <= 1.5"}}};
+  const auto made = system(text);
+  OrbitQuestion question;
+  question.motion = restitution(text, 1);
+  question.is_free = true;
+  const double period = 2 * std::acos(1 / std::sqrt(7.0)) / std::sqrt(6.0);
+  for (const double speed : {-1.0, 1.0}) {  // with speed 1 an impact is due
+    const Orbit found = find_orbit(*made, state({1.5}, {speed}), question);
+    REQUIRE(found.is_found);
+    CHECK(std::abs(found.period / period - 1) <= 1e-12);
+    CHECK(found.impacts.size() == 1);
+    CHECK(found.multipliers);
+  }
+}
+
+TEST_CASE("why no orbit is found says where the motions tried end") {
+  const auto made =
+      system({{"x"}, "x'^2/2", "x^2/2", {}, {}, {{"x", "0.45*cos(1.3*t) - 0.3*sign(x') - 0.1*x'"}}, {}});
+  OrbitQuestion question;
+  question.period = 2 * std::acos(-1.0) / 1.3;
+  const Orbit none = find_orbit(*made, state({-4}, {0.5}), question);
+  CHECK_FALSE(none.is_found);
+  CHECK(none.why.find("dry friction") != std::string::npos);
+}
