@@ -9,12 +9,14 @@ void ImpactHistory::add(double since, double speed, double t, double noise, doub
   interval_[2] = interval_[1];
   interval_[1] = interval_[0];
   interval_[0] = since;
+  speed_before_ = speed_;
   speed_ = speed;
   highest_ = std::max(highest_, 0.5 * speed * since);  // a fall from rest, or a bounce
   noise_ += noise;
   speed_noise_ += speed_noise;
   ++count_;
-  if (!shrinks()) {
+  shrinking_ = shrinks() ? shrinking_ + 1 : 0;
+  if (shrinking_ == 0) {
     if (t > end_ + end_error_) end_error_ = std::numeric_limits<double>::infinity();
     return;
   }

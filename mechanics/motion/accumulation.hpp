@@ -19,15 +19,19 @@ class ImpactHistory {
   void add(double since, double speed, double t, double noise, double speed_noise);
   void forget() { *this = ImpactHistory(); }
 
-  long count() const { return count_; }
+  /// How many intervals one after the other have shrunk by a steady ratio so far.
+  long shrinking() const { return shrinking_; }
+  /// Whether the impacts lose their speed as well, so that rest follows: a body between walls that close in
+  /// on it strikes ever faster.
+  bool slows() const { return speed_ < speed_before_; }
   /// Whether the last three intervals shrink by one ratio.
   bool shrinks() const;
   double ratio() const { return interval_[0] / interval_[1]; }
   /// The time from the last impact to the end.
   double remaining() const;
   /// When it ends, and how far that may be off: the tail Δ r / (1 - r) with r enclosed by what its drift,
-  /// which shrinks as the intervals do, adds up to, and by the rounding of all impacts so far. Of all that the
-  /// impacts told the surest: the last bounces may be so low that rounding of f decides them.
+  /// which shrinks as the intervals do, adds up to, and by the rounding of all impacts so far. Of all that
+  /// the impacts told the surest: the last bounces may be so low that rounding of f decides them.
   double end() const { return end_; }
   double end_error() const { return end_error_; }
   /// A bound on how high, in units of f, the next bounce goes.
@@ -37,9 +41,9 @@ class ImpactHistory {
   double highest() const { return highest_; }
 
  private:
-  long count_ = 0;
+  long count_ = 0, shrinking_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
-  double speed_ = 0, highest_ = 0;
+  double speed_ = 0, speed_before_ = 0, highest_ = 0;
   double noise_ = 0, speed_noise_ = 0;  // of all impacts so far
   double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };

@@ -258,6 +258,8 @@ void Motion::EventDriven::take_step(double until) {
   for (double& elapsed : elapsed_) elapsed += tau;
   if (!is_there || (state.t != there_.t && expansion_.uses_time())) expansion_.set(state);
   look_for_penetration();
+  if (status != MotionStatus::done) return;
+  if (is_last && zeros.empty() && tau > 0) zeros = closing_at_the_end();
   if (!zeros.empty()) close_together(zeros);
   if (zeros.empty())
     continue_arc();
@@ -289,7 +291,13 @@ void Motion::EventDriven::look_for_penetration() {
     double f = is_two_sided(a) ? -std::abs(expansion_.f(a)) : expansion_.f(a);
     if (!is_two_sided(a) && !is_held_[static_cast<std::size_t>(a)])
       f = least_value(coefficients(done.f, a), done.length, std::min(f, 0.0));
-    if (f < 0) note_penetration(a, f, std::max(1.0, expansion_.position_scale(a)));
+    if (!(f < 0)) continue;
+    const double scale = std::max(1.0, expansion_.position_scale(a));
+    note_penetration(a, f, scale);
+    const double passed = std::max(options.contact_tolerance[a], default_contact_tolerance);
+    if (!is_two_sided(a) && -f > passed * scale && -f > passed * expansion_.magnitude_of_constraint(a))
+      return stop("at t = " + number_text(state.t) + ": " + constraint_name(a) + " is penetrated, f = " +
+                  number_text(f) + ", without an impact on the way; a smaller tolerance may show it");
   }
 }
 

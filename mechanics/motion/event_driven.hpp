@@ -25,6 +25,7 @@ class Motion::EventDriven final : public Motion::Course {
   void take_step(double until);
   std::vector<Zero> zeros_before(double end) const;
   std::vector<Zero> closing_at_once();
+  std::vector<Zero> closing_at_the_end();
   void watch();
   double polished(const Zero& zero, double tau);
   bool fits(double tau);
@@ -63,6 +64,7 @@ class Motion::EventDriven final : public Motion::Course {
   void note_behind();
   double difference_at_zero(std::size_t k);
   std::string jump_of_energy(const std::vector<Index>& contacts, const std::vector<Index>& switches);
+  void note_unloading(const std::vector<Zero>& zeros);
   ContactQuestion question_of(const std::vector<Index>& contacts) const;
   std::string advice_on_kinks() const;
   bool has_kink_at(const std::vector<Index>& contacts, const std::vector<Index>& switches);
@@ -84,13 +86,15 @@ class Motion::EventDriven final : public Motion::Course {
   static constexpr double not_begun = std::numeric_limits<double>::quiet_NaN();
   Arc next;  ///< the one ahead of `state`; its t is not a number until it is begun
   Expansion expansion_;
-  std::string obstacle_;    // why a step could not be taken, if an expression said so
-  double start_ = 0;        // the time at the start
-  double since_start_ = 0;  // the time is start_ + since_start_ + low_
+  std::string obstacle_;          // why a step could not be taken, if an expression said so
+  std::string undefined_beyond_;  // of branches tried at an event, what one of them said
+  double start_ = 0;              // the time at the start
+  double since_start_ = 0;        // the time is start_ + since_start_ + low_
   double low_ = 0;
   std::vector<Index> persist_;                                       // held on the next arc
   std::vector<int> zeros_of_f_, zeros_of_lambda_, zeros_of_switch_;  // leading ones on the next arc
   std::vector<double> branches_behind_;                              // by switch, before the event
+  std::vector<ContactQuestion::Unloaded> unloaded_;                  // in the event at hand
   std::vector<bool> is_weak_;                                        // held without a multiplier
   std::vector<double> least_multiplier_;  // of a weak one: what is less, rounding made at the arc's beginning
   std::vector<bool> is_blurred_;          // of an impact it was told that its time is uncertain
@@ -106,7 +110,7 @@ class Motion::EventDriven final : public Motion::Course {
   bool is_blind_ = false;         // the step ahead is not the one that its series tell
   double step_ahead_ = 0;
   long events_at_once_ = 0, kinks_at_once_ = 0;
-  double until_ = 0;
+  double until_ = std::numeric_limits<double>::infinity();  // not asked for yet
   /// At an event, on the branches before it.
   struct Behind {
     double lagrangian;

@@ -286,13 +286,25 @@ std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contac
   } catch (const convex::InvalidInput& error) {
     return error.what();
   }
+  if (!undefined_beyond_.empty())
+    return "an expression changes its branch, and of those beyond it none goes on: " + undefined_beyond_;
   return "no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along the "
          "place where it changes, as with dry friction" +
          advice_on_kinks();
 }
 
+/// Multipliers that have come to 0 at the end of an arc are as far from it as the rounding of time leaves
+/// them.
+void Motion::EventDriven::note_unloading(const std::vector<Zero>& zeros) {
+  for (const Zero& zero : zeros)
+    if (zero.of == Zero::Of::multiplier)
+      unloaded_.push_back(
+          {zero.which, roundings_of_instant * epsilon * clock() *
+                           std::abs(slope_at(coefficients(done.lambda, zero.which), done.length))});
+}
+
 ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& contacts) const {
-  ContactQuestion question{{}, contacts};
+  ContactQuestion question{{}, contacts, unloaded_};
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a)) question.held.push_back(a);
   return question;
@@ -302,6 +314,7 @@ ContactQuestion Motion::EventDriven::question_of(const std::vector<Index>& conta
 std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::vector<Index>& contacts,
                                                                      const std::vector<Index>& switches) {
   const ContactQuestion question = question_of(contacts);
+  undefined_beyond_.clear();
   constexpr std::size_t most_tried = 8;
   const std::size_t tried = std::min(switches.size(), most_tried);
   for (const Index k : switches)
@@ -319,9 +332,9 @@ std::optional<ContactAnswer> Motion::EventDriven::answer_on_branches(const std::
       ContactAnswer answer = expansion_.expand(question);
       if (!answer.excluding.empty()) return answer;
       if (is_consistent(switches)) return answer_where_zero_stays(question, switches, std::move(answer));
-    } catch (
-        const convex::InvalidInput&) {  // a branch beyond which nothing is defined, such as a table's end
+    } catch (const convex::InvalidInput& error) {  // nothing is defined there, as beyond a table's end
       if (switches.empty()) throw;
+      undefined_beyond_ = error.what();
     }
   }
   return std::nullopt;

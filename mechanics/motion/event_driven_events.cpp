@@ -12,14 +12,19 @@ namespace {
 /// f of a closed contact is 0 up to so many roundings of what it is the sum of.
 constexpr double roundings_of_closed = 16;
 
+/// An impact within so many roundings of the end of the motion is at its end.
+constexpr double roundings_of_end = 4;
+
 /// Bounces lower than so many roundings of f come at times that rounding decides.
 constexpr double roundings_of_bounce = 64;
 
 /// Of a speed, what it is the sum of is rounded so often between two impacts: by the impact, and by the arc.
 constexpr double roundings_of_speed = 2;
 
-/// Impacts of one contact that are followed one by one, however high they bounce.
+/// Impacts of one contact that are followed one by one, however high they bounce, where the intervals of all
+/// of them shrink by a ratio so steady that the time left is known to a hundredth.
 constexpr long most_impacts_followed = 100'000;
+constexpr double known_remainder = 0.01;
 
 std::vector<Index> united(std::vector<Index> a, const std::vector<Index>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -44,6 +49,19 @@ std::vector<Zero> Motion::EventDriven::closing_at_once() {
     if (expansion_.f(a) <= roundings_of_closed * epsilon * expansion_.position_scale(a) &&
         expansion_.rate(a) < -expansion_.rounding_of_rate(a))
       found.push_back({Zero::Of::constraint, a, 0, false});
+  }
+  return found;
+}
+
+/// Free contacts whose f comes to 0 at the end of the motion asked for, as far as the rounding of time tells:
+/// what the series left of f there need not be below 0.
+std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
+  std::vector<Zero> found;
+  for (Index a = 0; a < expansion_.constraints(); ++a) {
+    if (is_two_sided(a) || is_held_[static_cast<std::size_t>(a)]) continue;
+    const double f = expansion_.f(a), rate = expansion_.rate(a);
+    if (rate < -expansion_.rounding_of_rate(a) && f <= -rate * roundings_of_end * epsilon * clock())
+      found.push_back({Zero::Of::constraint, a, done.length, false});
   }
   return found;
 }
@@ -88,7 +106,9 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     return;
   }
   const Vector before = state.v;
+  if (switches.empty()) note_unloading(zeros);
   begin_arc(united(held, touching), switches);
+  unloaded_.clear();
   if (status != MotionStatus::done) return;
   if (!touching.empty()) event(EventKind::contact, touching, before);
   release_event(held, before);
@@ -236,7 +256,9 @@ std::vector<Index> Motion::EventDriven::accumulating(const std::vector<Index>& c
     if (!history.shrinks()) return false;
     const double scale = std::max(history.highest(), roundings_of_bounce * expansion_.position_scale(a));
     return history.next_height() <= epsilon * scale || history.remaining() <= epsilon * clock() ||
-           history.count() >= most_impacts_followed;
+           (history.shrinking() >= most_impacts_followed && history.slows() &&
+            history.end_error() <= known_remainder * history.remaining() &&
+            start_ + history.end() + history.end_error() <= until_);
   };
   for (const Index a : closing)
     if (is_near_its_end(a)) found.push_back(a);

@@ -209,6 +209,7 @@ bool Expansion::ends_by(int k) const {
 ContactAnswer Expansion::expand(const ContactQuestion& contacts) {
   ContactAnswer answer;
   in_doubt_.clear();
+  unloaded_ = contacts.unloaded;
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   std::vector<Index> persist = contacts.held, open = contacts.open;
   pushing_ = persist;

@@ -18,9 +18,15 @@ namespace mechanics::inline motions {
 
 /// Contacts at the beginning of an arc. `held` persist for certain, in the order in which their multipliers
 /// are to be determined where they depend on each other; `open` have f = df/dt = 0, and it is asked whether
-/// they persist.
+/// they persist. `unloaded`: those of `open` whose multiplier has come to 0 here; up to `left` it counts as
+/// 0.
 struct ContactQuestion {
+  struct Unloaded {
+    Index constraint;
+    double left;
+  };
   std::vector<Index> held, open;
+  std::vector<Unloaded> unloaded = {};
 };
 
 /// What the right limit of the motion says of them: those that persist, first the ones with a multiplier
@@ -150,6 +156,7 @@ class Expansion {
   void begin_order(int k);
   double magnitude_of(expression::Slot series);
   HeldRows::Answer solve_held(const std::vector<Index>& held, std::optional<HeldRows>& rows) const;
+  double left_of_push(Index a, const Vector& u) const;
   /// Whether no open contact pushes at order k, for v without their multipliers satisfies them: then those
   /// with a slack are settled.
   bool leaves_open(const Vector& v, const std::vector<Index>& persist, const std::optional<HeldRows>& rows,
@@ -193,6 +200,7 @@ class Expansion {
   convex::Matrix inverse_;    // |A⁻¹| of its entries, for few coordinates
   Vector unit_norms_;         // ||e_i||_(A⁻¹), for many
   std::vector<Index> in_doubt_;
+  std::vector<ContactQuestion::Unloaded> unloaded_;
   std::vector<Index> pushing_;  // the constraints with a multiplier so far
 };
 

@@ -130,6 +130,14 @@ Expansion::Magnitudes Expansion::magnitudes_of_order(const std::vector<Index>& c
   return magnitudes(constraints, k);
 }
 
+/// What may be left of a contact's push where its multiplier has come to 0: of other multipliers that come to
+/// 0 with it, the terms are gone by which their rounding would be known.
+double Expansion::left_of_push(Index a, const Vector& u) const {
+  for (const ContactQuestion::Unloaded& one : unloaded_)
+    if (one.constraint == a) return one.left * u.dot(inertia().solve(u));
+  return 0;
+}
+
 bool Expansion::leaves_open(const Vector& v, const std::vector<Index>& persist,
                             const std::optional<HeldRows>& rows, std::vector<Index>& open,
                             ContactAnswer& answer, int k) {
@@ -143,7 +151,9 @@ bool Expansion::leaves_open(const Vector& v, const std::vector<Index>& persist,
   all.insert(all.end(), persist.begin(), persist.end());
   const Magnitudes of = magnitudes_of_order(all, k);
   const auto by_rounding = [&](Index a) {
-    return rounding(k) * (std::abs(s[a]) + of.rates[a] + of.along(row(open[index(a)])));
+    const Vector u = row(open[index(a)]);
+    return std::max(rounding(k) * (std::abs(s[a]) + of.rates[a] + of.along(u)),
+                    k == 0 ? left_of_push(open[index(a)], u) : 0);
   };
   for (Index a = 0; a < s.size(); ++a)
     if (slack[a] < -by_rounding(a)) return false;
@@ -185,7 +195,8 @@ Vector Expansion::choose(std::vector<Index>& persist, std::vector<Index>& open, 
     const Vector u = U.row(at).transpose();
     // What the contact's push changes in d²f/dt², and what rounding may have made of that.
     const double push = solution.lambda[at] * u.dot(A.solve(u));
-    const double by_rounding = part * (std::abs(problem.s[at]) + of.rates[at] + of.along(u));
+    const double by_rounding = std::max(part * (std::abs(problem.s[at]) + of.rates[at] + of.along(u)),
+                                        k == 0 ? left_of_push(rows[a], u) : 0);
     if (is_in_doubt(solution.slack[at], by_rounding) || is_in_doubt(push, by_rounding))
       in_doubt_.push_back(rows[a]);
     if (solution.slack[at] > by_rounding) {

@@ -1,5 +1,6 @@
 #include "mechanics/motion/impact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/nearest_point/automatic.hpp"
@@ -93,14 +94,35 @@ std::optional<ImpactOutcome> single_impact(const convex::Metric& A, const Impact
   return ImpactOutcome{std::move(along), Vector{{impulse}}, Vector{{contact.rate + s}}};
 }
 
-bool have_one_restitution(const std::vector<ImpactContact>& contacts, const Vector& impulse) {
-  double e = -1;
-  for (std::size_t a = 0; a < contacts.size(); ++a) {
-    if (contacts[a].two_sided || contacts[a].rate > 0) continue;
-    if (e >= 0 && contacts[a].restitution != e) return false;
-    e = contacts[a].restitution;
+/// Whether e_a P_a is determined up to what two-sided rows take up. Impulses with Σ mu_a u_a = 0 may be added
+/// to P; with one e on its one-sided rows, what they expand by is in the span of the two-sided ones.
+bool is_expansion_determined(const std::vector<ImpactContact>& contacts, const convex::Multipliers& all) {
+  if (all.unique) return true;
+  if (!all.null_space) return false;
+  for (const convex::NullVector& mu : *all.null_space) {
+    const auto part = [&](const std::pair<Index, double>& entry) {
+      return std::abs(entry.second) * contacts[static_cast<std::size_t>(entry.first)].u.norm();
+    };
+    double largest = 0, e = -1;
+    for (const auto& entry : mu) largest = std::max(largest, part(entry));
+    for (const auto& entry : mu) {
+      const ImpactContact& contact = contacts[static_cast<std::size_t>(entry.first)];
+      if (contact.two_sided || part(entry) <= alike * largest) continue;
+      if (e >= 0 && contact.restitution != e) return false;
+      e = contact.restitution;
+    }
   }
-  return impulse.size() > 0;
+  return true;
+}
+
+bool have_one_restitution(const std::vector<ImpactContact>& contacts) {
+  double e = -1;
+  for (const ImpactContact& contact : contacts) {
+    if (contact.two_sided) continue;
+    if (e >= 0 && contact.restitution != e) return false;
+    e = contact.restitution;
+  }
+  return true;
 }
 
 }  // namespace
@@ -157,8 +179,8 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
   const convex::NearestPointProblem closing = least_change(A, contacts, s);
   const convex::Solution compression = convex::automatic(closing);
   if (compression.status == convex::Status::infeasible) return excluded(compression);
-  if (!have_one_restitution(contacts, compression.lambda) &&
-      !convex::multipliers(closing, compression, alike, false).unique) {
+  if (!have_one_restitution(contacts) &&
+      !is_expansion_determined(contacts, convex::multipliers(closing, compression, alike, false))) {
     ImpactOutcome outcome;
     outcome.undetermined =
         "Poisson's law does not determine the impact: the impulses of compression are not unique, and the "
@@ -174,9 +196,15 @@ ImpactOutcome poisson_impact(const convex::Metric& A, const std::vector<ImpactCo
     least += given[at] * contacts[a].u;
   }
   const Vector before = compression.q + A.solve(least);
-  for (std::size_t a = 0; a < contacts.size(); ++a)
-    s[static_cast<Index>(a)] = -contacts[a].rate - contacts[a].u.dot(before);
-  const convex::Solution expansion = convex::automatic(least_change(A, contacts, s));
+  Vector terms(s.size());  // what s is the sum of: it may all but cancel
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    s[at] = -contacts[a].rate - contacts[a].u.dot(before);
+    terms[at] = std::abs(contacts[a].rate) + contacts[a].u.cwiseAbs().dot(before.cwiseAbs());
+  }
+  convex::NearestPointProblem opening = least_change(A, contacts, s);
+  opening.radii->s = roundings_of_rows * convex::unit_roundoff * terms;
+  const convex::Solution expansion = convex::automatic(opening);
   if (expansion.status == convex::Status::infeasible) return excluded(expansion);
   return rounded_outcome(A, contacts, before + expansion.q, compression.lambda + given + expansion.lambda);
 }

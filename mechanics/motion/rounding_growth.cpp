@@ -23,6 +23,9 @@ void move_by_a_rounding(Vector& x, unsigned k, unsigned& number) {
 /// printed has grown 1e10 times, so that anything between decides alike.
 constexpr double least_growth = 1e3;
 
+/// A motion that takes more steps than these is another one.
+constexpr long most_steps_of_ended = 4, steps_besides = 100;
+
 /// The largest |q_i| and |v_i| so far.
 struct Sizes {
   Vector q, v;
@@ -61,6 +64,9 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
   const State& end = ended.state();
   Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
   sizes.take(end);
+  MotionOptions beside = options;
+  beside.step_limit =
+      std::min(options.step_limit, most_steps_of_ended * ended.record().steps + steps_besides);
   const unsigned order = std::bit_ceil(numbers);
   unsigned followed = 0;
   Vector change_q = Vector::Zero(start.q.size()), change_v = change_q;  // the worst
@@ -69,7 +75,7 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
     unsigned number = 0;
     move_by_a_rounding(other.q, k, number);
     move_by_a_rounding(other.v, k, number);
-    const std::optional<State> then = end_of(system, other, options, end.t, sizes);
+    const std::optional<State> then = end_of(system, other, beside, end.t, sizes);
     if (!then) continue;
     ++followed;
     change_q = change_q.cwiseMax((then->q - end.q).cwiseAbs());

@@ -107,15 +107,21 @@ double seen_length(std::span<const double> argument, TaylorStep::Kind of, double
   const double most = has_poles ? 1 : reach;
   if (std::isfinite(step) && majorant(u, step, size) <= most) return step;
   double longest = length_of_majorant(u, most, size);
-  // exp(-746) is 0, and 1 - tanh² at 40 is e^-80.
-  constexpr double least_logarithm = 746, end_of_tanh = 40;
+  // exp(-746) is 0, exp(710) is infinite, on a branch that is not taken, and 1 - tanh² at 40 is e^-80.
+  constexpr double least_logarithm = 746, most_logarithm = 710, end_of_tanh = 40;
   const auto stays_below = [&](double bound) {
     if (u[0] < bound) longest = std::max(longest, length_of_majorant(u, bound - u[0], up));
   };
-  if (of == TaylorStep::Kind::exponential) stays_below(-least_logarithm);
+  const auto stays_above = [&](double bound) {
+    if (u[0] > bound) longest = std::max(longest, length_of_majorant(u, u[0] - bound, down));
+  };
+  if (of == TaylorStep::Kind::exponential) {
+    stays_below(-least_logarithm);
+    stays_above(most_logarithm);
+  }
   if (of == TaylorStep::Kind::tanh) {
     stays_below(-end_of_tanh);
-    if (u[0] > end_of_tanh) longest = std::max(longest, length_of_majorant(u, u[0] - end_of_tanh, down));
+    stays_above(end_of_tanh);
   }
   return std::min(step, longest);
 }

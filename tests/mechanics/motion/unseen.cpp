@@ -190,3 +190,12 @@ TEST_CASE("a block that rocks to rest at the origin, where no length is left to 
   CHECK(motion.end().v.norm() <= 1e-12);
   CHECK((motion.motion.multipliers().head(2) - Vector{{0.5 * 10.41, 0.5 * 10.41}}).norm() <= 1e-9);
 }
+
+TEST_CASE("a branch that is not taken costs no steps where it grows without bound") {
+  const SystemText text{{"y"}, "y'^2/2", "", {}, {}, {{"y", "if(t > 1, exp(-1/(t - 1)), 2)"}}, {}};
+  MotionOptions options;
+  options.step_limit = 2000;
+  const Followed found = followed(text, state({0}, {0}), 2, options);
+  CHECK(found.end().t == doctest::Approx(1).epsilon(1e-12));  // what follows has no series there
+  CHECK(found.end().q[0] == doctest::Approx(1).epsilon(1e-12));
+}
