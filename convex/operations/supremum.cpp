@@ -145,6 +145,7 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
   if (line && std::isfinite(line->value.error)) return {.value = line->value, .bracketed = true};
   Vector x = Vector::Zero(n);
   Value best{-infinity, infinity};
+  Vector x_of_best;
   const double unit = std::max(1.0, v.norm());
   double t = first_step * unit, last = -infinity, highest = -infinity, before = 0, first_length = 0;
   int grown = 0, quiet = 0, missed = 0;
@@ -169,7 +170,10 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
     const bool stuck =
         at.status != Status::solved && moved == 0 && is_surpassed(f, v, at.x, bound + rounding);
     if (stuck) return {{bound, infinity}, false};
-    if (free && shrinking && error < best.error) best = {bound, error};
+    if (free && shrinking && error < best.error) {
+      best = {bound, error};
+      x_of_best = at.x;
+    }
     quiet = free && error <= 2 * enough ? quiet + 1 : 0;
     if (quiet >= 2) break;
     grown = increase > growing * before && before > enough ? grown + 1 : 0;
@@ -188,6 +192,9 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
   }
   // Proxes cut short, or that cannot get as far as the maximiser, stand still as if the values had settled.
   if (line && line->value.value > best.value + best.error) best = line->value;
+  // That proxes stand still is what they say of each other; the values beside the point know nothing of them.
+  else if (x_of_best.size() > 0 && is_surpassed(f, v, x_of_best, best.value + 4 * best.error))
+    best.error = infinity;
   return {best, false};
 }
 
