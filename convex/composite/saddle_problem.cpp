@@ -1,6 +1,7 @@
 #include "convex/composite/saddle_problem.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace convex::inline composite {
 namespace {
@@ -162,9 +163,15 @@ double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& poi
 
 Vector prox_of_terms(const SaddleProblem& problem, const Vector& t, const Vector& D) {
   Vector u(problem.m);
-  for (const SaddleTerm& term : problem.terms)
-    u.segment(term.first, term.rows) = term.f->prox_diagonal(t.segment(term.first, term.rows),
-                                                             D.segment(term.first, term.rows) / term.scale);
+  for (const SaddleTerm& term : problem.terms) {
+    const auto at = t.segment(term.first, term.rows);
+    auto out = u.segment(term.first, term.rows);
+    // A step too far out of the range of doubles is no point to ask a prox for.
+    if (at.allFinite())
+      out = term.f->prox_diagonal(at, D.segment(term.first, term.rows) / term.scale);
+    else
+      out.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   return u;
 }
 

@@ -11,12 +11,17 @@ namespace convex::inline operations {
 namespace {
 
 constexpr double least_weight = 1e-30;
-constexpr int most_halvings = 80;
+constexpr int most_steps = 80;
 /// Brackets shorter than this part of t, or of 1 - t, have ended.
 constexpr double shortest = 2 * unit_roundoff;
 
+/// Of a weight so small 1 less the other has lost these digits.
+constexpr double nearly_nothing = 1e-3;
+
 /// A drop of g - f says how x follows it where it is so much more than noise.
 constexpr double above_noise = 1e3, safety = 4;
+/// A difference that moves x by less than this part of what a prox aims at has ended the search.
+constexpr double part_left = 0.25;
 
 /// The prox at a weight, and g - f there.
 struct At {
@@ -26,6 +31,58 @@ struct At {
   double difference = 0;
   double noise = 0;  ///< of the difference
   Value above;       ///< of the maximum above the mean with these weights
+};
+
+/// A bracket of the root of a decreasing function on [0, 1]: the chord's root, the value of an end that stays
+/// lessened (Anderson and Björck 1973); the middle where two steps did not shorten it to a quarter, or the
+/// ends' values are far apart. Middles are of the exponents of t, or of 1 - t, where these are far apart.
+class Bracket {
+ public:
+  Bracket(double low, double high, double of_low, double of_high)
+      : low_(low), high_(high), of_low_(of_low), of_high_(of_high) {}
+
+  double next() {
+    constexpr double far_apart = 1e3, least_gain = 0.25;
+    if (++steps_ % 2 == 0) {
+      slow_ = high_ - low_ > least_gain * width_;
+      width_ = high_ - low_;
+    }
+    const double t = low_ + (high_ - low_) * (of_low_ / (of_low_ - of_high_));
+    const double ratio = std::abs(of_low_ / of_high_);
+    const bool uneven = is_wide() && (ratio > far_apart || ratio < 1 / far_apart);
+    const bool plain = !slow_ && !uneven && t > low_ && t < high_;
+    slow_ = false;
+    return plain ? t : middle();
+  }
+  /// Another t where nothing is known at this one.
+  double beside(double t) const { return t + 0.375 * (high_ - t); }
+  void narrow(double t, double value) {
+    constexpr double least_part = 0.1;
+    const bool is_low = value > 0;
+    double &end = is_low ? low_ : high_, &of_end = is_low ? of_low_ : of_high_;
+    if (same_side_ == (is_low ? 1 : -1)) {
+      const double part = 1 - value / of_end;
+      (is_low ? of_high_ : of_low_) *= part > least_part ? part : 0.5;
+    }
+    same_side_ = is_low ? 1 : -1;
+    end = t;
+    of_end = value;
+  }
+
+ private:
+  static constexpr double far = 16;
+  bool is_wide() const { return low_ < high_ / far || 1 - high_ < (1 - low_) / far; }
+  double middle() const {
+    constexpr double most_at_once = 1e-3;
+    const double from_one = 1 - high_;
+    if (low_ < high_ / far) return std::max(std::sqrt(low_) * std::sqrt(high_), high_ * most_at_once);
+    if (from_one < (1 - low_) / far)
+      return 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low_), (1 - low_) * most_at_once);
+    return low_ + (high_ - low_) / 2;
+  }
+  double low_, high_, of_low_, of_high_, width_ = 1;
+  int same_side_ = 0, steps_ = 0;
+  bool slow_ = false;
 };
 
 /// weight · f, a maximum as that of its parts.
@@ -55,6 +112,24 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   found.above = {missed * found.difference, std::abs(missed) * found.noise};
   return found;
 }
+
+/// At t = 0, or on the right 1, or at the next weight from there on where the prox is found. At an end one of
+/// the functions keeps its domain alone, which may be harder than a mean of both. None where the two change
+/// places nearer to the end.
+std::optional<At> near_end(const Function& f, const Function& g, bool right, const Vector& z, const Metric& W,
+                           const Look& look) {
+  for (const double from_end : {0.0, 1e-9, 1e-6, 1e-3, 1e-1}) {
+    if (WorkLimit::passed()) break;
+    auto found = at(f, g, right ? 1 - from_end : from_end, z, W, look);
+    if (!found) continue;
+    const bool on_its_side = right ? found->difference <= 0 : found->difference >= 0;
+    return from_end == 0 || on_its_side ? found : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+/// What is left of the difference, or may be.
+double left(const At& found) { return std::max(std::abs(found.difference), found.noise); }
 
 /// The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
 Prox named(const At& at_weight) {
@@ -92,49 +167,58 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
   return std::nullopt;
 }
 
+namespace {
+
+enum class Order { given, reversed };
+
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
-                                             const Metric& W, const Look& look) {
-  std::optional<At> low = at(f, g, 0, z, W, look);
-  if (low && low->difference <= 0) return named(*low);  // f alone is above g at its prox
-  std::optional<At> high = at(f, g, 1, z, W, look);
-  if (high && high->difference >= 0) return named(*high);
+                                             const Metric& W, const Look& look, Order order) {
+  std::optional<At> low = near_end(f, g, false, z, W, look);
+  if (low && low->t == 0 && low->difference <= 0) return named(*low);  // f alone is above g at its prox
+  std::optional<At> high = near_end(f, g, true, z, W, look);
+  if (high && high->t == 1 && high->difference >= 0) return named(*high);
   if (!low || !high) return std::nullopt;
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
-  double low_value = low->difference, high_value = high->difference;
-  for (int step = 0; step < most_halvings && !WorkLimit::passed(); ++step) {
-    const double width = high->t - low->t, drop = low->difference - high->difference;
+  Bracket bracket{low->t, high->t, low->difference, high->difference};
+  for (int step = 0; step < most_steps && !WorkLimit::passed(); ++step) {
+    const double drop = low->difference - high->difference;
     if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
       moved_per_difference = W.norm(low->prox.x - high->prox.x) / drop;
-    if (!(width > shortest * std::min(high->t, 1 - low->t))) break;
-    // The Illinois method; every third step halves, in the exponent where the ends are far apart.
-    double t = low->t + width * (low_value / (low_value - high_value));
-    if (step % 3 == 2 || !(t > low->t && t < high->t)) {
-      t = low->t + width / 2;
-      if (low->t < high->t / 16) t = std::max(std::sqrt(low->t) * std::sqrt(high->t), high->t * 1e-3);
-      const double from_one = 1 - high->t;
-      if (from_one < (1 - low->t) / 16)
-        t = 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low->t), (1 - low->t) * 1e-3);
+    if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
+    // The weight of f, 1 - t, is known to roundings of 1: the other way round it is t.
+    if (1 - low->t < nearly_nothing && order == Order::given)
+      return prox_of_two_function_max(g, f, z, W, look, Order::reversed);
+    std::optional<At> middle;
+    for (double t = bracket.next(); !middle && t > low->t && t < high->t && !WorkLimit::passed();) {
+      middle = at(f, g, t, z, W, look);
+      t = bracket.beside(t);
     }
-    if (!(t > low->t && t < high->t)) break;
-    auto middle = at(f, g, t, z, W, look);
+    if (!middle && WorkLimit::passed()) break;
     if (!middle) return std::nullopt;
-    const double value = middle->difference;
-    if (value == 0) {
+    const bool is_near =
+        moved_per_difference > 0 && safety * moved_per_difference * left(*middle) <=
+                                        part_left * accuracy_of_prox * (W.norm(z) + W.norm(middle->prox.x));
+    if (middle->difference == 0 || is_near) {
       low = high = middle;
       break;
     }
-    const bool below = value > 0;
-    (below ? high_value : low_value) *= 0.5;
-    (below ? low_value : high_value) = value;
-    (below ? low : high) = std::move(middle);
+    bracket.narrow(middle->t, middle->difference);
+    (middle->difference > 0 ? low : high) = std::move(middle);
   }
   // Both agree but for the distance between them; the nearer one to equality is taken.
   const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
   Prox made = named(take_low ? *low : *high);
+  const double open = low->t == high->t ? left(*low) : std::max(low->noise, high->noise);
   made.error_bound = std::max(low->prox.error_bound, high->prox.error_bound) +
-                     2 * W.norm(low->prox.x - high->prox.x) +
-                     safety * moved_per_difference * std::max(low->noise, high->noise);
+                     2 * W.norm(low->prox.x - high->prox.x) + safety * moved_per_difference * open;
   return made;
+}
+
+}  // namespace
+
+std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
+                                             const Metric& W, const Look& look) {
+  return prox_of_two_function_max(f, g, z, W, look, Order::given);
 }
 
 }  // namespace convex::inline operations

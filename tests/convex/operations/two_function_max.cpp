@@ -65,3 +65,24 @@ TEST_CASE("between the two it is where they are equal") {
     CHECK(found->error_bound <= 1e-12);
   }
 }
+
+TEST_CASE("where one function is nearly +inf at the other's prox, a small weight of it makes them equal") {
+  const Vector z = Eigen::Vector3d(2, -5e-6, -2);
+  const Metric W = Metric::diagonal(Eigen::Vector3d(0.03125, 1, 10));
+  const Function f = samples::function("scale(logistic(), 3)", 3);
+  const Function g = samples::function("perspective(squared_distance(affine([[-1,3]], 0), 3))", 3);
+  const auto found = convex::prox_of_two_function_max(f, g, z, W);
+  const auto reversed = convex::prox_of_two_function_max(g, f, z, W);
+  REQUIRE(found);
+  REQUIRE(reversed);
+  CHECK(found->error_bound <= 1e-11);
+  CHECK(reversed->error_bound <= 1e-11);
+  CHECK(W.norm(found->x - reversed->x) <= found->error_bound + reversed->error_bound);
+  CHECK(std::abs(f(found->x) - g(found->x)) <= 1e-6 * f(found->x));  // g' is 1e6 there
+  // v is a mean of both slopes: f's alone is not W(z - x), and g's alone is not.
+  const Vector of_f = *f.subgradient(found->x), of_g = *g.subgradient(found->x), v = W.multiply(z - found->x);
+  const double t = (v - of_f).dot(of_g - of_f) / (of_g - of_f).squaredNorm();
+  CHECK(t > 0);
+  CHECK(t < 1e-3);
+  CHECK((v - of_f - t * (of_g - of_f)).norm() <= 1e-6 * v.norm());
+}
