@@ -5,6 +5,8 @@
 #include "convex/exact/fraction_arithmetic.hpp"
 #include "convex/functions/sets.hpp"
 #include "convex/operations/operation.hpp"
+#include "convex/operations/sum.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -27,9 +29,8 @@ std::optional<Ball> ball_of(const Function& f, Index m) {
   return center ? std::optional(Ball{*radius, *center}) : std::nullopt;
 }
 
-}  // namespace
-
-std::optional<Function> ball_section(const Function& f, const Matrix& A, const Vector& b) {
+/// {x : |Ax + b - center| <= radius} where A's columns are orthogonal and of one length: a ball again.
+std::optional<Ball> section_of(const Function& f, const Matrix& A, const Vector& b) {
   const auto ball = ball_of(f, A.rows());
   if (!ball || ball->center.size() != A.rows() || !std::isfinite(ball->radius)) return std::nullopt;
   const Index n = A.cols();
@@ -52,8 +53,27 @@ std::optional<Function> ball_section(const Function& f, const Matrix& A, const V
   if (sign(square) < 0)
     throw InvalidInput(
         "precompose: no point has it finite, the plane of Ax + b misses the ball; give a b nearer to it");
-  if (sign(square) == 0) return indicator_of_point(at);
-  return indicator(ball2(std::sqrt(nearest_double(square / alpha)), at));
+  return Ball{sign(square) == 0 ? 0 : std::sqrt(nearest_double(square / alpha)), at};
+}
+
+}  // namespace
+
+std::optional<Function> ball_section(const Function& f, const Matrix& A, const Vector& b) {
+  if (const auto* sum = dynamic_cast<const Sum*>(&f.node())) {
+    for (const Function& part : sum->parts()) {
+      const auto section = section_of(part, A, b);
+      if (!section || section->radius > 0) continue;
+      const Value there =
+          value_near(f, A * section->center + b, A.norm() * section->center.norm() + b.norm());
+      if (std::isfinite(there.value) && std::isfinite(there.error))
+        return raised(indicator_of_point(section->center), there.value);
+    }
+    return std::nullopt;
+  }
+  const auto section = section_of(f, A, b);
+  if (!section) return std::nullopt;
+  if (section->radius == 0) return indicator_of_point(section->center);
+  return indicator(ball2(section->radius, section->center));
 }
 
 }  // namespace convex::inline operations

@@ -8,6 +8,7 @@
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
+#include "convex/operations/sum.hpp"
 #include "convex/operations/two_function_max.hpp"
 
 namespace convex::inline operations {
@@ -147,8 +148,12 @@ Function pointwise_max(std::span<const Function> parts, Index n) {
   if (parts.empty()) throw InvalidInput("pointwise_max: no functions; give at least one");
   if (parts.size() == 1) return parts[0];
   if (const Index own = common_dimension(parts, "pointwise_max"); own != 0) n = own;
-  if (n != 0 && domains_may_miss(parts)) require_proper(proper_sum(parts), n, "pointwise_max");
-  return Function(std::make_shared<PointwiseMax>(std::vector<Function>(parts.begin(), parts.end())));
+  const Function made(std::make_shared<PointwiseMax>(std::vector<Function>(parts.begin(), parts.end())));
+  if (n != 0 && domains_may_miss(parts)) {
+    require_proper(proper_sum(parts), n, "pointwise_max");
+    if (auto point = at_its_only_point(made, n)) return *point;
+  }
+  return made;
 }
 
 }  // namespace convex::inline operations

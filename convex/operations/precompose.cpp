@@ -180,6 +180,21 @@ Function Precompose::conjugate() const {
   return Function(std::make_shared<ConjugateSum>(std::move(terms), self()));
 }
 
+/// A = c aᵀ, where its rows are multiples of one of them, exactly in doubles.
+struct RankOne {
+  Vector c, a;
+};
+std::optional<RankOne> rank_one(const Matrix& A) {
+  if (A.rows() < 2 || A.cols() < 2) return std::nullopt;
+  Index first = 0, column = 0;
+  if (!(A.cwiseAbs().maxCoeff(&first, &column) > 0)) return std::nullopt;
+  RankOne made{A.col(column) / A(first, column), A.row(first)};
+  for (Index i = 0; i < A.rows(); ++i)
+    for (Index j = 0; j < A.cols(); ++j)
+      if (std::fma(made.c[i], made.a[j], -A(i, j)) != 0) return std::nullopt;
+  return made;
+}
+
 }  // namespace
 
 Function precompose(const Function& f, const Matrix& A, const Vector& b) {
@@ -200,6 +215,10 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
   if (A.rows() == n && A.isIdentity(0) && f.dimension() != 0) return b.isZero(0) ? f : translate(f, -b);
   if (A.isZero(0) && std::isinf(f(b)))
     refuse(": no point has it finite, A is 0 and f(b) is infinite; give a b in the domain");
+  // A function of a·x alone has its prox along one line, however many rows are multiples of a.
+  if (const auto one = rank_one(A))
+    return Function(
+        std::make_shared<Precompose>(precompose(f, Matrix(one->c), b), one->a.transpose(), Vector::Zero(1)));
   const Function made(std::make_shared<Precompose>(f, A, b));
   if (f.facts().finite || image_metric(Metric::identity(n), A)) return made;
   if (const auto section = ball_section(f, A, b)) return *section;

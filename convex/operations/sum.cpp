@@ -179,20 +179,23 @@ Function proper_sum(std::span<const Function> terms) {
   return Function(std::make_shared<Sum>(std::move(parts)));
 }
 
+std::optional<Function> at_its_only_point(const Function& f, Index n) {
+  if (n != 1 || f.facts().piecewise_quadratic) return std::nullopt;
+  const auto domain = domain_of_one(f);
+  if (!domain || domain->low != domain->high) return std::nullopt;
+  const Vector point = Vector::Constant(1, domain->low);
+  const Value value = f.evaluate(point);
+  if (!std::isfinite(value.value) || !std::isfinite(value.error)) return std::nullopt;
+  return raised(indicator_of_point(point), value.value);
+}
+
 Function sum(std::span<const Function> terms, Index n) {
   if (terms.empty()) throw InvalidInput("sum: no functions; give at least one");
   if (const Index own = common_dimension(terms, "sum"); own != 0) n = own;
   const Function made = proper_sum(terms);
   if (n != 0 && domains_may_miss(terms)) {
     require_proper(made, n, "sum");
-    // Domains of one entry that meet in a point alone, which no prox of the parts tells.
-    if (n == 1 && !made.facts().piecewise_quadratic)
-      if (const auto domain = domain_of_one(made); domain && domain->low == domain->high) {
-        const Vector point = Vector::Constant(1, domain->low);
-        const Value value = made.evaluate(point);
-        if (std::isfinite(value.value) && std::isfinite(value.error))
-          return raised(indicator_of_point(point), value.value);
-      }
+    if (auto point = at_its_only_point(made, n)) return *point;
   }
   return made;
 }

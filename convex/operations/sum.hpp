@@ -41,6 +41,10 @@ class Sum : public Operation {
   Index n_;
 };
 
+/// f where its domain is one point of the line, which no prox of its parts tells: the indicator of the point,
+/// raised. None where there is more of it.
+std::optional<Function> at_its_only_point(const Function& f, Index n);
+
 /// The terms on n entries, all quadratic ones in one.
 struct SplitSum {
   std::optional<QuadraticTerm> quadratic;

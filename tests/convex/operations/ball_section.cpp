@@ -26,6 +26,33 @@ constexpr Touching lines[] = {
 
 }  // namespace
 
+TEST_CASE("two balls that touch have one point, whatever else the intersection holds or is added to it") {
+  const std::pair<const char*, Vector> touching[] = {
+      {"indicator(intersection(ball2(1, [2,0]), ball2(1)))", Eigen::Vector2d(1, 0)},
+      {"indicator(intersection(ball2(3, [4,3]), ball_inf(7), ball2(2)))", Eigen::Vector2d(1.6, 1.2)},
+      {"sum(norm1(2), indicator(intersection(ball2(0.5), ball2(4.5, [-3,4]))))", Eigen::Vector2d(-0.3, 0.4)}};
+  const Metric W = Metric::dense(convex::Matrix{{4, 2}, {2, 10}});
+  for (const auto& [text, point] : touching) {
+    CAPTURE(text);
+    const auto f = samples::function(text, 2);
+    for (const Vector& z : {Vector(Eigen::Vector2d(-1e8, 2e8)), Vector(Eigen::Vector2d(0.5, 3))}) {
+      const auto split = convex::decompose(f, z, W);
+      CHECK(split.status == Status::solved);
+      CHECK((split.x.x - point).norm() <= 1e-15);
+    }
+  }
+}
+
+TEST_CASE("a line that touches the ball of a support function on it has that function's value") {
+  // The conjugate of 3 dist(., C) is the support function of C on the ball of radius 3, here at (-3, 0).
+  const auto f =
+      samples::function("precompose(conjugate(distance(ball2(1, [3,-2]), 3)), [[0],[-3]], [-3,-2])", 1);
+  const auto split = convex::decompose(f, Vector::Constant(1, -60), Metric::identity(1));
+  CHECK(split.status == Status::solved);
+  CHECK(split.x.x[0] == -2.0 / 3);
+  CHECK(std::abs(split.f_x - (3 * -3 + 3)) <= 1e-14);
+}
+
 TEST_CASE("a line that touches a ball has one point of it, which is every point's nearest") {
   for (const auto& [text, x] : lines) {
     CAPTURE(text);

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "convex/functions/decomposition.hpp"
 #include "convex/laws/trial.hpp"
 #include "tests/convex/operations/samples.hpp"
 
@@ -69,4 +70,18 @@ TEST_CASE("what a part leaves open far below another leaves nothing of the maxim
   const convex::Value at_zero = f.evaluate(z);
   CHECK(at_zero.value == 0);
   CHECK(at_zero.error == 0);
+}
+
+TEST_CASE(
+    "functions of the line whose domains meet in one point have the larger value there as their maximum") {
+  // -1024 sqrt(x) for x >= 0, and a conjugate for x <= 0 alone, 0 at 0.
+  const auto f =
+      samples::function("pointwise_max(scale(negative_power(0.5), 1024), conjugate(inverse_power(0.5)))", 1);
+  for (const double z : {3.0, -1e8}) {
+    const auto split = convex::decompose(f, Vector::Constant(1, z), Metric::identity(1));
+    CHECK(split.status == convex::Status::solved);
+    CHECK(split.x.x[0] == 0);
+    CHECK(split.f_x == 0);
+    CHECK(split.y.x[0] == z);
+  }
 }
