@@ -5,6 +5,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex {
 namespace {
@@ -166,6 +167,95 @@ std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at,
   made.v = *v;
   made.values.reset();
   made.error_bound += W.dual_norm(metric_difference(W, at->x, z) + *v);
+  return made;
+}
+
+namespace {
+
+/// A point with the slope there and W(x - z) + v, of which `size` is the norm.
+struct Slope {
+  Vector x, v, residual;
+  double size = 0;
+};
+
+std::optional<Slope> slope_at(const Function& f, const Vector& x, const Vector& z, const Metric& W) {
+  std::optional<Vector> v = f.subgradient(x);
+  if (!v || v->size() != x.size() || !v->allFinite()) return std::nullopt;
+  Slope made{x, *std::move(v), {}, 0};
+  made.residual = metric_difference(W, x, z) + made.v;
+  made.size = W.dual_norm(made.residual);
+  if (!std::isfinite(made.size)) return std::nullopt;
+  return made;
+}
+
+/// The Newton step from the differences of the slopes beside x, each entry in units of its own stiffness;
+/// none where the slope jumps or f ends beside x.
+std::optional<Vector> newton_step(const Function& f, const Slope& at, const Vector& z, const Metric& W) {
+  constexpr double part = 0x1p-20;  // of an entry: half of the digits go into the difference
+  const Index n = z.size();
+  Matrix J = gram(W);
+  for (Index i = 0; i < n; ++i) {
+    Vector beside = at.x;
+    beside[i] += part * (at.x[i] != 0 ? at.x[i] : at.x.norm());
+    const double step = beside[i] - at.x[i];
+    const std::optional<Slope> there = step != 0 ? slope_at(f, beside, z, W) : std::nullopt;
+    if (!there) return std::nullopt;
+    J.col(i) += (there->v - at.v) / step;
+  }
+  const Vector unit = J.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  if (!unit.allFinite()) return std::nullopt;
+  const Vector step = linear_algebra::least_squares(unit.asDiagonal() * J * unit.asDiagonal(),
+                                                    Vector(unit.cwiseProduct(-at.residual)));
+  if (!step.allFinite()) return std::nullopt;
+  return Vector(unit.cwiseProduct(step));
+}
+
+}  // namespace
+
+std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                                 const Metric& W) {
+  constexpr Index most_entries = 16;  // each costs a subgradient a step
+  constexpr int most_steps = 40, most_halvings = 6;
+  constexpr double flat = 0.1, slow = 0.9;  // steep powers of x take steps by a factor
+  if (!near || near->x.size() != z.size() || z.size() > most_entries) return std::nullopt;
+  std::optional<Slope> best = slope_at(f, near->x, z, W);
+  bool is_flat = true;  // beside W
+  const auto rounding = [&] { return roundings_of_a_move * unit_roundoff * (W.norm(z) + W.norm(best->x)); };
+  for (int count = 0; best && count < most_steps && !WorkLimit::passed(); ++count) {
+    if (best->size <= rounding()) break;
+    if (is_flat) {
+      std::optional<Slope> next = slope_at(f, best->x - W.solve(best->residual), z, W);
+      is_flat = next && next->size < flat * best->size;
+      if (is_flat) best = std::move(next);
+      if (is_flat || WorkLimit::passed()) continue;
+    }
+    const std::optional<Vector> step = newton_step(f, *best, z, W);
+    if (!step) break;
+    std::optional<Slope> next;
+    double length = 1;
+    for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
+      next = slope_at(f, best->x + length * *step, z, W);
+      if (next && next->size < best->size) break;
+      next.reset();
+    }
+    if (!next) break;
+    const bool is_slow = length == 1 && next->size > slow * best->size;
+    best = std::move(next);
+    if (is_slow) break;
+  }
+  if (!best) return std::nullopt;
+  // A slope that a program found is one but for what f(x) + f*(v) exceeds x·v by.
+  const Vector &x = best->x, &v = best->v;
+  const Value f_x = f.evaluate(x), f_v = f.conjugate().evaluate(v);
+  const double of_terms = x.cwiseAbs().dot(v.cwiseAbs()) + std::abs(f_x.value) + std::abs(f_v.value);
+  const double open = std::abs(f_x.value + f_v.value - x.dot(v)) + f_x.error + f_v.error +
+                      roundings_of_a_move * unit_roundoff * of_terms;
+  if (!std::isfinite(open)) return std::nullopt;
+  Prox made = *near;
+  made.x = x;
+  made.v = v;
+  made.values = {f_x, f_v, 0};
+  made.error_bound = best->size + rounding() + std::sqrt(open);
   return made;
 }
 

@@ -35,4 +35,10 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
                                const Metric& W);
 
+/// The point where W(x - z) + f'(x) = 0 by Newton's method from one near it, with f' as f tells it and its
+/// differences: right to roundings of each entry of x where f is smooth there, however far the entries of z
+/// are above it. ||x - x*||_W is at most the residual and the root of what f(x) + f*(v) - x·v leaves open.
+std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& near, const Vector& z,
+                                 const Metric& W);
+
 }  // namespace convex

@@ -100,6 +100,10 @@ const Question questions[] = {
      "inf_convolution(squared_distance(polyhedron([[2],[1]], [1,5]), 3), squared_norm2(3)))",
      {0},
      {}},
+    {"perspective(inf_convolution(sum(squared_norm2(2), hinge()), envelope(negative_power(0.5), 1024)))",
+     {3e8, 3e8, -1e8},
+     {}},
+    {"precompose(sum(elastic_net(3, 2), inverse_power(1)), [[-3,-2],[3,2]], [1,3])", {-2, 3e8}, {}},
 };
 
 }  // namespace
