@@ -7,7 +7,7 @@ namespace convex::inline pivoting {
 namespace {
 
 /// Blocks that do not lower the number of wrong rows before the steps of the dual method follow.
-constexpr int patience = 2;
+constexpr int patience_by_parts = 2;
 
 /// New rows at a time: this part of the coordinates, by eights.
 constexpr double part_of_coordinates = 0.2;
@@ -94,7 +94,7 @@ Index GramPivoting::list_violated_known(State state) {
 /// Blocks among the rows looked at until none of them is wrong.
 bool GramPivoting::settle_known() {
   Index fewest = m_ + 1;
-  for (int impatience = 0; impatience <= patience;) {
+  for (int impatience = 0; impatience <= patience_by_parts;) {
     if (!find_multipliers()) return false;
     find_slacks_of_known();
     const Index count = list_violated_known(outside), leaving = drop_negative();
