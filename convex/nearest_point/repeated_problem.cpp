@@ -52,7 +52,7 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.z = z;
   state.problem.s = s;
   if (state.swept && state.swept->settled &&
-      state.swept->decisions.solve_on_affine_piece(state.accuracy, state.solution))
+      state.swept->decisions.solve_in_critical_region(state.accuracy, state.solution))
     return state.solution;
   const auto all_finite = dense_kernels().is_finite;
   if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))

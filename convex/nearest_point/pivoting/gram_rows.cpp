@@ -35,7 +35,7 @@ bool GramRows::add(const Index* rows, Index count) {
     const Index fresh = std::min<Index>(8, count - first);
     double* const raw = raw_ + count_ * n_;
     double* const whitened = whitened_ + count_ * n_;
-    copy_rows(rows + first, fresh, raw);
+    side_by_side(n_, problem_.U.dense().data(), rows + first, fresh, raw);
     copy_packs(8 * n_, raw, whitened);
     kernels.forward_pack(n_, factor.ld, factor.T, factor.inverse, whitened);
     for (Index k = 0; k < 8; ++k) {

@@ -20,11 +20,6 @@ class GramRows {
   /// Takes rows in that are not there yet. False when there is no room for them.
   bool add(const Index* rows, Index count);
 
-  /// Up to eight rows side by side, n packs, as they are.
-  void copy_rows(const Index* rows, Index count, double* pack) const {
-    side_by_side(n_, problem_.U.dense().data(), rows, count, pack);
-  }
-
   /// After z and s of the problem have changed, and w_free with them.
   void reload();
 

@@ -6,7 +6,7 @@
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/active_set/refinement.hpp"
 #include "convex/nearest_point/optimality/held_residuals.hpp"
-#include "convex/nearest_point/pivoting/affine_piece.hpp"
+#include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/zero_tolerances.hpp"
 
@@ -20,20 +20,20 @@ bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   return true;
 }
 
-bool GramSolve::solve_on_affine_piece(const Accuracy& accuracy, Solution& solution) {
-  const AffinePiece* const piece = set_.take_affine_point();
-  if (!piece) return false;
+bool GramSolve::solve_in_critical_region(const Accuracy& accuracy, Solution& solution) {
+  const CriticalRegion* const region = set_.take_affine_point();
+  if (!region) return false;
   set_held_slacks_apart();
   known_ = Corrections();
   known_.scale = p_.norm();
-  known_.remaining = piece->remaining;
-  known_.rounding = std::sqrt(static_cast<double>(p_.n)) * piece->rounded;
+  known_.remaining = region->remaining;
+  known_.rounding = std::sqrt(static_cast<double>(p_.n)) * region->rounded;
   known_.bound = 2 * known_.remaining + known_.rounding;
   moved_ = touched_violation_ = 0;
-  return piece->least > near_zero * std::max(known_.scale, p_.magnitude) &&
+  return region->least > near_zero * std::max(known_.scale, p_.magnitude) &&
          known_.remaining <= enough * known_.scale &&
          known_.bound <= accuracy.tolerance * std::max(1.0, p_.acceleration_norm) &&
-         (piece->has_all || is_clear(known_.scale)) && write(accuracy, solution);
+         (region->has_all || is_clear(known_.scale)) && write(accuracy, solution);
 }
 
 bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {

@@ -24,9 +24,9 @@ class GramSolve {
   }
   /// The same after a `solve` that was true, from the rows that it ended with.
   bool solve_again(const Accuracy& accuracy, Solution& solution);
-  /// The same where the affine piece of these rows is known and nothing comes near its edge: all numbers are
-  /// finite then.
-  bool solve_on_affine_piece(const Accuracy& accuracy, Solution& solution);
+  /// The same where the critical region of these rows is known and nothing comes near its edge: all numbers
+  /// are finite then.
+  bool solve_in_critical_region(const Accuracy& accuracy, Solution& solution);
 
  private:
   /// What slacks at a corrected point say of it; violated: beyond rounding, by `Corrections::wrong`.

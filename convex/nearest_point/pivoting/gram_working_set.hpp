@@ -9,7 +9,7 @@
 
 namespace convex::inline pivoting {
 
-struct AffinePiece;
+struct CriticalRegion;
 
 /// The rows held and their whitened Gram matrix, in one representation or another: swept at the rows held
 /// (`SweptRows`), or with a factor (`FactoredRows`). It finds the point of the rows held and corrects it;
@@ -49,9 +49,9 @@ class GramWorkingSet {
 
   /// After a solve that went on from the rows held.
   virtual void follow_working_set() {}
-  /// The point of the rows held by their affine piece, where that is known, in place of pivots and
+  /// The point of the rows held by their critical region, where that is known, in place of pivots and
   /// corrections.
-  virtual const AffinePiece* take_affine_point() { return nullptr; }
+  virtual const CriticalRegion* take_affine_point() { return nullptr; }
 
   virtual std::vector<Index> one_sided_rows_held() const = 0;
   /// Weights of rows that contradict each other, as doubles tell, where pivoting met such; they are to be

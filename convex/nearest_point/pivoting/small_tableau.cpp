@@ -20,12 +20,12 @@ struct SmallTableauSizes {
   MOREAU_BY_PACKS(bool, settle)
   MOREAU_BY_PACKS(double, margin)
   MOREAU_BY_PACKS(bool, correct)
-  MOREAU_INLINE void take_affine_point(SmallTableau& t, AffinePiece& piece, const double* z,
+  MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
                                        const double* s) {
     if (W > 2 && is_one_pack(t))
-      One::take_affine_point(t, piece, z, s);
+      One::take_affine_point(t, region, z, s);
     else
-      Four::take_affine_point(t, piece, z, s);
+      Four::take_affine_point(t, region, z, s);
   }
   MOREAU_BY_PACKS(void, measure)
   MOREAU_BY_PACKS(void, measure_balance)

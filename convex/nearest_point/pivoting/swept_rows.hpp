@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "convex/nearest_point/pivoting/affine_piece.hpp"
+#include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/pivoting/gram_working_set.hpp"
 
 namespace convex::inline pivoting {
@@ -39,13 +39,12 @@ class SweptRows final : public GramWorkingSet {
   std::vector<Index> one_sided_rows_held() const override;
   std::optional<Vector> contradiction() const override;
 
-  const AffinePiece* take_affine_point() override;
+  const CriticalRegion* take_affine_point() override;
   void follow_working_set() override;
 
  private:
   void take_linear_term();
-  bool find_affine_piece();
-  bool find_column(Index j);
+  bool find_critical_region();
   bool take_in(const Index* rows, Index count);
   bool settle_all();
   Index fresh_violated_rows(Index* rows);
@@ -62,7 +61,7 @@ class SweptRows final : public GramWorkingSet {
   Index* place_ = nullptr;  ///< of a row, -1 for one not looked at; where rows are many
   Index sweeps_ = 0, dual_count_ = 0, dual_of_[SmallTableau::most_coordinates];  ///< rows that dual_ is of
   alignas(64) double dual_[SmallTableau::most_coordinates * SmallTableau::most_coordinates];
-  std::unique_ptr<AffinePiece> piece_;
+  std::unique_ptr<CriticalRegion> region_;
   Index kept_ = 0;  ///< solves in a row that have ended with the working set of the one before
 };
 

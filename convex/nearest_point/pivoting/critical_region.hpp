@@ -8,7 +8,7 @@ namespace convex::inline pivoting {
 /// set (a critical region of parametric quadratic programming: Bemporad, Morari, Dua and Pistikopoulos,
 /// "The explicit linear quadratic regulator for constrained systems", 2002), to twice the working precision:
 /// of its n + k columns each is a point corrected until it is known.
-struct AffinePiece {
+struct CriticalRegion {
   static constexpr Index most = 2 * SmallTableau::most_coordinates;
 
   Index columns = 0, stride = 0;               ///< n + k, and that in whole packs

@@ -9,43 +9,43 @@
 namespace convex::inline pivoting {
 namespace {
 
-/// Corrections of a column of an affine piece, before it is given up.
+/// Corrections of a column of a critical region, before it is given up.
 constexpr int most_corrections = 6;
 
 }  // namespace
 
-/// After a solve with pivots and corrections. The piece of a working set costs about as much as a solve for
+/// After a solve with pivots and corrections. The region of a working set costs about as much as a solve for
 /// each of its columns: it is found when so many solves have kept the set, so that it at most doubles what
 /// all have cost, whatever comes after.
 void SweptRows::follow_working_set() {
   const SmallTableau& t = tableau_;
   sweeps_ += t.steps;
   if (t.steps > 0) kept_ = 0;
-  if (++kept_ == t.n + t.size && !find_affine_piece()) piece_.reset();
+  if (++kept_ == t.n + t.size && !find_critical_region()) region_.reset();
 }
 
 /// False when a column cannot be told to twice the working precision.
-bool SweptRows::find_affine_piece() {
+bool SweptRows::find_critical_region() {
   SmallTableau& t = tableau_;
-  if (!piece_) piece_ = std::make_unique_for_overwrite<AffinePiece>();
-  AffinePiece& piece = *piece_;
+  if (!region_) region_ = std::make_unique_for_overwrite<CriticalRegion>();
+  CriticalRegion& region = *region_;
   const Index n = t.n;
-  piece.columns = n + t.size;
-  piece.stride = padded(piece.columns);
-  for (double* x : {piece.error, piece.length, piece.pull, piece.x}) fill_packs(piece.stride, 0, x);
-  std::copy_n(t.rows, t.size, piece.rows);
+  region.columns = n + t.size;
+  region.stride = padded(region.columns);
+  for (double* x : {region.error, region.length, region.pull, region.x}) fill_packs(region.stride, 0, x);
+  std::copy_n(t.rows, t.size, region.rows);
   double unit = 0;  // the largest ||·||_D of a coordinate
   for (Index i = 0; i < n; ++i) {
-    piece.length[i] = std::sqrt(t.diagonal[i]);
-    piece.pull[i] = -piece.length[i];
-    unit = std::max(unit, piece.length[i]);
+    region.length[i] = std::sqrt(t.diagonal[i]);
+    region.pull[i] = -region.length[i];
+    unit = std::max(unit, region.length[i]);
   }
   for (Index k = 0; k < t.size; ++k) {
-    piece.length[n + k] = t.length[k];
-    piece.pull[n + k] = t.pull[k] > 0 ? t.pull[k] : -t.length[k];
+    region.length[n + k] = t.length[k];
+    region.pull[n + k] = t.pull[k] > 0 ? t.pull[k] : -t.length[k];
   }
-  for (Index j = 0; j < piece.columns; ++j) {
-    double* const column = piece.balance + j * t.ld;
+  for (Index j = 0; j < region.columns; ++j) {
+    double* const column = region.balance + j * t.ld;
     fill_packs(t.ld, 0, column);
     std::copy_n(j < n ? t.A + j * n : t.U + t.rows[j - n] * n, n, column);
   }
@@ -54,9 +54,9 @@ bool SweptRows::find_affine_piece() {
   // No row changes sides, whatever its sign.
   fill_packs(t.stride, 0, t.leave);
   fill_packs(t.stride, 0, t.enter);
-  const double roundings = static_cast<double>(piece.columns) * unit_roundoff,
+  const double roundings = static_cast<double>(region.columns) * unit_roundoff,
                root = std::sqrt(static_cast<double>(n));
-  for (Index j = 0; j < piece.columns && is_known; ++j) {
+  for (Index j = 0; j < region.columns && is_known; ++j) {
     fill_packs(t.ld, 0, t.z);
     fill_packs(t.stride, 0, t.level);
     (j < n ? t.z[j] : t.level[t.place[j - n]]) = 1;
@@ -67,9 +67,9 @@ bool SweptRows::find_affine_piece() {
       std::copy_n(t.lambda, t.size, before);
       is_known = pass < most_corrections && correct(pass == 0, 0) && known.note(t);
     }
-    double *const high = piece.high + j * piece.stride, *const low = piece.low + j * piece.stride;
-    fill_packs(piece.stride, 0, high);
-    fill_packs(piece.stride, 0, low);
+    double *const high = region.high + j * region.stride, *const low = region.low + j * region.stride;
+    fill_packs(region.stride, 0, high);
+    fill_packs(region.stride, 0, low);
     double square = 0;
     for (Index i = 0; i < n; ++i) {
       high[i] = t.q[i];
@@ -83,9 +83,9 @@ bool SweptRows::find_affine_piece() {
     }
     // Of sums of so many products in twice the working precision (Ogita, Rump and Oishi 2005), and of what
     // underflows.
-    piece.error[j] = known.remaining + root * (2 * roundings * roundings * std::sqrt(square) +
-                                               unit * std::numeric_limits<double>::min());
-    is_known = is_known && std::isfinite(piece.error[j]);
+    region.error[j] = known.remaining + root * (2 * roundings * roundings * std::sqrt(square) +
+                                                unit * std::numeric_limits<double>::min());
+    is_known = is_known && std::isfinite(region.error[j]);
   }
   for (Index a = 0; a < t.stride; ++a) {
     t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.scale_at[a] : 0;
@@ -94,14 +94,14 @@ bool SweptRows::find_affine_piece() {
   return is_known;
 }
 
-const AffinePiece* SweptRows::take_affine_point() {
+const CriticalRegion* SweptRows::take_affine_point() {
   SmallTableau& t = tableau_;
-  if (!piece_ || piece_->columns != t.n + t.size || !std::equal(t.rows, t.rows + t.size, piece_->rows))
+  if (!region_ || region_->columns != t.n + t.size || !std::equal(t.rows, t.rows + t.size, region_->rows))
     return nullptr;
-  small_kernels().take_affine_point(t, *piece_, problem_.z.data(), problem_.s.data());
+  small_kernels().take_affine_point(t, *region_, problem_.z.data(), problem_.s.data());
   if (!looks_at_all()) measure_slacks_of_all();
   t.steps = 0;
-  return piece_.get();
+  return region_.get();
 }
 
 }  // namespace convex::inline pivoting
