@@ -16,6 +16,7 @@ class FactoredRows final : public GramWorkingSet {
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
   bool is_near(double size) override;
+  Index most_near() const override { return p_.all; }
   bool correct(bool is_first, double small) override;
   void measure() override;
   void measure_balance() override;

@@ -109,10 +109,11 @@ double GramSolve::near_scale(double part) {
   const double small = part * known_.scale;
   if (!set_.is_near(small)) return 0;
   set_held_slacks_apart();
+  const Index most = p_.size == p_.n ? 0 : set_.most_near();
   Index near = 0;
   for (Index a = 0; a < p_.all; ++a) {
     if (!(p_.slack[a] <= p_.row_scale[a] * small)) continue;
-    if (near == p_.n - p_.size) return 0;
+    if (near == most) return 0;
     p_.close[near++] = a;
   }
   for (Index first = 0, end = std::min(few, near); first < near; first = end, end = near) {

@@ -27,6 +27,8 @@ class GramWorkingSet {
   /// Whether a multiplier (times its row's length) or a slack (over it) is no larger at the point settled on,
   /// as far as rows have been looked at; then `slack` is that of all.
   virtual bool is_near(double size) = 0;
+  /// So many rows that near their edge it looks at.
+  virtual Index most_near() const = 0;
   /// One correction of q and lambda with residuals in twice the working precision, in which rows that have
   /// been looked at change sides whose multipliers (times lengths) or slacks (over them) are `small`. False
   /// too when it does not settle.

@@ -29,6 +29,7 @@ class SweptRows final : public GramWorkingSet {
   bool settle(const std::vector<Index>& guess) override;
   bool settle_again() override;
   bool is_near(double size) override;
+  Index most_near() const override { return looks_at_all() ? tableau_.all : few_near; }
   bool correct(bool is_first, double small) override;
   void measure() override;
   void measure_balance() override;
@@ -43,6 +44,8 @@ class SweptRows final : public GramWorkingSet {
   void follow_working_set() override;
 
  private:
+  static constexpr Index few_near = 16;
+
   void take_linear_term();
   bool find_critical_region();
   bool take_in(const Index* rows, Index count);
