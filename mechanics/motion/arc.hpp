@@ -20,11 +20,12 @@ struct Arc {
   Vector position(double tau) const;
   Vector velocity(double tau) const;
   Vector acceleration(double tau) const;
-  void acceleration(double tau, Vector& q2) const;
   Vector multipliers(double tau) const;
   State state(double tau) const;
   /// The same in memory that is there.
   void state(double tau, State& at) const;
+  /// With the acceleration.
+  void state(double tau, State& at, Vector& q2) const;
 };
 
 /// Row a of coefficients.

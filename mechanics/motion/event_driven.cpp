@@ -158,9 +158,9 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
   double last = 0;
   for (int i = 0; i < most_corrections; ++i) {
     double value = 0, slope = 0;
-    next.state(tau, there_);
+    next.state(tau, there_, expected_q2_);
     if (zero.of == Zero::Of::constraint) {
-      expansion_.look_at(there_);
+      expansion_.look_at_constraints(there_);
       value = expansion_.f(zero.which);
       slope = expansion_.rate(zero.which);
     } else {
@@ -235,7 +235,7 @@ void Motion::EventDriven::take_step(double until) {
   }
   ++record.steps;
   const bool is_there = tau > 0;  // by `fits`
-  if (!is_there) next.state(tau, there_);
+  if (!is_there) next.state(tau, there_, expected_q2_);
   if (zeros.size() > 1) {
     const Zero first = *std::min_element(zeros.begin(), zeros.end(),
                                          [](const Zero& x, const Zero& y) { return x.at < y.at; });

@@ -4,6 +4,7 @@
 
 #include "mechanics/motion/event_driven.hpp"
 #include "mechanics/motion/step_length.hpp"
+#include "mechanics/motion/terms.hpp"
 #include "mechanics/number_text.hpp"
 
 namespace mechanics::inline motions {
@@ -35,21 +36,6 @@ bool is_rising(const std::vector<double>& sizes, double h) {
   return last >= before;
 }
 
-/// The largest |c_k| τ^k, k > 0; powers four at a time.
-double largest_term(const std::vector<double>& sizes, double tau) {
-  constexpr std::size_t at_once = 4;
-  double power[at_once] = {tau, tau * tau, tau * tau * tau, tau * tau * tau * tau}, most[at_once] = {};
-  const double fourth = power[3];
-  std::size_t k = 1;
-  for (; k + at_once <= sizes.size(); k += at_once)
-    for (std::size_t i = 0; i < at_once; ++i) {
-      most[i] = std::max(most[i], sizes[k + i] * power[i]);
-      power[i] *= fourth;
-    }
-  for (std::size_t i = 0; k + i < sizes.size(); ++i) most[i] = std::max(most[i], sizes[k + i] * power[i]);
-  return *std::max_element(most, most + at_once);
-}
-
 }  // namespace
 
 /// Whether the equations hold at the end of a step as they did at its beginning: this tells a series that
@@ -64,7 +50,7 @@ bool Motion::EventDriven::fits(double tau) {
 
 /// The same at one of its times.
 bool Motion::EventDriven::is_met(double at, double tau) {
-  next.state(at, there_);
+  next.state(at, there_, expected_q2_);
   try {
     expansion_.set(there_);
     q2_ = expansion_.acceleration(persist_).x;
@@ -75,7 +61,6 @@ bool Motion::EventDriven::is_met(double at, double tau) {
   if (is_passed(tau)) return false;
   const double moved = largest_term(sizes_, tau);
   const double size = expansion_.norm(q2_);
-  next.acceleration(at, expected_q2_);
   q2_ -= expected_q2_;
   const double defect = expansion_.norm(q2_) * tau * tau;
   const double rounding = 1e4 * arc_epsilon * (moved + (size + expansion_.force_norm()) * tau * tau);

@@ -22,7 +22,7 @@ Expansion::Expansion(const LagrangianSystem& system, int order)
   convex::invariant(order >= 2 && order < most_orders, "a motion needs accelerations");
 }
 
-void Expansion::look_at(const State& state) {
+void Expansion::take(const State& state) {
   state_ = state;
   magnitude_is_begun_ = false;
   const expression::Program& program = equations_.program;
@@ -31,6 +31,15 @@ void Expansion::look_at(const State& state) {
     series_.start(program.velocity(i)) = state.v[static_cast<Index>(i)];
   }
   series_.start(program.time()) = state.t;
+}
+
+void Expansion::look_at_constraints(const State& state) {
+  take(state);
+  for (std::size_t group = 0; group < 3; ++group) series_.find_values(group);
+}
+
+void Expansion::look_at(const State& state) {
+  take(state);
   for (std::size_t group = 0; group < 3; ++group) series_.begin(group);
   if (!has_branches_) take_branches();
   check_finite();

@@ -60,6 +60,8 @@ class Expansion {
   void set(const State& state);
   /// f, df/dt and the arguments of switches at a state; nothing else is known there.
   void look_at(const State& state);
+  /// f and df/dt alone.
+  void look_at_constraints(const State& state);
   const State& state() const { return state_; }
   const convex::Metric& inertia() const;
   /// Takes note that the motion has come by here: what rounding may have made of a coordinate near 0 is that
@@ -150,6 +152,7 @@ class Expansion {
   static constexpr int most_orders = 64;
   static std::size_t index(Index a) { return static_cast<std::size_t>(a); }
   bool depends(std::size_t k, expression::Dependence on) const;
+  void take(const State& state);
   void find_inertia();
   void take_branches();
   void check_finite() const;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "convex/invariant.hpp"
+#include "mechanics/motion/terms.hpp"
 
 namespace mechanics::inline motions {
 namespace {
@@ -198,6 +199,8 @@ struct Outline {
 
 Outline outline(std::span<const double> c, double end, double rounding) {
   Outline of;
+  of.stays = c[0] - sum_of_terms(c, end) > rounding;
+  if (of.stays) return of;
   const Coefficients b = bernstein(c, end);
   std::size_t high = 0, low = 0;  // the first ones not above rounding, and below -rounding
   while (high < b.size() && b[high] > rounding) ++high;
@@ -219,7 +222,7 @@ Outline outline(std::span<const double> c, double end, double rounding) {
 
 double least_value(std::span<const double> c, double end, double known) {
   while (c.size() > 1 && c.back() == 0) c = c.first(c.size() - 1);
-  if (c.empty()) return known;
+  if (c.empty() || c[0] - sum_of_terms(c, end) >= known) return known;
   double rising = std::abs(c[0]), falling = 0, power = end;
   for (const double x : c.subspan(1)) {
     (x < 0 ? falling : rising) += std::abs(x * power);

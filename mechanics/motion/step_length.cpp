@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "convex/vector.hpp"
+#include "mechanics/motion/terms.hpp"
 
 namespace mechanics::inline motions {
 
@@ -105,7 +106,7 @@ double seen_length(std::span<const double> argument, TaylorStep::Kind of, double
   const auto down = [](double c) { return std::max(-c, 0.0); };
   const bool has_poles = of == TaylorStep::Kind::tangent || of == TaylorStep::Kind::tanh;
   const double most = has_poles ? 1 : reach;
-  if (std::isfinite(step) && majorant(u, step, size) <= most) return step;
+  if (std::isfinite(step) && sum_of_terms(u, step) <= most) return step;
   double longest = length_of_majorant(u, most, size);
   // exp(-746) is 0, exp(710) is infinite, on a branch that is not taken, and 1 - tanh² at 40 is e^-80.
   constexpr double least_logarithm = 746, most_logarithm = 710, end_of_tanh = 40;

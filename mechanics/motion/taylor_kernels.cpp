@@ -36,7 +36,15 @@ struct Loops {
   }
 
   MOREAU_INLINE void eliminate_velocities(const VelocityColumns& of) {
-    const std::size_t n = of.coordinates, stride = of.blocks * eight;
+    if (of.coordinates == 2 && of.blocks == 2) return eliminate<2, 2>(of);
+    eliminate<0, 0>(of);
+  }
+
+  /// With so many coordinates and blocks, as constants; none where they are others.
+  template <std::size_t known, std::size_t known_blocks>
+  MOREAU_INLINE void eliminate(const VelocityColumns& of) {
+    const std::size_t n = known > 0 ? known : of.coordinates;
+    const std::size_t stride = (known > 0 ? known_blocks : of.blocks) * eight;
     const std::size_t width = blocks_of(of.columns) * eight;
     const auto row = [&](std::size_t i) __attribute__((always_inline)) { return of.change + i * width; };
     for (std::size_t i = 0; i < n; ++i) {
@@ -64,9 +72,14 @@ struct Loops {
         if (is_force) sum = P::times(sum, 0);
         for (std::size_t i = 0; i < n; ++i)
           P::add_product(sum, P::load(of.by_velocity + i * stride + b), row(i)[c]);
+        if constexpr (known > 0) {  // in their places before they are stored, so that they are read as one
+          if (b == 0)
+            for (std::size_t i = 0; i < n; ++i) sum.part[i / W][i % W] = row(i)[c];
+        }
         P::store(column + b, sum);
       }
-      for (std::size_t i = 0; i < n; ++i) column[i] = row(i)[c];
+      if constexpr (known == 0)
+        for (std::size_t i = 0; i < n; ++i) column[i] = row(i)[c];
     }
   }
 

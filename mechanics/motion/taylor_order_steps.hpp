@@ -27,7 +27,7 @@ struct TaylorOrderSteps {
   /// So many blocks of a matrix times the inputs of an order. Several sums each, so that an addition need not
   /// wait for the one before; the inputs known last come last.
   template <std::size_t blocks>
-  MOREAU_INLINE void multiply_blocks(const TaylorOrders& all, std::size_t first, double* to) {
+  MOREAU_INLINE void multiply_blocks(const TaylorOrders& all, std::size_t first, Pack (&product)[blocks]) {
     constexpr std::size_t sums = W == 8 && blocks <= 2 ? 4 : W == 2 && blocks == 2 ? 1 : 2;
     Pack sum[sums][blocks];
 #pragma GCC unroll 4
@@ -57,27 +57,43 @@ struct TaylorOrderSteps {
     }
 #pragma GCC unroll 6
     for (std::size_t b = 0; b < blocks; ++b) {
-      Pack whole = sum[0][b];
-      if constexpr (sums > 1) whole = P::plus(whole, sum[1][b]);
-      if constexpr (sums == 4) whole = P::plus(whole, P::plus(sum[2][b], sum[3][b]));
-      P::store(to + b * eight, whole);
+      product[b] = sum[0][b];
+      if constexpr (sums > 1) product[b] = P::plus(product[b], sum[1][b]);
+      if constexpr (sums == 4) product[b] = P::plus(product[b], P::plus(sum[2][b], sum[3][b]));
     }
+  }
+
+  template <std::size_t blocks>
+  MOREAU_INLINE void store_blocks(const TaylorOrders& all, std::size_t first, double* to) {
+    Pack product[blocks];
+    multiply_blocks<blocks>(all, first, product);
+#pragma GCC unroll 6
+    for (std::size_t b = 0; b < blocks; ++b) P::store(to + (first + b) * eight, product[b]);
   }
 
   template <std::size_t blocks>
   MOREAU_INLINE void multiply_last(const TaylorOrders& all, std::size_t first, double* to) {
     if constexpr (blocks > 0) {
-      if (all.blocks - first == blocks) return multiply_blocks<blocks>(all, first, to + first * eight);
+      if (all.blocks - first == blocks) return store_blocks<blocks>(all, first, to);
       multiply_last<blocks - 1>(all, first, to);
     }
   }
 
   MOREAU_INLINE void multiply_all(const TaylorOrders& all, double* to) {
-    if constexpr (known > 0 && known <= most_at_once) return multiply_blocks<known>(all, 0, to);
     std::size_t first = 0;
-    for (; all.blocks - first > most_at_once; first += at_a_time)
-      multiply_blocks<at_a_time>(all, first, to + first * eight);
+    for (; all.blocks - first > most_at_once; first += at_a_time) store_blocks<at_a_time>(all, first, to);
     multiply_last<most_at_once>(all, first, to);
+  }
+
+  /// To be read into registers once: compilers read it again for each product.
+  MOREAU_INLINE void hold(Pack& pack) {
+#if defined(__x86_64__) && defined(__GNUC__)
+    for (int k = 0; k < P::parts; ++k)
+      if constexpr (W == 8)
+        asm("" : "+v"(pack.part[k]));
+      else
+        asm("" : "+x"(pack.part[k]));
+#endif
   }
 
   /// Σ_j x_j y_(k-j) of this order and of the next over orders below k - 1: what both need is read once.
@@ -94,7 +110,9 @@ struct TaylorOrderSteps {
       Pack after = P::load(y - (j - 1) * eight);
 #pragma GCC unroll 4
       for (std::size_t i = 0; i < at_once; ++i) {
-        const Pack here = P::load(y - (j + i) * eight), factor = P::load(x + (j + i) * eight);
+        const Pack here = P::load(y - (j + i) * eight);
+        Pack factor = P::load(x + (j + i) * eight);
+        hold(factor);
         P::add_products(now[i % 2], factor, here);
         P::add_products(then[i % 2], factor, after);
         after = here;
@@ -104,32 +122,40 @@ struct TaylorOrderSteps {
     of_next = P::plus(then[0], then[1]);
   }
 
-  /// Factors from the numbers, by one instruction where two blocks of them are all.
+  /// Whether the numbers of an order stay in registers while the next order is begun.
+  static constexpr bool are_held = known > 0 && known <= most_at_once;
+
+  /// Factors from the numbers.
   MOREAU_INLINE Pack pick(const double* numbers, const Places& place) {
     Pack to;
-#ifndef __clang__
-    if constexpr (W == 8 && (known == 1 || known == 2)) {
-      using Whole [[gnu::vector_size(64), gnu::may_alias]] = long long;
-      Whole from;
-      std::memcpy(&from, place.of, sizeof from);
-      const Pack first = P::load(numbers);
-      if constexpr (known == 1)
-        to.part[0] = __builtin_shuffle(first.part[0], from);
-      else
-        to.part[0] = __builtin_shuffle(first.part[0], P::load(numbers + eight).part[0], from);
-      return to;
-    }
-#endif
     for (int k = 0; k < P::parts; ++k)
       for (int l = 0; l < W; ++l) to.part[k][l] = numbers[place.of[k * W + l]];
     return to;
   }
+#ifndef __clang__
+  /// The same by one instruction, where two blocks are all.
+  MOREAU_INLINE Pack shuffled(const Pack (&held)[known > 0 ? known : 1], const Places& place) {
+    using Whole [[gnu::vector_size(64), gnu::may_alias]] = long long;
+    Whole from;
+    std::memcpy(&from, place.of, sizeof from);
+    Pack to;
+    if constexpr (known == 1)
+      to.part[0] = __builtin_shuffle(held[0].part[0], from);
+    else
+      to.part[0] = __builtin_shuffle(held[0].part[0], held[1].part[0], from);
+    return to;
+  }
+  static constexpr bool are_shuffled = W == 8 && (known == 1 || known == 2);
+#else
+  static constexpr bool are_shuffled = false;
+#endif
 
   static constexpr std::size_t products_held = known > 0 ? std::max<std::size_t>(known_products, 1)
                                                          : TaylorOrders::most_blocks;
   /// By block of products: the newest factors, those of order k - 1, and sums of the terms without them.
   struct Newest {
     Pack x[products_held], y[products_held], old[products_held], next[products_held];
+    Pack moving;  ///< velocities and forces of order k - 1, where numbers are held
   };
 
   MOREAU_INLINE Pack weight(const Pack& weighted, std::size_t order) {
@@ -188,10 +214,14 @@ struct TaylorOrderSteps {
     }
   }
 
-  MOREAU_INLINE void take_velocities(const TaylorOrders& all, std::size_t k) {
+  MOREAU_INLINE void take_velocities(const TaylorOrders& all, std::size_t k, const Newest& of) {
     const double* last = all.numbers + (k - 1) * all.blocks * eight;
     for (std::size_t b = 0; b < all.moving_blocks; ++b) {
-      const Pack v = P::load(last + b * eight);
+      Pack v;
+      if constexpr (are_held)
+        v = of.moving;
+      else
+        v = P::load(last + b * eight);
       Pack part = P::times(v, all.rest_of_part[k]);
       P::add_product(part, v, all.part[k]);
       P::store(all.input + b * eight, part);
@@ -211,14 +241,34 @@ struct TaylorOrderSteps {
 
   MOREAU_INLINE void find_numbers(const TaylorOrders& all, std::size_t k, Pack& spoiled, Newest& of) {
     double* found = all.numbers + k * all.blocks * eight;
-    multiply_all(all, found);
-    for (std::size_t b = 0; b < all.blocks; ++b) {
-      Pack number = P::load(found + b * eight);
-      if (k == 1) {
-        number = P::plus(number, P::load(all.of_time + b * eight));
-        P::store(found + b * eight, number);
+    if constexpr (are_held) {
+      Pack held[known];
+      multiply_blocks<known>(all, 0, held);
+#pragma GCC unroll 6
+      for (std::size_t b = 0; b < known; ++b) {
+        if (k == 1) held[b] = P::plus(held[b], P::load(all.of_time + b * eight));
+        P::store(found + b * eight, held[b]);
+        P::add_product(spoiled, held[b], 0);
       }
-      P::add_product(spoiled, number, 0);
+      of.moving = held[0];
+      if constexpr (are_shuffled) {
+#pragma GCC unroll 2
+        for (std::size_t b = 0; b < all.product_blocks; ++b) {
+          of.x[b] = shuffled(held, all.place_of_x[b]);
+          of.y[b] = shuffled(held, all.place_of_y[b]);
+        }
+        return;
+      }
+    } else {
+      multiply_all(all, found);
+      for (std::size_t b = 0; b < all.blocks; ++b) {
+        Pack number = P::load(found + b * eight);
+        if (k == 1) {
+          number = P::plus(number, P::load(all.of_time + b * eight));
+          P::store(found + b * eight, number);
+        }
+        P::add_product(spoiled, number, 0);
+      }
     }
 #pragma GCC unroll 2
     for (std::size_t b = 0; b < all.product_blocks; ++b) {
@@ -236,6 +286,7 @@ struct TaylorOrderSteps {
       all.product_blocks = known_products;
     }
     Newest newest;
+    newest.moving = P::load(all.numbers);
     const Pack zero = constant(0);
     Pack spoiled = constant(0);  // 0 times a number, unless it is not finite
     for (std::size_t b = 0; b < all.product_blocks; ++b) {
@@ -247,14 +298,14 @@ struct TaylorOrderSteps {
     }
     std::size_t degree = 1, k = 1;
     for (; k < all.count; ++k) {
-      take_velocities(all, k);
+      take_velocities(all, k, newest);
       begin_pair(all, k, newest);
       if (k > 1) find_rests(all, k, newest.old, newest);
       if (has_ended(all, k, degree)) break;
       find_numbers(all, k, spoiled, newest);
       for (std::size_t b = 0; b < all.product_blocks; ++b) put(all, b, k, newest.x[b], newest.y[b]);
       if (++k == all.count) break;
-      take_velocities(all, k);
+      take_velocities(all, k, newest);
       find_rests(all, k, newest.next, newest);
       if (has_ended(all, k, degree)) break;
       find_numbers(all, k, spoiled, newest);

@@ -17,6 +17,7 @@ TaylorProducts::TaylorProducts(std::span<const TaylorRows::Product> products, in
 }
 
 void TaylorProducts::find(int k) {
+  if (k == 1) return std::fill(rest_.begin(), rest_.end(), Eight{});  // of no terms
   taylor_kernels().find_rests(x_.data()->of, y_.data()->of, weighted_.data()->of, rest_.data()->of, blocks(),
                               width_, static_cast<std::size_t>(k));
 }

@@ -12,6 +12,23 @@ using expression::Operation;
 using expression::Slot;
 using Kind = TaylorStep::Kind;
 
+/// Where each series begins, and the end: of those that are not kept there is order 0 alone.
+std::vector<std::size_t> places(const TaylorProgram& of, std::size_t width) {
+  std::vector<bool> is_whole(of.rows.series);
+  for (const Slot series : of.kept) is_whole[series] = true;
+  for (std::size_t variable = 0; variable < of.steps.variables; ++variable) is_whole[variable] = true;
+  std::vector<std::size_t> place(of.rows.series + 1);
+  std::size_t next = 0;
+  for (const bool whole : {false, true})
+    for (std::size_t series = 0; series < of.rows.series; ++series)
+      if (is_whole[series] == whole) {
+        place[series] = next;
+        next += whole ? width : 1;
+      }
+  place.back() = next;
+  return place;
+}
+
 std::span<const TaylorRows::Product> first_products(const TaylorRows& rows, std::size_t groups) {
   return {rows.products.data(), rows.ends[groups - 1].products};
 }
@@ -28,7 +45,8 @@ TaylorSeries::TaylorSeries(const TaylorProgram& of, int order)
       kept_(of.kept),
       free_(of.matrix, order),
       width_(blocks_of(static_cast<std::size_t>(order) + 1) * Eight::count),
-      c_(rows_.series * width_),
+      place_(places(of, width_)),
+      c_(place_.back()),
       factor_(rows_.rows.size(), 1.0),
       now_(rows_.series),
       branches_(of.steps.switches.size(), 1.0) {
@@ -42,6 +60,12 @@ void TaylorSeries::begin(std::size_t group) {
     at(step.out)[0] = value(step);
     if (const std::uint32_t row = rows_.row_of_step[s]; row != TaylorRows::none) differentiate(step, row);
   }
+}
+
+void TaylorSeries::find_values(std::size_t group) {
+  const std::size_t first = group == 0 ? 0 : steps_->ends[group - 1];
+  for (std::size_t s = first; s < steps_->ends[group]; ++s)
+    at(steps_->steps[s].out)[0] = value(steps_->steps[s]);
 }
 
 /// Coefficient 0; that of the partner is set.

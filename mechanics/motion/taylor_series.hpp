@@ -21,8 +21,10 @@ class TaylorSeries {
   TaylorSeries(const TaylorProgram& of, int order);
 
   int order() const { return order_; }
+  /// Of what is not asked for with all coefficients, the first one is known.
   std::span<const double> operator[](Slot series) const {
-    return {at(series), static_cast<std::size_t>(order_) + 1};
+    const std::size_t known = place_[series] < place_[0] ? 1 : static_cast<std::size_t>(order_) + 1;
+    return {at(series), known};
   }
   /// Coefficient 0 of a variable, which `begin` starts from.
   double& start(Slot variable) { return at(variable)[0]; }
@@ -35,6 +37,8 @@ class TaylorSeries {
 
   /// Coefficient 0 of all series of a group, and their partial derivatives.
   void begin(std::size_t group);
+  /// The former alone.
+  void find_values(std::size_t group);
   /// Forgets the orders above 0.
   void restart();
   /// Of order k >= 1, from the coefficients of the coordinates and of time: what was asked for as if those of
@@ -62,8 +66,8 @@ class TaylorSeries {
 
  private:
   friend class TaylorMagnitude;
-  double* at(Slot series) { return c_.data() + series * width_; }
-  const double* at(Slot series) const { return c_.data() + series * width_; }
+  double* at(Slot series) { return c_.data() + place_[series]; }
+  const double* at(Slot series) const { return c_.data() + place_[series]; }
   double branch(const TaylorStep& step) const { return branches_[static_cast<std::size_t>(step.number)]; }
   double value(const TaylorStep& step);
   void differentiate(const TaylorStep& step, std::uint32_t row);
@@ -79,7 +83,8 @@ class TaylorSeries {
   const std::vector<Slot>& kept_;  // with all coefficients, but for variables
   TaylorRecurrence free_;
   std::size_t width_;
-  std::vector<double> c_;       // by series
+  std::vector<std::size_t> place_;  // of series in c_
+  std::vector<double> c_;
   std::vector<double> factor_;  // ρ, by row
   std::vector<double> now_;     // of the order looked for, by series
   std::vector<double> branches_;
