@@ -85,9 +85,10 @@ struct TaylorOrderSteps {
     multiply_last<most_at_once>(all, first, to);
   }
 
-  /// To be read into registers once: compilers read it again for each product.
+  /// To be read into registers once: GCC reads it again for each product. Clang checks registers before the
+  /// function is in one that has them.
   MOREAU_INLINE void hold(Pack& pack) {
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
     for (int k = 0; k < P::parts; ++k)
       if constexpr (W == 8)
         asm("" : "+v"(pack.part[k]));
