@@ -126,10 +126,13 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rows that exclude each other by one rounding of s have no solution, unless s is known to that rounding "
-    "only") {
-  // 0.1 + 0.2 is 0.3 and a rounding: x >= 0.1 + 0.2 and x <= 0.3 touch if the sum stands for 0.3.
-  for (const auto& [least, most, touch] : {std::tuple{0.1 + 0.2, 0.3, true}, {0.3 + 0x1p-50, 0.3, false}}) {
+    "rows that exclude each other by one rounding of s have no solution, unless numbers are known to that "
+    "rounding only") {
+  // 0.1 + 0.2 is 0.3 and a rounding: x >= 0.1 + 0.2 and x <= 0.3 touch if the sum stands for 0.3. Rows apart
+  // by 2^-50 meet at about 6 where their entries are off by a rounding; apart by 1e-12 only beyond 1e3 of
+  // scale.
+  for (const auto& [least, most, touch] :
+       {std::tuple{0.1 + 0.2, 0.3, true}, {0.3 + 0x1p-50, 0.3, true}, {0.3 + 1e-12, 0.3, false}}) {
     NearestPointProblem wedge{convex::Metric::identity(2),
                               Vector::Zero(2),
                               convex::ConstraintRows(RowMatrix(Eigen::Matrix2d{{1, 1}, {-1, -1}})),
