@@ -29,12 +29,21 @@ double power_above(double x) {
   return exponent > 0 ? std::bit_cast<double>((exponent + 1) << 52) : 0;
 }
 
-bool is_multiple(double x, double step) {
-  const double shift = 1.5 * whole * step;
-  return std::abs(x) <= whole * step && (x + shift) - shift == x;
+}  // namespace
+
+double GridTest::largest() {
+  if (largest_ < 0) largest_ = dense_kernels().largest_size(count_, x_);
+  return largest_;
 }
 
-}  // namespace
+bool GridTest::is_on(double step) {
+  const double shift = 1.5 * whole * step;
+  if (!(largest() <= whole * step) || !std::isfinite(shift)) return false;
+  if (step <= coarsest_on_ || step >= finest_off_) return step <= coarsest_on_;
+  const bool found = dense_kernels().is_on_grid(count_, x_, shift);
+  (found ? coarsest_on_ : finest_off_) = step;
+  return found;
+}
 
 GridSum::GridSum(const Eigen::Ref<const Vector>& q) : q_(q.data()), n_(q.size()) {
   int lowest = std::numeric_limits<int>::max();
@@ -54,21 +63,22 @@ GridSum::GridSum(const Eigen::Ref<const Vector>& q) : q_(q.data()), n_(q.size())
   steps_ = std::max(1.0, steps);
 }
 
-std::optional<double> GridSum::value(const double* u, double s) const {
-  if (is_zero_) return -s;
+std::optional<double> GridSum::step_of_sums(GridTest& rows) const {
+  if (is_zero_ || rows.largest() == 0) return 0;
   if (step_ == 0) return std::nullopt;
-  const DenseKernels& kernels = dense_kernels();
-  const double largest = kernels.largest_size(n_, u);
-  if (largest == 0) return -s;
   // The finest grid on which the sum has no more than `whole` steps.
-  const double step = power_above(largest * steps_ / whole);
-  const double shift = 1.5 * whole * step;
-  if (!std::isnormal(step) || !std::isnormal(step * step_) || !std::isfinite(shift) ||
-      !is_multiple(s, step * step_) || !kernels.is_on_grid(n_, u, shift))
-    return std::nullopt;
+  const double step = power_above(rows.largest() * steps_ / whole);
+  if (!std::isnormal(step) || !std::isnormal(step * step_) || !rows.is_on(step)) return std::nullopt;
+  return step * step_;
+}
+
+std::optional<double> GridSum::value(const double* u, double s) const {
+  GridTest row(n_, u);
+  const std::optional<double> step = step_of_sums(row);
+  if (!step || !is_on_grid(s, *step)) return std::nullopt;
   // Where sums are exact, their order does not matter.
   const Index whole_packs = n_ / 8 * 8;
-  double sum = kernels.dot(whole_packs, u, q_);
+  double sum = dense_kernels().dot(whole_packs, u, q_);
   for (Index i = whole_packs; i < n_; ++i) sum += u[i] * q_[i];
   return sum - s;
 }

@@ -12,7 +12,8 @@
 
 namespace convex::inline pivoting {
 
-GramSolve::GramSolve(GramWorkingSet& set) : set_(set), problem_(set.problem()), p_(set.point()) {}
+GramSolve::GramSolve(GramWorkingSet& set)
+    : set_(set), problem_(set.problem()), p_(set.point()), rows_(p_.all * p_.n, p_.U) {}
 
 bool GramSolve::solve_again(const Accuracy& accuracy, Solution& solution) {
   if (!set_.settle_again() || !answer(accuracy, solution)) return false;

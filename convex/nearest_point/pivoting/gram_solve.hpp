@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "convex/exact/grid_sum.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/pivoting/corrections.hpp"
 #include "convex/nearest_point/pivoting/gram_working_set.hpp"
@@ -61,6 +62,7 @@ class GramSolve {
   GramPoint& p_;
   Corrections known_;
   std::optional<SlackOnEdge> edge_;
+  GridTest rows_;                 ///< all entries of U
   double moved_ = 0;              ///< how far rows that the point touches may move the answer
   double touched_violation_ = 0;  ///< by these rows, at q rounded, as in `residuals`
 };

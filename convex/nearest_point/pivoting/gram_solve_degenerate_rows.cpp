@@ -77,7 +77,21 @@ GramSolve::Slacks GramSolve::look_at_violated(Index first, Index end) {
   return std::isfinite(known_.wrong) && set_.look_at(close(first, end)) ? Slacks::violated : Slacks::doubtful;
 }
 
+/// Of the rows held and the first `count` that are close (`keeps_rows`). Slacks as measured are without
+/// rounding where all numbers lie on grids.
 bool GramSolve::keeps_close(Index count) {
+  const auto step = GridSum(Eigen::Map<const Vector>(p_.q, p_.n)).step_of_sums(rows_);
+  const auto is_exact = [&](Index a) { return is_on_grid(problem_.s[a], *step); };
+  if (step && std::all_of(p_.rows, p_.rows + p_.size, is_exact) &&
+      std::all_of(p_.close, p_.close + count, is_exact)) {
+    for (Index k = 0; k < count; ++k) p_.touched_slack[k] = p_.slack[p_.close[k]];
+    return std::all_of(p_.held_slack, p_.held_slack + p_.size, [](double slack) { return slack == 0; }) &&
+           std::all_of(p_.close, p_.close + count, [&](Index a) {
+             const std::vector<Index>& equal = problem_.two_sided;
+             return p_.slack[a] == 0 ||
+                    (p_.slack[a] > 0 && !std::binary_search(equal.begin(), equal.end(), a));
+           });
+  }
   return keeps_rows(problem_, Eigen::Map<const Vector>(p_.q, p_.n), {p_.rows, p_.rows + p_.size},
                     close(0, count), p_.touched_slack);
 }
