@@ -12,7 +12,10 @@ class ConstraintRows {
  public:
   ConstraintRows() : rows_(RowMatrix(0, 0)) {}
   explicit ConstraintRows(RowMatrix U) : rows_(std::move(U)) {}
-  explicit ConstraintRows(SparseRows U) : rows_(std::move(U)) {}
+  explicit ConstraintRows(const SparseRows& U) : rows_(U) {}
+  explicit ConstraintRows(SparseRows&& U) : rows_(std::in_place_type<SparseRows>) {
+    std::get<SparseRows>(rows_).swap(U);  // Eigen 3.4 would make a copy of what is moved
+  }
 
   Index count() const;
   Index dimension() const;

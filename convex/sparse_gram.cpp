@@ -59,8 +59,9 @@ Vector excess_if_plainly_definite(const SparseMatrix& W, double least_pivot) {
   return static_cast<Index>(reached.size()) == n ? excess : Vector();
 }
 
-SparseGram::SparseGram(SparseMatrix W, double least_pivot)
-    : W_(std::move(W)), least_pivot_(least_pivot), excess_(excess_if_plainly_definite(W_, least_pivot)) {
+SparseGram::SparseGram(SparseMatrix&& W, double least_pivot) : least_pivot_(least_pivot) {
+  W_.swap(W);  // Eigen 3.4 would make a copy of what is moved
+  excess_ = excess_if_plainly_definite(W_, least_pivot);
   if (excess_.size() == 0) factor();
 }
 

@@ -15,7 +15,7 @@ class SparseGram {
  public:
   /// What a pivot must be at least, relative to its diagonal entry, for W to count as positive definite.
   /// Throws InvalidInput otherwise. W: symmetric, its diagonal positive.
-  SparseGram(SparseMatrix W, double least_pivot);
+  SparseGram(SparseMatrix&& W, double least_pivot);
 
   const SparseMatrix& matrix() const { return W_; }
   /// ||x||_W; without F when W is plainly definite.
