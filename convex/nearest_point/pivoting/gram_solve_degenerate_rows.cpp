@@ -13,9 +13,6 @@
 namespace convex::inline pivoting {
 namespace {
 
-/// Where more rows are held, a look in twice the precision costs less than one for sums of them.
-constexpr Index few_held = 20;
-
 /// A way up is one for a row that it raises by more than this part of the row's length.
 constexpr double least_rise = 1e-3;
 
@@ -109,10 +106,8 @@ GramSolve::Slacks GramSolve::decide_degenerate_rows(Index count) {
     return Slacks::kept;
   }
   find_violation_of_touched_rows(count);
-  const bool looks_first = p_.size > few_held;
-  if (looks_first && (count = measure_precisely(count)) < 0) return look_at_violated(0, -count);
-  count = leave_sums_of_rows_held(count);
-  if (!looks_first && (count = measure_precisely(count)) < 0) return look_at_violated(0, -count);
+  count = measure_precisely(leave_sums_of_rows_held(count));
+  if (count < 0) return look_at_violated(0, -count);
   bool asks_more = false;
   count = std::remove_if(p_.close, p_.close + count,
                          [&](Index a) {
