@@ -13,6 +13,9 @@
 namespace convex::inline isotonic {
 namespace {
 
+/// A thread keeps so much for the next chain, 8 MB, and gives back what is more.
+constexpr Index most_kept_lines_of_chains = Index{1} << 17;
+
 bool are_plain_links(const InOrder& order) { return order.plain; }
 bool are_plain_links(const Listed&) { return false; }
 
@@ -59,13 +62,15 @@ std::vector<Index> loaded_rows(const Vector& lambda) {
 
 template <class Order>
 Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, const Order& order) {
-  const Chain<Order> chain(problem, order);
   const Index n = problem.dimension(), m = problem.rows();
+  thread_local Arena arena;
+  arena.start(Chain<Order>::lines(n));
+  const Chain<Order> chain(problem, order, arena);
   Solution found;
   found.q.resize(n);
   found.lambda.resize(m);
   found.slack.resize(m);
-  std::optional<double> largest = place_pools(chain, pool(chain), false, found);
+  std::optional<double> largest = place_pools(chain, pool(chain, arena), false, found);
   if (!largest) largest = place_pools(chain, pool_carefully(chain), true, found);
   const double scale = std::max(found.acceleration_norm, found.force_norm);
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
@@ -83,6 +88,7 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   found.basis = loaded_rows(found.lambda);
   found.steps = static_cast<Index>(found.basis.size());
   found.model.islands = {{found.method, n, m, 0, 8 * static_cast<double>(n), 0}};
+  if (arena.lines() > most_kept_lines_of_chains) arena.give_back();
   return found;
 }
 

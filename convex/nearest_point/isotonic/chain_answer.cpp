@@ -92,8 +92,8 @@ class Placement {
     lowered_ = k;
     lowered_end_ = std::min(k + width, chain_.n);
     const auto [mass, force] = numbers(k, lowered_end_ - k, lowered_mass_, lowered_force_);
-    lower(lowered_end_ - k, mass, force, chain_.offset_hi.data() + k, chain_.offset_lo.data() + k,
-          lowered_hi_.data(), lowered_lo_.data());
+    lower(lowered_end_ - k, mass, force, chain_.offset_hi + k, chain_.offset_lo + k, lowered_hi_.data(),
+          lowered_lo_.data());
   }
 
   /// Masses and forces of members from k on, as they stand or brought together.
@@ -169,7 +169,7 @@ class Placement {
         }
       k = last;
     }
-    if (!chain_.is_level()) lift(block_, chain_.offset_hi.data() + first, chain_.offset_lo.data() + first);
+    if (!chain_.is_level()) lift(block_, chain_.offset_hi + first, chain_.offset_lo + first);
     return rising;
   }
 

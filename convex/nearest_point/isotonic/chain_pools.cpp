@@ -41,11 +41,9 @@ bool rises(const Pool<RunningSum>& x, const Pool<RunningSum>& y) {
   return less(quotient(x_sum, x_weight), quotient(y_sum, y_weight));
 }
 
-/// Pools of the members that `member` makes, n of them, adjacent violators together.
+/// Pools of the members that `member` makes, n of them, adjacent violators together; bottom: room for n.
 template <class Sum, class Member>
-std::vector<int> pool_members(Index n, const Member member) {
-  const auto storage = std::make_unique_for_overwrite<Pool<Sum>[]>(static_cast<std::size_t>(n));
-  Pool<Sum>* const bottom = storage.get();
+std::vector<int> pool_members(Index n, Pool<Sum>* const bottom, const Member member) {
   Pool<Sum>* free = bottom;
   Pool<Sum> top = member(0);
   for (Index k = 1; k < n; ++k) {
@@ -106,7 +104,7 @@ DoubleDouble Chain<Order>::bound(Index k) const {
 }
 
 template <class Order>
-Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
+Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order, Arena& arena)
     : n(problem.dimension()),
       mass(problem.A.diagonal().data()),
       force(problem.z.data()),
@@ -115,8 +113,8 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
   bool level = true;  // but for the floor
   for (Index k = 1; k < n && level; ++k) level = std::abs(s[order.row(k)]) <= 0;
   if (level) return;
-  offset_hi.resize(n);
-  offset_lo.resize(n);
+  offset_hi = arena.take<double>(n);
+  offset_lo = arena.take<double>(n);
   constexpr Index at_once = 64;  // terms that do not wait for a sum to be tidy
   RunningSum sum;
   for (Index first = 0; first < n; first += at_once) {
@@ -131,7 +129,7 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
       offset_hi[k] = offset.hi;
       offset_lo[k] = offset.lo;
     }
-    farthest_offset = std::max(farthest_offset, offset_hi.segment(first, end - first).cwiseAbs().maxCoeff());
+    farthest_offset = std::max(farthest_offset, dense_kernels().largest_size(end - first, offset_hi + first));
     const DoubleDouble tidy = sum.tidy();
     sum = {tidy.hi, tidy.lo};
   }
@@ -139,13 +137,15 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order)
 }
 
 template <class Order>
-std::vector<int> pool(const Chain<Order>& chain) {
+std::vector<int> pool(const Chain<Order>& chain, Arena& arena) {
+  static_assert(sizeof(Pool<double>) == 3 * sizeof(double));
+  auto* const room = new (arena.take<double>(3 * chain.n)) Pool<double>[at(chain.n)];
   const auto member = [order = chain.order, mass = chain.mass, force = chain.force](Index k) {
     const Index i = order.coordinate(k);
     return Pool<double>{static_cast<int>(k), mass[i], force[i]};
   };
-  if (chain.is_level()) return pool_members<double>(chain.n, member);
-  return pool_members<double>(chain.n, [member, offset = chain.offset_hi.data()](Index k) {
+  if (chain.is_level()) return pool_members(chain.n, room, member);
+  return pool_members(chain.n, room, [member, offset = chain.offset_hi](Index k) {
     Pool<double> lowered = member(k);
     lowered.sum -= offset[k] * lowered.weight;
     return lowered;
@@ -154,7 +154,8 @@ std::vector<int> pool(const Chain<Order>& chain) {
 
 template <class Order>
 std::vector<int> pool_carefully(const Chain<Order>& chain) {
-  return pool_members<RunningSum>(chain.n, [&](Index k) {
+  const auto room = std::make_unique_for_overwrite<Pool<RunningSum>[]>(at(chain.n));
+  return pool_members(chain.n, room.get(), [&](Index k) {
     const DoubleDouble load = chain.load(k);
     return Pool<RunningSum>{
         static_cast<int>(k), {chain.mass[chain.order.coordinate(k)], 0}, {load.hi, load.lo}};
@@ -163,8 +164,8 @@ std::vector<int> pool_carefully(const Chain<Order>& chain) {
 
 template struct Chain<InOrder>;
 template struct Chain<Listed>;
-template std::vector<int> pool(const Chain<InOrder>&);
-template std::vector<int> pool(const Chain<Listed>&);
+template std::vector<int> pool(const Chain<InOrder>&, Arena&);
+template std::vector<int> pool(const Chain<Listed>&, Arena&);
 template std::vector<int> pool_carefully(const Chain<InOrder>&);
 template std::vector<int> pool_carefully(const Chain<Listed>&);
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "convex/dense/arena.hpp"
 #include "convex/double_double.hpp"
 #include "convex/nearest_point/isotonic/strings.hpp"
 
@@ -46,7 +47,10 @@ struct Listed {
 /// order.row(k), -1 for none, with the factor order.factor(k).
 template <class Order>
 struct Chain {
-  Chain(const NearestPointProblem&, const Order&);
+  /// Numbers of all members stand in the arena.
+  Chain(const NearestPointProblem&, const Order&, Arena&);
+  /// Cache lines that it and `pool` take.
+  static Index lines(Index n) { return 5 * padded(n) / 8 + 1; }
   /// s/c of the row below member k.
   DoubleDouble bound(Index k) const;
   /// The force on member k in the coordinates y that pools have in common.
@@ -55,17 +59,17 @@ struct Chain {
     const DoubleDouble plain{force[i], 0};
     return is_level() ? plain : add(plain, negative(product({offset_hi[k], offset_lo[k]}, mass[i])));
   }
-  bool is_level() const { return offset_hi.size() == 0; }
+  bool is_level() const { return !offset_hi; }
   Index n;
   const double *mass, *force, *s;
   Order order;
-  Vector offset_hi, offset_lo;                 ///< of a member over the first; empty when all are 0
-  double farthest_offset = 0, total_mass = 0;  ///< |offset| at most, and Σ m, where there are offsets
+  double *offset_hi = nullptr, *offset_lo = nullptr;  ///< of a member over the first; none when all are 0
+  double farthest_offset = 0, total_mass = 0;         ///< |offset| at most, and Σ m, where there are offsets
 };
 
 /// The first members of the pools, by sums in doubles: right but for rounding. Then n.
 template <class Order>
-std::vector<int> pool(const Chain<Order>&);
+std::vector<int> pool(const Chain<Order>&, Arena&);
 
 /// The same with sums in twice the precision, which are compared in that precision where doubles do not tell.
 template <class Order>

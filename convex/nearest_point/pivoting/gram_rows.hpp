@@ -1,6 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/pivoting/arena.hpp"
+#include "convex/dense/arena.hpp"
 #include "convex/nearest_point/problem.hpp"
 
 namespace convex::inline pivoting {

@@ -2,9 +2,9 @@
 
 #include <span>
 
+#include "convex/dense/arena.hpp"
 #include "convex/dense/dense_kernels.hpp"
 #include "convex/double_double.hpp"
-#include "convex/nearest_point/pivoting/arena.hpp"
 #include "convex/nearest_point/pivoting/gram_point.hpp"
 
 namespace convex::inline pivoting {

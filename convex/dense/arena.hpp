@@ -6,7 +6,7 @@
 
 #include "convex/dense/dense_kernels.hpp"
 
-namespace convex::inline pivoting {
+namespace convex::inline dense {
 
 /// Memory in one piece for the arrays of a solve, handed out by cache lines and taken back all at once.
 class Arena {
@@ -50,4 +50,4 @@ class Arena {
   Index lines_ = 0;
 };
 
-}  // namespace convex::inline pivoting
+}  // namespace convex::inline dense
