@@ -6,6 +6,7 @@
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "mechanics/proof_as_written.hpp"
+#include "mechanics/rounded_data.hpp"
 #include "mechanics/singular/resolution.hpp"
 #include "mechanics/vanishing_gradient.hpp"
 
@@ -63,6 +64,8 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
   if (scene.problem.radii)
     mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
+  if (!found.as_written && !scene.written && !scene.exact.are_doubles)
+    mechanics::count_rounding_of_data(found, scene.problem, options, scene.exact.make);
   return found;
 }
 

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
@@ -56,4 +58,73 @@ TEST_CASE("exact strings may stand in A, z, U and s") {
   CHECK(object.at("status") == "solved");
   CHECK(object.at("acceleration").at("q[0]").get<double>() == doctest::Approx(0.5));
   CHECK(object.at("acceleration").at("q[1]").get<double>() == doctest::Approx(3.5));
+}
+
+TEST_CASE(
+    "a method that is named tells its distance from the solution of the fractions, not of their doubles") {
+  // Row 1 alone holds: q = (-3/5, -4/7).
+  const char* text = R"([projection]
+A = [["2", "-3"], ["-3", "21"]]
+z = ["39/35", "-367/35"]
+U = [["-1", "-1/9"], ["-3/5", "2/7"], ["2", "-1"]]
+s = ["209/315", "241/1225", "-22/35"]
+)";
+  Folder folder;
+  const std::string file = folder.write("fractions.toml", text);
+  for (const std::string method : {"active-set", "nnls", "lemke", "interior-point", "proximal-point"}) {
+    CAPTURE(method);
+    const Json object = Json::parse(run({"solve", "--json", "--method", method, file}).out);
+    const auto q = [&](const char* name) -> long double {
+      return object.at("acceleration").at(name).get<double>();
+    };
+    const long double dx = q("q[0]") + 3 / 5.0L, dy = q("q[1]") + 4 / 7.0L;
+    const long double distance = std::sqrt(2 * dx * dx - 6 * dx * dy + 21 * dy * dy);
+    CHECK(object.at("status") == "solved");
+    const double of_long_double = 1e-3;  // what its rounding makes of a distance of some 1e-15
+    CHECK(object.at("certificate").at("error_bound").get<double>() >= (1 - of_long_double) * distance);
+    // Each of A, z, U and s is a rounding off.
+    CHECK(object.at("certificate").at("error_bound").get<double>() >= 0x1p-53);
+  }
+}
+
+TEST_CASE("a method that is named solves no fractions that contradict each other by less than a rounding") {
+  // Row 3 asks for more than 1e8 times what row 0 sets; both are the same in doubles.
+  const char* text = R"([projection]
+A = [["3", "-4", "1"], ["-4", "22", "-3"], ["1", "-3", "18"]]
+z = ["-3", "5", "69"]
+U = [["0", "3", "3"], ["0", "1", "1"], ["-1", "3", "-1"], ["0", "300000000", "300000000"]]
+s = ["15", "42949672959/8589934592", "-1", "25769803776000000001/17179869184"]
+two_sided = [0]
+)";
+  Folder folder;
+  const std::string file = folder.write("apart.toml", text);
+  CHECK(run({"solve", file}).code == 1);
+  for (const std::string method : {"proximal-point", "interior-point"}) {
+    CAPTURE(method);
+    const Outcome outcome = run({"solve", "--json", "--method", method, file});
+    CHECK(outcome.code != 0);
+    CHECK(Json::parse(outcome.out).at("status") != "solved");
+  }
+}
+
+TEST_CASE("a method that is named tells no contradiction that fractions do not have") {
+  // Rows 1 and 2 are opposite but for some 1e-16: a narrow wedge, with a point in it.
+  const char* text = R"([projection]
+A = [["20", "3", "-4"], ["3", "28", "6"], ["-4", "6", "7"]]
+z = ["44", "-20", "-37"]
+U = [["3", "2199023255551/2199023255552", "72057594037927937/36028797018963968"],
+     ["1729382256910270465/576460752303423488", "1", "36028797018963967/18014398509481984"],
+     ["-3", "-1", "-2251799813685247/1125899906842624"],
+     ["-3298534883327/1099511627776", "-144115188075855871/144115188075855872",
+      "-576460752303423487/288230376151711744"],
+     ["422212465065985/140737488355328", "1073741823/1073741824", "36028797018963969/18014398509481984"]]
+s = ["-25/288230376151711744", "-32719/288230376151711744", "16381/1125899906842624",
+     "524157/288230376151711744", "253/18014398509481984"]
+two_sided = [1]
+)";
+  Folder folder;
+  const std::string file = folder.write("wedge.toml", text);
+  CHECK(run({"solve", file}).code == 0);
+  const Outcome outcome = run({"solve", "--json", "--method", "nnls", file});
+  CHECK(Json::parse(outcome.out).at("status") != "infeasible");
 }
