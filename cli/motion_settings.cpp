@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "cli/motion_files.hpp"
+#include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/scene.hpp"
+#include "mechanics/number_text.hpp"
 
 namespace cli {
 namespace {
@@ -23,6 +25,19 @@ mechanics::ImpactLaw impact_law(const SimulateSettings& settings) {
 
 /// From about here on steps are quicker than events at an error of 1e-2 (`moreau chart --motion`).
 constexpr std::ptrdiff_t fewest_for_steps = 300;
+
+/// A number, or an expression in the parameters of the file.
+double value_of(const Problem& problem, const mechanics::LagrangianSystem& system, const std::string& text,
+                const std::string& where, std::optional<convex::Place> place) {
+  double value = 0;
+  const std::from_chars_result number = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (number.ec == std::errc() && number.ptr == text.data() + text.size()) return value;
+  try {
+    return cli::value_of(problem, system, text, where);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(error.what(), place);
+  }
+}
 
 }  // namespace
 
@@ -52,10 +67,26 @@ MotionWay motion_way(const SimulateSettings& settings, const mechanics::System& 
                              "falls with [simulate] step"};
 }
 
-mechanics::MotionOptions motion_options(const Problem& problem, const mechanics::System& system,
+convex::Vector restitutions(const Problem& problem, const mechanics::LagrangianSystem& system) {
+  double of_all = 0;
+  std::vector<NamedNumber> by_name;
+  const auto add = [&](const Restitution& one) {
+    const double e = value_of(problem, system, one.e.text, one.where, one.e.begin);
+    require_restitution(e, one.e.text + " = " + mechanics::number_text(e), one.where, one.e.begin);
+    if (one.constraint.empty())
+      of_all = e;
+    else
+      by_name.push_back({one.constraint, one.place, e});
+  };
+  for (const Restitution& one : std::get<SystemProblem>(problem.content).restitutions) add(one);
+  // Those of [simulate] come later, and win.
+  for (const Restitution& one : problem.simulate.restitutions) add(one);
+  return numbers_by_constraint("simulate.restitution", of_all, by_name, constraint_names(system));
+}
+
+mechanics::MotionOptions motion_options(const Problem& problem, const mechanics::LagrangianSystem& system,
                                         const MotionChoice& options) {
   const SimulateSettings& settings = problem.simulate;
-  const std::vector<std::string> constraints = constraint_names(system);
   mechanics::MotionOptions chosen;
   chosen.method = motion_way(settings, system, options).method;
   chosen.step = settings.step.value_or(chosen.step);
@@ -67,12 +98,8 @@ mechanics::MotionOptions motion_options(const Problem& problem, const mechanics:
     throw InvalidInput("simulate.impact_law: time-stepping has Moreau's law alone, not " +
                            *settings.impact_law + "; take method = \"event-driven\" for it",
                        settings.impact_law_place);
-  chosen.contact_tolerance = contact_tolerances(problem.solve, constraints);
-  std::vector<NamedNumber> restitutions = std::get<SystemProblem>(problem.content).restitutions;
-  // Those of [simulate] come later, and win.
-  restitutions.insert(restitutions.end(), settings.restitutions.begin(), settings.restitutions.end());
-  chosen.restitution =
-      numbers_by_constraint("simulate.restitution", settings.restitution, restitutions, constraints);
+  chosen.contact_tolerance = contact_tolerances(problem.solve, constraint_names(system));
+  chosen.restitution = restitutions(problem, system);
   return chosen;
 }
 
@@ -95,15 +122,8 @@ double end_of_motion(const Problem& problem, const mechanics::LagrangianSystem& 
   const std::optional<mechanics::Text>& written = problem.simulate.until;
   if (!told && !written)
     throw InvalidInput("simulate.until: missing; write until = 3.0 below [simulate], or give --until 3.0");
-  const std::string& text = told ? *told : written->text;
-  double until = 0;
-  const std::from_chars_result number = std::from_chars(text.data(), text.data() + text.size(), until);
-  if (number.ec != std::errc() || number.ptr != text.data() + text.size()) try {
-      until = value_of(problem, system, text, told ? "--until" : "simulate.until");
-    } catch (const InvalidInput& error) {
-      if (told) throw;
-      throw InvalidInput(error.what(), written->begin);
-    }
+  const double until = told ? value_of(problem, system, *told, "--until", std::nullopt)
+                            : value_of(problem, system, written->text, "simulate.until", written->begin);
   if (!std::isfinite(until)) throw InvalidInput("simulate.until: not finite; give a time to end at");
   return until;
 }

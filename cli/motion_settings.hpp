@@ -19,7 +19,11 @@ MotionWay motion_way(const SimulateSettings&, const mechanics::System&, const Mo
 
 /// How to follow the motion of a [system]: [simulate], [solve] contact_tolerance, what looseness has of its
 /// own; options of the command line win.
-mechanics::MotionOptions motion_options(const Problem&, const mechanics::System&, const MotionChoice&);
+mechanics::MotionOptions motion_options(const Problem&, const mechanics::LagrangianSystem&,
+                                        const MotionChoice&);
+
+/// e by constraint, of the parameters that the problem has. Throws InvalidInput where one is not from 0 to 1.
+convex::Vector restitutions(const Problem&, const mechanics::LagrangianSystem&);
 
 /// The value of an expression in the parameters of a file. `where` names it in messages.
 double value_of(const Problem&, const mechanics::LagrangianSystem&, const std::string& expression,

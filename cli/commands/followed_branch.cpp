@@ -90,6 +90,7 @@ mechanics::OrbitQuestion FollowedBranch::question(const mechanics::LagrangianSys
                                                   double value) const {
   const Problem at = with_parameter(problem_, range_.parameter, value);
   mechanics::OrbitQuestion asked = asked_;
+  asked.motion.restitution = restitutions(at, system);
   if (asked.is_free)
     asked.energy = system.energy(system.state(std::get<SystemProblem>(at.content).state));
   else

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "mechanics/number_text.hpp"
+
 namespace cli::inline drawings {
 namespace {
 
@@ -61,17 +63,28 @@ DrawnScene::DrawnScene(const Problem& problem) {
   for (const DrawnShape& shape : problem.draw) {
     const std::vector<Index>& first = members[constraint_of(shape, 0)];
     for (std::size_t member = 0; member < first.size(); ++member) {
-      Shape drawn{shape.kind, without_index(shape.name.text), {}};
+      Shape drawn{shape.kind, without_index(shape.name.text), {}, {}};
       drawn.name += index_of(constraints[static_cast<std::size_t>(first[member])].name);
       for (std::size_t k = 0; k < shape.numbers.size(); ++k)
         drawn.numbers.push_back(members[constraint_of(shape, k)].at(member));
+      for (const mechanics::Text& number : shape.numbers) drawn.places.push_back(number.begin);
       shapes_.push_back(std::move(drawn));
     }
   }
 }
 
 convex::Vector DrawnScene::values(const mechanics::State& state) const {
-  return system_ ? system_->constraint_rates(state).f : state.q;
+  if (!system_) return state.q;
+  convex::Vector found = system_->constraint_rates(state).f;
+  for (const Shape& shape : shapes_) {
+    if (shape.kind != DrawnShape::Kind::circle) continue;
+    const double radius = found[shape.numbers.back()];
+    if (radius < 0)
+      throw InvalidInput("draw.circles." + shape.name + ".radius: " + mechanics::number_text(radius) +
+                             " at t = " + mechanics::number_text(state.t) + " is negative; give a length",
+                         shape.places.back());
+  }
+  return found;
 }
 
 convex::SparseRows DrawnScene::derivatives(const mechanics::State& state,

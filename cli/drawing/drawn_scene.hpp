@@ -17,6 +17,7 @@ class DrawnScene {
     DrawnShape::Kind kind;
     std::string name;
     std::vector<convex::Index> numbers;  ///< where in `values`
+    std::vector<convex::Place> places;   ///< of the expressions in the file
   };
 
   /// Throws InvalidInput with the place in `[draw]` for an expression that is wrong. Without `[draw]` there
@@ -24,7 +25,7 @@ class DrawnScene {
   explicit DrawnScene(const Problem&);
 
   const std::vector<Shape>& shapes() const { return shapes_; }
-  /// Throws InvalidInput where a value is not finite.
+  /// Throws InvalidInput where a value is not finite, or a radius is negative.
   convex::Vector values(const mechanics::State&) const;
   /// The derivatives by the coordinates of some values: one row each.
   convex::SparseRows derivatives(const mechanics::State&, const std::vector<convex::Index>& values) const;

@@ -184,13 +184,11 @@ double require_positive(const TomlValue& value, const std::string& where) {
   return number;
 }
 
-double require_restitution(const TomlValue& value, const std::string& where) {
-  const double e = require_number(value, where);
+void require_restitution(double e, const std::string& text, const std::string& where, convex::Place place) {
   if (!(e >= 0 && e <= 1))
     throw InvalidInput(
-        where + ": " + shown(value.text) + " is not from 0 to 1; an impact keeps energy (1) or takes it (0)",
-        value.place);
-  return e;
+        where + ": " + shown(text) + " is not from 0 to 1; an impact keeps energy (1) or takes it (0)",
+        place);
 }
 
 }  // namespace cli::inline problem_files

@@ -28,7 +28,7 @@ double require_number(const TomlValue& value, const std::string& where);
 /// A finite number greater than 0.
 double require_positive(const TomlValue& value, const std::string& where);
 
-/// A coefficient of restitution, 0 <= e <= 1.
-double require_restitution(const TomlValue& value, const std::string& where);
+/// Refuses a coefficient of restitution that is not 0 <= e <= 1; `text` is how it is written.
+void require_restitution(double e, const std::string& text, const std::string& where, convex::Place place);
 
 }  // namespace cli::inline problem_files

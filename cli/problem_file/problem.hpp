@@ -23,6 +23,15 @@ struct NamedNumber {
   double value = 0;
 };
 
+/// A coefficient of restitution, of a constraint or a family of them: a number, or an expression in the
+/// parameters.
+struct Restitution {
+  std::string constraint;  ///< "": of all that have none of their own
+  convex::Place place;
+  std::string where;  ///< its name in messages
+  mechanics::Text e;
+};
+
 /// What `[state]` declares: the state given is a guess at one with these contacts.
 struct DeclaredState {
   std::vector<std::string> in_contact;
@@ -34,7 +43,7 @@ struct DeclaredState {
 struct SystemProblem {
   mechanics::LagrangianText system;
   mechanics::StateText state;
-  std::vector<NamedNumber> restitutions;  ///< that [system.looseness] gives to its constraints
+  std::vector<Restitution> restitutions;  ///< that [system.looseness] gives to its constraints
   std::optional<DeclaredState> declared = {};
 };
 
@@ -87,8 +96,7 @@ struct SimulateSettings {
   convex::Place method_place;
   std::optional<double> tolerance;
   std::optional<double> step;
-  double restitution = 0;
-  std::vector<NamedNumber> restitutions;
+  std::vector<Restitution> restitutions;
   std::optional<long> samples;
   std::optional<std::string> impact_law;
   convex::Place impact_law_place;

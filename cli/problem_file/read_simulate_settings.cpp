@@ -10,9 +10,9 @@ namespace {
 using convex::InvalidInput;
 
 /// A number, or an expression to be evaluated when the parameters are known.
-mechanics::Text require_time(const TomlValue& value) {
+mechanics::Text number_or_expression(const TomlValue& value, const std::string& where) {
   if (value.is_string() && !nearest_double(value.text)) return {value.text, value.place};
-  return {fmt::format("{:.17g}", require_number(value, "simulate.until")), value.place};
+  return {fmt::format("{:.17g}", require_number(value, where)), value.place};
 }
 
 long require_samples(const TomlValue& value) {
@@ -27,11 +27,20 @@ long require_samples(const TomlValue& value) {
 
 }  // namespace
 
+Restitution read_restitution(const mechanics::Text& constraint, const TomlValue& value,
+                             const std::string& where) {
+  mechanics::Text e = number_or_expression(value, where);
+  if (const auto number = nearest_double(e.text))
+    require_restitution(*number, value.text, where, value.place);
+  return {constraint.text, constraint.begin, where, std::move(e)};
+}
+
 SimulateSettings read_simulate_settings(const TomlValue& table) {
   require_known_keys(require_table(table, "simulate"), "simulate",
                      {"until", "method", "tolerance", "step", "restitution", "samples", "impact_law"});
   SimulateSettings settings;
-  if (const TomlValue* until = table.find("until")) settings.until = require_time(*until);
+  if (const TomlValue* until = table.find("until"))
+    settings.until = number_or_expression(*until, "simulate.until");
   if (const TomlValue* method = table.find("method")) {
     settings.method = require_string(*method, "simulate.method");
     settings.method_place = method->place;
@@ -42,11 +51,10 @@ SimulateSettings read_simulate_settings(const TomlValue& table) {
   if (const TomlValue* restitution = table.find("restitution")) {
     if (restitution->kind == TomlValue::Kind::table) {
       for (const TomlEntry& entry : restitution->table)
-        settings.restitutions.push_back(
-            {entry.key, entry.place,
-             require_restitution(entry.value, "simulate.restitution." + shown(entry.key))});
+        settings.restitutions.push_back(read_restitution({entry.key, entry.place}, entry.value,
+                                                         "simulate.restitution." + shown(entry.key)));
     } else {
-      settings.restitution = require_restitution(*restitution, "simulate.restitution");
+      settings.restitutions.push_back(read_restitution({}, *restitution, "simulate.restitution"));
     }
   }
   if (const TomlValue* samples = table.find("samples")) settings.samples = require_samples(*samples);

@@ -124,7 +124,7 @@ void add_looseness(SystemProblem& problem, const TomlValue* table) {
       problem.system.constraints.push_back(
           {{name, entry.place}, {difference + relation + "(" + play.text + ")/2", a.begin}});
       if (const TomlValue* e = element.find("restitution"))
-        problem.restitutions.push_back({name, entry.place, require_restitution(*e, where + ".restitution")});
+        problem.restitutions.push_back(read_restitution({name, entry.place}, *e, where + ".restitution"));
     };
     add("_lower", " >= -");
     add("_upper", " <= ");

@@ -27,6 +27,10 @@ LiquidProblem read_liquid(const TomlValue& table);
 /// `[solve]`.
 SolveSettings read_solve_settings(const TomlValue& table);
 
+/// The restitution of a constraint, or with an empty name of all.
+Restitution read_restitution(const mechanics::Text& constraint, const TomlValue& value,
+                             const std::string& where);
+
 /// `[simulate]`.
 SimulateSettings read_simulate_settings(const TomlValue& table);
 

@@ -115,6 +115,13 @@ TEST_CASE("what is wrong in [draw] is told with its line and its key") {
   refused("[draw]\ncircles = { bob = { centre = [\"x\", \"y\"] } }\n", {":15:13:", "radius"});
   refused("[draw]\ncircles = { bob = { center = [\"x\", \"y\"], radius = 1 } }\n", {":15:21:", "centre"});
   const Folder folder;
+  const std::string shrinking =
+      "[draw]\ncircles = { bob = { centre = [\"x\", \"y\"], radius = \"1 - t\" } }\n";
+  const Outcome negative =
+      run({"simulate", folder.write("r.toml", pendulum(shrinking)), "--animate", folder.path("r.html")});
+  CHECK(negative.code == 2);
+  for (const char* word : {":15:52:", "draw.circles.bob.radius", "negative"})
+    CHECK_MESSAGE(negative.err.find(word) != std::string::npos, negative.err);
   const Outcome other = run({"solve", folder.write("p.toml", two_rows() + "[draw]\n")});
   CHECK(other.code == 2);
   CHECK(other.err.find("[draw]") != std::string::npos);

@@ -173,6 +173,23 @@ TEST_CASE("a branch goes on where an impact, a rest or a release passes the time
   }
 }
 
+TEST_CASE("a branch over the restitution has the orbits of each of its values") {
+  const std::vector<Row> rows =
+      branch(oscillator_with_stop("F = 1.5\nw = 0.8\nphi = 0\nr = 0.6", "\"r\"", "-1"),
+             {"--period", "2*pi/w", "--over", "r=0.6:0.15:0.9"});
+  REQUIRE(rows.size() == 3);
+  for (const Row& row : rows) {
+    const std::string e = std::to_string(row.value);
+    const Row alone = branch(oscillator_with_stop("F = 1.5\nw = 0.8\nphi = 0", e, "-1"),
+                             {"--period", "2*pi/w", "--over", "phi=0:1:0"})
+                          .at(0);
+    CAPTURE(row.value);
+    // Liouville: of free flights exp(-0.2 T), and e^2 of each impact; the multipliers are a complex pair.
+    CHECK(std::abs(row.largest - std::exp(-0.1 * row.period) * std::pow(row.value, row.impacts)) <= 1e-12);
+    CHECK(std::abs(row.largest - alone.largest) <= 1e-12);
+  }
+}
+
 TEST_CASE("a graze is told at its closed form, and the branch goes on with the impact") {
   const std::vector<Row> rows = branch(oscillator_with_stop("F = 0.05\nw = 0.7\nphi = 0", "0.8", "0"),
                                        {"--period", "2*pi/w", "--over", "F=0.05:0.1:0.5"});

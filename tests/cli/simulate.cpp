@@ -131,6 +131,28 @@ TEST_CASE("a row at an event holds the state after it") {
   CHECK(rows[3] == "2,1.5,-0.5,0,0,0.125");
 }
 
+TEST_CASE("a restitution may be an expression in the parameters") {
+  const Folder folder;
+  // Free from x = 0 at speed 1 to the wall at 1, and back.
+  const std::string scene =
+      "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n[system.parameters]\nc = 0.5\ne = \"c/2\"\n"
+      "[system.looseness]\nmesh = { between = [\"x\", \"0\"], gap = 2, restitution = \"2*e\" }\n"
+      "[state]\nposition = { x = 0 }\nvelocity = { x = 1 }\n[simulate]\nuntil = 2\n";
+  const auto speed = [&](const std::string& rest, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments{"simulate", folder.write("loose.toml", scene + rest), "--json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run(arguments);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.code == 0);
+    return Json::parse(outcome.out)["velocity"]["x"].get<double>();
+  };
+  CHECK(speed("") == -0.5);
+  CHECK(speed("", {"--set", "c=0.75"}) == -0.75);
+  CHECK(speed("restitution = { mesh_upper = \"c^2\" }") == -0.25);
+  CHECK(speed("", {"--set", "simulate.restitution.mesh_upper=1/(4*c)"}) == -0.5);
+  CHECK(speed("restitution = { mesh_upper = \"e\" }", {"--set", "e=0.25"}) == -0.25);
+}
+
 TEST_CASE("looseness is two constraints, with its own restitution unless [simulate] names them") {
   const auto energy = [](const std::string& simulate) {
     const Folder folder;
@@ -169,6 +191,8 @@ TEST_CASE("what cannot be simulated is refused with the place and what to do") {
   refused(ball("until = -1"), {}, {"until", "forward"});
   refused(ball("until = 1\nrestitution = 1.5"), {}, {":11:15:", "1.5", "0 to 1"});
   refused(ball("until = 1\nrestitution = { flor = 0.5 }"), {}, {":11:17:", "flor", "floor"});
+  refused(ball("until = 1\nrestitution = \"2*9.81\""), {}, {":11:15:", "2*9.81 = 19.62", "0 to 1"});
+  refused(ball("until = 1\nrestitution = { floor = \"1/k\" }"), {}, {":11:25:", "restitution.floor", "k"});
   refused(ball("until = 1\nsamples = 1"), {}, {":11:11:", "samples"});
   refused(ball("until = 1\nsamples = 2.5"), {}, {":11:11:", "samples"});
   refused(ball("until = 1\nmethod = \"euler\""), {}, {":11:10:", "euler", "event-driven"});
