@@ -1,7 +1,9 @@
 #include "mechanics/motion/accumulation.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <functional>
 
 namespace mechanics::inline motions {
 
@@ -15,6 +17,12 @@ void ImpactHistory::add(double since, double speed, double t, double noise, doub
   noise_ += noise;
   speed_noise_ += speed_noise;
   ++count_;
+  if (std::has_single_bit(static_cast<unsigned long>(count_))) {
+    std::copy_backward(mark_, mark_ + 3, mark_ + 4);
+    std::copy_backward(mark_speed_, mark_speed_ + 3, mark_speed_ + 4);
+    mark_[0] = t;
+    mark_speed_[0] = speed;
+  }
   shrinking_ = shrinks() ? shrinking_ + 1 : 0;
   if (shrinking_ == 0) {
     if (t > end_ + end_error_) end_error_ = std::numeric_limits<double>::infinity();
@@ -36,6 +44,20 @@ void ImpactHistory::add(double since, double speed, double t, double noise, doub
   if (error > end_error_ && std::abs(end - end_) <= error + end_error_) return;
   end_ = end;
   end_error_ = error;
+}
+
+std::optional<double> ImpactHistory::end_of_gain() const {
+  constexpr long fewest = 8;  // four marks
+  // The gap has shrunk a thousand times, and all the time by one law.
+  constexpr double by_one_law = 1e-3;
+  if (count_ < fewest || !std::has_single_bit(static_cast<unsigned long>(count_))) return std::nullopt;
+  if (!std::is_sorted(mark_speed_, mark_speed_ + 4, std::greater<>())) return std::nullopt;
+  const double last = mark_[0] - mark_[1];
+  const double r = last / (mark_[1] - mark_[2]), before = (mark_[1] - mark_[2]) / (mark_[2] - mark_[3]);
+  if (!(r < 1) || !(std::abs(r - before) <= by_one_law * (1 - r))) return std::nullopt;
+  const double highest = r + std::abs(r - before) * r / (1 - r);
+  if (!(highest < 1)) return std::nullopt;
+  return mark_[0] + last * highest / (1 - highest);
 }
 
 bool ImpactHistory::shrinks() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "convex/vector.hpp"
@@ -18,12 +19,22 @@ class ImpactHistory {
   /// t: when; noise, speed_noise: how far `since` and the speed may be off by rounding.
   void add(double since, double speed, double t, double noise, double speed_noise);
   void forget() { *this = ImpactHistory(); }
+  /// The next impact may come so much sooner or later, and so much faster or slower, than is told.
+  void doubt(double time, double speed) {
+    noise_ += time;
+    speed_noise_ += speed;
+  }
 
   /// How many intervals one after the other have shrunk by a steady ratio so far.
   long shrinking() const { return shrinking_; }
   /// Whether the impacts lose their speed as well, so that rest follows: a body between walls that close in
   /// on it strikes ever faster.
   bool slows() const { return speed_ < speed_before_; }
+  /// The latest end of impacts that gain speed without bound, as of a body between walls that close in on it,
+  /// told by every impact number 2^k. With intervals that shrink as a power of the time left, the time from
+  /// one of these to the next shrinks by a steady ratio. Nothing where it does not, or at another impact.
+  std::optional<double> end_of_gain() const;
+  long count() const { return count_; }
   /// Whether the last three intervals shrink by one ratio.
   bool shrinks() const;
   double ratio() const { return interval_[0] / interval_[1]; }
@@ -44,7 +55,8 @@ class ImpactHistory {
   long count_ = 0, shrinking_ = 0;
   double interval_[3] = {0, 0, 0};  // the last one first
   double speed_ = 0, speed_before_ = 0, highest_ = 0;
-  double noise_ = 0, speed_noise_ = 0;  // of all impacts so far
+  double noise_ = 0, speed_noise_ = 0;                            // of all impacts so far
+  double mark_[4] = {0, 0, 0, 0}, mark_speed_[4] = {0, 0, 0, 0};  // at impact 2^k, the last one first
   double end_ = 0, end_error_ = std::numeric_limits<double>::infinity();
 };
 

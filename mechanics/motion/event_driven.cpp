@@ -155,7 +155,7 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
   // Towards a zero of order p of f, each takes 1/p of what is left.
   constexpr double steady = 0.95;
   const auto k = static_cast<std::size_t>(zero.which);
-  double last = 0;
+  double last = 0, value_before = 0, tau_before = tau;
   for (int i = 0; i < most_corrections; ++i) {
     double value = 0, slope = 0;
     next.state(tau, there_, expected_q2_);
@@ -171,6 +171,10 @@ double Motion::EventDriven::polished(const Zero& zero, double tau) {
         if (persist_[a] == zero.which) value = answer.lambda[static_cast<Index>(a)];
       slope = slope_at(coefficients(next.lambda, zero.which), tau);
     }
+    // Where rounding is all there is of value and slope, a correction leads anywhere.
+    if (i > 0 && !(std::abs(value) <= std::abs(value_before))) return tau_before;
+    value_before = value;
+    tau_before = tau;
     const double correction = value / slope;
     if (!(std::abs(correction) < 0.5 * tau)) return tau;
     tau -= correction;

@@ -25,6 +25,7 @@ constexpr double roundings_of_speed = 2;
 /// of them shrink by a ratio so steady that the time left is known to a hundredth.
 constexpr long most_impacts_followed = 100'000;
 constexpr double known_remainder = 0.01;
+constexpr long most_gains_followed = 10'000;  ///< of impacts that gain energy without bound
 
 std::vector<Index> united(std::vector<Index> a, const std::vector<Index>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -114,12 +115,6 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   release_event(held, before);
 }
 
-/// Of a contact that closes. Without t, its terms are about as large as those of its differential.
-double Motion::EventDriven::rounding_of_f(Index a) {
-  if (!expansion_.uses_time()) return epsilon * expansion_.position_scale(a);
-  return epsilon * (expansion_.magnitude_of_constraint(a) + std::abs(state.t * expansion_.rate(a)));
-}
-
 /// Contacts that were held, are still at f = df/dt = 0, and persist no longer.
 void Motion::EventDriven::release_event(const std::vector<Index>& held_before,
                                         const Vector& velocity_before) {
@@ -179,6 +174,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
   record.ledger_energy += by_momentum - before.dot(thrust);
   state.v = before + outcome.change;
   std::vector<Index> hit, resting, held;
+  std::optional<double> end_of_gain;
   for (std::size_t k = 0; k < present.size(); ++k) {
     const Index a = present[k], at = static_cast<Index>(k);
     const double rate_before = striking_[k].rate, e = rate_before > 0 ? 0 : striking_[k].restitution;
@@ -191,15 +187,24 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     if (rate_before < 0 || outcome.impulse[at] > 0) hit.push_back(a);
     if (!(outcome.rate[at] > 0)) resting.push_back(a);
     ImpactHistory& history = history_[static_cast<std::size_t>(a)];
-    if (rate_before < 0)
+    if (rate_before < 0) {
       history.add(elapsed_[static_cast<std::size_t>(a)], -rate_before, since_start_ + low_,
                   epsilon * elapsed_[static_cast<std::size_t>(a)] + rounding_of_f(a) / -rate_before,
                   roundings_of_speed * epsilon *
                       std::max(-rate_before, expansion_.uses_time() ? expansion_.magnitude_of_rate(a)
                                                                     : striking_[k].rate_scale));
-    if (rate_before < 0) elapsed_[static_cast<std::size_t>(a)] = 0;
+      elapsed_[static_cast<std::size_t>(a)] = 0;
+      if (history.count() >= most_gains_followed && !end_of_gain) end_of_gain = history.end_of_gain();
+    }
   }
   event(EventKind::impact, std::move(hit), std::move(before));
+  if (end_of_gain && start_ + *end_of_gain < until_ &&
+      record.impact_energy > 0.5 * system.kinetic_energy(state))
+    return stop(
+        "at t = " + number_text(state.t) + ": after " + std::to_string(record.impacts) +
+        " impacts, which gain energy ever faster, these come to their end by t = " +
+        number_text(start_ + *end_of_gain) +
+        " with a speed beyond all bounds, as of a body that walls close in on; give an end before it");
   const auto take_note_of_leaving = [&] {
     for (std::size_t k = 0; k < present.size(); ++k)
       if (!is_two_sided(present[k]) && outcome.rate[static_cast<Index>(k)] > 0)

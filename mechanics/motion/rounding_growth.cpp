@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace mechanics::inline motions {
 namespace {
@@ -35,16 +36,51 @@ struct Sizes {
   }
 };
 
-/// The end of the motion from there; nothing where it has another one.
-std::optional<State> end_of(const LagrangianSystem& system, const State& start, const MotionOptions& options,
-                            double until, Sizes& sizes) {
+/// The end of a motion. What strikes right at the end does so before it or after it as a rounding has it:
+/// then the velocity is that before the impact.
+struct End {
+  State state;
+  long struck = 0;  ///< the number of that impact; 0: none
+};
+
+/// The first impact right at the end of a motion.
+const MotionEvent* impact_at_end(const std::vector<MotionEvent>& events, const State& start, double until) {
+  const double size = std::max(std::abs(start.t), std::abs(until));
+  const double margin = least_growth * std::numeric_limits<double>::epsilon() * size;
+  const auto found = std::find_if(events.begin(), events.end(), [&](const MotionEvent& event) {
+    return event.kind == EventKind::impact && event.t >= until - margin;
+  });
+  return found == events.end() ? nullptr : &*found;
+}
+
+/// The end of the motion from there; nothing where it has another one. `struck`: the impact of this number is
+/// the one at the end, in the motion beside which this is; 0: there is none.
+std::optional<End> end_of(const LagrangianSystem& system, const State& start, const MotionOptions& options,
+                          double until, long struck, Sizes& sizes) {
   try {
     Motion motion(system, start, options);
+    End end;
+    std::optional<Vector> before;
     while (motion.advance(until)) {
+      const long impacts = motion.record().impacts;
+      const MotionEvent* at_end = impact_at_end(motion.events(), start, until);
+      if (struck > 0 && impacts == struck) {
+        const auto last = std::find_if(motion.events().begin(), motion.events().end(),
+                                       [](const MotionEvent& one) { return one.kind == EventKind::impact; });
+        at_end = last == motion.events().end() ? nullptr : &*last;
+      }
+      if (!before && at_end != nullptr) {
+        before = at_end->velocity_before;
+        end.struck = impacts;
+      }
       sizes.take(motion.arc().state(0.5 * motion.arc().length));
       sizes.take(motion.state());
     }
-    if (motion.status() == MotionStatus::done && motion.state().t == until) return motion.state();
+    if (motion.status() == MotionStatus::done && motion.state().t == until) {
+      end.state = motion.state();
+      if (before) end.state.v = *before;
+      return end;
+    }
   } catch (const convex::InvalidInput&) {  // contacts that a rounding opens or closes
   }
   return std::nullopt;
@@ -61,13 +97,15 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
   if (numbers == 0) return std::nullopt;
   const double dq = (other.q - start.q).lpNorm<Eigen::Infinity>();
   const double dv = (other.v - start.v).lpNorm<Eigen::Infinity>();
-  const State& end = ended.state();
   Sizes sizes{start.q.cwiseAbs(), start.v.cwiseAbs()};
-  sizes.take(end);
+  sizes.take(ended.state());
   MotionOptions beside = options;
   beside.step_limit =
       std::min(options.step_limit, most_steps_of_ended * ended.record().steps + steps_besides);
   const unsigned order = std::bit_ceil(numbers);
+  End end{ended.state()};
+  if (ended.record().impacts > 0)
+    if (const auto again = end_of(system, start, beside, end.state.t, 0, sizes)) end = *again;
   unsigned followed = 0;
   Vector change_q = Vector::Zero(start.q.size()), change_v = change_q;  // the worst
   for (unsigned k = 0; k < order && k < most; ++k) {
@@ -75,15 +113,15 @@ std::optional<RoundingGrowth> rounding_growth(const LagrangianSystem& system, co
     unsigned number = 0;
     move_by_a_rounding(other.q, k, number);
     move_by_a_rounding(other.v, k, number);
-    const std::optional<State> then = end_of(system, other, beside, end.t, sizes);
+    const std::optional<End> then = end_of(system, other, beside, end.state.t, end.struck, sizes);
     if (!then) continue;
     ++followed;
-    change_q = change_q.cwiseMax((then->q - end.q).cwiseAbs());
-    change_v = change_v.cwiseMax((then->v - end.v).cwiseAbs());
+    change_q = change_q.cwiseMax((then->state.q - end.state.q).cwiseAbs());
+    change_v = change_v.cwiseMax((then->state.v - end.state.v).cwiseAbs());
   }
   if (followed == 0) return std::nullopt;
   RoundingGrowth found;
-  const double time = end.t - start.t;
+  const double time = end.state.t - start.t;
   const auto look = [&](Index i, bool of_velocity, double change, double size, double error) {
     if (change > std::max(found.part * size, least_growth * error))
       found = {i, of_velocity, change, change / size};

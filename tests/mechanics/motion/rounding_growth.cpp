@@ -81,3 +81,24 @@ TEST_CASE("a bound is told where all rows of the next power of two were tried, a
   CHECK(some->bound_over_change == 0);
   CHECK(some->change <= all->change);
 }
+
+TEST_CASE("an impact right at the end, before it or after it by a rounding, is no growth") {
+  // A block that rocks on the corners of its base, until each of its first impacts.
+  const SystemText block{
+      {"y", "a"},
+      "y'^2/2 + 0.52/3*a'^2",
+      "9.81*y",
+      {},
+      {},
+      {},
+      {{"left", "y - cos(a) - 0.2*sin(a) >= 0"}, {"right", "y - cos(a) + 0.2*sin(a) >= 0"}}};
+  const State leaning = state({std::cos(0.1) + 0.2 * std::sin(0.1), 0.1}, {0, 0});
+  const std::vector<MotionEvent> impacts = followed(block, leaning, 1.4).of(EventKind::impact);
+  REQUIRE(impacts.size() >= 5);
+  for (const MotionEvent& impact : impacts) {
+    CAPTURE(impact.t);
+    const auto found = growth(block, leaning, impact.t);
+    REQUIRE(found);
+    CHECK(found->part == 0);
+  }
+}
