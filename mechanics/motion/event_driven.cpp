@@ -118,7 +118,11 @@ void Motion::EventDriven::watch() {
     Watched& one = watched_[count++];
     one.of = of;
     one.which = which;
-    one.c.assign(c.begin() + zeros, c.end());
+    c = c.subspan(static_cast<std::size_t>(zeros));
+    // On a branch that is not taken they may leave the range of doubles; half of them tell where it ends.
+    const std::size_t enough = c.size() / 2;
+    while (c.size() > enough && !std::isfinite(c.back())) c = c.first(c.size() - 1);
+    one.c.assign(c.begin(), c.end());
     one.rounding = rounding;
   };
   is_held_.assign(system.constraints().size(), false);

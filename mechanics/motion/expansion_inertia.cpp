@@ -91,7 +91,10 @@ void Expansion::sizes(std::vector<double>& of_order) const {
   std::size_t first =
       std::min(static_cast<std::size_t>(series_.found()), count - 1) / Eight::count * Eight::count;
   while (!find_eight(first) && first > 0) first -= Eight::count;
-  if (first > Eight::count) find_eight(first - Eight::count);  // the last two orders may lie on both sides
+  const std::span<const double> last(of_order.data() + first, Eight::count);
+  if (first > Eight::count &&
+      static_cast<std::size_t>(std::count(last.begin(), last.end(), 0.0)) > Eight::count - 2)
+    find_eight(first - Eight::count);  // the last two orders lie on both sides
   if (first > 0) find_eight(0);
   of_order.resize(count);
 }

@@ -33,7 +33,7 @@ constexpr int multiplier_levels = 4;
 /// An event no further from the start than this part of the period may hide the derivative there.
 constexpr double near_start = 1e-2;
 
-/// Error of the derivative by the variational equations, relative to its norm.
+/// Error of the derivative by the variational equations, relative to its largest norm on the way.
 constexpr double derivative_error = 1e-12;
 
 /// A motion with so many times the steps of the guess, and some, leads to no orbit near it.
@@ -52,21 +52,22 @@ std::optional<Matrix> for_newton(const PeriodMap& map, const TangentChart& chart
   return map.differences(chart, period, flight, newton_step, 1, true);
 }
 
-std::optional<Matrix> for_multipliers(const PeriodMap& map, const TangentChart& chart, double period,
-                                      const Flight& flight) {
+FlowDerivative for_multipliers(const PeriodMap& map, const TangentChart& chart, double period,
+                               const Flight& flight) {
   const FlowDerivative D = map.derivative(chart, flight);
-  if (D.kind == FlowDerivative::Kind::known) return D.value;
-  if (D.kind == FlowDerivative::Kind::none) return std::nullopt;
+  if (D.kind != FlowDerivative::Kind::undecided) return D;
   for (double step = multiplier_step; step > shortest_step; step *= 0.25)
     if (auto by_differences = map.differences(chart, period, flight, step, multiplier_levels, false))
-      return by_differences;
-  return std::nullopt;
+      return {FlowDerivative::Kind::known, *by_differences, by_differences->norm()};
+  return D;
 }
 
-/// The error of eigenvalues of a derivative of that norm: its own, or its root where two are nearly one (a
-/// double eigenvalue moves by the root of a perturbation).
-double circle_width(const std::vector<std::complex<double>>& multipliers, double norm) {
-  const double error = derivative_error * std::max(1.0, norm), root = std::sqrt(error);
+/// The error of eigenvalues of a derivative that is itself off by E, a part of its largest norm on the way,
+/// as beside a saddle: |E|, or where two are nearly one (2 |D| |E|)^(1/2), as in two dimensions (Elsner
+/// 1985).
+double circle_width(const std::vector<std::complex<double>>& multipliers, const FlowDerivative& D) {
+  const double size = std::max(1.0, D.value.norm());
+  const double error = derivative_error * std::max(size, D.growth), root = std::sqrt(2 * size * error);
   for (std::size_t i = 0; i < multipliers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (std::abs(multipliers[i] - multipliers[j]) < 4 * root) return root;
@@ -218,10 +219,10 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
       orbit.accumulating.insert(orbit.accumulating.end(), event.constraints.begin(), event.constraints.end());
   }
   chart.emplace(system, State{guess.t, x.head(n), x.tail(n)});
-  const auto D = for_multipliers(map, *chart, orbit.period, flight);
-  if (!D) return orbit;
-  orbit.multipliers = convex::linear_algebra::complex_eigenvalues(*D);
-  orbit.circle_width = circle_width(*orbit.multipliers, D->norm());
+  const FlowDerivative D = for_multipliers(map, *chart, orbit.period, flight);
+  if (D.kind != FlowDerivative::Kind::known) return orbit;
+  orbit.multipliers = convex::linear_algebra::complex_eigenvalues(D.value);
+  orbit.circle_width = circle_width(*orbit.multipliers, D);
   const auto others = multipliers_across(orbit, question.is_free);
   orbit.is_stable = std::all_of(others.begin(), others.end(),
                                 [&](const auto& m) { return std::abs(m) < 1 - orbit.circle_width; });

@@ -90,7 +90,7 @@ FlowDerivative PeriodMap::derivative(const TangentChart& chart, const Flight& fl
   variation_.hold(chart.origin(), two_sided_, directions);
   const Matrix ends = found.value * directions;
   for (Index k = 0; k < size; ++k) D.col(k) = chart.along(ends.col(k));
-  return {found.kind, std::move(D)};
+  return {found.kind, std::move(D), found.growth};
 }
 
 std::optional<Matrix> PeriodMap::differences(const TangentChart& chart, double period, const Flight& flight,

@@ -191,7 +191,7 @@ FlowDerivative flow_derivative(const Variation& variation, const std::vector<Fli
                                const MotionOptions& options, const std::vector<Index>& two_sided) {
   const Index n = variation.coordinates();
   const Saltation saltation(variation, options, two_sided);
-  FlowDerivative found{Kind::known, Matrix::Identity(2 * n, 2 * n)};
+  FlowDerivative found{Kind::known, Matrix::Identity(2 * n, 2 * n), 1};
   const auto held_after = [&](std::size_t k) {
     while (++k < flight.size())
       if (flight[k].arc.length > 0) return flight[k].arc.persist;
@@ -210,6 +210,7 @@ FlowDerivative flow_derivative(const Variation& variation, const std::vector<Fli
         return of;
       };
       found.value = linear_flow(J, length) * found.value;
+      found.growth = std::max(found.growth, found.value.norm());
       is_new = false;
     }
     if (piece.events.empty()) continue;

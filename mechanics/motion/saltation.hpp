@@ -22,6 +22,7 @@ struct FlowDerivative {
   };
   Kind kind = Kind::known;
   convex::Matrix value;
+  double growth = 0;  ///< its largest norm on the way: what roundings there may grow by
 };
 
 /// Along arcs the variational equations δx' = (∂x'/∂x) δx with the contacts held; at an event h(x, t) = 0 the

@@ -123,6 +123,12 @@ TEST_CASE("of a family of orbits by their energy, the one of the guess is found"
     CHECK_FALSE(found.is_stable);
     CHECK(found.is_neutral);
   }
+  // Beside the saddle errors grow on the way, by up to 2 / (pi - angle), before they shrink again.
+  for (const double angle : {3.11, 3.12, 3.13, 3.135, 3.14}) {
+    const Orbit found = find_orbit(*made, state({angle}, {0}), question);
+    REQUIRE(found.is_found);
+    CHECK(found.is_neutral);
+  }
   // Between walls that give all of it back, and a guess that is not on the orbit of the energy asked for.
   const SystemText walls{{"x"}, "x'^2/2", "x^2/2", {}, {}, {}, {{"left", "x >= -1"}, {"right", "x <= 1"}}};
   question.motion = restitution(walls, 1);
