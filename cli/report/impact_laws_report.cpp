@@ -40,15 +40,17 @@ std::string trouble(const FollowedMotion& followed, const ImpactScene& scene, co
   return text;
 }
 
-/// What a law makes of the impact; where Moreau's law leaves P open, the P of least norm.
+/// What a law makes of the impact; where P is left open, that of least norm.
 struct LawOutcome : ImpactOutcome {
   bool has_one_impulse = true;
 };
 
 LawOutcome outcome_of(const ImpactScene& scene, ImpactLaw law) {
   LawOutcome outcome{mechanics::impact(scene.A, scene.contacts, law)};
-  if (law != ImpactLaw::moreau || outcome.impulse.size() == 0) return outcome;
-  mechanics::MoreauImpulses all = mechanics::moreau_impulses(scene.A, scene.contacts);
+  if (outcome.impulse.size() == 0) return outcome;
+  mechanics::Impulses all = law == ImpactLaw::moreau
+                                ? mechanics::moreau_impulses(scene.A, scene.contacts)
+                                : mechanics::impulses_of(scene.A, scene.contacts, outcome);
   outcome.has_one_impulse = all.unique;
   if (!all.unique) outcome.impulse = std::move(all.least_norm);
   return outcome;
@@ -84,7 +86,7 @@ std::string impact_laws_json(const FollowedMotion& followed) {
     }
     json.key("velocity_after").numbers(followed.system.coordinates(), scene->velocity + outcome.change);
     json.key("impulses").numbers(contacts, outcome.impulse);
-    if (law == ImpactLaw::moreau) json.key("impulses_unique").value(outcome.has_one_impulse);
+    json.key("impulses_unique").value(outcome.has_one_impulse);
     json.key("kinetic_after").value(kinetic_after(*scene, outcome));
     if (!outcome.remark.empty()) json.key("remark").value(outcome.remark);
     json.end_object();

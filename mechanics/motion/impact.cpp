@@ -165,7 +165,32 @@ ImpactOutcome moreau_impact(const convex::Metric& A, const std::vector<ImpactCon
   return rounded_outcome(A, contacts, std::move(solution.q), std::move(solution.lambda));
 }
 
-MoreauImpulses moreau_impulses(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
+Impulses impulses_of(const convex::Metric& A, const std::vector<ImpactContact>& contacts,
+                     const ImpactOutcome& outcome) {
+  std::vector<ImpactContact> pushing;
+  std::vector<Index> which;
+  for (std::size_t a = 0; a < contacts.size(); ++a) {
+    const auto at = static_cast<Index>(a);
+    if (!contacts[a].two_sided && !(contacts[a].rate < 0) && !(outcome.impulse[at] > 0)) continue;
+    pushing.push_back(contacts[a]);
+    which.push_back(at);
+  }
+  // v+ - v- = A⁻¹ Σ P_a u_a, P_a >= 0, is the least change that does as much to these contacts.
+  Vector s(static_cast<Index>(which.size()));
+  for (std::size_t k = 0; k < pushing.size(); ++k)
+    s[static_cast<Index>(k)] = pushing[k].u.dot(outcome.change);
+  const convex::NearestPointProblem problem = least_change(A, pushing, s);
+  const convex::Solution solution = convex::automatic(problem);
+  Impulses found{true, outcome.impulse};
+  if (solution.status == convex::Status::infeasible) return found;
+  const convex::Multipliers all = convex::multipliers(problem, solution, alike, false);
+  found.unique = all.unique;
+  for (std::size_t k = 0; k < which.size() && !all.unique; ++k)
+    found.least_norm[which[k]] = all.least_norm[static_cast<Index>(k)];
+  return found;
+}
+
+Impulses moreau_impulses(const convex::Metric& A, const std::vector<ImpactContact>& contacts) {
   const convex::NearestPointProblem problem = moreau_problem(A, contacts);
   const convex::Solution solution = convex::automatic(problem);
   if (solution.status == convex::Status::infeasible) return {};

@@ -123,6 +123,26 @@ TEST_CASE("where Moreau's law leaves the impulses open, those of least norm are 
   CHECK(one["laws"]["moreau"]["impulses_unique"] == true);
 }
 
+TEST_CASE(
+    "where a law leaves the impulses of redundant contacts open, those of least norm are shown, and it is "
+    "said") {
+  // One floor twice, the second time three times as steep: P + 3 P' is what v+ tells, and P' = 3 P is least.
+  const std::string doubled =
+      "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\n[system.constraints]\nfloor = \"y >= 0\"\n"
+      "again = \"3*y >= 0\"\n[state]\nposition = { y = 1 }\nvelocity = { y = -1 }\n[simulate]\nuntil = 2\n"
+      "restitution = 0.5\n";
+  const Folder folder;
+  const std::string file = folder.write("d.toml", doubled);
+  const OrbitJson laws = OrbitJson::parse(run({"simulate", "--json", "--impact-laws", file}).out)["laws"];
+  for (const char* law : {"moreau", "poisson", "sequential"}) {
+    CAPTURE(law);
+    CHECK(laws[law]["impulses_unique"] == false);
+    CHECK(std::abs(laws[law]["velocity_after"]["y"].get<double>() - 0.5) <= 1e-14);
+    CHECK(std::abs(laws[law]["impulses"]["floor"].get<double>() - 0.15) <= 1e-13);
+    CHECK(std::abs(laws[law]["impulses"]["again"].get<double>() - 0.45) <= 1e-13);
+  }
+}
+
 TEST_CASE("of too many forces a page draws the strongest, and counts the others") {
   // Discs side by side, each heavier than the one before: the arrows left out are the first ones.
   const Folder folder;
