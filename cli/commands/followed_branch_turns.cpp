@@ -48,8 +48,9 @@ bool FollowedBranch::graze(double beyond, bool& is_on) {
     is_on = begin_behind_grazing(at, impacts);
     if (!is_on)
       why_ =
-          "its orbit grazes a contact there, and none is found that goes on from it; for those beyond, begin "
-          "at the state of one";
+          "its orbit grazes a contact there, and none is found that goes on from it; orbits with the impact "
+          "may come back beside those without it: begin at one, found from other states, and its branch "
+          "leads here";
     return true;
   };
   if (!trail_.back().orbit.multipliers) return go_on(Station(trail_.back()));  // told already
