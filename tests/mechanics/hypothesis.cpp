@@ -131,3 +131,18 @@ TEST_CASE("a wrong acceleration shows in the reaction from the dual when every c
   REQUIRE(again);
   CHECK(again->difference > 0.1);
 }
+
+TEST_CASE("what the error bound leaves open is no reason to reject the hypothesis of a body at rest") {
+  // c: 2 x'' >= s_1 and -2 x'' = s_2 without forces, with what rounding leaves of s: either motion is rest.
+  constexpr double u = 0x1p-53;
+  NearestPointProblem problem{convex::Metric::identity(2),
+                              Vector::Zero(2),
+                              convex::ConstraintRows(RowMatrix{{2, 0.3}, {-1.4, -0.21}, {1, 1}}),
+                              Vector{{0, 2 * u, 0}},
+                              {1, 2},
+                              convex::DataRadii{Vector::Constant(3, 8 * u), Vector::Constant(3, 8 * u)}};
+  const mechanics::GaussSolution found = mechanics::solve(problem);
+  REQUIRE(found.primal.status == convex::Status::solved);
+  CHECK(found.primal.error_bound >= found.primal.acceleration_norm);
+  CHECK(found.hypothesis.accepted);
+}
