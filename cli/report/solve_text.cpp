@@ -9,6 +9,7 @@
 #include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
+#include "convex/double_double.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -180,7 +181,9 @@ std::string from_text_text(const SolvedScene& solved) {
     text += fmt::format("; the acceleration is that of the mechanism as written{} to {:.1e}",
                         solved.on_edge ? ", on the branch that is taken," : "", *proof.error_bound);
   else if (!is_proved(solved.certificate))
-    text += proof.contacts_hold ? "; no bound on the acceleration is proved from there"
+    text += proof.contacts_hold ? solved.infeasible()
+                                      ? "; that they contradict each other is not proved from there"
+                                      : "; no bound on the acceleration is proved from there"
                                 : ". Nothing is proved of the mechanism as written";
   if (!proof.vanishing.empty())
     text += fmt::format(". The gradient of {} is 0 there: second derivatives do not tell what it asks for",
@@ -188,10 +191,9 @@ std::string from_text_text(const SolvedScene& solved) {
   if (!proof.dependent.empty())
     text += fmt::format(
         ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does "
-        "not "
-        "tell: {} counted as dependent and consistent",
+        "not tell: {} counted as dependent{}",
         constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
-        proof.dependent.size() == 1 ? "it is" : "they are");
+        proof.dependent.size() == 1 ? "it is" : "they are", solved.infeasible() ? "" : " and consistent");
   return text + ".\n" + fractions_text(solved, proof);
 }
 
@@ -212,11 +214,18 @@ const char* proof_text(const std::optional<convex::Certificate>& certificate) {
 std::string dual_text(const SolvedScene& solved) {
   if (!solved.solution.from_dual) return "";
   constexpr double agreement = 1e-9;
+  const convex::Solution& primal = solved.solution.primal;
+  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double difference = solved.solution.from_dual->difference;
-  if (difference <= agreement && !solved.verbose) return "";
-  return fmt::format("The reaction found from the dual alone (Moreau 1966, section 5) {} {:.1e}{}.\n",
-                     difference <= agreement ? "agrees to" : "DIFFERS by", difference,
-                     difference <= agreement ? "" : ": one of the two routes is inaccurate here");
+  constexpr const char* route = "The reaction found from the dual alone (Moreau 1966, section 5)";
+  if (difference <= agreement)
+    return solved.verbose ? fmt::format("{} agrees to {:.1e}.\n", route, difference) : "";
+  // At rest both are roundings, and a part of them says nothing.
+  if (difference * scale <= primal.error_bound && primal.status == convex::Status::solved)
+    return solved.verbose ? fmt::format("{} is as near as the error bound: {:.1e} of {:.1e}.\n", route,
+                                        difference * scale, primal.error_bound)
+                          : "";
+  return fmt::format("{} DIFFERS by {:.1e}: one of the two routes is inaccurate here.\n", route, difference);
 }
 
 /// Of which mechanism the accuracy speaks: contacts that the tolerance closed are not as they were written.
@@ -244,13 +253,19 @@ std::string accuracy_text(const SolvedScene& solved) {
   if (!std::isfinite(primal.error_bound))
     return fmt::format("NOT solved: {} gives this acceleration, and nothing is known of its error.\n",
                        primal.method);
-  std::string accuracy = fmt::format(
-      "relative error of the acceleration at most {}{}{}", is_proved(solved.certificate) ? "" : "about ",
-      relative > 0 ? fmt::format("{:.1e}", relative) : "0", proof_text(solved.certificate));
+  // A part of nothing says nothing: where the bound is not below the acceleration and the forces, it is told
+  // itself.
+  const bool may_be_zero = scale > 0 && relative >= 1 && primal.status == convex::Status::solved;
+  const double unit = scale > 0 && !may_be_zero ? scale : 1;
+  std::string accuracy =
+      fmt::format("{}error of the acceleration at most {}{}{}{}", may_be_zero ? "" : "relative ",
+                  is_proved(solved.certificate) ? "" : "about ",
+                  relative > 0 ? fmt::format("{:.1e}", primal.error_bound / unit) : "0",
+                  may_be_zero ? " in the kinetic norm (it may be 0)" : "", proof_text(solved.certificate));
   const std::string mechanism = mechanism_text(solved);
   if (solved.as_evaluated && solved.verbose)
-    accuracy += fmt::format(" for {}, {:.1e} for A, z, U, s as evaluated", mechanism,
-                            scale > 0 ? *solved.as_evaluated / scale : *solved.as_evaluated);
+    accuracy +=
+        fmt::format(" for {}, {:.1e} for A, z, U, s as evaluated", mechanism, *solved.as_evaluated / unit);
   else if (solved.as_evaluated || (solved.solution.as_written && solved.scene.written))
     accuracy += " for " + mechanism;
   else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
@@ -266,16 +281,16 @@ std::string accuracy_text(const SolvedScene& solved) {
 std::string infeasible_text(const SolvedScene& solved) {
   const convex::Vector& w = solved.solution.primal.farkas;
   std::vector<std::string> parts;
-  double sum = 0;
+  convex::DoubleDouble sum{0, 0};  // rows may contradict each other by less than a rounding of w·s
   for (Index row = 0; row < w.size(); ++row) {
     if (w[row] == 0) continue;
     parts.push_back(fmt::format("{} times {}", number_text(w[row]), solved.scene.contact_name(row)));
-    sum += w[row] * solved.scene.problem.s[row];
+    sum = add(sum, convex::two_product(w[row], solved.scene.problem.s[row]));
   }
   return fmt::format(
       "No acceleration satisfies all contacts: in the sum of\n  {}\nthe accelerations cancel, and what is "
       "left reads 0 >= {} (Farkas).{}\n",
-      listed(parts), number_text(sum),
+      listed(parts), number_text(sum.value()),
       !is_proved(solved.certificate)                           ? ""
       : solved.certificate->level == convex::ProofLevel::exact ? " Proved in fractions."
                                                                : " Proved with bounds on every rounding.");
