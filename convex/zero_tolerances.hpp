@@ -17,8 +17,8 @@ inline constexpr double zero_coefficient = 1e-9;
 /// A slack in doubles that is closer to 0 is computed again in twice the working precision.
 inline constexpr double near_zero = 1e-8;
 
-/// Weights of rows that are not exactly 0 together exclude motions up to some size only: they prove a
-/// contradiction when that is so many times the scale of the problem.
+/// Rows that are 0 together within their radii alone exclude motions up to so many times the scale: it is how
+/// large an answer may be, not what is dependent (docs/methods/decisions-without-rounding.md).
 inline constexpr double farthest_motion = 1e3;
 
 }  // namespace convex
