@@ -9,11 +9,6 @@ namespace {
 
 constexpr const char* sizes_differ = "the functions differ in size; give functions of one space";
 
-/// f with its x read by the entries given from n' variables and its auxiliary ones placed from `first` on.
-LinearQuadratic placed(const LinearQuadratic& f, Index n, Index columns, Index first, Entries x_entries) {
-  return substitute(f, n, placement(f, columns, first, std::move(x_entries)), Vector::Zero(f.variables()));
-}
-
 Index total_auxiliaries(std::span<const LinearQuadratic> terms) {
   Index k = 0;
   for (const LinearQuadratic& f : terms) k += f.auxiliaries();

@@ -14,6 +14,10 @@ SparseMatrix placement(const LinearQuadratic& f, Index columns, Index first, Ent
   return T;
 }
 
+LinearQuadratic placed(const LinearQuadratic& f, Index n, Index columns, Index first, Entries x_entries) {
+  return substitute(f, n, placement(f, columns, first, std::move(x_entries)), Vector::Zero(f.variables()));
+}
+
 Entries identity_at(Index n, Index column, double factor) {
   Entries entries;
   for (Index i = 0; i < n; ++i)

@@ -11,6 +11,9 @@ using Entries = std::vector<Eigen::Triplet<double>>;
 /// by the entries given. columns: how many η there are.
 SparseMatrix placement(const LinearQuadratic& f, Index columns, Index first, Entries x_entries);
 
+/// f, a function of n variables, by that map.
+LinearQuadratic placed(const LinearQuadratic& f, Index n, Index columns, Index first, Entries x_entries);
+
 /// Entries of factor · identity, n×n, at (0, column).
 Entries identity_at(Index n, Index column, double factor);
 void append(Entries& entries, const Entries& more);

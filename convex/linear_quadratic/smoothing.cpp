@@ -18,10 +18,6 @@ LinearQuadratic half_square(const Metric& W, double factor, Index n, Index colum
                     Vector::Zero(square.n));
 }
 
-LinearQuadratic placed(const LinearQuadratic& f, Index n, Index columns, Index first, Entries entries) {
-  return substitute(f, n, placement(f, columns, first, std::move(entries)), Vector::Zero(f.variables()));
-}
-
 Entries along(Index n, double on_x, double on_d) {
   Entries entries = identity_at(n, 0, on_x);
   append(entries, identity_at(n, n, on_d));
