@@ -23,10 +23,6 @@ struct OnLine {
   Ends ends(Index) const { return {}; }
 };
 
-struct AnySize {
-  Index dimension() const { return 0; }
-};
-
 /// One number for every entry, or one each.
 struct Weights {
   double operator[](Index i) const { return each.size() > 0 ? each[i] : all; }

@@ -10,10 +10,6 @@
 namespace convex::inline named_functions {
 namespace {
 
-struct AnySize {
-  Index dimension() const { return 0; }
-};
-
 /// |x|^p, p > 1.
 struct Power : AnySize {
   double p;

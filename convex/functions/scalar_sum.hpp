@@ -17,6 +17,11 @@ struct Ends {
   double support(double v) const { return v == 0 ? 0 : v * (v > 0 ? high : low); }
 };
 
+/// What the laws of sums of any number of entries have in common.
+struct AnySize {
+  Index dimension() const { return 0; }
+};
+
 /// Σ_i f_i(x_i) with smooth f_i given by a law:
 ///   Call call() const; Function conjugate() const; Index dimension() const (0: any);
 ///   bool finite() const;                            f_i is finite everywhere
