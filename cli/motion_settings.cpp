@@ -1,14 +1,10 @@
 #include "cli/motion_settings.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "cli/motion_files.hpp"
-#include "cli/problem_file/keys.hpp"
-#include "cli/problem_file/numbers_by_constraint.hpp"
 #include "cli/scene.hpp"
-#include "mechanics/number_text.hpp"
 
 namespace cli {
 namespace {
@@ -25,19 +21,6 @@ mechanics::ImpactLaw impact_law(const SimulateSettings& settings) {
 
 /// From about here on steps are quicker than events at an error of 1e-2 (`moreau chart --motion`).
 constexpr std::ptrdiff_t fewest_for_steps = 300;
-
-/// A number, or an expression in the parameters of the file.
-double value_of(const Problem& problem, const mechanics::LagrangianSystem& system, const std::string& text,
-                const std::string& where, std::optional<convex::Place> place) {
-  double value = 0;
-  const std::from_chars_result number = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (number.ec == std::errc() && number.ptr == text.data() + text.size()) return value;
-  try {
-    return cli::value_of(problem, system, text, where);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput(error.what(), place);
-  }
-}
 
 }  // namespace
 
@@ -67,23 +50,6 @@ MotionWay motion_way(const SimulateSettings& settings, const mechanics::System& 
                              "falls with [simulate] step"};
 }
 
-convex::Vector restitutions(const Problem& problem, const mechanics::LagrangianSystem& system) {
-  double of_all = 0;
-  std::vector<NamedNumber> by_name;
-  const auto add = [&](const Restitution& one) {
-    const double e = value_of(problem, system, one.e.text, one.where, one.e.begin);
-    require_restitution(e, one.e.text + " = " + mechanics::number_text(e), one.where, one.e.begin);
-    if (one.constraint.empty())
-      of_all = e;
-    else
-      by_name.push_back({one.constraint, one.place, e});
-  };
-  for (const Restitution& one : std::get<SystemProblem>(problem.content).restitutions) add(one);
-  // Those of [simulate] come later, and win.
-  for (const Restitution& one : problem.simulate.restitutions) add(one);
-  return numbers_by_constraint("simulate.restitution", of_all, by_name, constraint_names(system));
-}
-
 mechanics::MotionOptions motion_options(const Problem& problem, const mechanics::LagrangianSystem& system,
                                         const MotionChoice& options) {
   const SimulateSettings& settings = problem.simulate;
@@ -101,20 +67,6 @@ mechanics::MotionOptions motion_options(const Problem& problem, const mechanics:
   chosen.contact_tolerance = contact_tolerances(problem.solve, constraint_names(system));
   chosen.restitution = restitutions(problem, system);
   return chosen;
-}
-
-double value_of(const Problem& problem, const mechanics::LagrangianSystem& system,
-                const std::string& expression, const std::string& where) {
-  // A time is an expression in the parameters.
-  mechanics::StateText state = std::get<SystemProblem>(problem.content).state;
-  state.t = mechanics::Text{expression, {}};
-  try {
-    return system.state(state).t;
-  } catch (const InvalidInput& error) {
-    const std::string what = error.what(), prefix = "t of the state: ";  // it was read as one
-    throw InvalidInput(where + " " + expression + ": " +
-                       (what.starts_with(prefix) ? what.substr(prefix.size()) : what));
-  }
 }
 
 double end_of_motion(const Problem& problem, const mechanics::LagrangianSystem& system,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/options.hpp"
+#include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "mechanics/motion/motion.hpp"
 
@@ -21,13 +22,6 @@ MotionWay motion_way(const SimulateSettings&, const mechanics::System&, const Mo
 /// own; options of the command line win.
 mechanics::MotionOptions motion_options(const Problem&, const mechanics::LagrangianSystem&,
                                         const MotionChoice&);
-
-/// e by constraint, of the parameters that the problem has. Throws InvalidInput where one is not from 0 to 1.
-convex::Vector restitutions(const Problem&, const mechanics::LagrangianSystem&);
-
-/// The value of an expression in the parameters of a file. `where` names it in messages.
-double value_of(const Problem&, const mechanics::LagrangianSystem&, const std::string& expression,
-                const std::string& where);
 
 /// The end of a motion: that of the command line, or of [simulate]. Throws InvalidInput where neither is
 /// there or it is not finite.

@@ -3,7 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "mechanics/lagrangian_text.hpp"
+#include "cli/problem_file/problem.hpp"
+#include "mechanics/lagrangian_system.hpp"
 
 namespace cli::inline problem_files {
 
@@ -11,5 +12,16 @@ namespace cli::inline problem_files {
 /// wrong, which is told where it stands.
 std::optional<double> value_in_parameters(const mechanics::LagrangianText& system,
                                           const std::string& expression);
+
+/// The value of an expression in the parameters of a file. `where` names it in messages.
+double value_of(const Problem&, const mechanics::LagrangianSystem&, const std::string& expression,
+                const std::string& where);
+
+/// The same of a number too, which needs no parameters; what is wrong is told at its place in the file.
+double value_of(const Problem&, const mechanics::LagrangianSystem&, const std::string& text,
+                const std::string& where, std::optional<convex::Place>);
+
+/// e by constraint, of the parameters that the problem has. Throws InvalidInput where one is not from 0 to 1.
+convex::Vector restitutions(const Problem&, const mechanics::LagrangianSystem&);
 
 }  // namespace cli::inline problem_files

@@ -15,7 +15,7 @@ double tolerance_of_step(double tolerance) {
 
 int taylor_order(double tolerance) {
   constexpr int least = 8, most = 40;
-  constexpr double orders_of_digit = 0.95;
+  constexpr double orders_of_digit = 0.8;
   return std::clamp(static_cast<int>(std::ceil(-orders_of_digit * std::log(tolerance) + 1)) + 2, least, most);
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "cli/drawing/drawn_scene.hpp"
+#include "cli/problem_file/parameter_values.hpp"
 #include "cli/problem_file/problem.hpp"
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/functions/decomposition.hpp"
@@ -64,7 +65,7 @@ void move(const cli::Problem& problem) {
   const auto m = static_cast<convex::Index>(system->constraints().size());
   if (n > most_moving_coordinates || m > most_moving_contacts) return;
   mechanics::MotionOptions options;
-  options.restitution = convex::Vector::Constant(m, problem.simulate.restitution);
+  options.restitution = cli::restitutions(problem, *system);
   options.step_limit = 30;
   options.step = problem.simulate.step.value_or(options.step);
   options.tolerance = problem.simulate.tolerance.value_or(options.tolerance);

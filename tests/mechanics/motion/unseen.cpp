@@ -46,7 +46,7 @@ TEST_CASE("a fast force with forty zeros at the beginning is not taken as none")
 
 TEST_CASE("a bound that only min sees keeps a growing force") {
   // exp(300 (t - 2)) reaches 1000 at 2 + log(1000)/300. Coefficients of its series leave the range of doubles
-  // near t = 4: from order 37 on there, from 24 on at 4.1.
+  // near t = 4.1: from order 24 on.
   for (const double until : {4.0, 4.1}) {
     const Followed motion = pushed("min(1e3, exp((t - 2)*300))", until);
     const double reached = 2 + std::log(1000.0) / 300;
