@@ -83,9 +83,10 @@ ContactArrows::Drawn ContactArrows::at(const mechanics::State& state, const Vect
   if (loaded.size() > most_arrows)
     std::stable_sort(strongest.begin(), strongest.end(),
                      [&](Index i, Index j) { return strength[i] > strength[j]; });
+  bool is_full = false;
   for (const Index row : strongest) {
     const Index a = loaded[static_cast<std::size_t>(row)];
-    if (arrows.size() >= most_arrows) {
+    if (is_full) {
       ++drawn.left_out;
       continue;
     }
@@ -93,6 +94,11 @@ ContactArrows::Drawn ContactArrows::at(const mechanics::State& state, const Vect
     std::optional<Places>& places = found_[static_cast<std::size_t>(a)];
     if (!places) places = places_of(u, state);
     if (places->empty()) continue;
+    if (arrows.size() + places->size() > most_arrows) {
+      is_full = true;
+      ++drawn.left_out;
+      continue;
+    }
     std::vector<Index> numbers;
     for (const std::size_t k : *places) {
       numbers.push_back(places_[k].x);
