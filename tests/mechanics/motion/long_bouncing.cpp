@@ -76,6 +76,13 @@ TEST_CASE("the time of a landing that is softer than soft is uncertain by more t
       if (remark.kind == RemarkKind::slow_closing) told = remark.loss;
     CHECK(told >= off);
     CHECK(told <= 0.1);
+    // Impacts that follow end as uncertainly: what they tell of it counts the first one.
+    for (const MotionEvent& ending : found.of(EventKind::accumulation)) {
+      double within = 0;
+      for (const MotionRemark& remark : found.motion.record().remarks)
+        if (remark.kind == RemarkKind::accumulation) within = std::max(within, remark.loss);
+      CHECK(std::abs(ending.t - 1) <= within);
+    }
   }
 }
 
