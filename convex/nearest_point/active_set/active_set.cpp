@@ -215,7 +215,7 @@ class DualActiveSet {
     double multiplier = 0;
     bool changed = false;
     while (true) {
-      const bool dependent = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
+      const bool dependent = !(split_.rho > 0);
       if (dependent) {
         const double gap = contradiction(set_, p, split_);
         // A row that is not quite a combination of W takes the place of one that can give way: where nothing

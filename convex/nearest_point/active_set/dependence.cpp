@@ -30,7 +30,7 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
   for (Index a : tight) {
     if (set.holds(a)) continue;
     set.split(a, split);
-    if (split.rho > 0 && set.size() < set.factor().capacity()) {
+    if (split.rho > 0) {
       set.append(a, split, 0);
       continue;
     }

@@ -48,6 +48,8 @@ void WorkingSet::split(Index p, Split& into) {
   into.rest = into.rho;
   into.within_radii = false;
   if (into.rho < doubtful_part * into.length) sharpen(p, into);
+  // Nothing lies outside the span of as many rows as there are coordinates, whatever rounding leaves of it.
+  if (size() == factor_.capacity()) into.rho = 0;
 }
 
 void WorkingSet::sharpen(Index p, Split& split) {

@@ -30,7 +30,7 @@ std::optional<Vector> contradictory_two_sided_rows(const NearestPointProblem& pr
   WorkingSet::Split split;
   for (Index p : problem.two_sided) {
     set.split(p, split);
-    if (split.rho > 0 && set.size() < set.factor().capacity())
+    if (split.rho > 0)
       set.append(p, split, 0);
     else if (const double gap = contradiction(set, p, split); std::abs(gap) > 0)
       return contradiction_weights(set, p, split, gap > 0 ? 1 : -1);

@@ -26,7 +26,7 @@ class Polish {
   Holding run(const Vector& q, const Vector& lambda, Index most_changes) {
     for (Index p : problem_.two_sided) {
       set_.split(p, split_);
-      if (split_.rho > 0 && set_.size() < set_.factor().capacity()) set_.append(p, split_, lambda[p]);
+      if (split_.rho > 0) set_.append(p, split_, lambda[p]);
     }
     set_.fix();
     for (Index p : active(q, lambda)) take_in(p, lambda[p]);
@@ -68,7 +68,7 @@ class Polish {
   /// the row that comes to 0 first is dropped.
   void take_in(Index p, double multiplier) {
     set_.split(p, split_);
-    while (!(split_.rho > 0) || set_.size() == set_.factor().capacity()) {
+    while (!(split_.rho > 0)) {
       double step = multiplier;
       Index blocking = -1;
       for (Index k = 0; k < set_.size(); ++k) {
@@ -105,7 +105,7 @@ class Polish {
               [&](Index a, Index b) { return slack_[a] * row_scale_[b] < slack_[b] * row_scale_[a]; });
     for (Index p : rows) {
       set_.split(p, split_);
-      const bool spanned = !(split_.rho > 0) || set_.size() == set_.factor().capacity();
+      const bool spanned = !(split_.rho > 0);
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
         // Where rows that are flat to rounding meet, their edge may be far away.
         contradiction_ =
@@ -138,7 +138,7 @@ class Polish {
   /// Takes in the violated row p; where W spans it, the row that blocks first goes. False when none does:
   /// then the rows contradict each other.
   bool exchange(Index p) {
-    while (!(split_.rho > 0) || set_.size() == set_.factor().capacity()) {
+    while (!(split_.rho > 0)) {
       double step = infinity;
       Index blocking = -1;
       for (Index k = 0; k < set_.size(); ++k) {

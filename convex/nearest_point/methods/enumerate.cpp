@@ -30,7 +30,7 @@ class Enumeration {
       if (two_sided[static_cast<std::size_t>(a)]) {
         typename Set::Split split;
         set_.split(a, split);
-        if (split.rho > 0 && set_.size() < set_.factor().capacity()) set_.append(a, split, 0);
+        if (split.rho > 0) set_.append(a, split, 0);
       } else if (length_[a] > 0) {
         rows_.push_back(a);
       }
@@ -45,7 +45,7 @@ class Enumeration {
     for (std::size_t k = first; k < rows_.size(); ++k) {
       typename Set::Split split;
       set_.split(rows_[k], split);
-      if (!(split.rho > 0) || set_.size() == set_.factor().capacity()) {
+      if (!(split.rho > 0)) {
         if (contradicts(rows_[k], split)) return false;
         continue;
       }

@@ -35,7 +35,7 @@ std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const V
     double rest = w[p];
     bool gone = false;
     set.split(p, split);
-    while (!gone && (!(split.rho > 0) || set.size() == set.factor().capacity())) {
+    while (!gone && !(split.rho > 0)) {
       const double gap = contradiction(set, p, split), sign = gap < 0 ? -1 : 1;
       // The weights move by sign (1, -r); the first one-sided weight that comes to 0 stops them.
       double step = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const V
       set.remove(blocking);
       set.split(p, split);
     }
-    if (!gone && split.rho > 0 && set.size() < set.factor().capacity()) set.append(p, split, rest);
+    if (!gone && split.rho > 0) set.append(p, split, rest);
   }
   return std::nullopt;
 }

@@ -141,3 +141,19 @@ TEST_CASE("where rows meet far away at a small angle, no method calls solved wha
     }
   }
 }
+
+TEST_CASE("a third row of two coordinates depends on the two held, however much longer it is") {
+  // Rows of lengths 5e-13, 1/3 and 6e149: what rounding leaves of the third was taken for a third direction.
+  RowMatrix U(3, 2);
+  U << 5e-13, 1e-13, -0.3333333333333333, 0.03333333333336667, 6.370365454394964e+149, 5.276541048224815e+148;
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector{{64, 8192}}),
+                                    Vector::Zero(2),
+                                    convex::ConstraintRows(U),
+                                    Vector{{-1.5e-13, 0.19999999999999998, -2.6575286223750004e+149}},
+                                    {0, 1, 2}};
+  REQUIRE(convex::find_method("exact")->solve(problem, {}).status == Status::infeasible);
+  for (const char* method : {"auto", "active-set", "enumerate"}) {
+    CAPTURE(std::string(method));
+    CHECK(convex::find_method(method)->solve(problem, {}).status == Status::infeasible);
+  }
+}
