@@ -5,10 +5,10 @@
 
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
+#include "mechanics/cancelling_gradients.hpp"
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/rounded_data.hpp"
 #include "mechanics/singular/resolution.hpp"
-#include "mechanics/vanishing_gradient.hpp"
 
 namespace cli {
 
@@ -129,14 +129,16 @@ mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {
   return found;
 }
 
-/// A contact of which second derivatives tell nothing, and that the answer would violate: then nothing is
+/// Contacts of which second derivatives do not tell all, and that the answer would violate: then nothing is
 /// known of the acceleration.
-std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene, convex::Solution& solution) {
+std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
+                                                           mechanics::GaussSolution& answer) {
+  convex::Solution& solution = answer.primal;
   if (!scene.written || solution.status == convex::Status::infeasible ||
       solution.q.size() != scene.problem.dimension())
     return std::nullopt;
-  auto warning =
-      mechanics::violated_at_higher_order(*scene.written, scene.contacts, scene.problem, solution.q);
+  auto warning = mechanics::violated_at_higher_order(*scene.written, scene.contacts, scene.problem,
+                                                     answer.multipliers.tight, solution);
   if (warning) {
     solution.status = convex::Status::inaccurate;
     solution.error_bound = convex::infinity;
@@ -162,7 +164,7 @@ ProvedScene resolve_and_prove(Scene& scene, bool certify) {
     mechanics::prove_as_written(found, scene.problem, *scene.written, scene.contacts, scene.solve);
   // What is proved of rows that were settled is proved of the mechanism by its text alone.
   if (scene.is_settled && !(found.text && found.text->error_bound)) nothing();
-  if (auto violated = violated_at_higher_order(scene, found.solution.primal)) {
+  if (auto violated = violated_at_higher_order(scene, found.solution)) {
     resolved.warnings.push_back(*std::move(violated));
     nothing();
   }

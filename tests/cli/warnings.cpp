@@ -232,6 +232,41 @@ TEST_CASE("a contact whose gradient vanishes and that the answer would violate l
   CHECK(Json::parse(free.out).at("warnings").empty());
 }
 
+TEST_CASE(
+    "contacts whose gradients cancel and that forbid the acceleration together leave nothing known of it") {
+  struct {
+    const char *constraints, *x;
+    bool is_forbidden;
+  } const scenes[] = {
+      // Between two circles that touch there is a point; beside them, a gap.
+      {"a = \"x^2 + y^2 <= 1\"\nb = \"(x-2)^2 + y^2 <= 1\"", "1", true},
+      {"a = \"x^2 + y^2 >= 1\"\nb = \"(x-2)^2 + y^2 >= 1\"", "1", false},
+      // A wedge without a width, open to neither side, and to one.
+      {"a = \"x >= 0\"\nb = \"x <= -y^2\"", "0", true},
+      {"a = \"x >= 0\"\nb = \"x <= y^4\"", "0", false},
+      {"a = \"x >= y^2\"\nb = \"x = 0\"", "0", true},
+      // Three gradients that cancel: f_a + f_b + f_c = -3 y^2 / 2 leaves one point of the line x = 0.
+      {"a = \"x >= y^2/2\"\nb = \"z - x >= y^2/2\"\nc = \"-z >= y^2/2\"", "0", true},
+      {"a = \"x >= -y^2/2\"\nb = \"z - x >= y^2/2\"\nc = \"-z >= 0\"", "0", false},
+      // No gradient cancels.
+      {"a = \"x >= -y^2\"\nb = \"z >= y^2\"", "0", false},
+  };
+  for (const auto& scene : scenes) {
+    CAPTURE(std::string(scene.constraints));
+    const Outcome found = run_json_on("solve",
+                                      "[system]\ncoordinates = [\"x\", \"y\", \"z\"]\n"
+                                      "kinetic = \"(x'^2 + y'^2 + 3*z'^2)/2\"\npotential = \"9.81*y\"\n"
+                                      "[system.constraints]\n" +
+                                          std::string(scene.constraints) +
+                                          "\n[state]\nposition = { x = " + scene.x + ", y = 0, z = 0 }\n");
+    const Json object = Json::parse(found.out);
+    CHECK(found.code == (scene.is_forbidden ? 3 : 0));
+    CHECK((object.at("certificate").at("error_bound") == "inf") == scene.is_forbidden);
+    const bool is_told = found.err.find("the gradients cancel here") != std::string::npos;
+    CHECK(is_told == scene.is_forbidden);
+  }
+}
+
 TEST_CASE("a gap that the contact tolerance closes is told, one that is rounding is not") {
   const auto above = [](const std::string& y) {
     return "[system]\ncoordinates = [\"y\"]\nkinetic = \"y'^2/2\"\npotential = \"9.81*y\"\n"
