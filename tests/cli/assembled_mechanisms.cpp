@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -62,7 +63,7 @@ TEST_CASE(
   const Json follower = assembled(folder.write("c.toml", cam), {"--contact", "follower"});
   CHECK(v(follower, "y") / v(follower, "phi") > 0);  // it rises with the cam
 
-  const std::string crank = std::string(MOREAU_SOURCE) + "/docs/problems/slider_crank_clearance.toml";
+  const std::string crank = tests::source_folder() + "docs/problems/slider_crank_clearance.toml";
   const Json slider =
       assembled(crank, {"--set", "position.p1=2.3", "--set", "position.p2=-0.48", "--set", "position.p3=0.02",
                         "--hold", "p1", "--contact", "corner3", "--contact", "corner4"});

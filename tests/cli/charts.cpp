@@ -17,6 +17,7 @@
 #include "cli/measurement/peers.hpp"
 #include "convex/nearest_point/methods.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -160,7 +161,7 @@ TEST_CASE("Ctrl-C ends the work and keeps what is done") {
   if (child == 0) {
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
-    execl(MOREAU_PROGRAM, MOREAU_PROGRAM, "stress", "--data", data.c_str(), nullptr);
+    execl(tests::program_file().c_str(), "moreau", "stress", "--data", data.c_str(), nullptr);
     _exit(127);
   }
   REQUIRE(child > 0);

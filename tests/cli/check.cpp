@@ -6,13 +6,14 @@
 #include "cli/report/checks_report.hpp"
 #include "cli/report/json_writer.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
 
 namespace {
 
-const std::string folder_of_problems = MOREAU_SOURCE "/docs/problems/";
+const std::string folder_of_problems = tests::source_folder() + "docs/problems/";
 
 std::vector<std::string> keys_of(const Json& object) {
   std::vector<std::string> keys;

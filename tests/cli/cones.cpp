@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/error_form.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -73,10 +74,11 @@ void compare_descriptions(const Json& found, const Json& expected, Eigen::Index 
 TEST_CASE("the cones of the library have the values of an independent derivation") {
   for (const std::string name : {"cone_isotonic", "cone_friction_pyramid", "cone_hidden_line"}) {
     CAPTURE(name);
-    std::ifstream file(MOREAU_SOURCE "/tests/cases/" + name + ".expected.json");
+    std::ifstream file(tests::source_folder() + "tests/cases/" + name + ".expected.json");
     REQUIRE(file.good());
     const Json expected = Json::parse(file);
-    const Outcome outcome = run({"solve", "--json", MOREAU_SOURCE "/docs/problems/" + name + ".toml"});
+    const Outcome outcome =
+        run({"solve", "--json", tests::source_folder() + "docs/problems/" + name + ".toml"});
     REQUIRE(outcome.code == 0);
     const Json found = Json::parse(outcome.out);
     const auto n = static_cast<Eigen::Index>(expected["x"].size());

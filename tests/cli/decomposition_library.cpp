@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using nlohmann::json;
@@ -32,11 +33,12 @@ void compare(const json& found, const json& expected, double scale) {
 
 TEST_CASE("every decomposition of the library is split as in exact fractions or 60 digits") {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MOREAU_SOURCE "/docs/problems")) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source_folder() + "docs/problems")) {
     if (!entry.path().stem().string().starts_with("decomposition_")) continue;
     ++count;
     CAPTURE(entry.path().string());
-    std::ifstream file(MOREAU_SOURCE "/tests/cases/" + entry.path().stem().string() + ".expected.json");
+    std::ifstream file(tests::source_folder() + "tests/cases/" + entry.path().stem().string() +
+                       ".expected.json");
     REQUIRE(file.good());
     const json expected = json::parse(file);
     const Outcome outcome = run({"solve", "--json", entry.path().string()});

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 /// What the pages print of the program is what the program prints.
 namespace {
 
-const fs::path root = MOREAU_SOURCE;
+const fs::path root = tests::source_folder();
 
 std::string contents(const fs::path& path) {
   std::ifstream stream(path);
@@ -88,8 +89,7 @@ std::vector<Session> sessions(const std::string& page) {
 /// runs where `docs` is the project's, and what it writes is not.
 std::vector<std::string> run_shell(const Folder& folder, const std::string& command) {
   const std::string out = folder.path("out"), err = folder.path("err");
-  const char* given = std::getenv("MOREAU_PROGRAM");
-  const fs::path program = given != nullptr ? given : MOREAU_PROGRAM;
+  const fs::path program = tests::program_file();
   const fs::path place = folder.path("session");
   if (fs::create_directory(place)) fs::create_directory_symlink(root / "docs", place / "docs");
   const std::string line = "cd '" + place.string() + "' && PATH='" + program.parent_path().string() +

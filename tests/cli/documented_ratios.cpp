@@ -7,6 +7,8 @@
 #include <regex>
 #include <sstream>
 
+#include "tests/this_build.hpp"
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -14,7 +16,7 @@ namespace {
 /// By problem and method the least time of an answer that is right to 1e-9, from the table that is kept.
 std::map<std::string, std::map<std::string, double>> kept_times() {
   std::map<std::string, std::map<std::string, double>> times;
-  std::ifstream file(fs::path(MOREAU_SOURCE) / "docs/charts/speed_accuracy.csv");
+  std::ifstream file(tests::source_folder() + "docs/charts/speed_accuracy.csv");
   std::string line;
   std::getline(file, line);
   while (std::getline(file, line)) {
@@ -39,7 +41,7 @@ std::map<std::string, std::map<std::string, double>> kept_times() {
 
 TEST_CASE("the ratios that a page prints are those of the numbers that are kept") {
   const auto times = kept_times();
-  std::ifstream page(fs::path(MOREAU_SOURCE) / "docs/speed-and-accuracy.md");
+  std::ifstream page(tests::source_folder() + "docs/speed-and-accuracy.md");
   const std::regex row(R"(^\| (.*) \(n \d+(?:, m \d+)?\) \| ([0-9.]+) us \| (.*) \|$)"),
       ratio(R"(([a-z-]+) ([0-9.]+))");
   int rows = 0;

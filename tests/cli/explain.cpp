@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 namespace fs = std::filesystem;
@@ -38,7 +39,7 @@ std::string pushed_against(const std::string& wall) {
 
 std::vector<std::string> problem_library() {
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(MOREAU_SOURCE) / "docs/problems"))
+  for (const auto& entry : fs::directory_iterator(tests::source_folder() + "docs/problems"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   return files;
 }

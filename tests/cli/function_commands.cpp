@@ -10,6 +10,7 @@
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/catalogue/references.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -133,7 +134,7 @@ TEST_CASE("the functions are listed with the name first, and the same names as J
 }
 
 TEST_CASE("the page of functions is what the catalogue says today") {
-  std::ifstream page(MOREAU_SOURCE "/docs/functions.md");
+  std::ifstream page(tests::source_folder() + "docs/functions.md");
   const std::string written{std::istreambuf_iterator<char>(page), {}};
   const Outcome made = run({"functions", "--markdown"});
   CHECK(made.code == 0);

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using PageJson = nlohmann::json;
@@ -56,8 +57,9 @@ pid_t square_with(const std::string& said, const std::string& table, const std::
   if (child != 0) return child;
   dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
   dup2(open(said.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
-  execl(MOREAU_PROGRAM, MOREAU_PROGRAM, "solve", MOREAU_SOURCE "/docs/problems/liquid_square.toml", "--set",
-        "liquid.cells=512", "--data", table.c_str(), "--vtk", image.c_str(), nullptr);
+  const std::string square = tests::source_folder() + "docs/problems/liquid_square.toml";
+  execl(tests::program_file().c_str(), "moreau", "solve", square.c_str(), "--set", "liquid.cells=512",
+        "--data", table.c_str(), "--vtk", image.c_str(), nullptr);
   _exit(127);
 }
 
@@ -112,8 +114,8 @@ TEST_CASE(
     "a page plays the inception of a tube's cavity: its pressure, its cavity and its onset at each value") {
   const Folder folder;
   const std::string page_file = folder.path("tube.html");
-  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--animate", page_file, "--over",
-               "omega=1:0.25:3"})
+  REQUIRE(run({"solve", tests::source_folder() + "docs/problems/liquid_tube.toml", "--animate", page_file,
+               "--over", "omega=1:0.25:3"})
               .code == 0);
   const std::string page = text_of(page_file);
   CHECK(page.find("http") == std::string::npos);
@@ -145,8 +147,8 @@ TEST_CASE(
     "a page of a plane has the levels of its boundary, the walls that part, and what fails at a value") {
   const Folder folder;
   const std::string page_file = folder.path("tank.html");
-  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tank.toml", "--animate", page_file, "--over",
-               "a=4,14"})
+  REQUIRE(run({"solve", tests::source_folder() + "docs/problems/liquid_tank.toml", "--animate", page_file,
+               "--over", "a=4,14"})
               .code == 0);
   const PageJson data = liquid_of(text_of(page_file));
   CHECK(data["frames"][0]["parted_walls"].empty());
@@ -155,8 +157,8 @@ TEST_CASE(
   REQUIRE(!data["frames"][1]["parted"].empty());
   for (const PageJson& at : data["frames"][1]["parted"]) CHECK(at[1] == 0);
   CHECK(data["frames"][1]["level"].is_null());  // the domain is the one before
-  REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--animate", page_file, "--over",
-               "p0=-1,1"})
+  REQUIRE(run({"solve", tests::source_folder() + "docs/problems/liquid_tube.toml", "--animate", page_file,
+               "--over", "p0=-1,1"})
               .code == 0);
   CHECK(liquid_of(text_of(page_file))["frames"][0]["failure"].get<std::string>().find("below 0") !=
         std::string::npos);
@@ -164,7 +166,8 @@ TEST_CASE(
 
 TEST_CASE("what is wrong in --animate and --over of a liquid is told") {
   const Folder folder;
-  const std::string tube = MOREAU_SOURCE "/docs/problems/liquid_tube.toml", page = folder.path("p.html");
+  const std::string tube = tests::source_folder() + "docs/problems/liquid_tube.toml",
+                    page = folder.path("p.html");
   const auto refused = [&](std::vector<std::string> options, const std::string& word) {
     options.insert(options.begin(), {"solve", tube});
     const Outcome outcome = run(options);
@@ -188,8 +191,8 @@ TEST_SUITE("chromium") {
     const Folder folder;
     const std::string page_file = folder.path("p.html"), dump = folder.path("dump.html");
     for (const std::string name : {"disc", "tube"}) {
-      REQUIRE(run({"solve", MOREAU_SOURCE "/docs/problems/liquid_" + name + ".toml", "--animate", page_file,
-                   "--over", "omega=1:0.5:4"})
+      REQUIRE(run({"solve", tests::source_folder() + "docs/problems/liquid_" + name + ".toml", "--animate",
+                   page_file, "--over", "omega=1:0.5:4"})
                   .code == 0);
       const std::string command =
           "timeout 60 chromium --headless --no-sandbox --disable-gpu --dump-dom 'file://" + page_file +

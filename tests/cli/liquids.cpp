@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "tests/cli/error_form.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -54,10 +55,10 @@ Json solved_liquid(const std::string& text, std::vector<std::string> options = {
 TEST_CASE("the liquids of the library have the answers of closed forms, within their error bounds") {
   for (const std::string name : {"piston", "tube", "disc", "ball", "square", "hemisphere", "tank"}) {
     CAPTURE(name);
-    std::ifstream file(MOREAU_SOURCE "/tests/cases/liquid_" + name + ".expected.json");
+    std::ifstream file(tests::source_folder() + "tests/cases/liquid_" + name + ".expected.json");
     const Json expected = Json::parse(file);
     std::vector<std::string> arguments{"solve", "--json",
-                                       MOREAU_SOURCE "/docs/problems/liquid_" + name + ".toml"};
+                                       tests::source_folder() + "docs/problems/liquid_" + name + ".toml"};
     for (const Json& probe : expected["probes"]) {
       arguments.push_back("--probe");
       arguments.push_back(probe["at"]);
@@ -325,8 +326,8 @@ TEST_CASE("the velocity is drawn as arrows beside the pressure, where there is a
   text << std::ifstream(picture).rdbuf();
   CHECK(text.str().find("arrows: the velocity, at most 1.") != std::string::npos);
   CHECK(run({"solve", file, "--velocity"}).err.find("--plot") != std::string::npos);
-  const Outcome line =
-      run({"solve", MOREAU_SOURCE "/docs/problems/liquid_tube.toml", "--velocity", "--plot", picture});
+  const Outcome line = run(
+      {"solve", tests::source_folder() + "docs/problems/liquid_tube.toml", "--velocity", "--plot", picture});
   CHECK(line.code == 2);
   CHECK(line.err.find("--velocity") != std::string::npos);
 }

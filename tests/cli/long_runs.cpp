@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -38,7 +39,7 @@ struct Ended {
 
 /// Runs the program with its output into a file; interrupted after some time, if asked.
 Ended ended(std::vector<std::string> arguments, const std::string& output, int interrupt_after = 0) {
-  arguments.insert(arguments.begin(), MOREAU_PROGRAM);
+  arguments.insert(arguments.begin(), tests::program_file());
   const pid_t child = fork();
   if (child == 0) {
     const int to = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -46,7 +47,7 @@ Ended ended(std::vector<std::string> arguments, const std::string& output, int i
     std::vector<char*> words;
     for (std::string& word : arguments) words.push_back(word.data());
     words.push_back(nullptr);
-    execv(MOREAU_PROGRAM, words.data());
+    execv(words[0], words.data());
     _exit(127);
   }
   REQUIRE(child > 0);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 
@@ -105,7 +106,7 @@ TEST_CASE("the table of options names the commands that have them, and of the sh
     for (const std::string& option : listed(run({command, "--help"}).out, "Options"))
       has[option].insert(command);
   }
-  std::ifstream page(std::string(MOREAU_SOURCE) + "/docs/commands.md");
+  std::ifstream page(tests::source_folder() + "docs/commands.md");
   std::map<std::string, std::set<std::string>> told;
   static const std::regex row(R"(^\| (`--[^|]*) \| ([^|]*) \|.*)"), name("`(--[a-z-]+)");
   bool in_section = false;

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 
@@ -50,7 +51,7 @@ std::string file_of(const std::string& change) {
 }
 
 std::vector<Mistake> mistakes() {
-  std::ifstream table(std::filesystem::path(MOREAU_SOURCE) / "tests/cli/mistakes.txt");
+  std::ifstream table(tests::source_folder() + "tests/cli/mistakes.txt");
   std::vector<Mistake> rows;
   std::string change;
   for (std::string line; std::getline(table, line);) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 
@@ -55,7 +56,7 @@ PressureTable pressures(const std::string& file, std::size_t dimension) {
 
 /// The exit code; -1 where the program was ended.
 int run_petsc(int ranks, const std::string& arguments) {
-  const std::string program = std::string(MOREAU_PROGRAM) + "_petsc";
+  const std::string program = tests::program_file() + "_petsc";
   const int status = std::system(
       ("mpirun --oversubscribe -n " + std::to_string(ranks) + " " + program + " " + arguments).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -12,6 +12,7 @@
 #include "cli/measurement/stress_families.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/svg_text.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -28,7 +29,7 @@ std::string picture_bytes(const std::string& path) {
 /// The problems of the library that are scenes with at least two coordinates and an answer.
 std::vector<std::string> drawn_problems() {
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(MOREAU_SOURCE) / "docs/problems")) {
+  for (const auto& entry : fs::directory_iterator(tests::source_folder() + "docs/problems")) {
     if (entry.path().extension() != ".toml") continue;
     const Outcome outcome = run({"solve", "--json", entry.path()});
     if (outcome.code == 1 || !Json::accept(outcome.out)) continue;
@@ -72,7 +73,7 @@ double area_of(const std::string& colour, const std::string& svg) {
 
 /// The measurements that are kept with the page on failures.
 std::vector<cli::StressTrial> kept_trials() {
-  std::ifstream file(fs::path(MOREAU_SOURCE) / "docs/charts/failures.csv");
+  std::ifstream file(tests::source_folder() + "docs/charts/failures.csv");
   const std::vector<cli::StressFamily> families = cli::stress_families(20, false);
   std::vector<cli::StressTrial> trials;
   std::string line;
@@ -127,7 +128,7 @@ TEST_CASE("a plane of two coordinates is drawn of more, and both are named") {
   if (!cli::has_gnuplot()) return;
   const Folder folder;
   const std::string picture = folder.path("a.svg"),
-                    file = fs::path(MOREAU_SOURCE) / "docs/problems/ladder_leaves_wall.toml";
+                    file = tests::source_folder() + "docs/problems/ladder_leaves_wall.toml";
   CHECK(run({"solve", "--quiet", file, "--plot", picture, "--plane", "x,a"}).code == 0);
   const std::vector<SvgText> texts = svg_texts(picture_bytes(picture));
   CHECK(std::any_of(texts.begin(), texts.end(),
@@ -162,7 +163,7 @@ TEST_CASE("normal cones are shaded whole: rays not, half-planes and planes up to
                                Shaded{"coupled_wheels_dead_centre", 0.999, 1.001}}) {
     CAPTURE(shaded.problem);
     const std::string picture = folder.path("a.svg"),
-                      file = fs::path(MOREAU_SOURCE) / ("docs/problems/" + shaded.problem + ".toml");
+                      file = tests::source_folder() + ("docs/problems/" + shaded.problem + ".toml");
     CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
     const double part = area_of("rgb(247, 227, 207)", picture_bytes(picture)) / (580.0 * 580.0);
     CHECK(part >= shaded.least);
@@ -173,7 +174,7 @@ TEST_CASE("normal cones are shaded whole: rays not, half-planes and planes up to
 TEST_CASE("a page of two pictures has larger letters than a page of one") {
   if (!cli::has_gnuplot()) return;
   const Folder folder;
-  const std::string file = fs::path(MOREAU_SOURCE) / "docs/tutorial/four_bar.toml",
+  const std::string file = tests::source_folder() + "docs/tutorial/four_bar.toml",
                     picture = folder.path("a.svg");
   CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
   const std::string svg = picture_bytes(picture);
@@ -239,5 +240,5 @@ TEST_CASE("the map of failures has a digit or a mark in each cell, and its words
 }
 
 TEST_CASE("in the chart that is kept no two words overlap, and none leaves the page") {
-  check_legible(picture_bytes(fs::path(MOREAU_SOURCE) / "docs/charts/speed_accuracy.svg"));
+  check_legible(picture_bytes(tests::source_folder() + "docs/charts/speed_accuracy.svg"));
 }

@@ -1,4 +1,5 @@
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -20,11 +21,6 @@ namespace {
 
 constexpr std::chrono::seconds patience{60};
 constexpr std::chrono::milliseconds between_looks{1};
-
-std::string program() {
-  const char* given = std::getenv("MOREAU_PROGRAM");
-  return given != nullptr ? given : MOREAU_PROGRAM;
-}
 
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -85,13 +81,13 @@ Outcome start(std::vector<std::string> words, const std::string& input) {
 }  // namespace
 
 Outcome run(const std::vector<std::string>& arguments, const std::string& input) {
-  std::vector<std::string> words{program()};
+  std::vector<std::string> words{program_file()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return start(words, input);
 }
 
 Outcome run_by_shell(const std::string& command, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"/bin/sh", "-c", command, program()});
+  arguments.insert(arguments.begin(), {"/bin/sh", "-c", command, program_file()});
   return start(arguments, "");
 }
 

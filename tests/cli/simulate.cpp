@@ -8,6 +8,7 @@
 
 #include "tests/cli/error_form.hpp"
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -39,7 +40,7 @@ std::string ball(const std::string& simulate, const std::string& position = "1")
 
 TEST_CASE("the motions of the library have the events of their closed forms, to 1e-13") {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MOREAU_SOURCE "/docs/problems")) {
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source_folder() + "docs/problems")) {
     const std::string name = entry.path().stem().string();
     if (!name.starts_with("motion_")) continue;
     ++count;
@@ -54,7 +55,7 @@ TEST_CASE("the motions of the library have the events of their closed forms, to 
     std::vector<Json> events;
     for (const std::string& line : lines(path)) events.push_back(Json::parse(line));
     CHECK(found["events"] == events.size());
-    std::ifstream expected(MOREAU_SOURCE "/tests/cases/" + name + ".expected.json");
+    std::ifstream expected(tests::source_folder() + "tests/cases/" + name + ".expected.json");
     REQUIRE(expected.good());
     for (const Json& wanted : Json::parse(expected)["events"]) {
       const double t = std::stod(wanted["t"].get<std::string>());

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/error_form.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -111,20 +112,19 @@ TEST_CASE("what simulate is told does not disturb solve") {
 }
 
 TEST_CASE("an answer that is not solved is no truth to judge the rule of dropping by") {
-  const Outcome wrong = run(
-      {"solve", "--method", "drop-negative", MOREAU_SOURCE "/docs/problems/delassus_drops_too_much.toml"});
+  const Outcome wrong = run({"solve", "--method", "drop-negative",
+                             tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"});
   CHECK(wrong.code == 3);
   CHECK(wrong.out.find("NOT solved") != std::string::npos);
   CHECK(wrong.out.find("happens to be right") == std::string::npos);
   CHECK(wrong.out.find("touches") == std::string::npos);
-  const Outcome right = run({"solve", MOREAU_SOURCE "/docs/problems/delassus_drops_too_much.toml"});
+  const Outcome right = run({"solve", tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"});
   CHECK(right.code == 0);
   CHECK(right.out.find("is wrong here (Delassus 1917)") != std::string::npos);
 }
 
 TEST_CASE("fractions that the text proves are told where they can be read") {
   const std::string told =
-      run({"solve", "--certify", std::string(MOREAU_SOURCE) + "/docs/problems/delassus_drops_too_much.toml"})
-          .out;
+      run({"solve", "--certify", tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"}).out;
   CHECK(told.find("\nIn fractions: y'' = 9/5, a'' = -6; lambda left 0, right 7/2.\n") != std::string::npos);
 }

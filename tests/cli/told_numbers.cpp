@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/this_build.hpp"
 
 using namespace tests;
 using Json = nlohmann::ordered_json;
@@ -35,7 +36,7 @@ struct ToldPassage {
   std::vector<ToldNumber> numbers;
 };
 
-const fs::path project = MOREAU_SOURCE;
+const fs::path project = tests::source_folder();
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
@@ -110,8 +111,7 @@ bool says(const Json& printed, const std::string& words) {
 }
 
 Json printed_by(const Folder& folder, const std::string& command) {
-  const char* given = std::getenv("MOREAU_PROGRAM");
-  const fs::path program = given != nullptr ? given : MOREAU_PROGRAM;
+  const fs::path program = tests::program_file();
   const std::string out = folder.path("printed");
   const std::string line = "cd '" + project.string() + "' && PATH='" + program.parent_path().string() +
                            ":'$PATH && { " + command + "\n} > '" + out + "' 2> /dev/null";

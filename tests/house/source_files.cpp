@@ -1,4 +1,5 @@
 #include "tests/house/source_files.hpp"
+#include "tests/this_build.hpp"
 
 #include <fstream>
 
@@ -6,7 +7,7 @@ namespace fs = std::filesystem;
 
 namespace tests {
 
-fs::path source_root() { return MOREAU_SOURCE; }
+fs::path source_root() { return tests::source_folder(); }
 
 std::vector<SourceFile> source_files() {
   std::vector<SourceFile> found;

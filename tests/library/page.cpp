@@ -6,9 +6,11 @@
 #include <set>
 #include <string>
 
+#include "tests/this_build.hpp"
+
 namespace {
 
-const std::filesystem::path root = MOREAU_SOURCE;
+const std::filesystem::path root = tests::source_folder();
 
 std::string contents(const std::filesystem::path& path) {
   std::ifstream stream(path);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cli/scene.hpp"
+#include "tests/this_build.hpp"
 
 using convex::Check;
 using convex::Index;
@@ -23,7 +24,7 @@ struct Scene {
 };
 
 Scene of_file(const std::string& name) {
-  const cli::Scene scene = cli::read_scene(MOREAU_SOURCE "/docs/problems/" + name + ".toml", {});
+  const cli::Scene scene = cli::read_scene(tests::source_folder() + "docs/problems/" + name + ".toml", {});
   return {name, scene.problem, mechanics::solve(scene.problem)};
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/report/solve_report.hpp"
 #include "cli/resolved_scene.hpp"
+#include "tests/this_build.hpp"
 
 using nlohmann::json;
 
@@ -77,7 +78,7 @@ void compare_added(const json& found, const json& expected) {
 
 std::vector<std::string> cases() {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(MOREAU_SOURCE "/docs/problems"))
+  for (const auto& entry : std::filesystem::directory_iterator(tests::source_folder() + "docs/problems"))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -90,11 +91,11 @@ TEST_CASE("every problem of the library has the answer of an independent derivat
   REQUIRE(names.size() >= 14);
   for (const std::string& name : names) {
     CAPTURE(name);
-    std::ifstream file(MOREAU_SOURCE "/tests/cases/" + name + ".expected.json");
+    std::ifstream file(tests::source_folder() + "tests/cases/" + name + ".expected.json");
     REQUIRE(file.good());
     const json expected = json::parse(file);
     if (expected.contains("kind")) continue;  // no mechanics: tests/cli
-    cli::Scene scene = cli::read_scene(MOREAU_SOURCE "/docs/problems/" + name + ".toml", {});
+    cli::Scene scene = cli::read_scene(tests::source_folder() + "docs/problems/" + name + ".toml", {});
     mechanics::GaussSolution solution;
     const auto warnings =
         cli::resolve_scene(scene, [&](const cli::Scene& attempt) -> const mechanics::GaussSolution& {

@@ -10,6 +10,7 @@
 #include "mechanics/exact_text.hpp"
 #include "tests/mechanics/system_text.hpp"
 #include "tests/oracles/rational_text.hpp"
+#include "tests/this_build.hpp"
 
 using mechanics::ContactVerdict;
 using mechanics::TextProblem;
@@ -18,7 +19,7 @@ using oracles::Rational;
 
 namespace {
 
-constexpr const char* library = MOREAU_SOURCE "/docs/problems";
+const std::string library = tests::source_folder() + "docs/problems";
 
 /// "p/q" or decimals, to the digits given.
 Rational number(const json& text) {
@@ -41,7 +42,7 @@ std::vector<std::string> systems() {
 }
 
 json expected_of(const std::string& name) {
-  std::ifstream file(MOREAU_SOURCE "/tests/cases/" + name + ".expected.json");
+  std::ifstream file(tests::source_folder() + "tests/cases/" + name + ".expected.json");
   return json::parse(file);
 }
 
