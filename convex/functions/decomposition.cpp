@@ -62,9 +62,17 @@ std::optional<Prox> without_small_entries(const Prox& found, const Metric& W) {
 /// place of y, and x and v balanced.
 Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W, double tolerance,
                       const Look& look) {
+  // A way on which numbers leave the range of doubles has found nothing; so has one into a domain that is
+  // empty, which is told where no other way finds a point.
+  std::optional<InvalidInput> wrong;
   const auto prox_of = [&](const Function& h, const Vector& point, const Metric& V) {
     const WorkLimit part(part_of_a_prox);
-    return h.prox(point, V, look);
+    try {
+      return h.prox(point, V, look);
+    } catch (const InvalidInput& said) {
+      if (!wrong) wrong = said;
+      return Prox{};
+    }
   };
   Prox x = prox_of(of.f, z, W), y = prox_of(of.g, z, W);
   // What gave up without a point is found from the other, or not at all.
@@ -104,11 +112,16 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     if (!ended()) consider_covector(with_slope(of.f, of_x, z, W));
     if (!ended()) consider_covector(into(of.f, of_x));
   };
-  // Each of the ways takes its own part of the work, so that a costly one leaves some to the next.
+  // Each of the ways takes its own part of the work, so that a costly one leaves some to the next. One on
+  // which numbers leave the range of doubles has found nothing.
   const auto attempt = [&](double most, const auto& way) {
     if (is_found()) return;
     const WorkLimit part(most);
-    way();
+    try {
+      way();
+    } catch (const InvalidInput&) {
+      return;
+    }
   };
   attempt(part_of_a_move, [&] {
     for (const Vector& point : {Vector(Vector::Zero(z.size())), z}) {
@@ -162,6 +175,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     for (const Prox& pair : balanced(of.plain, dual, covector, V, look))
       if (!ended()) consider_all(turned(pair, z, W));
   });
+  if (wrong && !is_found()) throw InvalidInput(*wrong);
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
     best.rounding += roundings_of_a_term * unit_roundoff *

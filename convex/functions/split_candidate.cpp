@@ -6,6 +6,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/other_pairs.hpp"
 
 namespace convex::inline named_functions {
@@ -187,6 +188,31 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   return made;
 }
 
+namespace {
+
+/// The least and the largest eigenvalue of W; none of sparse ones, which would be made dense.
+std::optional<std::pair<double, double>> spectrum(const Metric& W) {
+  if (W.kind() == MetricKind::sparse) return std::nullopt;
+  const Vector values =
+      W.kind() == MetricKind::dense ? linear_algebra::eigenvalues(W.dense_gram()) : W.diagonal();
+  return std::pair(values.minCoeff(), values.maxCoeff());
+}
+
+/// Is x inside the domain, by far more than `membership_tolerance` leaves open? Where a domain made larger by
+/// that holds a larger ball about x, it holds x itself.
+bool is_inside(const Function& f, const Vector& x) {
+  constexpr double far_more = 1e3 * membership_tolerance;
+  constexpr Index most_entries = 64;  // two values each
+  if (x.size() > most_entries) return false;
+  const double step = far_more * std::sqrt(static_cast<double>(x.size())) * x.norm();
+  for (Index i = 0; i < x.size(); ++i)
+    for (const double side : {-step, step})
+      if (!std::isfinite(split_value_of(f, x + side * Vector::Unit(x.size(), i)).value)) return false;
+  return true;
+}
+
+}  // namespace
+
 std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x, const Vector& z,
                                       const Metric& W, double enough) {
   const Value first = split_value_of(x.isZero(0) ? of.f : of.g, Vector::Zero(z.size()));
@@ -196,8 +222,16 @@ std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x,
     return Prox{.x = p, .v = other, .route = ProxRoute::iterative, .method = "values at 0"};
   };
   const Vector y = z - x;
-  SplitCandidate made = at_points(of, point(x, W.multiply(y)), point(y, W.multiply(x)), z, W);
-  const double slack = membership_tolerance * W.norm(z);
+  const Vector slope = W.multiply(y);
+  SplitCandidate made = at_points(of, point(x, slope), point(y, W.multiply(x)), z, W);
+  // The other part may be outside its domain by `membership_tolerance` of its plain length.
+  double slack = 0;
+  if (x.isZero(0) ? !is_inside(of.plain, slope) : !is_inside(of.f, z)) {
+    const auto of_W = spectrum(W);
+    if (!of_W) return std::nullopt;
+    slack = membership_tolerance *
+            (x.isZero(0) ? slope.norm() / std::sqrt(of_W->first) : z.norm() * std::sqrt(of_W->second));
+  }
   made.rounding += slack * slack / 2;
   made.split.x.error_bound = made.split.y.error_bound = made.split.error_bound = made.proved();
   return made;

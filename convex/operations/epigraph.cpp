@@ -63,8 +63,7 @@ LinearQuadratic lifted(const LinearQuadratic& f, bool perspective) {
 class Lifted : public Operation {
  public:
   explicit Lifted(Function f) : f_(std::move(f)) {
-    const Index n = f_.dimension();
-    const auto form = f_.node().linear_quadratic(n == 0 ? 2 : n);
+    const auto form = f_.node().linear_quadratic(telling_size({&f_, 1}, f_.dimension()));
     polyhedral_ = form && form->polyhedral();
   }
   Index dimension() const override { return f_.dimension() == 0 ? 0 : f_.dimension() + 1; }

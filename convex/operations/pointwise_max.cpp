@@ -29,8 +29,7 @@ class PointwiseMax : public Operation {
  public:
   explicit PointwiseMax(std::vector<Function> parts)
       : parts_(std::move(parts)), n_(common_dimension(parts_, "pointwise_max")) {
-    // For functions of any number of entries two of them show whether the quadratic parts agree.
-    piecewise_ = program(parts_, n_ == 0 ? 2 : n_).has_value();
+    piecewise_ = program(parts_, telling_size(parts_, n_)).has_value();
   }
 
   Index dimension() const override { return n_; }

@@ -102,11 +102,26 @@ std::optional<GraphForm> Sum::graph(Index n, double slope) const {
   return convex::sum(*forms);
 }
 
+namespace {
+
+/// W + Q; none where W is a rounding beside a Q that is not definite.
+std::optional<Metric> definite_sum(const Metric& W, const SparseMatrix& Q) {
+  try {
+    return plus(W, Q);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
 std::optional<Prox> Sum::reduced_prox(const Vector& z, const Metric& W, const Look& look) const {
   const SplitSum sorted = split(parts_, z.size());
   if (!sorted.quadratic) return composed_prox(parts_, z, W, look);
   const auto& [Q, c, constant] = *sorted.quadratic;
-  const Metric V = plus(W, Q);
+  const std::optional<Metric> metric = definite_sum(W, Q);
+  if (!metric) return std::nullopt;
+  const Metric& V = *metric;
   const Vector y = V.solve(W.multiply(z) - c);
   if (sorted.rest.empty()) {
     const Vector none = Vector::Zero(z.size());
@@ -145,9 +160,10 @@ std::vector<Function> Sum::maximum_of() const {
 }
 
 Function Sum::conjugate() const {
-  // Quadratic terms of functions on any number of entries are multiples of the unit matrix: two entries show.
+  // Quadratic terms of functions on any number of entries are multiples of the unit matrix: a few entries
+  // show.
   const Index n = dimension();
-  const SplitSum sorted = split(parts_, n == 0 ? 2 : n);
+  const SplitSum sorted = split(parts_, telling_size(parts_, n));
   std::vector<Function> rest;
   for (const Function& f : sorted.rest) rest.push_back(f.conjugate());
   if (!sorted.quadratic)

@@ -5,6 +5,7 @@
 
 #include "cli/function_language/parse_call.hpp"
 #include "convex/catalogue/catalogue.hpp"
+#include "convex/functions/decomposition.hpp"
 
 using convex::InvalidInput;
 using convex::Metric;
@@ -112,4 +113,15 @@ TEST_CASE("a point that is no point of the space is refused at the door") {
   CHECK_THROWS_AS(f.is_subgradient(Vector::Ones(2), Vector::Ones(1)), InvalidInput);
   const auto max = convex::make_function(cli::parse_call("max()", "f"), Space{Metric::identity(1)});
   CHECK_THROWS_AS(max(Vector()), InvalidInput);
+}
+
+TEST_CASE("a sum of the three largest entries is a part of any function of three entries and more") {
+  const Vector z{{1, 2, 3, 4}};
+  for (const char* text :
+       {"pointwise_max(norm1(), sum_largest(3))", "perspective(sum_largest(3))",
+        "sum(squared_norm2(), sum_largest(4))", "conjugate(pointwise_max(max(), sum_largest(4)))"}) {
+    CAPTURE(std::string(text));
+    const auto f = convex::make_function(cli::parse_call(text, "f"), Space{Metric::identity(4)});
+    CHECK(convex::decompose(f, z, Metric::identity(4)).status == convex::Status::solved);
+  }
 }

@@ -124,6 +124,20 @@ TEST_CASE("a split of a point far above its parts is solved, and its values agre
   }
 }
 
+TEST_CASE("the apex of a cone is not told for a point of it that the bound does not reach") {
+  // z = x + t W^-1 n with (x, n) of a Moreau pair: x = (3,4,5) on the cone |(x_1,x_2)| <= x_3, n = (3,4,-5)
+  // normal there.
+  const Metric W = Metric::dense((Matrix(3, 3) << 20, -17, -9, -17, 18, 7, -9, 7, 6).finished());
+  const Vector x = Eigen::Vector3d(3, 4, 5), n = Eigen::Vector3d(3, 4, -5);
+  for (const double t : {1.0, 1e3, 1e6, 1e7, 1e8, 1e9}) {
+    CAPTURE(t);
+    const Vector z = x + t * W.solve(n);
+    const Decomposition split =
+        convex::decompose(samples::function("indicator(second_order_cone())", W), z, W);
+    CHECK(W.norm(split.x.x - x) <= split.error_bound + 0x1p-50 * W.norm(z));
+  }
+}
+
 TEST_CASE("a far point's nearest one on a line is that of exact arithmetic") {
   // x = (a, 1 - a) with (1, -1)·W(x - z) = 0, that is 2 (a - z_1) - 8 (1 - a - z_2) = 0.
   const Vector z = Eigen::Vector2d(-2, 3e8);
