@@ -11,6 +11,12 @@
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline pivoting {
+namespace {
+
+/// What may be missing of the scale, so that the bound is that of rounding the answer.
+constexpr double beside_rounding = 0x1p-57;
+
+}  // namespace
 
 GramSolve::GramSolve(GramWorkingSet& set)
     : set_(set), problem_(set.problem()), p_(set.point()), rows_(p_.all * p_.n, p_.U) {}
@@ -32,7 +38,7 @@ bool GramSolve::solve_in_critical_region(const Accuracy& accuracy, Solution& sol
   known_.bound = 2 * known_.remaining + known_.rounding;
   moved_ = touched_violation_ = 0;
   return region->least > near_zero * std::max(known_.scale, p_.magnitude) &&
-         known_.remaining <= enough * known_.scale &&
+         known_.remaining <= beside_rounding * known_.scale &&
          known_.bound <= accuracy.tolerance * std::max(1.0, p_.acceleration_norm) &&
          (region->has_all || is_clear(known_.scale)) && write(accuracy, solution);
 }
@@ -132,7 +138,14 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
   // As many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
   // multipliers are, so far as their signs are told, the point is that one.
   if (!(known_.bound <= close) && p_.size == p_.n && !problem_.radii && keeps_close(0)) known_.bound = 0;
-  solution.residuals = residuals();
+  // `convex::residuals`, to which only the rows held and touched matter; measured in doubles.
+  double most = 0;
+  for (Index k = 0; k < p_.size; ++k) most = std::max(most, std::abs(p_.lambda[k]));
+  HeldResiduals held(p_.stationarity, p_.acceleration_norm, known_.scale, most);
+  for (Index k = 0; k < p_.size; ++k)
+    held.add(problem_.s[p_.rows[k]], p_.length[k], p_.lambda[k], p_.held_slack[k], !(p_.pull[k] > 0));
+  solution.residuals = held.all();
+  solution.residuals.feasibility = std::max(solution.residuals.feasibility, touched_violation_);
   solution.method = "active-set";
   solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
   solution.model.islands.clear();
@@ -151,18 +164,6 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
   solution.error_bound = known_.bound + moved_;
   solution.status = solution.error_bound <= close ? Status::solved : Status::inaccurate;
   return true;
-}
-
-/// `convex::residuals`, to which only the rows held and touched matter; measured in doubles.
-Residuals GramSolve::residuals() const {
-  double most = 0;
-  for (Index k = 0; k < p_.size; ++k) most = std::max(most, std::abs(p_.lambda[k]));
-  HeldResiduals held(p_.stationarity, p_.acceleration_norm, known_.scale, most);
-  for (Index k = 0; k < p_.size; ++k)
-    held.add(problem_.s[p_.rows[k]], p_.length[k], p_.lambda[k], p_.held_slack[k], !(p_.pull[k] > 0));
-  Residuals found = held.all();
-  found.feasibility = std::max(found.feasibility, touched_violation_);
-  return found;
 }
 
 }  // namespace convex::inline pivoting

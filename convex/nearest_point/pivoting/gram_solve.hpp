@@ -39,7 +39,6 @@ class GramSolve {
   bool is_clear(double size);
   double near_scale(double part);
   bool write(const Accuracy& accuracy, Solution& solution);
-  Residuals residuals() const;
 
   Slacks measure_slacks();
   Slacks look_at_violated(Index first, Index end);

@@ -1,5 +1,6 @@
 #include "convex/nearest_point/pivoting/small_tableau.hpp"
 
+#include "convex/nearest_point/pivoting/critical_region_steps.hpp"
 #include "convex/nearest_point/pivoting/small_tableau_steps.hpp"
 #include "convex/processor.hpp"
 
@@ -23,9 +24,9 @@ struct SmallTableauSizes {
   MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
                                        const double* s) {
     if (W > 2 && is_one_pack(t))
-      One::take_affine_point(t, region, z, s);
+      CriticalRegionSteps<W, Fused, 1>::take_affine_point(t, region, z, s);
     else
-      Four::take_affine_point(t, region, z, s);
+      CriticalRegionSteps<W, Fused, 4>::take_affine_point(t, region, z, s);
   }
   MOREAU_BY_PACKS(void, measure)
   MOREAU_BY_PACKS(void, measure_balance)

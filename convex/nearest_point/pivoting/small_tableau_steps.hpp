@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/pivoting/critical_region.hpp"
 #include "convex/nearest_point/pivoting/small_tableau_pivots.hpp"
 
 namespace convex::inline pivoting {
@@ -96,100 +95,6 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.q + i, P::load(t.w + i)); });
     K::backward(t.n, ld(t), t.T, t.inverse, t.q);
-  }
-
-  /// y + y_low of `count` packs from `first` on.
-  template <int count>
-  MOREAU_INLINE void apply(CriticalRegion& region, Index first) {
-    Pack sum[count], low[count], rest[count];
-    P::clear(sum), P::clear(low), P::clear(rest);
-    for (Index j = 0; j < region.columns; ++j) {
-      const double x = region.x[j];
-      const Index at = j * region.stride + first;
-#pragma GCC unroll 4
-      for (int r = 0; r < count; ++r) {
-        P::add_precisely(sum[r], low[r], P::load(region.high + at + 8 * r), x);
-        P::add_product(rest[r], P::load(region.low + at + 8 * r), x);
-      }
-    }
-#pragma GCC unroll 4
-    for (int r = 0; r < count; ++r) {
-      P::store(region.y_low + first + 8 * r, P::two_sum(sum[r], P::plus(low[r], rest[r])));
-      P::store(region.y + first + 8 * r, sum[r]);
-    }
-  }
-
-  MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
-                                       const double* s) {
-    const Index n = t.n;
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) {
-          const Pack x = P::load_before(z + i, z + n);
-          P::store(t.z + i, x);
-          P::store(t.w_free + i, x);
-          P::store(region.x + i, x);
-        });
-    const bool has_all = region.has_all = t.all <= SmallTableau::few_rows;
-    for (Index r = 0; has_all && r < stride(t); r += 8)
-      P::store(t.level + r, P::load_before(s + r, s + t.all));
-    for (Index k = 0; k < t.size; ++k) region.x[n + k] = t.level[t.place[k]] = s[t.rows[k]];
-    constexpr Index together = W == 8 ? 4 : 1;
-    Index first = 0;
-    for (; first + 8 * (together - 1) < region.stride; first += 8 * together) apply<together>(region, first);
-    for (; first < region.stride; first += 8) apply<1>(region, first);
-
-    Pack sum[8], least = P::plus(Pack{}, infinite);  // of missing, rounded, ‖q‖_D, ‖q‖_A, ‖z‖, ‖Aq - ...‖
-    P::clear(sum);
-    for (Index i = 0; i < region.stride; i += 8) {
-      const Pack x = P::load(region.x + i), y = P::load(region.y + i), length = P::load(region.length + i);
-      P::add_products(sum[0], K::size(x), P::load(region.error + i));
-      const Pack size = P::larger(P::times(y, length), P::times(y, P::load(region.pull + i)));
-      least = P::smaller(P::where_larger(length, 0, size, infinite), least);
-    }
-    for (Index k = 0; k < t.size; ++k) t.lambda[k] = region.y[n + k];
-    for (Index i = 0; i < ld(t); i += 8) {
-      const Pack q = P::first(P::load(region.y + i), n - i), low = P::first(P::load(region.y_low + i), n - i),
-                 diagonal = P::load(t.diagonal + i);
-      P::store(t.q + i, q);
-      P::store(t.q_low + i, low);
-      P::add_products(sum[1], P::times(low, diagonal), low);
-      P::add_products(sum[2], P::times(q, diagonal), q);
-      Pack w = P::load(t.z + i);
-      for (Index k = n; k < region.columns; ++k)
-        P::add_product(w, P::load(region.balance + k * ld(t) + i), region.y[k]);
-      P::store(t.w + i, w);
-      for (Index j = 0; j < n; ++j)
-        P::subtract_product(w, P::load(region.balance + j * ld(t) + i), region.y[j]);
-      P::store(t.r + i, w);
-    }
-    K::forward(n, ld(t), t.T, t.inverse, t.w);
-    K::forward(n, ld(t), t.T, t.inverse, t.w_free);
-    K::forward(n, ld(t), t.T, t.inverse, t.r);
-    each(
-        ld(t), [&](Index i) __attribute__((always_inline)) {
-          const Pack w = P::load(t.w + i), free = P::load(t.w_free + i), r = P::load(t.r + i);
-          P::add_products(sum[3], w, w);
-          P::add_products(sum[4], free, free);
-          P::add_products(sum[5], r, r);
-        });
-    for (Index r = 0; has_all && r < stride(t); r += 8) {
-      K::dots(n, t.raw + r * n, t.q, t.slack_at + r);
-      const Pack level = P::load(t.level + r), slack = P::minus(P::load(t.slack_at + r), level),
-                 enter = P::load(t.enter + r);
-      P::store(t.slack_at + r, slack);
-      const Pack clear = P::times(P::minus(slack, P::times(K::size(level), near_zero)), enter);
-      least = P::smaller(P::where_larger(enter, 0, clear, infinite), least);
-      P::add_product(sum[6], clear, 0);  // not 0 where a level is not finite
-    }
-    alignas(64) double total[8];
-    P::store(total, P::totals(sum));
-    region.remaining = total[0];
-    region.rounded = std::sqrt(total[1]);
-    t.magnitude = std::sqrt(total[2]);
-    t.acceleration_norm = std::sqrt(total[3]);
-    t.z_norm = std::sqrt(total[4]);
-    t.stationarity = std::sqrt(total[5]);
-    region.least = total[6] - K::largest(P::times(least, -1));
   }
 
   MOREAU_INLINE double margin(const SmallTableau& t) {

@@ -12,6 +12,34 @@ namespace {
 /// Corrections of a column of a critical region, before it is given up.
 constexpr int most_corrections = 6;
 
+/// Splits the columns, in twice the working precision before. False when an entry is not finite.
+bool split(CriticalRegion& region, Index n) {
+  const double count = static_cast<double>(region.columns);
+  double square = 0;
+  for (Index i = 0; i < region.stride; ++i) {
+    double most = 0, sum = 0;
+    for (Index j = 0; j < region.columns; ++j) {
+      const double size = std::abs(region.leading[j * region.stride + i]);
+      most = std::max(most, size);
+      sum += size;
+    }
+    if (!std::isfinite(sum)) return false;
+    const double shift = CriticalRegion::leaves_leading * most;
+    for (Index j = 0; j < region.columns; ++j) {
+      double &leading = region.leading[j * region.stride + i], &rest = region.rest[j * region.stride + i];
+      const double whole = leading;
+      leading = (whole + shift) - shift;
+      rest += whole - leading;
+    }
+    const double length = i < n ? region.length[i] * (sum + count * most) : 0;
+    square += length * length;
+  }
+  // Each sum of products with a rest is added up in doubles.
+  region.error_of_sums = (count + 4) * unit_roundoff * CriticalRegion::beyond_leading *
+                         std::sqrt(static_cast<double>(n) * square);
+  return std::isfinite(region.error_of_sums);
+}
+
 }  // namespace
 
 /// After a solve with pivots and corrections. The region of a working set costs about as much as a solve for
@@ -32,17 +60,21 @@ bool SweptRows::find_critical_region() {
   const Index n = t.n;
   region.columns = n + t.size;
   region.stride = padded(region.columns);
-  for (double* x : {region.error, region.length, region.pull, region.x}) fill_packs(region.stride, 0, x);
+  for (double* x : {region.unit, region.error, region.length, region.pull, region.x})
+    fill_packs(region.stride, 0, x);
   std::copy_n(t.rows, t.size, region.rows);
-  double unit = 0;  // the largest ||·||_D of a coordinate
+  double largest_unit = 0;  // the largest ||·||_D of a coordinate
+  const auto unit = [](double length) { return std::ldexp(1.0, -std::ilogb(length)); };
   for (Index i = 0; i < n; ++i) {
     region.length[i] = std::sqrt(t.diagonal[i]);
     region.pull[i] = -region.length[i];
-    unit = std::max(unit, region.length[i]);
+    region.unit[i] = unit(region.length[i]);
+    largest_unit = std::max(largest_unit, region.length[i]);
   }
   for (Index k = 0; k < t.size; ++k) {
     region.length[n + k] = t.length[k];
     region.pull[n + k] = t.pull[k] > 0 ? t.pull[k] : -t.length[k];
+    region.unit[n + k] = unit(t.length[k]);
   }
   for (Index j = 0; j < region.columns; ++j) {
     double* const column = region.balance + j * t.ld;
@@ -54,8 +86,7 @@ bool SweptRows::find_critical_region() {
   // No row changes sides, whatever its sign.
   fill_packs(t.stride, 0, t.leave);
   fill_packs(t.stride, 0, t.enter);
-  const double roundings = static_cast<double>(region.columns) * unit_roundoff,
-               root = std::sqrt(static_cast<double>(n));
+  const double root = std::sqrt(static_cast<double>(n));
   for (Index j = 0; j < region.columns && is_known; ++j) {
     fill_packs(t.ld, 0, t.z);
     fill_packs(t.stride, 0, t.level);
@@ -67,26 +98,24 @@ bool SweptRows::find_critical_region() {
       std::copy_n(t.lambda, t.size, before);
       is_known = pass < most_corrections && correct(pass == 0, 0) && known.note(t);
     }
-    double *const high = region.high + j * region.stride, *const low = region.low + j * region.stride;
+    double *const high = region.leading + j * region.stride, *const low = region.rest + j * region.stride;
     fill_packs(region.stride, 0, high);
     fill_packs(region.stride, 0, low);
-    double square = 0;
+    const double over = 1 / region.unit[j];
     for (Index i = 0; i < n; ++i) {
-      high[i] = t.q[i];
-      low[i] = t.q_low[i];
-      square += t.diagonal[i] * t.q[i] * t.q[i];
+      high[i] = over * t.q[i];
+      low[i] = over * t.q_low[i];
     }
     for (Index k = 0; k < t.size; ++k) {
       const DoubleDouble sum = two_sum(before[k], t.change[k]);
-      high[n + k] = sum.hi;
-      low[n + k] = sum.lo;
+      high[n + k] = over * sum.hi;
+      low[n + k] = over * sum.lo;
     }
-    // Of sums of so many products in twice the working precision (Ogita, Rump and Oishi 2005), and of what
-    // underflows.
-    region.error[j] = known.remaining + root * (2 * roundings * roundings * std::sqrt(square) +
-                                                unit * std::numeric_limits<double>::min());
-    is_known = is_known && std::isfinite(region.error[j]);
+    // And of what underflows.
+    region.error[j] = over * known.remaining + root * largest_unit * std::numeric_limits<double>::min();
+    is_known = is_known && std::isfinite(region.error[j]) && std::isfinite(region.unit[j]);
   }
+  is_known = is_known && split(region, n);
   for (Index a = 0; a < t.stride; ++a) {
     t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.scale_at[a] : 0;
     t.enter[a] = t.held[a] ? 0 : t.inverse_scale[a];

@@ -1,0 +1,193 @@
+#pragma once
+
+#include <cmath>
+
+#include "convex/nearest_point/pivoting/critical_region.hpp"
+#include "convex/nearest_point/pivoting/small_tableau_rows.hpp"
+#include "convex/zero_tolerances.hpp"
+
+namespace convex::inline pivoting {
+
+/// The point of a `CriticalRegion`, one product and what is measured at it. Packs of places as in
+/// `SmallTableauRows`.
+template <int W, bool Fused, int packs>
+struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
+  using Rows = SmallTableauRows<W, Fused, packs>;
+  using K = Kernels<W, Fused>;
+  using P = Packs<W, Fused>;
+  using Pack = typename P::Pack;
+  using Rows::each, Rows::ld, Rows::stride;
+  static constexpr double infinite = __builtin_inf();
+
+  /// Takes in z and s_W, in their units, and splits them. The largest. Entries of s go by themselves: a pack
+  /// would wait until they have reached the memory.
+  MOREAU_INLINE double take_column(SmallTableau& t, CriticalRegion& region, const double* z,
+                                   const double* s) {
+    const Index n = t.n;
+    Pack most;
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack x = P::load_before(z + i, z + n), size = K::size(P::times(x, P::load(region.unit + i)));
+          P::store(t.z + i, x);
+          P::store(t.w_free + i, x);
+          most = i > 0 ? P::larger(most, size) : size;
+        });
+    double largest = 0;
+    for (Index k = 0; k < t.size; ++k) {
+      const double x = std::abs(s[t.rows[k]] * region.unit[n + k]);
+      largest = largest > x ? largest : x;
+    }
+    const double of_z = K::largest(most);
+    largest = largest > of_z ? largest : of_z;
+    const double shift = CriticalRegion::leaves_leading * largest;
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack x = P::times(P::load(t.z + i), P::load(region.unit + i)),
+                     leading = P::plus(P::plus(x, shift), -shift);
+          P::store(region.x + i, x);
+          P::store(region.x_leading + i, leading);
+          P::store(region.x_rest + i, P::minus(x, leading));
+        });
+    for (Index k = 0; k < t.size; ++k) {
+      const double level = s[t.rows[k]], x = level * region.unit[n + k], leading = (x + shift) - shift;
+      if (!region.has_all) t.level[t.place[k]] = level;
+      region.x[n + k] = x;
+      region.x_leading[n + k] = leading;
+      region.x_rest[n + k] = x - leading;
+    }
+    return largest;
+  }
+
+  /// y + y_low of `count` packs from `first` on.
+  template <int count>
+  MOREAU_INLINE void apply(CriticalRegion& region, Index first) {
+    Pack sum[2][count], low[2][count], rest[2][count];
+    for (int odd = 0; odd < 2; ++odd) P::clear(sum[odd]), P::clear(low[odd]), P::clear(rest[odd]);
+    const auto add = [&](int odd, Index j) __attribute__((always_inline)) {
+      const Index at = j * region.stride + first;
+#pragma GCC unroll 4
+      for (int r = 0; r < count; ++r) {
+        const Pack leading = P::load(region.leading + at + 8 * r);
+        P::add_product(sum[odd][r], leading, region.x_leading[j]);
+        P::add_product(low[odd][r], leading, region.x_rest[j]);
+        P::add_product(rest[odd][r], P::load(region.rest + at + 8 * r), region.x[j]);
+      }
+    };
+    Index j = 0;
+    for (; j + 2 <= region.columns; j += 2) add(0, j), add(1, j + 1);
+    if (j < region.columns) add(0, j);
+#pragma GCC unroll 4
+    for (int r = 0; r < count; ++r) {
+      const Pack beside = P::plus(P::plus(low[0][r], low[1][r]), P::plus(rest[0][r], rest[1][r]));
+      Pack y = P::plus(sum[0][r], sum[1][r]);
+      P::store(region.y_low + first + 8 * r, P::two_sum(y, beside));
+      P::store(region.y + first + 8 * r, y);
+    }
+  }
+
+  /// `count` packs from `first` on: what w and r are, before these are whitened.
+  template <int count>
+  MOREAU_INLINE void balance(SmallTableau& t, const CriticalRegion& region, Index first) {
+    Pack pull[count], product[count], other[count];
+#pragma GCC unroll 4
+    for (int r = 0; r < count; ++r) pull[r] = P::load(t.z + first + 8 * r);
+    P::clear(product), P::clear(other);
+    const double* column = region.balance + first;
+    Index j = 0;
+    for (; j + 2 <= t.n; j += 2, column += 2 * ld(t))
+#pragma GCC unroll 4
+      for (int r = 0; r < count; ++r) {
+        P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
+        P::add_product(other[r], P::load(column + ld(t) + 8 * r), region.y[j + 1]);
+      }
+    if (j < t.n) {
+#pragma GCC unroll 4
+      for (int r = 0; r < count; ++r) P::add_product(product[r], P::load(column + 8 * r), region.y[j]);
+      column += ld(t);
+    }
+    for (j = t.n; j < region.columns; ++j, column += ld(t))
+#pragma GCC unroll 4
+      for (int r = 0; r < count; ++r) P::add_product(pull[r], P::load(column + 8 * r), region.y[j]);
+#pragma GCC unroll 4
+    for (int r = 0; r < count; ++r) {
+      P::store(t.w + first + 8 * r, pull[r]);
+      P::store(t.r + first + 8 * r, P::minus(pull[r], P::plus(product[r], other[r])));
+    }
+  }
+
+  /// Work on all of `size` doubles, by as many packs at once as registers allow.
+  template <class Work>
+  MOREAU_INLINE void by_packs(Index size, Work work) {
+    Index first = 0;
+    if constexpr (W == 8 && packs > 1) {
+      for (; first + 32 <= size; first += 32) work.template operator()<4>(first);
+      if (first + 16 <= size) {
+        work.template operator()<2>(first);
+        first += 16;
+      }
+    }
+    for (; first < size; first += 8) work.template operator()<1>(first);
+  }
+
+  MOREAU_INLINE void take_affine_point(SmallTableau& t, CriticalRegion& region, const double* z,
+                                       const double* s) {
+    const Index n = t.n;
+    const bool has_all = region.has_all = t.all <= SmallTableau::few_rows;
+    for (Index r = 0; has_all && r < stride(t); r += 8)
+      P::store(t.level + r, P::load_before(s + r, s + t.all));
+    const double largest = take_column(t, region, z, s);
+    by_packs(
+        region.stride, [&]<int count>(Index first)
+                           __attribute__((always_inline)) { apply<count>(region, first); });
+    by_packs(
+        ld(t), [&]<int count>(Index first)
+                   __attribute__((always_inline)) { balance<count>(t, region, first); });
+
+    Pack sum[8], least = P::plus(Pack{}, infinite);  // of missing, rounded, ‖q‖_D, ‖q‖_A, ‖z‖, ‖Aq - ...‖
+    P::clear(sum);
+    for (Index i = 0; i < region.stride; i += 8) {
+      const Pack x = P::load(region.x + i), y = P::load(region.y + i), length = P::load(region.length + i);
+      P::add_products(sum[0], K::size(x), P::load(region.error + i));
+      const Pack size = P::larger(P::times(y, length), P::times(y, P::load(region.pull + i)));
+      least = P::smaller(P::where_larger(length, 0, size, infinite), least);
+    }
+    for (Index k = 0; k < t.size; ++k) t.lambda[k] = region.y[n + k];
+    for (Index i = 0; i < ld(t); i += 8) {
+      const Pack q = P::first(P::load(region.y + i), n - i), low = P::first(P::load(region.y_low + i), n - i),
+                 diagonal = P::load(t.diagonal + i);
+      P::store(t.q + i, q);
+      P::store(t.q_low + i, low);
+      P::add_products(sum[1], P::times(low, diagonal), low);
+      P::add_products(sum[2], P::times(q, diagonal), q);
+    }
+    double* const whitened[] = {t.w, t.w_free, t.r};
+    K::forward_each(n, ld(t), t.T, t.inverse, whitened);
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack w = P::load(t.w + i), free = P::load(t.w_free + i), r = P::load(t.r + i);
+          P::add_products(sum[3], w, w);
+          P::add_products(sum[4], free, free);
+          P::add_products(sum[5], r, r);
+        });
+    for (Index r = 0; has_all && r < stride(t); r += 8) {
+      K::dots(n, t.raw + r * n, t.q, t.slack_at + r);
+      const Pack level = P::load(t.level + r), slack = P::minus(P::load(t.slack_at + r), level),
+                 enter = P::load(t.enter + r);
+      P::store(t.slack_at + r, slack);
+      const Pack clear = P::times(P::minus(slack, P::times(K::size(level), near_zero)), enter);
+      least = P::smaller(P::where_larger(enter, 0, clear, infinite), least);
+      P::add_product(sum[6], clear, 0);  // not 0 where a level is not finite
+    }
+    alignas(64) double total[8];
+    P::store(total, P::totals(sum));
+    region.remaining = total[0] + region.error_of_sums * largest;
+    region.rounded = std::sqrt(total[1]);
+    t.magnitude = std::sqrt(total[2]);
+    t.acceleration_norm = std::sqrt(total[3]);
+    t.z_norm = std::sqrt(total[4]);
+    t.stationarity = std::sqrt(total[5]);
+    region.least = total[6] - K::largest(P::times(least, -1));
+  }
+};
+
+}  // namespace convex::inline pivoting
