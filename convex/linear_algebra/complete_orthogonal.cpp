@@ -21,6 +21,8 @@ Vector CompleteOrthogonal::solve(const Vector& b) const { return factor_->solve(
 
 Matrix CompleteOrthogonal::solve_columns(const Matrix& B) const { return factor_->solve(B); }
 
-Matrix CompleteOrthogonal::pseudo_inverse() const { return factor_->pseudoInverse(); }
+Matrix CompleteOrthogonal::pseudo_inverse() const {
+  return solve_columns(Matrix::Identity(factor_->rows(), factor_->rows()));
+}
 
 }  // namespace convex::linear_algebra

@@ -11,9 +11,8 @@ Householder::Householder(const Matrix& V) {
 }
 
 Matrix Householder::Q(Index columns) const {
-  const auto all = Eigen::householderSequence(reflections_, coefficients_);
-  if (columns == reflections_.rows()) return all;
-  return all * Matrix::Identity(reflections_.rows(), columns);
+  return Eigen::householderSequence(reflections_, coefficients_) *
+         Matrix::Identity(reflections_.rows(), columns);
 }
 
 Matrix Householder::R() const {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "convex/linear_algebra/cholesky.hpp"
+
 namespace convex::linear_algebra {
 
 SymmetricEigen::SymmetricEigen(const Matrix& S) {
@@ -16,7 +18,12 @@ Vector eigenvalues(const Matrix& S) {
 }
 
 Vector generalized_eigenvalues(const Matrix& A, const Matrix& B) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(A, B, Eigen::EigenvaluesOnly).eigenvalues();
+  const Cholesky factor(B);
+  Matrix X = A;
+  factor.solve_lower_in_place(X);
+  X.transposeInPlace();
+  factor.solve_lower_in_place(X);  // L⁻¹A L⁻ᵀ
+  return eigenvalues(X);
 }
 
 }  // namespace convex::linear_algebra
