@@ -90,7 +90,7 @@ std::vector<Weights> cancelling(const TightRows& tight) {
   const auto count = static_cast<Index>(free.size());
   RowMatrix unit_rows = tight.U;
   unit_rows.rowwise().normalize();
-  std::optional<convex::DataRadii> radii(std::in_place, tight.radius, Vector::Zero(count));
+  std::optional<convex::DataRadii> radii = convex::DataRadii{tight.radius, Vector::Zero(count)};
   for (Index k = 0; k < count; ++k)
     if (const double length = tight.U.row(k).norm(); length > 0) radii->row[k] /= length;
   while (std::find(free.begin(), free.end(), true) != free.end()) {
