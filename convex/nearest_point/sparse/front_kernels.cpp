@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "convex/dense/packs.hpp"
 #include "convex/processor.hpp"
@@ -43,7 +44,7 @@ struct Tiles {
   using P = dense::Packs<W, true>;
   using Pack = typename P::Pack;
   /// What is summed in registers at a time: so many packs of eight rows of so many columns.
-  static constexpr Index packs_at_once = W == 8 ? 2 : 1, columns_at_once = W == 8 ? 8 : W == 4 ? 4 : 2;
+  static constexpr Index packs_at_once = W == 8 ? 2 : 1, columns_at_once = W;
 
   /// Rows i … i + 8 packs - 1 of columns j … j + columns - 1, of which those exist that the triangle has.
   template <Index packs, Index columns>
@@ -72,10 +73,20 @@ struct Tiles {
           continue;
         }
         if (j + c >= of.to) break;
-        double part[8];
-        P::store(part, sum[c][p]);
         const Index first = std::max(Index{0}, j + c - i - 8 * p),
                     last = std::min(Index{8}, of.end - i - 8 * p);
+        if (first >= last) continue;
+        if constexpr (W == 8) {  // what a mask leaves out is neither read nor written
+          auto& rows = *reinterpret_cast<double(*)[8]>(to + 8 * p);
+          const auto mask = static_cast<unsigned short>((1U << last) - (1U << first));
+          Pack now;
+          asm("vmovupd %2, %0%{%1%}%{z%}" : "=v"(now.part[0]) : "Yk"(mask), "m"(rows));
+          now = P::minus(is_new ? Pack{} : now, sum[c][p]);
+          asm("vmovupd %1, %0%{%2%}" : "+m"(rows) : "v"(now.part[0]), "Yk"(mask));
+          continue;
+        }
+        double part[8];
+        P::store(part, sum[c][p]);
         for (Index r = first; r < last; ++r) to[8 * p + r] = (is_new ? 0 : to[8 * p + r]) - part[r];
       }
     }
@@ -98,8 +109,10 @@ struct Tiles {
       for (Index j = of.from; j < of.to; j += columns_at_once) {
         for (Index k = 0; k < count; ++k) {
           const double pivot = of.D[(first + k) * (of.rows + 1)];
-          for (Index c = 0; c < columns_at_once; ++c)
-            weights[k * columns_at_once + c] = L[k * of.rows + j + c] * pivot;
+          typename P::Part weight;
+          std::memcpy(&weight, L + k * of.rows + j, sizeof weight);
+          weight = weight * pivot;
+          std::memcpy(weights + k * columns_at_once, &weight, sizeof weight);
         }
         if (of.to - j <= columns_at_once / 2)
           subtract_rows<columns_at_once / 2>(of, j, L, count, weights, of.is_new && first == 0);
