@@ -46,6 +46,20 @@ struct Tiles {
   /// What is summed in registers at a time: so many packs of eight rows of so many columns.
   static constexpr Index packs_at_once = W == 8 ? 2 : 1, columns_at_once = W;
 
+  /// Of eight numbers those of a mask; the others are neither read nor written.
+  MOREAU_INLINE Pack read(const double* x, unsigned mask) {
+    Pack pack;
+    asm("vmovupd %2, %0%{%1%}%{z%}"
+        : "=v"(pack.part[0])
+        : "Yk"(static_cast<unsigned short>(mask)), "m"(*reinterpret_cast<const double(*)[8]>(x)));
+    return pack;
+  }
+  MOREAU_INLINE void write(double* x, unsigned mask, const Pack& pack) {
+    asm("vmovupd %1, %0%{%2%}"
+        : "+m"(*reinterpret_cast<double(*)[8]>(x))
+        : "v"(pack.part[0]), "Yk"(static_cast<unsigned short>(mask)));
+  }
+
   /// Rows i … i + 8 packs - 1 of columns j … j + columns - 1, of which those exist that the triangle has.
   template <Index packs, Index columns>
   MOREAU_INLINE void subtract_tile(const Products& of, Index i, Index j, const double* L, Index count,
@@ -76,13 +90,9 @@ struct Tiles {
         const Index first = std::max(Index{0}, j + c - i - 8 * p),
                     last = std::min(Index{8}, of.end - i - 8 * p);
         if (first >= last) continue;
-        if constexpr (W == 8) {  // what a mask leaves out is neither read nor written
-          auto& rows = *reinterpret_cast<double(*)[8]>(to + 8 * p);
-          const auto mask = static_cast<unsigned short>((1U << last) - (1U << first));
-          Pack now;
-          asm("vmovupd %2, %0%{%1%}%{z%}" : "=v"(now.part[0]) : "Yk"(mask), "m"(rows));
-          now = P::minus(is_new ? Pack{} : now, sum[c][p]);
-          asm("vmovupd %1, %0%{%2%}" : "+m"(rows) : "v"(now.part[0]), "Yk"(mask));
+        if constexpr (W == 8) {
+          const unsigned rows = (1U << last) - (1U << first);
+          write(to + 8 * p, rows, P::minus(is_new ? Pack{} : read(to + 8 * p, rows), sum[c][p]));
           continue;
         }
         double part[8];
@@ -121,6 +131,30 @@ struct Tiles {
       }
     }
   }
+
+  MOREAU_INLINE void add(Index n, const double* given, double* sum) {
+    Index i = 0;
+    for (; i + 8 <= n; i += 8) P::store(sum + i, P::plus(P::load(sum + i), P::load(given + i)));
+    if constexpr (W == 8) {
+      const unsigned rows = (1U << (n - i)) - 1;
+      if (i < n) write(sum + i, rows, P::plus(read(sum + i, rows), read(given + i, rows)));
+    } else {
+      for (; i < n; ++i) sum[i] += given[i];
+    }
+  }
+
+  /// Rows that follow each other in both are added together: as a rule there are a few such runs.
+  MOREAU_INLINE void add_columns(const double* update, Index size, Index from, Index to, const int* place,
+                                 double* target, Index stride) {
+    for (Index first = from, end = from; first < size; first = end) {
+      for (end = first + 1; end < size && place[end] == place[end - 1] + 1;) ++end;
+      const Index shift = place[first] - first;
+      for (Index j = from; j < std::min(to, end); ++j) {
+        const Index top = std::max(first, j);
+        add(end - top, update + j * size + top, target + place[j] * stride + shift + top);
+      }
+    }
+  }
 };
 
 // Products and sums may be fused, as in the dense kernels.
@@ -132,6 +166,14 @@ void subtract_by_two(const Products& of) { Tiles<2>::subtract(of); }
 [[gnu::target("avx512f")]] void subtract_by_eight(const Products& of) { Tiles<8>::subtract(of); }
 #endif
 #pragma GCC pop_options
+
+using AddColumns = void(const double*, Index, Index, Index, const int*, double*, Index);
+constinit AddColumns* const add_tables[] = {&dense::Compiled<2, &Tiles<2>::add_columns>::at,
+#ifdef MOREAU_HAS_FAMILIES
+                                            &dense::Compiled<4, &Tiles<4>::add_columns>::at,
+                                            &dense::Compiled<8, &Tiles<8>::add_columns>::at
+#endif
+};
 
 void subtract(const Products& of) {
 #ifdef MOREAU_HAS_FAMILIES
@@ -185,19 +227,10 @@ void outer_product(double* C, Index size, const double* panel, Index rows, Index
   subtract({C, size, 0, size, size, panel + rows - size, panel, rows, columns, true});
 }
 
-/// Rows that follow each other in both are added together: as a rule there are a few such runs.
-MOREAU_CLONES
 void add_columns(const double* update, Index size, Index from, Index to, const int* place, double* target,
                  Index stride) {
-  for (Index first = from, end = from; first < size; first = end) {
-    for (end = first + 1; end < size && place[end] == place[end - 1] + 1;) ++end;
-    const Index shift = place[first] - first;
-    for (Index j = from; j < std::min(to, end); ++j) {
-      const double* given = update + j * size;
-      double* sum = target + place[j] * stride + shift;
-      for (Index i = std::max(first, j); i < end; ++i) sum[i] += given[i];
-    }
-  }
+  static AddColumns* const chosen = add_tables[static_cast<std::size_t>(processor())];
+  chosen(update, size, from, to, place, target, stride);
 }
 
 MOREAU_CLONES
