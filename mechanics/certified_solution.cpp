@@ -18,20 +18,17 @@ bool small_enough(const convex::NearestPointProblem& problem) {
   return problem.dimension() * (problem.dimension() + problem.rows()) <= most_exact_entries;
 }
 
-/// A bound on doubles cannot be expected to be better than this part of ||q||_A.
-constexpr double few_ulps = 4 * 0x1p-52;
-
 /// Where fractions take milliseconds they are used for a wide bound too.
 bool is_quick(const convex::NearestPointProblem& problem) {
   constexpr Index quick_entries = 40 * 80;
   return problem.dimension() * (problem.dimension() + problem.rows()) <= quick_entries;
 }
 
+}  // namespace
+
 bool has_answer(const GaussSolution& solution) {
   return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
 }
-
-}  // namespace
 
 bool is_default(const GaussOptions& options) {
   return options.method == &convex::methods().front() || options.method->name == "exact";

@@ -34,6 +34,12 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem&, const Exac
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem&, const ExactData&,
                                      const GaussOptions&);
 
+/// A bound on doubles cannot be expected to be better than this part of ||q||_A.
+inline constexpr double few_ulps = 4 * 0x1p-52;
+
+/// Whether there is an acceleration, to the accuracy asked for or less.
+bool has_answer(const GaussSolution&);
+
 /// Whether the caller left the method to the program, or asked for fractions: then the answer may be replaced
 /// by the exact one, rounded.
 bool is_default(const GaussOptions&);

@@ -21,10 +21,6 @@ using convex::NearestPointProblem;
 using convex::ProofLevel;
 using convex::Status;
 
-bool has_answer(const GaussSolution& solution) {
-  return solution.primal.status == Status::solved || solution.primal.status == Status::inaccurate;
-}
-
 bool holds(const std::vector<Index>& sorted, Index a) {
   return std::binary_search(sorted.begin(), sorted.end(), a);
 }
@@ -184,7 +180,6 @@ class Proving {
   bool is_off(const OneProof& one) const {
     if (!one.feasible || !is_default(options_)) return false;
     const double norm = found_.solution.primal.acceleration_norm;
-    constexpr double few_ulps = 4 * 0x1p-52;
     return !(one.distance <= (one.level == ProofLevel::exact && !in_fractions()
                                   ? few_ulps * norm
                                   : options_.accuracy.tolerance * std::max(1.0, norm)));

@@ -23,8 +23,8 @@ constexpr double curves_end = 3, sample_at = 3.2, names_at = 3.4, x_end = 4.9, y
                  name_height = 0.042;
 
 /// Curves cross, so here each method has a colour and dashes that no other has.
-constexpr std::array curve_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00",
-                                   "#56b4e9", "#882255", "#222222"};
+constexpr std::array method_colours{"#0072b2", "#009e73", "#cc79a7", "#e69f00",
+                                    "#56b4e9", "#882255", "#222222"};
 
 struct Curve {
   std::string method, steps;
@@ -74,7 +74,7 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const Curve& c = curves[k];
     const bool is_default = c.method == "auto";
-    const std::string colour = is_default ? "#d55e00" : curve_colours[k % curve_colours.size()];
+    const std::string colour = is_default ? "#d55e00" : method_colours[k % method_colours.size()];
     drawing.script += fmt::format(
         "$m{} << EOD\n{}EOD\n$l{} << EOD\n{} {}\n{} {}\nEOD\n$s{} << EOD\n{} {}\n{} {}\nEOD\n$t{} "
         "<< EOD\n{} {} {}\nEOD\n",
@@ -85,7 +85,7 @@ Drawing profile_drawing(const std::vector<Trial>& trials) {
         "  $l{1} using 1:2 with lines lc rgb \"{2}\" lw 0.4 notitle, \\\n"
         "  $s{1} using 1:2 with lines lc rgb \"{2}\" lw {3} dt {4} notitle, \\\n"
         "  $t{1} using 1:2:3 with labels left offset 0.4,0 font \"{5},9\" tc rgb \"#222222\" notitle",
-        k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / curve_colours.size(),
+        k > 0 ? ", \\\n  " : "", k, colour, is_default ? 3 : 1.6, 1 + k / method_colours.size(),
         is_default ? "Helvetica:Bold" : "");
   }
   drawing.script += fmt::format(

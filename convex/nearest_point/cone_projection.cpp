@@ -12,7 +12,7 @@ namespace {
 constexpr double right_angle = 64 * unit_roundoff;
 
 /// A generator this close to the span of those in use adds nothing.
-constexpr double dependence = 1e-14;
+constexpr double dependent_part = 1e-14;
 
 class PassiveSet {
  public:
@@ -24,7 +24,7 @@ class PassiveSet {
     if (factor_.size() == factor_.capacity()) return false;
     Vector d = V_.col(a);
     const double length = d.norm(), rho = factor_.split(d, c_);
-    if (!(rho > dependence * length)) return false;
+    if (!(rho > dependent_part * length)) return false;
     factor_.append(c_, d, rho);
     members_.push_back(a);
     return true;

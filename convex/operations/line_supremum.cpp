@@ -31,7 +31,7 @@ double double_of(Rank rank) {
 constexpr double farthest = 0x1p900;
 
 /// The root of the rounding of a double near 1: a maximum moves its value by a rounding over so many ranks.
-constexpr Rank first_step = Rank{1} << 26;
+constexpr Rank first_rank_step = Rank{1} << 26;
 /// Steps that look for lower values on both sides grow by this; none spans more than a sixteenth of all
 /// doubles.
 constexpr Rank growth = 16, largest_step = Rank{1} << 58;
@@ -41,7 +41,7 @@ constexpr double section = 0.381966011250105152;
 constexpr int most_sections = 200;
 
 /// What is left is nothing beside so many roundings of the terms.
-constexpr double roundings = 8;
+constexpr double roundings_of_terms = 8;
 
 struct Sample {
   Rank rank = 0;
@@ -79,7 +79,7 @@ class Line {
     const Value f_x = f_.evaluate(Vector::Constant(1, x));
     WorkLimit::count();
     Sample made{rank, x, v_ * x - f_x.value, 0};
-    made.error = f_x.error + roundings * unit_roundoff * (std::abs(v_ * x) + std::abs(f_x.value));
+    made.error = f_x.error + roundings_of_terms * unit_roundoff * (std::abs(v_ * x) + std::abs(f_x.value));
     if (f_x.value == infinity) made.error = 0;
     if (!std::isfinite(made.error) || (!std::isfinite(made.value) && f_x.value != infinity)) return false;
     const auto place = std::lower_bound(samples_.begin(), samples_.end(), rank,
@@ -175,7 +175,7 @@ std::optional<LineSupremum> line_supremum(const Function& f, double v, double st
     return LineSupremum{line.best().x, {line.best().value - line.best().error, infinity}};
   };
   for (const bool right : {false, true})
-    for (Rank step = first_step; !line.falls(right) && !(line.is_at_last(right) && line.ends(right));
+    for (Rank step = first_rank_step; !line.falls(right) && !(line.is_at_last(right) && line.ends(right));
          step = std::min(growth * step, largest_step)) {
       if (line.is_at_last(right) || WorkLimit::passed()) return lower_bound();
       if (!line.look_at(line.beyond(right, step))) return lower_bound();

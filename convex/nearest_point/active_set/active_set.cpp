@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
@@ -13,8 +14,6 @@
 
 namespace convex::inline dual_active_set {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Roundings of the terms of w that it carries; a violation below is left to the check in twice the
 /// precision.

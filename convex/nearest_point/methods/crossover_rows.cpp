@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/degenerate_rows.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/active_set/refined_slacks.hpp"
 
 namespace convex::inline algorithms {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Polish {
  public:

@@ -8,7 +8,7 @@ namespace {
 
 /// Below this many coordinates, or with more than this part of the entries there, dense is faster.
 constexpr Index small_island = 64;
-constexpr double sparse_part = 0.25;
+constexpr double sparse_island_part = 0.25;
 
 /// Sets of coordinates, merged two by two; the least coordinate stands for its set.
 class DisjointSets {
@@ -95,8 +95,8 @@ Metric metric_block(const Metric& A, const std::vector<Index>& coordinates, cons
     SparseMatrix block(n, n);
     block.setFromTriplets(entries.begin(), entries.end());
     const double all = static_cast<double>(n) * static_cast<double>(n);
-    const bool dense = block.nonZeros() > n &&
-                       (n <= small_island || static_cast<double>(block.nonZeros()) > sparse_part * all);
+    const bool dense = block.nonZeros() > n && (n <= small_island || static_cast<double>(block.nonZeros()) >
+                                                                         sparse_island_part * all);
     return dense ? Metric::dense(Matrix(block)) : Metric::sparse(block);
   }
   Vector diagonal(n);
