@@ -2,11 +2,10 @@
 
 #include "convex/vector.hpp"
 
-/// Eigen's products of matrices of doubles, the loops inside them, and copies of sparse matrices, compiled
-/// once, in compiled_products.cpp; else every file with a product compiles them, at two seconds for A*B, Aᵀ*B
-/// and A*Bᵀ. For our own targets alone, through their precompiled headers: who links the library may compile
-/// for another processor. The names are those of Eigen 3.4; of another version nothing is declared, and each
-/// file compiles what it needs.
+/// The loops inside Eigen's products of matrices of doubles, compiled once, in compiled_products.cpp; else
+/// every file with a product compiles them. For our own targets alone, through their precompiled headers: who
+/// links the library may compile for another processor. The names are those of Eigen 3.4; of another version
+/// nothing is declared, and each file compiles what it needs.
 #if EIGEN_VERSION_AT_LEAST(3, 4, 0) && !EIGEN_VERSION_AT_LEAST(3, 4, 90)
 
 namespace convex::linear_algebra {
@@ -15,8 +14,6 @@ using ProductTraits = Eigen::internal::gebp_traits<double, double>;
 template <int order>
 using ReadMatrix = Eigen::internal::const_blas_data_mapper<double, Index, order>;
 using WriteMatrix = Eigen::internal::blas_data_mapper<double, Index, Eigen::ColMajor, Eigen::Unaligned, 1>;
-using Transposed = Eigen::Transpose<Matrix>;
-using ConstTransposed = Eigen::Transpose<const Matrix>;
 
 }  // namespace convex::linear_algebra
 
@@ -48,47 +45,5 @@ using ConstTransposed = Eigen::Transpose<const Matrix>;
   MOREAU_PRODUCTS_OF(instantiate, 1)
 
 MOREAU_PRODUCTS(extern template)
-
-extern template void Eigen::internal::assign_sparse_to_sparse(convex::SparseMatrix&,
-                                                              const convex::SparseMatrix&);
-extern template void Eigen::internal::assign_sparse_to_sparse(convex::SparseRows&, const convex::SparseRows&);
-
-namespace Eigen::internal {
-
-/// X = A B, X += A B and X -= A B.
-#define MOREAU_MATRIX_PRODUCT(Lhs, Rhs)                                                                   \
-  template <>                                                                                             \
-  template <>                                                                                             \
-  void generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct>::evalTo(MatrixXd&, const Lhs&, \
-                                                                                   const Rhs&);           \
-  template <>                                                                                             \
-  template <>                                                                                             \
-  void generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct>::addTo(MatrixXd&, const Lhs&,  \
-                                                                                  const Rhs&);            \
-  template <>                                                                                             \
-  template <>                                                                                             \
-  void generic_product_impl<Lhs, Rhs, DenseShape, DenseShape, GemmProduct>::subTo(MatrixXd&, const Lhs&,  \
-                                                                                  const Rhs&);
-
-/// y += alpha A x, which y = A x is made of.
-#define MOREAU_VECTOR_PRODUCT(Lhs)                                                              \
-  template <>                                                                                   \
-  template <>                                                                                   \
-  void generic_product_impl<Lhs, VectorXd, DenseShape, DenseShape, GemvProduct>::scaleAndAddTo( \
-      VectorXd&, const Lhs&, const VectorXd&, const double&);
-
-MOREAU_MATRIX_PRODUCT(MatrixXd, MatrixXd)
-MOREAU_MATRIX_PRODUCT(MatrixXd, convex::linear_algebra::Transposed)
-MOREAU_MATRIX_PRODUCT(MatrixXd, convex::linear_algebra::ConstTransposed)
-MOREAU_MATRIX_PRODUCT(convex::linear_algebra::Transposed, MatrixXd)
-MOREAU_MATRIX_PRODUCT(convex::linear_algebra::ConstTransposed, MatrixXd)
-MOREAU_VECTOR_PRODUCT(MatrixXd)
-MOREAU_VECTOR_PRODUCT(convex::linear_algebra::Transposed)
-MOREAU_VECTOR_PRODUCT(convex::linear_algebra::ConstTransposed)
-
-#undef MOREAU_MATRIX_PRODUCT
-#undef MOREAU_VECTOR_PRODUCT
-
-}  // namespace Eigen::internal
 
 #endif
