@@ -235,6 +235,7 @@ void Motion::EventDriven::take_step(double until) {
     tau = end;
     for (Zero& zero : zeros) {
       zero.at = polished(zero, zero.at);
+      land_softly(zero, end);
       tau = std::min(tau, zero.at);
     }
     if (tau <= 0 || fits(tau)) break;

@@ -28,6 +28,7 @@ class Motion::EventDriven final : public Motion::Course {
   std::vector<Zero> closing_at_the_end();
   void watch();
   double polished(const Zero& zero, double tau);
+  void land_softly(Zero& zero, double end) const;
   bool fits(double tau);
   bool is_met(double at, double tau);
   bool is_passed(double tau);
@@ -40,7 +41,7 @@ class Motion::EventDriven final : public Motion::Course {
   void handle(const std::vector<Zero>& zeros);
   double rounding_of_f(Index a);
   void stop_at_vanishing_gradient(Index a);
-  void tell_blur(const std::vector<Index>& closing);
+  void tell_blur(const std::vector<Zero>& zeros);
   void tell_order(const std::vector<Zero>& zeros, const std::vector<Index>& closing);
   void collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                const std::vector<Index>& switches);

@@ -83,7 +83,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
     if (zero.of != Zero::Of::constraint) continue;
     if (expansion_.has_lost_gradient(zero.which)) return stop_at_vanishing_gradient(zero.which);
     const bool closes = expansion_.rate(zero.which) < -expansion_.rounding_of_rate(zero.which);
-    (closes && !zero.is_touch ? closing : touching).push_back(zero.which);
+    (closes && !zero.is_touch && !zero.is_soft ? closing : touching).push_back(zero.which);
     if (zero.is_touch)
       remark(RemarkKind::touch, constraint_name(zero.which) +
                                     " is touched and left within rounding: data that differ in their last "
@@ -96,7 +96,7 @@ void Motion::EventDriven::handle(const std::vector<Zero>& zeros) {
   for (std::size_t k = 0; k < expansion_.switches(); ++k)  // those that stayed 0 may go on otherwise
     if (expansion_.branch(k) == 0 && !contains(switches, static_cast<Index>(k)))
       switches.push_back(static_cast<Index>(k));
-  tell_blur(closing);
+  tell_blur(zeros);
   if (closing.size() > 1) tell_order(zeros, closing);
   if (!closing.empty()) {  // with all contacts that are closed, those that open included
     for (Index a = 0; a < expansion_.constraints(); ++a)

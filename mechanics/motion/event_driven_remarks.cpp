@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "mechanics/motion/event_driven.hpp"
 #include "mechanics/motion/polynomial_root.hpp"
+#include "mechanics/motion/taylor_series.hpp"
 #include "mechanics/motion/terms.hpp"
 #include "mechanics/number_text.hpp"
 
@@ -32,7 +35,70 @@ double width_of_zero(std::span<const double> c, double tau, double ahead, double
   return std::max(width(-1, tau), width(1, ahead));
 }
 
+/// A derivative of a polynomial is left by so many roundings of what it is the sum of.
+constexpr double roundings_of_derivative = 16;
+
+/// Points of the time over which f is within its rounding between which df/dt turns around at most once.
+constexpr int looks_at_rate = 32;
+
+/// A polynomial's second derivative, and what it is the sum of.
+struct Curvature {
+  double value = 0, terms = 0;
+};
+
+Curvature curvature(std::span<const double> c, double at) {
+  Curvature sum;
+  for (std::size_t k = c.size(); k-- > 2;) {
+    const double term = static_cast<double>(k * (k - 1)) * c[k];
+    sum = {sum.value * at + term, sum.terms * at + std::abs(term)};
+  }
+  return sum;
+}
+
+/// Whether the derivative is 0 but for rounding.
+bool is_level(std::span<const double> c, double at) {
+  double terms = 0;
+  for (std::size_t k = c.size(); k-- > 1;) terms = terms * at + static_cast<double>(k) * std::abs(c[k]);
+  return std::abs(slope_at(c, at)) <= roundings_of_derivative * epsilon * terms;
+}
+
+/// Where the derivative, within an interval, comes up to 0 but for rounding, and surely falls again; else
+/// nothing.
+std::optional<double> end_of_fall(std::span<const double> c, double from, double to) {
+  const auto look = [&](int k) { return from + (to - from) * k / looks_at_rate; };
+  int highest = 0;
+  for (int k = 1; k <= looks_at_rate; ++k)
+    if (slope_at(c, look(k)) > slope_at(c, look(highest))) highest = k;
+  if (highest == 0 || highest == looks_at_rate) return std::nullopt;
+  double low = look(highest - 1), high = look(highest + 1);
+  for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+    (curvature(c, middle).value > 0 ? low : high) = middle;
+  for (double later = epsilon * to; is_level(c, high) && high + later < to; later *= 2) {
+    const Curvature there = curvature(c, high + later);
+    if (!(there.value < -roundings_of_derivative * epsilon * there.terms)) continue;
+    if (is_level(c, high + later)) return high + later;
+    break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
+
+/// Where f comes to 0 as (t₀ - t)^p, p = 3, 5, …, it stays within its rounding for long, and rounding decides
+/// where in that time it crosses 0, with a speed that makes a hundred bounces which are none. df/dt tells:
+/// its zero is of a lower order, and the contact lands there, softly.
+void Motion::EventDriven::land_softly(Zero& zero, double end) const {
+  if (zero.of != Zero::Of::constraint || zero.is_touch) return;
+  const std::span<const double> c = coefficients(next.f, zero.which);
+  const double rounding = epsilon * (expansion_.position_scale(zero.which) + sum_of_terms(c, zero.at));
+  const double by_slope = rounding / std::abs(slope_at(c, zero.at));
+  const double known = options.tolerance * (clock() + zero.at);
+  if (!(2 * most_coefficients * by_slope > known)) return;
+  const double width = width_of_zero(c, zero.at, end - zero.at, rounding, std::min(by_slope, known));
+  const auto landed = end_of_fall(c, std::max(0.0, zero.at - width), std::min(end, zero.at + width));
+  zero.is_soft = landed.has_value();
+  zero.at = landed.value_or(zero.at);
+}
 
 /// Of a contact that closes. Without t, its terms are about as large as those of its differential.
 double Motion::EventDriven::rounding_of_f(Index a) {
@@ -42,21 +108,25 @@ double Motion::EventDriven::rounding_of_f(Index a) {
 
 /// Near a tangency f falls so slowly through 0 that its rounding leaves the time of the impact uncertain. The
 /// last bounces before rest do so too: their end is told with its own error.
-void Motion::EventDriven::tell_blur(const std::vector<Index>& closing) {
-  for (const Index a : closing) {
+void Motion::EventDriven::tell_blur(const std::vector<Zero>& zeros) {
+  for (const Zero& zero : zeros) {
+    if (zero.of != Zero::Of::constraint || zero.is_touch) continue;
+    const Index a = zero.which;
     const auto k = static_cast<std::size_t>(a);
     const bool has_known_end = std::isfinite(history_[k].end_error());
     if (is_blurred_[k] || has_known_end) continue;
     const std::span<const double> c = coefficients(done.f, a);
     const double rounding = rounding_of_f(a) + epsilon * sum_of_terms(c, done.length);
-    const double by_slope = rounding / -expansion_.rate(a);
+    const double rate = expansion_.rate(a), known = options.tolerance * clock();
+    const bool is_soft = zero.is_soft || !(rate < -expansion_.rounding_of_rate(a));
+    const double by_slope = is_soft ? known : rounding / -rate;
     // The width of a zero of order p is about 2 p times that.
-    if (!(2 * most_coefficients * by_slope > options.tolerance * clock())) continue;
+    if (!(2 * most_coefficients * by_slope > known)) continue;
     const double blur =
         std::max(by_slope, width_of_zero(c, done.length, 2 * step_ahead_, rounding, by_slope));
-    if (!(blur > options.tolerance * clock())) continue;
+    if (!(blur > known)) continue;
     is_blurred_[k] = true;
-    history_[k].doubt(blur, -expansion_.rate(a));
+    history_[k].doubt(blur, std::abs(rate));
     remark(RemarkKind::slow_closing,
            constraint_name(a) + " closes so slowly that the rounding of f leaves the time uncertain by " +
                number_text(blur) + ", and with it what follows",

@@ -45,7 +45,7 @@ double return_time(const LagrangianSystem& system, const State& guess, const Orb
       if (question.modulo[i] > 0) away[i] -= question.modulo[i] * std::round(away[i] / question.modulo[i]);
     return away;
   };
-  double farthest = 0, last = 0;
+  double farthest = 0;
   bool was_behind = false;
   const auto is_near = [&](const Vector& away) { return away.norm() < 0.5 * farthest; };
   for (long step = 0; step < most_steps_to_return; ++step) {
@@ -58,10 +58,14 @@ double return_time(const LagrangianSystem& system, const State& guess, const Orb
       const Vector away = from_start(arc.state(tau));
       const double along = away.dot(direction);
       farthest = std::max(farthest, away.norm());
-      const double time = arc.t - guess.t + tau;
-      if (was_behind && along >= 0 && is_near(away)) return 0.5 * (time + last);
+      if (was_behind && along >= 0 && is_near(away)) {
+        // To the last digit: from a guess on an orbit Newton's method need not leave it, to whatever is near.
+        double low = arc.length * (k - 1) / looks_per_arc, high = tau;
+        for (double middle = 0.5 * (low + high); middle > low && middle < high; middle = 0.5 * (low + high))
+          (from_start(arc.state(middle)).dot(direction) < 0 ? low : high) = middle;
+        return arc.t - guess.t + high;
+      }
       was_behind = along < 0;
-      last = time;
     }
     for (const MotionEvent& event : motion.events()) {
       const bool leads_there = std::any_of(event.constraints.begin(), event.constraints.end(), [&](Index a) {

@@ -6,7 +6,7 @@
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/complex_eigenvalues.hpp"
-#include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/motion/closed_impacts.hpp"
 #include "mechanics/motion/first_return.hpp"
 #include "mechanics/motion/lagrange_equations.hpp"
 #include "mechanics/motion/orbit_section.hpp"
@@ -74,23 +74,12 @@ double circle_width(const std::vector<std::complex<double>>& multipliers, const 
   return error;
 }
 
-/// T + V, asked to have a value: the last equation of Newton's method where a motion keeps it, by the text
-/// and at its impacts.
+/// T + V, asked to have a value: the last equation of Newton's method where orbits keep it.
 class KeptEnergy {
  public:
-  KeptEnergy(const LagrangianSystem& system, const OrbitQuestion& question, const Flight& first,
-             const State& guess)
+  KeptEnergy(const LagrangianSystem& system, const OrbitQuestion& question, const State& guess)
       : system_(system) {
-    const expression::LagrangianModel& model = system.model();
-    const auto keeps = [&](Index a) {
-      return question.motion.restitution.size() > 0 && question.motion.restitution[a] == 1;
-    };
-    is_kept_ = question.is_free && !system.equations_of_motion().series.steps.uses_time &&
-               std::all_of(model.forces.begin(), model.forces.end(),
-                           [](expression::NodeId Q) { return Q == expression::no_node; });
-    for (const MotionEvent& event : first.events())
-      is_kept_ = is_kept_ && (event.kind != EventKind::impact ||
-                              std::all_of(event.constraints.begin(), event.constraints.end(), keeps));
+    is_kept_ = question.is_free && keeps_energy_between_impacts(system);
     if (is_kept_) value_ = question.energy.value_or(system.energy(guess));
   }
   bool is_kept() const { return is_kept_; }
@@ -143,7 +132,7 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   near.motion.step_limit =
       std::min(question.motion.step_limit, far_steps * static_cast<long>(flight.pieces.size()) + some_steps);
   Vector miss = map.miss(flight, x);
-  const KeptEnergy energy(system, question, flight, orbit.start);
+  const KeptEnergy energy(system, question, orbit.start);
   double energy_scale = 1;  // how much the energy changes as far as the motion goes
   const auto residual_of = [&](const Vector& missed, const Flight& of, const Vector& at) {
     return std::max(map.relative(missed, of),
@@ -209,8 +198,11 @@ Orbit find_orbit_there(const LagrangianSystem& system, const State& guess, const
   if (!(orbit.residual <= met)) {
     orbit.why = "Newton's method finds no motion near this state that comes back; begin nearer to one";
     if (!stopped.empty()) orbit.why += ". Those that it tries do not go on: " + stopped;
+    if (std::string lost = lost_energy(system, near.motion, flight.events()); !lost.empty()) orbit.why = lost;
     return orbit;
   }
+  orbit.why = why_not_repeated(system, near, map, flight, x, orbit.period);
+  if (!orbit.why.empty()) return orbit;
   orbit.is_found = true;
   note_passage(flight, system, orbit);
   for (const MotionEvent& event : flight.events()) {

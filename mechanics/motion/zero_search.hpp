@@ -13,6 +13,7 @@ struct Zero {
   Index which;  ///< the constraint, or the switch
   double at;    ///< τ
   bool is_touch = false;
+  bool is_soft = false;  ///< it comes to 0 with its rate, and does not go up again
 };
 
 /// What is watched on an arc.

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "tests/mechanics/motion/followed.hpp"
 
@@ -220,4 +221,77 @@ TEST_CASE("why no orbit is found says where the motions tried end") {
   const Orbit none = find_orbit(*made, state({-4}, {0.5}), question);
   CHECK_FALSE(none.is_found);
   CHECK(none.why.find("dry friction") != std::string::npos);
+}
+
+TEST_CASE("a motion that loses a little energy in a graze, and has nothing to bring it back, is no orbit") {
+  // A stop at the amplitude of motions of known period, reached a little too fast, right, or not at all.
+  const double pi = std::acos(-1.0);
+  struct Scene {
+    SystemText text;
+    State at;
+    double period;
+  };
+  const std::vector<Scene> scenes{
+      {{{"x"}, "x'^2/2", "2*x^2", {}, {}, {}, {{"stop", "x <= 0.5"}}}, state({0}, {1}), pi},
+      {{{"a"}, "a'^2/2", "-9.81*cos(a)", {}, {}, {}, {{"stop", "a <= 0.5"}}},
+       state({-0.5}, {0}),
+       4 * std::comp_ellint_1(std::sin(0.25)) / std::sqrt(9.81)},
+      {{{"x", "y"}, "x'^2/2 + y'^2", "2*(x - y)^2 + x^2/2 + y^2", {}, {}, {}, {{"stop", "y - x <= 0.3"}}},
+       state({0.2, -0.1}, {0, 0}),
+       2 * pi / std::sqrt(7.0)}};
+  for (std::size_t k = 0; k < scenes.size(); ++k)
+    for (const double larger : {-1e-6, -1e-9, 0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.5}) {
+      CAPTURE(k);
+      CAPTURE(larger);
+      const auto made = system(scenes[k].text);
+      State guess = scenes[k].at;
+      guess.q *= 1 + larger;
+      guess.v *= 1 + larger;
+      for (const double e : {0.5, 0.8, 0.9999}) {
+        OrbitQuestion question;
+        question.motion = restitution(scenes[k].text, e);
+        question.is_free = true;
+        const Orbit free = find_orbit(*made, guess, question);
+        question.is_free = false;
+        question.period = scenes[k].period;
+        const Orbit given = find_orbit(*made, guess, question);
+        for (const Orbit* orbit : {&free, &given}) {
+          CHECK((!orbit->is_found || orbit->impacts.empty()));
+          if (orbit->is_found) CHECK_FALSE(orbit->is_stable);
+          if (larger > 0) CHECK((orbit->is_found || orbit->why.find("stop") != std::string::npos));
+        }
+        if (larger <= 0) CHECK(free.is_found);
+        if (larger >= 1e-9) CHECK_FALSE(free.is_found);
+        if (free.is_found) CHECK(std::abs(free.period / scenes[k].period - 1) <= 1e-7);
+      }
+    }
+}
+
+TEST_CASE("a graze of a self-excited motion is an orbit where its impact repeats, and else is said") {
+  // Its circle has the radius 1 and the period 2 pi, which an impact of the speed w shortens by the order w.
+  const double left = std::exp(-0.2 * std::acos(-1.0));  // of 1 - r, after a round
+  bool was_said = false;
+  for (const double within : {1e-4, 1e-6, 1e-8, 1e-10, 1e-11, 1e-12, 1e-13}) {
+    CAPTURE(within);
+    std::ostringstream stop;
+    stop << "x <= 1 - " << within;
+    const SystemText text{
+        {"x"}, "x'^2/2", "x^2/2", {}, {}, {{"x", "0.1*(1 - x^2 - x'^2)*x'"}}, {{"stop", stop.str()}}};
+    OrbitQuestion question;
+    question.motion = restitution(text, 0.5);
+    question.is_free = true;
+    const Orbit found = find_orbit(*system(text), state({0}, {1}), question);
+    if (within >= 1e-10) CHECK(found.is_found);
+    if (!found.is_found) {
+      was_said = true;
+      CHECK(found.why.find("stop") != std::string::npos);
+      continue;
+    }
+    // To first order in 1 - r: (1 - r) before the impact is left (1 - r + 3/4 (within - (1 - r))).
+    REQUIRE(found.impacts.size() == 1);
+    const double speed = found.impacts[0].velocity_before[0] - found.impacts[0].velocity_after[0];
+    CHECK(speed / std::sqrt(within) ==
+          doctest::Approx(1.5 * std::sqrt(2 * (1 - 0.75 * left / (1 - 0.25 * left)))).epsilon(2e-2));
+  }
+  CHECK(was_said);
 }
