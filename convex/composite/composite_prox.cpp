@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/composite/attained_infimum.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/infinity.hpp"
@@ -116,9 +117,10 @@ std::optional<PairOfValues> values_of(const GraphForm& f, const SaddleProblem& p
 
 }  // namespace
 
-Prox prox(const GraphForm& f, const Vector& z, const Metric& W, const Look& look) {
-  check_sizes(f, z.size());
-  check_sizes(f, W.dimension());
+Prox prox(const GraphForm& given, const Vector& z, const Metric& W, const Look& look) {
+  check_sizes(given, z.size());
+  check_sizes(given, W.dimension());
+  const GraphForm f = with_attained_infimum(given);
   const SaddleProblem problem = saddle_problem(f, z, W, look);
   const SaddleSolution solution = solve(problem);
   const SaddlePoint& point = solution.point;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "convex/composite/attained_infimum.hpp"
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_error.hpp"
 #include "convex/composite/saddle_solver.hpp"
@@ -102,11 +103,12 @@ Value value_of_dual(const SaddleProblem& problem, const SaddlePoint& point, doub
 
 }  // namespace
 
-GraphValue evaluate(const GraphForm& f, const Vector& x) {
-  if (f.n != x.size())
-    throw InvalidInput("graph form: a function of " + std::to_string(f.n) + " entries at a point of " +
+GraphValue evaluate(const GraphForm& given, const Vector& x) {
+  if (given.n != x.size())
+    throw InvalidInput("graph form: a function of " + std::to_string(given.n) + " entries at a point of " +
                        std::to_string(x.size()) + "; give one of the same size");
-  if (f.k == 0) return direct_value(f, x);
+  if (given.k == 0) return direct_value(given, x);
+  const GraphForm f = with_attained_infimum(given);
   const SaddleProblem problem = saddle_problem(at_x(f, x), Vector(0), Metric::identity(0), Look{});
   const SaddleSolution solution = solve(problem);
   const SaddlePoint& point = solution.point;

@@ -54,7 +54,7 @@ class EpigraphAtom final : public Atom {
   double domain_support(const Vector& v) const override {
     return v[n_] == 0 ? f_->domain_support(v.head(n_)) : std::numeric_limits<double>::infinity();
   }
-  const std::shared_ptr<const Atom>& function() const { return f_; }
+  EpigraphParts parts() const { return {f_, side_ * unit_}; }
   Vector prox_diagonal(const Vector& z, const Vector&) const override {
     return inside(z) ? z : project(z).point;
   }
@@ -133,9 +133,9 @@ std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n
   return std::make_shared<const EpigraphAtom>(std::move(f), n, unit);
 }
 
-std::shared_ptr<const Atom> function_of_epigraph(const Atom& set) {
+std::optional<EpigraphParts> parts_of_epigraph(const Atom& set) {
   const auto* epigraph = dynamic_cast<const EpigraphAtom*>(&set);
-  return epigraph ? epigraph->function() : nullptr;
+  return epigraph ? std::optional(epigraph->parts()) : std::nullopt;
 }
 
 }  // namespace convex::inline composite

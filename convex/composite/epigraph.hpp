@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "convex/gamma0/node.hpp"
 
 namespace convex::inline composite {
@@ -14,7 +16,11 @@ namespace convex::inline composite {
 /// prox. Its conjugate is the perspective of f*, `perspective_atom(f*, n, -1/side)`.
 std::shared_ptr<const Atom> epigraph_atom(std::shared_ptr<const Atom> f, Index n, double side = 1);
 
-/// f where `set` is such an epigraph, of x the entries but the last; null elsewhere.
-std::shared_ptr<const Atom> function_of_epigraph(const Atom& set);
+/// What such an epigraph is made of; none where `set` is no epigraph.
+struct EpigraphParts {
+  std::shared_ptr<const Atom> f;
+  double side = 1;
+};
+std::optional<EpigraphParts> parts_of_epigraph(const Atom& set);
 
 }  // namespace convex::inline composite

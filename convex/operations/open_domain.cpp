@@ -19,7 +19,7 @@ struct DomainRow {
 /// Is f, a sum over its entries or the epigraph of one, +inf wherever entry i is `end`? It is where the
 /// other entries are inside its domain.
 bool is_open_at(const Atom& f, Index n, Index i, double end) {
-  if (const auto above = function_of_epigraph(f)) return i < n - 1 && is_open_at(*above, n - 1, i, end);
+  if (const auto above = parts_of_epigraph(f)) return i < n - 1 && is_open_at(*above->f, n - 1, i, end);
   if (!f.facts().separable) return false;
   Vector at = f.prox_diagonal(Vector::Zero(n), Vector::Ones(n));
   at[i] = end;
