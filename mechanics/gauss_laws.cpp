@@ -241,12 +241,12 @@ LawReport farkas_laws(const convex::NearestPointProblem& problem, const Vector& 
   for (Index a = 0; a < w.size(); ++a) left = add(left, convex::two_product(w[a], problem.s[a]));
   // Weights and bounds may be the doubles nearest to fractions that decided it.
   const double undecided = 2 * unit_roundoff * w.cwiseAbs().dot(problem.s.cwiseAbs());
-  if (left.value() <= 0 && -left.value() <= undecided)
+  if (undecided > 0 && left.value() <= 0 && -left.value() <= undecided)
     report.no_evidence.emplace_back(
         "w.s > 0: what is left is a contradiction below the rounding of w and s to doubles");
   else
     report.checks.push_back(
-        check_that("w.s > 0: what is left is a contradiction", std::max(0.0, -left.value()), 0));
+        check_that("w.s > 0: what is left is a contradiction", left.value() > 0 ? 0 : 1, 0));
   return report;
 }
 

@@ -232,7 +232,9 @@ std::optional<SplitCandidate> at_zero(const SplitFunctions& of, const Vector& x,
     slack = membership_tolerance *
             (x.isZero(0) ? slope.norm() / std::sqrt(of_W->first) : z.norm() * std::sqrt(of_W->second));
   }
-  made.rounding += slack * slack / 2;
+  // z itself was rounded when it was read.
+  const double of_z = unit_roundoff * W.norm(z);
+  made.rounding += (slack * slack + of_z * of_z) / 2;
   made.split.x.error_bound = made.split.y.error_bound = made.split.error_bound = made.proved();
   return made;
 }
