@@ -12,31 +12,6 @@ constexpr double required_division = 0.7;
 constexpr int step_limit = 60;
 constexpr double near = 1e-2;  ///< theta over the relative residual
 
-/// What is left of the conditions where the norm shows rounding alone may still be mended row by row.
-bool is_rounding_in_norm(const SaddleProblem& problem, const SaddlePoint& point) {
-  constexpr double rounding_in_norm = 1e-13;
-  return point.residual <= rounding_in_norm * solution_size(problem, point);
-}
-
-/// Steps are kept while they divide `residual_by_rows`.
-void polish_rows(const SaddleProblem& problem, Polished& polished, const Vector& ridge) {
-  constexpr double enough = 4 * unit_roundoff;
-  double left = residual_by_rows(problem, polished.point);
-  for (int count = 0; count < step_limit && left > enough && !WorkLimit::passed(); ++count) {
-    const SaddlePoint& point = polished.point;
-    const NewtonSystem system(problem, point.t, problem.D, polish_theta, ridge);
-    if (!system.usable()) return;
-    const NewtonStep step = system.step(point.rho, point.r);
-    ++polished.evaluations;
-    WorkLimit::count(WorkLimit::of_a_saddle_point);
-    SaddlePoint next = saddle_point(problem, point.xi + step.dxi, point.t + step.dt, problem.D);
-    const double of_next = residual_by_rows(problem, next);
-    if (!(of_next <= required_division * left) || !is_rounding_in_norm(problem, next)) return;
-    polished.point = std::move(next);
-    left = of_next;
-  }
-}
-
 }  // namespace
 
 Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
@@ -70,7 +45,6 @@ Polished newton_polish(const SaddleProblem& problem, const SaddlePoint& from) {
     if (theta > least || least < 1e-5 * polish_theta) break;
     least *= 1e-3;
   }
-  if (is_rounding_in_norm(problem, point)) polish_rows(problem, polished, ridge);
   return polished;
 }
 

@@ -6,9 +6,7 @@ namespace convex::inline composite {
 
 /// Newton's method on the optimality conditions in the unknowns (ξ, t), for one x = u the normal map of
 /// Robinson (1992): steps are kept while they divide `residual`; quadratic where the Jacobian at the solution
-/// is regular. Where that norm shows rounding alone, steps are kept while they divide `residual_by_rows`: an
-/// entry of z far out would hide what the others miss. Returns the last point that was kept; the problem's
-/// own D is used throughout.
+/// is regular. Returns the last point that was kept; the problem's own D is used throughout.
 struct Polished {
   SaddlePoint point;
   Index evaluations = 0;  ///< of the conditions

@@ -143,24 +143,6 @@ SaddleProblem saddle_problem(const GraphForm& f, const Vector& z, const Metric& 
   return problem;
 }
 
-double residual_by_rows(const SaddleProblem& problem, const SaddlePoint& point) {
-  const SparseMatrix magnitude = problem.M.cwiseAbs();
-  const Vector xi = point.xi.cwiseAbs(), u = point.u.cwiseAbs();
-  const Vector of_r = magnitude * xi + problem.b.cwiseAbs() + u;
-  const Vector step = point.D.cwiseProduct(point.t.cwiseAbs() + u);
-  const Matrix G = problem.G.cwiseAbs();
-  Vector of_rho = magnitude.transpose() * step + problem.c.cwiseAbs() + G * xi;
-  of_rho.head(problem.n) += G.topLeftCorner(problem.n, problem.n) * problem.z.cwiseAbs();
-  double worst = 0;
-  const auto add = [&](const Vector& missed, const Vector& size) {
-    for (Index i = 0; i < missed.size(); ++i)
-      if (missed[i] != 0) worst = std::max(worst, std::abs(missed[i]) / size[i]);
-  };
-  add(point.r, of_r);
-  add(point.rho, of_rho);
-  return worst;
-}
-
 double largest_miss_of_rows(const SaddleProblem& problem, const SaddlePoint& point, double around) {
   const SparseRows rows = problem.M;
   double worst = 0;

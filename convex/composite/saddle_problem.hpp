@@ -63,10 +63,6 @@ SaddlePoint saddle_point(const SaddleProblem&, Vector xi, Vector t, const Vector
 /// What `residual` is relative to: ||x||_W + ||z||_W, ||u||_D and ||y||_(D⁻¹).
 double solution_size(const SaddleProblem&, const SaddlePoint&);
 
-/// The largest entry of r and rho as a part of the sizes of the terms that it is the sum of (Oettli and
-/// Prager 1964): what each row misses in its own units.
-double residual_by_rows(const SaddleProblem&, const SaddlePoint&);
-
 /// How far M ξ + b is from u in a row, as a part of the sizes of that row: of rows that hold each by itself,
 /// equations and bounds, whose units may be far apart. `around`: the size of ξ.
 double largest_miss_of_rows(const SaddleProblem&, const SaddlePoint&, double around);

@@ -71,15 +71,8 @@ double target_size(const SaddleProblem& problem, const SaddlePoint& point) {
 /// One run with a fixed D, from solution.point on.
 void run(const SaddleProblem& problem, SaddleSolution& solution) {
   SaddlePoint& best = solution.point;
-  const auto is_rounding = [&](const SaddlePoint& point) {
-    return point.residual <= rounding_level * target_size(problem, point);
-  };
-  // Where the norm shows rounding alone, the rows tell which point is the better one.
   const auto keep = [&](const SaddlePoint& point) {
-    const bool by_rows = is_rounding(point) && is_rounding(best);
-    const bool better = by_rows ? residual_by_rows(problem, point) < residual_by_rows(problem, best)
-                                : point.residual < best.residual;
-    if (better || !std::isfinite(best.residual)) best = point;
+    if (point.residual < best.residual || !std::isfinite(best.residual)) best = point;
   };
   const auto polish = [&](const SaddlePoint& from) {
     Polished polished = newton_polish(problem, from);
@@ -93,8 +86,8 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
   for (Index outer = 0; outer < outer_limit && idle < patience && solution.evaluations < evaluation_limit &&
                         !WorkLimit::passed();
        ++outer) {
-    const double before = best.residual, before_by_rows = residual_by_rows(problem, best);
-    if (is_rounding(best) && !(before_by_rows > near_rounding)) break;
+    const double before = best.residual;
+    if (before <= rounding_level * target_size(problem, best)) break;
     const Vector D = factor * problem.D;
     const MultiplierStep step = multiplier_step(problem, centre, D, ridge * problem.R);
     solution.newton_steps += step.newton_steps;
@@ -112,9 +105,7 @@ void run(const SaddleProblem& problem, SaddleSolution& solution) {
     keep(polished);
     if (polished.residual <= 0.5 * before) centre = polished;
     if (best.residual > 0.5 * before) {
-      if (best.residual <= near_rounding * solution_size(problem, best) &&
-          !(residual_by_rows(problem, best) < 0.5 * before_by_rows))
-        break;
+      if (best.residual <= near_rounding * solution_size(problem, best)) break;
       if (factor >= largest_growth) ++idle;
     } else {
       idle = 0;

@@ -30,24 +30,16 @@ struct At {
   Prox prox;
   double difference = 0;
   double noise = 0;  ///< of the difference
-  double size = 0;   ///< of f and g there
   Value above;       ///< of the maximum above the mean with these weights
 };
 
 /// A bracket of the root of a decreasing function on [0, 1]: the chord's root, the value of an end that stays
-/// lessened (Anderson and Björck 1973). Where two steps did not shorten it to a quarter, by turns the middle
-/// and the root of the line through the last two values on the side where they are larger, which is that of
-/// a function with an edge there; the middle where the ends' values are far apart. Middles are of the
-/// exponents of t, or of 1 - t, where these are far apart.
+/// lessened (Anderson and Björck 1973); the middle where two steps did not shorten it to a quarter, or the
+/// ends' values are far apart. Middles are of the exponents of t, or of 1 - t, where these are far apart.
 class Bracket {
  public:
   Bracket(double low, double high, double of_low, double of_high)
-      : low_(low),
-        high_(high),
-        of_low_(of_low),
-        of_high_(of_high),
-        lows_{low, of_low},
-        highs_{high, of_high} {}
+      : low_(low), high_(high), of_low_(of_low), of_high_(of_high) {}
 
   double next() {
     constexpr double far_apart = 1e3, least_gain = 0.25;
@@ -59,12 +51,8 @@ class Bracket {
     const double ratio = std::abs(of_low_ / of_high_);
     const bool uneven = is_wide() && (ratio > far_apart || ratio < 1 / far_apart);
     const bool plain = !slow_ && !uneven && t > low_ && t < high_;
-    if (plain) return t;
-    const bool of_side = slow_ && ++slow_steps_ % 2 == 0;
     slow_ = false;
-    const Side& steep = std::abs(lows_.value) > std::abs(highs_.value) ? lows_ : highs_;
-    const double root = of_side ? steep.root() : low_;
-    return root > low_ && root < high_ ? root : middle();
+    return plain ? t : middle();
   }
   /// Another t where nothing is known at this one.
   double beside(double t) const { return t + 0.375 * (high_ - t); }
@@ -79,7 +67,6 @@ class Bracket {
     same_side_ = is_low ? 1 : -1;
     end = t;
     of_end = value;
-    (is_low ? lows_ : highs_).move(t, value);
   }
 
  private:
@@ -93,21 +80,8 @@ class Bracket {
       return 1 - std::max(std::sqrt(from_one) * std::sqrt(1 - low_), (1 - low_) * most_at_once);
     return low_ + (high_ - low_) / 2;
   }
-  /// The last two points on one side.
-  struct Side {
-    double t, value, last_t = t, last_value = value;
-    void move(double next, double of_next) {
-      last_t = t;
-      last_value = value;
-      t = next;
-      value = of_next;
-    }
-    /// Not a number where there is one point.
-    double root() const { return t - value * ((t - last_t) / (value - last_value)); }
-  };
   double low_, high_, of_low_, of_high_, width_ = 1;
-  Side lows_, highs_;
-  int same_side_ = 0, steps_ = 0, slow_steps_ = 0;
+  int same_side_ = 0, steps_ = 0;
   bool slow_ = false;
 };
 
@@ -128,12 +102,11 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   if (of_f > 0) terms.push_back(weighted(f, of_f));
   if (of_g > 0) terms.push_back(weighted(g, of_g));
   const Function mean = proper_sum(terms);
-  At found{t, mean, mean.prox(z, W, look), 0, 0, 0, {}};
+  At found{t, mean, mean.prox(z, W, look), 0, 0, {}};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
   found.noise = of_g_there.error + of_f_there.error;
-  found.size = std::abs(of_g_there.value) + std::abs(of_f_there.value);
   if (std::isnan(found.difference)) return std::nullopt;
   const double missed = found.difference > 0 ? of_f : -of_g;
   found.above = {missed * found.difference, std::abs(missed) * found.noise};
@@ -158,11 +131,6 @@ std::optional<At> near_end(const Function& f, const Function& g, bool right, con
 /// What is left of the difference, or may be.
 double left(const At& found) { return std::max(std::abs(found.difference), found.noise); }
 
-/// Beside a z far out x is near long before the values are.
-bool is_equal(const At& found) {
-  return std::abs(found.difference) <= std::max(safety * found.noise, accuracy_of_prox * found.size);
-}
-
 /// The conjugate of the maximum is at most that of a mean, and the maximum is so much more than the mean.
 Prox named(const At& at_weight) {
   Prox made = at_weight.prox;
@@ -185,7 +153,7 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
     for (std::size_t j = 0; j < parts.size(); ++j)
       if (j != k && !parts[j].facts().finite) terms.push_back(weighted(parts[j], least_weight));
     const Function mean = terms.size() == 1 ? parts[k] : proper_sum(terms);
-    At alone{0, mean, mean.prox(z, W, look), 0, 0, 0, {}};
+    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}};
     if (alone.prox.status != Status::solved || alone.prox.x.size() != z.size()) continue;
     const Value own = parts[k].evaluate(alone.prox.x);
     const auto is_below = [&](const Function& other) {
@@ -227,9 +195,9 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
     }
     if (!middle && WorkLimit::passed()) break;
     if (!middle) return std::nullopt;
-    const bool is_near = moved_per_difference > 0 && is_equal(*middle) &&
-                         safety * moved_per_difference * left(*middle) <=
-                             part_left * accuracy_of_prox * (W.norm(z) + W.norm(middle->prox.x));
+    const bool is_near =
+        moved_per_difference > 0 && safety * moved_per_difference * left(*middle) <=
+                                        part_left * accuracy_of_prox * (W.norm(z) + W.norm(middle->prox.x));
     if (middle->difference == 0 || is_near) {
       low = high = middle;
       break;

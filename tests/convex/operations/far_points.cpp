@@ -104,20 +104,6 @@ const Question questions[] = {
      {3e8, 3e8, -1e8},
      {}},
     {"precompose(sum(elastic_net(3, 2), inverse_power(1)), [[-3,-2],[3,2]], [1,3])", {-2, 3e8}, {}},
-    {"pointwise_max(max_affine([[-1,-3,2],[2,2,3]], [0,2]), kullback_leibler(2))",
-     {-1e8, -1, 0},
-     {0.5, 0, 0, 0, 0.5, 0, 0, 0, 0.5}},
-    {"pointwise_max(envelope(squared_distance(halfspace([2,1], -3), 0.25), 1), "
-     "pointwise_max(max_affine([[1,-2],[3,-2],[-3,0],[0,-1]], [3,1,3,1]), kullback_leibler(2)))",
-     {-3e8, 0},
-     {0.03125, 0, 0, 1}},
-    {"pointwise_max(translate(total_variation(0.0009765625), [2,-2]), tilt(elastic_net(1024, 0.125), "
-     "[-1,-3]))",
-     {0, 0},
-     {10, 0, 0, 1}},
-    {"sum(pointwise_max(norm1(1024), inverse_power(0.5)), indicator(hyperplane([1,-3,-1], -2)))",
-     {0, -20, 30},
-     {2, 0, 0, 0, 1, 0, 0, 0, 0.03125}},
 };
 
 }  // namespace
@@ -149,20 +135,6 @@ TEST_CASE("the apex of a cone is not told for a point of it that the bound does 
     const Decomposition split =
         convex::decompose(samples::function("indicator(second_order_cone())", W), z, W);
     CHECK(W.norm(split.x.x - x) <= split.error_bound + 0x1p-50 * W.norm(z));
-  }
-}
-
-TEST_CASE("an entry far out takes no digits of the others") {
-  // Kullback and Leibler's function of the far entry is nothing but its domain: the others' prox is that
-  // without it, as z_1 moves from 500 below 0 on.
-  const std::string f =
-      "sum(scale(max_affine([[-1,-3,2],[2,2,3]], [0,2]), 0.3), scale(kullback_leibler(2), 0.7))";
-  const Metric W = Metric::diagonal(Vector::Constant(3, 0.5));
-  const Vector near = samples::function(f, 3).prox(Eigen::Vector3d(-500, -1, 0), W).x;
-  for (const double far : {1e4, 1e6, 1e8, 1e10}) {
-    CAPTURE(far);
-    const Vector x = samples::function(f, 3).prox(Eigen::Vector3d(-far, -1, 0), W).x;
-    CHECK((x - near).tail(2).cwiseAbs().maxCoeff() <= 1e-15);
   }
 }
 

@@ -86,15 +86,3 @@ TEST_CASE("where one function is nearly +inf at the other's prox, a small weight
   CHECK(t < 1e-3);
   CHECK((v - of_f - t * (of_g - of_f)).norm() <= 1e-6 * v.norm());
 }
-
-TEST_CASE(
-    "where the difference of two functions has an edge beside its root, the root is found to rounding") {
-  // Up to t = 1/17 the norm holds the second entry at 0, beyond it that entry runs off with slope 2.
-  const Vector z = Eigen::Vector3d(4e-6, 0, 4e-6);
-  const Function f = samples::function("distance(orthant(), 0.125)", 3);
-  const Function g = samples::function("quadratic([[5,0,6],[0,1,0],[6,0,10]], [0,2,0])", 3);
-  const auto found = convex::prox_of_two_function_max(f, g, z, Metric::identity(3));
-  REQUIRE(found);
-  CHECK(found->error_bound <= 1e-15);
-  CHECK(std::abs(f(found->x) - g(found->x)) <= 1e-15);
-}
