@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "convex/nearest_point/complementarity_grid/cut_obstacle.hpp"
+#include "convex/obstacle_problem/cut_obstacle.hpp"
 #include "mechanics/liquid/cut_cells.hpp"
 
 namespace mechanics::liquid {

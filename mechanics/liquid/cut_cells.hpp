@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "convex/nearest_point/complementarity_grid/cut_grid.hpp"
+#include "convex/obstacle_problem/cut_grid.hpp"
 #include "mechanics/liquid/liquid_scene.hpp"
 
 namespace mechanics::liquid {

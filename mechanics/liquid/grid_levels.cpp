@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/complementarity_grid/cut_enclosure.hpp"
+#include "convex/obstacle_problem/cut_enclosure.hpp"
 #include "mechanics/liquid/grid_scene.hpp"
 
 namespace mechanics::liquid {

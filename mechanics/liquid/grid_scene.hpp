@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "convex/nearest_point/complementarity_grid/cut_obstacle.hpp"
+#include "convex/obstacle_problem/cut_obstacle.hpp"
 #include "mechanics/liquid/cut_cells.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 

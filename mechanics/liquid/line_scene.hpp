@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "convex/nearest_point/obstacle/line_obstacle.hpp"
+#include "convex/obstacle_problem/line_obstacle.hpp"
 #include "mechanics/liquid/first_change.hpp"
 #include "mechanics/liquid/liquid_solution.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "convex/infinity.hpp"
 #include "convex/interval_arithmetic.hpp"
-#include "convex/nearest_point/obstacle/line_enclosure.hpp"
+#include "convex/obstacle_problem/line_enclosure.hpp"
 
 namespace mechanics::liquid {
 namespace {

@@ -51,13 +51,26 @@ TEST_CASE("data flow from cli to mechanics to convex and never back") {
   }
 }
 
-TEST_CASE("each room of the nearest point has a namespace of its own") {
+TEST_CASE("what the nearest point stands on does not see it") {
+  for (const SourceFile& file : tests::source_files()) {
+    const std::vector<std::string> below{"convex/dense/", "convex/linear_algebra/", "convex/exact/",
+                                         "convex/obstacle_problem/"};
+    if (!begins_with_any(file.path, below)) continue;
+    for (const std::string& line : file.lines) {
+      CAPTURE(file.path);
+      CAPTURE(line);
+      CHECK_FALSE(begins_with_any(included(line), {"convex/nearest_point/"}));
+    }
+  }
+}
+
+TEST_CASE("each room of solvers has a namespace of its own") {
   std::map<std::string, std::set<std::string>> spaces;  // of a room
   std::map<std::string, std::set<std::string>> rooms;   // of a namespace
   static const std::regex opened(R"(^namespace (convex::inline \w+|convex)(::\w+)? \{$)");
   for (const SourceFile& file : tests::source_files()) {
     const std::string room = fs::path(file.path).parent_path().string();
-    if (!room.starts_with("convex/nearest_point/")) continue;
+    if (!room.starts_with("convex/nearest_point/") && room != "convex/obstacle_problem") continue;
     for (const std::string& line : file.lines)
       if (std::smatch match; std::regex_match(line, match, opened)) {
         spaces[room].insert(match[1]);

@@ -4,10 +4,11 @@
 #include <limits>
 
 #include "convex/exact/exact_sum.hpp"
-#include "convex/nearest_point/obstacle/grid_kernels.hpp"
-#include "convex/nearest_point/obstacle/obstacle_grid.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/solve_watch.hpp"
+#include "convex/obstacle_problem/grid_kernels.hpp"
+#include "convex/obstacle_problem/obstacle_grid.hpp"
 
 namespace convex::inline obstacle {
 namespace {
@@ -226,7 +227,8 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   const std::optional<ObstacleGrid> grid = grid_problem(problem);
   if (!grid) return std::nullopt;
   GridMultigrid multigrid(grid->A);
-  ObstaclePoint point = solve_obstacle_grid(*grid, multigrid);
+  ObstaclePoint point =
+      solve_obstacle_grid(*grid, multigrid, [](Index steps) { SolveWatch::tell("obstacle", steps); });
   if (!point.ended) return std::nullopt;
   const bool decided = TouchedPoints(*grid, point).decide();
   const Index n = problem.dimension();
