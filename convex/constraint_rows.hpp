@@ -28,6 +28,17 @@ class ConstraintRows {
   /// u_a as a dense vector of size n.
   Vector row(Index a) const;
   void copy_row(Index a, Eigen::Ref<Vector> into) const;
+  /// visit(i, u_ai) for the entries of u_a that are not 0, in order.
+  template <class Visit>
+  void for_each_entry(Index a, Visit visit) const {
+    if (is_sparse()) {
+      for (SparseRows::InnerIterator it(sparse(), a); it; ++it)
+        if (it.value() != 0) visit(Index{it.col()}, it.value());
+    } else {
+      for (Index i = 0; i < dimension(); ++i)
+        if (dense()(a, i) != 0) visit(i, dense()(a, i));
+    }
+  }
   /// U x: m.
   Vector times(const Vector& x) const;
   void times(const Vector& x, Vector& into) const;

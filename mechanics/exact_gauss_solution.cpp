@@ -44,8 +44,8 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   rounded.reaction = convex::nearest(found.reaction);
   rounded.gauss = convex::nearest_double(found.gauss);
   rounded.primal.force_norm = problem.A.dual_norm(problem.z);
-  rounded.residuals = rounded.primal.residuals = convex::residuals(
-      problem, rounded.primal.q, rounded.multipliers.least_norm, Vector::Zero(problem.rows()));
+  rounded.residuals = rounded.primal.residuals =
+      convex::residuals(problem, rounded.primal.q, rounded.multipliers.least_norm);
   rounded.hypothesis = exact_hypothesis(exact, found.primal);
   if (problem.rows() <= most_contacts_from_dual && fit_units(problem).ordinary())
     rounded.from_dual = reaction_from_dual(problem, rounded.hypothesis.two_sided, rounded.primal);

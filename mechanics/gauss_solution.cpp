@@ -92,9 +92,8 @@ GaussSolution solve_in_units(const convex::NearestPointProblem& problem, const G
   if (found.primal.status == convex::Status::solved)
     found.touching = touching_contacts(problem, found.primal, found.multipliers, tolerance);
   const Vector& lambda = found.multipliers.least_norm;
-  found.residuals = lambda == found.primal.lambda
-                        ? found.primal.residuals
-                        : convex::residuals(problem, found.primal.q, lambda, Vector::Zero(problem.rows()));
+  found.residuals = lambda == found.primal.lambda ? found.primal.residuals
+                                                  : convex::residuals(problem, found.primal.q, lambda);
   found.reaction = reaction(problem, found.primal.q, lambda);
   found.gauss = found.primal.q.dot(0.5 * problem.A.multiply(found.primal.q) - problem.z);
   found.hypothesis = hypothesis(problem, found.primal, tolerance);

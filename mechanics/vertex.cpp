@@ -60,9 +60,7 @@ std::optional<Vector> vertex_acceleration(const NearestPointProblem& problem) {
   std::vector<Index> kept(static_cast<std::size_t>(problem.rows()));
   std::iota(kept.begin(), kept.end(), Index{0});
   for (Index p = 0; p < problem.rows(); ++p)
-    if (!std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), p) &&
-        is_implied(E, p, kept, problem.two_sided))
-      std::erase(kept, p);
+    if (!problem.is_two_sided(p) && is_implied(E, p, kept, problem.two_sided)) std::erase(kept, p);
   NearestPointProblem held{problem.A, problem.z, problem.U.select(kept), problem.s(kept), {}};
   held.two_sided.resize(kept.size());
   std::iota(held.two_sided.begin(), held.two_sided.end(), Index{0});

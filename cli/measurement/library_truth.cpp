@@ -35,14 +35,10 @@ double condition_of_rows(const NearestPointProblem& problem, const std::vector<I
   return values.maxCoeff() / std::max(values.minCoeff(), 0.0);
 }
 
-bool is_two_sided(const NearestPointProblem& problem, Index a) {
-  return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
-}
-
 std::vector<Index> weak_rows(const NearestPointProblem& problem, const convex::ExactMultipliers& found) {
   std::vector<Index> weak;
   for (const Index a : found.tight) {
-    if (is_two_sided(problem, a)) continue;
+    if (problem.is_two_sided(a)) continue;
     const auto row = static_cast<std::size_t>(a);
     const bool is_zero = found.least_norm.numerators[row].is_zero();
     const bool may_press =

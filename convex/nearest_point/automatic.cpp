@@ -7,7 +7,7 @@
 #include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/isotonic/bordered_chain.hpp"
 #include "convex/nearest_point/isotonic/chain.hpp"
-#include "convex/nearest_point/methods/proximal_point.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 #include "convex/nearest_point/obstacle/obstacle.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -187,8 +187,7 @@ Solution solve_islands(const NearestPointProblem& problem, const Islands& island
 bool has_contradiction(const NearestPointProblem& problem, const Islands& islands) {
   for (Index a = 0; a < problem.rows(); ++a)
     if (islands.of_row[static_cast<std::size_t>(a)] < 0 &&
-        (problem.s[a] > 0 ||
-         (problem.s[a] < 0 && std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))))
+        (problem.s[a] > 0 || (problem.s[a] < 0 && problem.is_two_sided(a))))
       return true;
   return false;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
+#include "convex/linear_algebra/orthogonal_factor.hpp"
 
 namespace convex {
 namespace {
@@ -49,7 +49,7 @@ class PassiveSet {
  private:
   const Matrix& V_;
   const Vector& b_;
-  OrthogonalFactor factor_;
+  linear_algebra::OrthogonalFactor factor_;
   Vector c_;
   std::vector<Index> members_;
 };

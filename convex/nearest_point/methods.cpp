@@ -4,18 +4,8 @@
 
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
-#include "convex/nearest_point/methods/accelerated_gradient.hpp"
-#include "convex/nearest_point/methods/admm.hpp"
-#include "convex/nearest_point/methods/block_pivoting.hpp"
-#include "convex/nearest_point/methods/ceres_method.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
-#include "convex/nearest_point/methods/drop_negative.hpp"
-#include "convex/nearest_point/methods/enumerate.hpp"
-#include "convex/nearest_point/methods/interior_point.hpp"
-#include "convex/nearest_point/methods/lemke.hpp"
-#include "convex/nearest_point/methods/nnls.hpp"
-#include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
-#include "convex/nearest_point/methods/proximal_point.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex {

@@ -29,6 +29,12 @@ std::optional<DataRadii> select(const std::optional<DataRadii>& radii, const std
   return DataRadii{radii->row(rows), radii->s(rows)};
 }
 
+std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
+  std::vector<bool> mark(static_cast<std::size_t>(count), false);
+  for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
+  return mark;
+}
+
 DataRadii rounding_radii(const NearestPointProblem& problem, double roundings) {
   const double part = roundings * unit_roundoff;
   return {part * problem.U.lengths(problem.A.diagonal().cwiseInverse()), part * problem.s.cwiseAbs()};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct DataRadii {
 /// The radii of the rows chosen, in that order; none where there are none.
 std::optional<DataRadii> select(const std::optional<DataRadii>&, const std::vector<Index>& rows);
 
+/// By index below `count`, whether it is among those chosen.
+std::vector<bool> marked(Index count, const std::vector<Index>& chosen);
+
 struct NearestPointProblem;
 /// Radii as if every number of U and s had been rounded so many times.
 DataRadii rounding_radii(const NearestPointProblem&, double roundings);
@@ -37,6 +41,7 @@ struct NearestPointProblem {
 
   Index dimension() const { return A.dimension(); }
   Index rows() const { return U.count(); }
+  bool is_two_sided(Index a) const { return std::binary_search(two_sided.begin(), two_sided.end(), a); }
 };
 
 /// Throws InvalidInput when sizes do not fit, an entry is not finite, or `two_sided` names no row.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -58,6 +59,11 @@ struct Solution {
   bool polished = false;  ///< q solves the equations of the rows that an iteration showed to be active
   std::string_view undecided = {};  ///< what doubles left open, where fractions did not decide it; else empty
   Model model;                      ///< what was solved; filled in by `auto`
+
+  /// Whether the error bound is what `solved` asks for.
+  bool is_within(const Accuracy& accuracy) const {
+    return error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm);
+  }
 };
 
 }  // namespace convex

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "convex/exact/positive_definite.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/exact_program/linear_equations.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex::inline proved_prox {

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/nearest_point/solution.hpp"
 #include "convex/proved_prox/doubles/proof_in_doubles.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"

@@ -69,7 +69,7 @@ void relax(convex::NearestPointProblem& problem) {
   const Vector size = problem.A.solve(problem.z).cwiseAbs();
   const double most = size.maxCoeff();
   for (Index a = 0; a < problem.rows(); ++a) {
-    if (std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) continue;
+    if (problem.is_two_sided(a)) continue;
     const double row =
         problem.U.is_sparse() ? problem.U.sparse().row(a).norm() : problem.U.dense().row(a).norm();
     problem.s[a] -= roundings_of_step_rows * convex::unit_roundoff * (std::abs(problem.s[a]) + row * most);

@@ -25,13 +25,7 @@ struct Entry {
 
 std::vector<Entry> entries(const convex::ConstraintRows& U, Index row) {
   std::vector<Entry> found;
-  if (U.is_sparse()) {
-    for (convex::SparseRows::InnerIterator it(U.sparse(), row); it; ++it)
-      if (it.value() != 0) found.push_back({it.col(), it.value()});
-  } else {
-    for (Index i = 0; i < U.dimension(); ++i)
-      if (U.dense()(row, i) != 0) found.push_back({i, U.dense()(row, i)});
-  }
+  U.for_each_entry(row, [&](Index i, double value) { found.push_back({i, value}); });
   return found;
 }
 

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
+#include "convex/linear_algebra/orthogonal_factor.hpp"
 
 using convex::DoubleDouble;
 using convex::Index;
@@ -45,7 +45,7 @@ TEST_CASE("the factor of rows that come and go stays orthogonal and keeps their 
   std::mt19937 generator(2);
   std::normal_distribution<double> normal;
   const Index n = 40;
-  convex::OrthogonalFactor factor(n, n);
+  convex::linear_algebra::OrthogonalFactor factor(n, n);
   std::vector<Vector> rows;
   for (int step = 0; step < 400; ++step) {
     if (!rows.empty() && (static_cast<Index>(rows.size()) == n || generator() % 3 == 0)) {

@@ -93,7 +93,7 @@ Outcome outcome(const NearestPointProblem& problem, const Solution& found, std::
     return Outcome::refused;
   }
   for (Index a = 0; a < found.lambda.size(); ++a) {
-    const bool two_sided = std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
+    const bool two_sided = problem.is_two_sided(a);
     if (two_sided ||
         (found.lambda[a] >= 0 && found.slack[a] >= 0 && !(found.lambda[a] > 0 && found.slack[a] > 0)))
       continue;

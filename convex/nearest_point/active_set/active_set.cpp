@@ -34,11 +34,9 @@ class DualActiveSet {
       : problem_(problem),
         accuracy_(accuracy),
         set_(problem),
-        row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())) {
-    two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
-    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
-    passed_.assign(static_cast<std::size_t>(problem.rows()), false);
-  }
+        row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())),
+        two_sided_(marked(problem.rows(), problem.two_sided)),
+        passed_(two_sided_.size(), false) {}
 
   Solution run(const std::vector<Index>& guess) {
     if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
@@ -220,7 +218,7 @@ class DualActiveSet {
         // A row that is not quite a combination of W takes the place of one that can give way: where nothing
         // else stops them that is a step of rounding, else the next rows tell.
         const bool takes_place = w_noise == 0 && !changed && !is_exact_combination(set_, split_);
-        if (gap > 0 || !takes_place || blocking_row(set_, split_) < 0) violation = gap;
+        if (gap > 0 || !takes_place || blocking_row(set_, split_).place < 0) violation = gap;
         if (!(violation > 0)) {
           // Consistent with W to rounding: it holds as well as W does.
           passed_[static_cast<std::size_t>(p)] = true;
@@ -230,9 +228,7 @@ class DualActiveSet {
         }
       }
       const double full = dependent ? infinity : violation / (split_.rho * split_.rho);
-      const Index blocking = blocking_row(set_, split_);
-      const double partial =
-          blocking < 0 ? infinity : std::max(0.0, set_.lambda()[blocking]) / split_.coefficients[blocking];
+      const auto [blocking, partial] = blocking_row(set_, split_);
       if (full == infinity && partial == infinity) {
         farkas_ = contradiction_weights(set_, p, split_, 1);
         return Outcome::infeasible;

@@ -24,11 +24,6 @@ namespace {
 
 constexpr std::string_view method = "active-set";
 
-/// Rounding q to doubles leaves `lo` behind: ||lo||_A² <= n Σ a_ii lo_i².
-double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
-  return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
-}
-
 }  // namespace
 
 Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
@@ -50,9 +45,8 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   solution.acceleration_norm = set.w().norm();
   solution.force_norm = set.w_free().norm();
   const double diagonal_norm = std::sqrt(problem.A.diagonal().dot(solution.q.cwiseAbs2()));
-  solution.residuals = residuals(problem, solution.q, solution.lambda,
-                                 KnownParts{std::move(length), slack, row_scale * diagonal_norm,
-                                            solution.acceleration_norm, solution.force_norm});
+  solution.residuals =
+      residuals(problem, solution, {.length = std::move(length), .magnitude = row_scale * diagonal_norm});
 
   double worst = 0;
   for (Index a = 0; a < problem.rows(); ++a)
@@ -71,8 +65,7 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
       2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
       worst * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(multipliers, std::numeric_limits<double>::min()) : 0);
-  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
-  solution.status = close ? Status::solved : Status::inaccurate;
+  solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
   return solution;
 }
 

@@ -8,8 +8,7 @@ namespace convex::inline dual_active_set {
 std::string_view decide_degenerate_rows(WorkingSet& set, const DoubleDoubleVector& q, const Vector& row_scale,
                                         Vector& slack) {
   const NearestPointProblem& problem = set.problem();
-  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   std::vector<Index> touched;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!set.holds(a) && (slack[a] <= 0 || two_sided[static_cast<std::size_t>(a)])) touched.push_back(a);

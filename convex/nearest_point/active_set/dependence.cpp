@@ -99,8 +99,7 @@ std::optional<std::vector<Dependence>> dependences(const NearestPointProblem& pr
   const NearestPointProblem held{
       Metric::diagonal(problem.A.diagonal()), problem.z, problem.U.select(tight), Vector::Zero(k), {}};
   const IslandLists islands = list_islands(find_islands(held));
-  std::vector<bool> in_basis(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : basis) in_basis[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> in_basis = marked(problem.rows(), basis);
   std::vector<Index> place(static_cast<std::size_t>(problem.dimension()));
   for (std::size_t i = 0; i < islands.rows.size(); ++i) {
     std::vector<Index> names, own_basis;

@@ -63,18 +63,15 @@ double contradiction(const WorkingSet& set, Index p, const WorkingSet::Split& sp
   return std::abs(gap.value) > threshold ? gap.value : 0;
 }
 
-Index blocking_row(const WorkingSet& set, const WorkingSet::Split& split) {
-  Index blocking = -1;
-  double least = std::numeric_limits<double>::infinity();
+BlockingRow blocking_row(const WorkingSet& set, const WorkingSet::Split& split, double sign, double most) {
+  BlockingRow first{-1, most};
   for (Index k = 0; k < set.size(); ++k) {
-    const double r = split.coefficients[k];
+    const double r = sign * split.coefficients[k];
     if (!set.one_sided(k) || r <= 0 || is_noise(set, k, split)) continue;
-    const double ratio = std::max(0.0, set.lambda()[k]) / r;
-    if (!(ratio < least)) continue;
-    least = ratio;
-    blocking = k;
+    const double step = std::max(0.0, set.lambda()[k]) / r;
+    if (step < first.step) first = {k, step};
   }
-  return blocking;
+  return first;
 }
 
 bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split) {

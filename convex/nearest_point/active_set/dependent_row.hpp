@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 
 namespace convex::inline dual_active_set {
@@ -10,9 +11,16 @@ inline constexpr double exact_dependence = 0x1p-90;
 /// Whether the coefficient r_k of a split, measured by its part r_k v_k of v_p, is rounding about zero.
 bool is_noise(const WorkingSet& set, Index k, const WorkingSet::Split& split);
 
-/// The place in W of the one-sided row whose multiplier comes down to 0 first when that of the row split
-/// rises; -1 for none.
-Index blocking_row(const WorkingSet& set, const WorkingSet::Split& split);
+/// The row of W, by its place, whose multiplier comes down to 0 first, and by how much the multiplier of the
+/// row split changes until then; -1 for none.
+struct BlockingRow {
+  Index place = -1;
+  double step = infinity;
+};
+/// Among one-sided rows, when the multiplier of the row split rises (sign 1) or falls (-1), by less than
+/// `most`.
+BlockingRow blocking_row(const WorkingSet& set, const WorkingSet::Split& split, double sign = 1,
+                         double most = infinity);
 
 /// For a row p that depends on W: s_p - Σ r_k s_k, by which it contradicts W, when that exceeds rounding and
 /// what some motion up to `farthest_motion` times the scale makes of the radii; else 0.

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "convex/double_double.hpp"
-#include "convex/nearest_point/active_set/orthogonal_factor.hpp"
+#include "convex/linear_algebra/orthogonal_factor.hpp"
 #include "convex/nearest_point/problem.hpp"
 
 namespace convex::inline dual_active_set {
@@ -25,7 +25,7 @@ class WorkingSet {
   /// Declares the rows held so far two-sided: they are never dropped.
   void fix() { fixed_ = size(); }
 
-  const OrthogonalFactor& factor() const { return factor_; }
+  const linear_algebra::OrthogonalFactor& factor() const { return factor_; }
   const Vector& w_free() const { return w_free_; }
   Vector& w() { return w_; }
   const Vector& w() const { return w_; }
@@ -64,7 +64,7 @@ class WorkingSet {
   void take(Index p);
 
   const NearestPointProblem& problem_;
-  OrthogonalFactor factor_;
+  linear_algebra::OrthogonalFactor factor_;
   std::vector<Index> rows_;
   std::vector<Index> position_;  // of row a in rows_, or -1
   Index fixed_ = 0;

@@ -44,8 +44,7 @@ class BorderedChain {
         mu_(count_),
         length_(problem.U.lengths(problem.A.diagonal().cwiseInverse())) {
     for (std::size_t k = 0; k < place_.size(); ++k) place_[at(strings.coordinate[k])] = static_cast<int>(k);
-    for (Index a : strings.border)
-      two_sided_.push_back(std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a));
+    for (Index a : strings.border) two_sided_.push_back(problem.is_two_sided(a));
   }
 
   bool solve() { return approach() && refine(); }

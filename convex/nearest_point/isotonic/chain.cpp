@@ -76,14 +76,11 @@ Solution solve(const NearestPointProblem& problem, const Accuracy& accuracy, con
   // On level ground the coordinates of a pool are equal, and only the floor has anything left to round.
   const Index floor = order.row(0);
   const bool by_blocks = are_plain_links(order), few = chain.is_level() || by_blocks;
-  found.residuals =
-      sparse_residuals(problem, found.q, found.lambda, found.slack,
-                       {found.acceleration_norm, found.force_norm, found.residuals.stationarity},
-                       few ? std::max(floor, Index{0}) : 0, few ? floor + 1 : m);
+  found.residuals = sparse_residuals(problem, found, found.residuals.stationarity,
+                                     few ? std::max(floor, Index{0}) : 0, few ? floor + 1 : m);
   if (by_blocks && !chain.is_level()) add_links(problem, floor + 1, scale, *largest, found);
   found.error_bound = found.rounding + rounding_of_pools(chain, scale);
-  const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
-  found.status = close && found.undecided.empty() ? Status::solved : Status::inaccurate;
+  found.status = found.is_within(accuracy) && found.undecided.empty() ? Status::solved : Status::inaccurate;
   found.method = "chain";
   found.basis = loaded_rows(found.lambda);
   found.steps = static_cast<Index>(found.basis.size());

@@ -1,28 +1,14 @@
 #include "convex/nearest_point/isotonic/peeling.hpp"
 
 namespace convex::inline isotonic {
-namespace {
-
-template <class Visit>
-void for_each_entry(const ConstraintRows& U, Index a, Visit visit) {
-  if (U.is_sparse()) {
-    for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it)
-      if (it.value() != 0) visit(static_cast<std::size_t>(it.col()));
-  } else {
-    for (Index i = 0; i < U.dimension(); ++i)
-      if (U.dense()(a, i) != 0) visit(static_cast<std::size_t>(i));
-  }
-}
-
-}  // namespace
-
 std::vector<Index> rows_left_by_peeling(const ConstraintRows& U, const std::vector<Index>& rows) {
   const std::size_t n = static_cast<std::size_t>(U.dimension());
   // How many rows have the coordinate, and the sum of their positions: of one row, its position.
   std::vector<Index> count(n, 0), sum(n, 0);
   std::vector<bool> left(rows.size(), true);
   for (std::size_t k = 0; k < rows.size(); ++k)
-    for_each_entry(U, rows[k], [&](std::size_t i) {
+    U.for_each_entry(rows[k], [&](Index entry, double) {
+      const auto i = static_cast<std::size_t>(entry);
       ++count[i];
       sum[i] += static_cast<Index>(k);
     });
@@ -35,7 +21,8 @@ std::vector<Index> rows_left_by_peeling(const ConstraintRows& U, const std::vect
     if (count[own] != 1) continue;
     const Index k = sum[own];
     left[static_cast<std::size_t>(k)] = false;
-    for_each_entry(U, rows[static_cast<std::size_t>(k)], [&](std::size_t i) {
+    U.for_each_entry(rows[static_cast<std::size_t>(k)], [&](Index entry, double) {
+      const auto i = static_cast<std::size_t>(entry);
       --count[i];
       sum[i] -= k;
       if (count[i] == 1) single.push_back(i);

@@ -31,13 +31,10 @@ Solution string_answer(const NearestPointProblem& problem, const Accuracy& accur
     found.slack[a] =
         sign && *sign > 0 ? std::max(found.slack[a], std::numeric_limits<double>::denorm_min()) : 0;
   }
-  found.residuals =
-      residuals(problem, found.q, found.lambda,
-                KnownParts{Vector(), found.slack, {}, found.acceleration_norm, found.force_norm});
+  found.residuals = residuals(problem, found);
   found.rounding = std::sqrt(q.lo.cwiseAbs2().dot(d));
   found.error_bound = found.rounding + missing + sums;
-  const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
-  found.status = close && found.undecided.empty() ? Status::solved : Status::inaccurate;
+  found.status = found.is_within(accuracy) && found.undecided.empty() ? Status::solved : Status::inaccurate;
   return found;
 }
 

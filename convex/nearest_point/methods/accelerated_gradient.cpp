@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/accelerated_gradient.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -57,7 +57,6 @@ double largest_eigenvalue(const Whitening& V, Index k) {
 }  // namespace
 
 Solution accelerated_gradient(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "accelerated-gradient", accuracy)) return *found;
   const ScaledProblem scaled(problem);
   const NearestPointProblem& within = scaled.problem;

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/admm.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -22,7 +22,6 @@ constexpr Index most_steps = 200000;
 }  // namespace
 
 Solution admm(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "admm", accuracy)) return *found;
   const ScaledProblem scaled(problem);
   const NearestPointProblem& within = scaled.problem;

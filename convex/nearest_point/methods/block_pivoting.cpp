@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/block_pivoting.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -93,7 +93,6 @@ class Pivoting {
 }  // namespace
 
 Solution block_pivoting(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "block-pivoting", accuracy)) return *found;
   const WhitenedProblem white(problem);
   const Complementarity lcp(white);

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/ceres_method.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -45,7 +45,6 @@ const Module& module() {
 std::string why_no_ceres() { return module().reason; }
 
 Solution ceres_method(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "ceres", accuracy)) return *found;
   if (module().solve == nullptr) throw InvalidInput("method \"ceres\": " + module().reason);
   const WhitenedProblem white(problem);

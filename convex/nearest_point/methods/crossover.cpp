@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "convex/infinity.hpp"
+#include "convex/nearest_point/active_set/active_set_answer.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
@@ -10,7 +11,6 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
-#include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline algorithms {
@@ -45,10 +45,8 @@ class Judge {
         candidate_(candidate),
         accuracy_(accuracy),
         row_scale_(problem.U.lengths(problem.A.diagonal().cwiseInverse())),
-        two_sided_(static_cast<std::size_t>(problem.rows()), false) {
-    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
-    z_norm_ = problem.A.dual_norm(problem.z);
-  }
+        two_sided_(marked(problem.rows(), problem.two_sided)),
+        z_norm_(problem.A.dual_norm(problem.z)) {}
 
   Solution verdict() {
     if (std::optional<Solution> proved = infeasible(candidate_.farkas)) return *proved;
@@ -76,7 +74,7 @@ class Judge {
     raw.error_bound = error_of_held + problem_.A.norm((q - held.q.hi) - held.q.lo);
     if (!candidate_.may_polish || !accuracy_.polish) return with_status(raw);
     Solution polished = measured(held.q.hi, signed_right(held.lambda), held.slack);
-    polished.rounding = rounding_norm(held.q.lo);
+    polished.rounding = rounding_norm(problem_, held.q.lo);
     polished.error_bound = error_of_held + polished.rounding;
     if (is_dense_size(problem_)) polished.basis = held.rows;  // else they may depend on each other
     polished.polished = true;
@@ -104,40 +102,24 @@ class Judge {
   std::optional<Solution> infeasible(const Vector& weights) {
     if (weights.size() != problem_.rows() || problem_.rows() == 0 || !weights.allFinite())
       return std::nullopt;
-    double reach = farthest_motion * z_norm_;  // or the size that the rows speak of
+    double scale = z_norm_;  // or the size that the rows speak of
     for (Index a = 0; a < problem_.rows(); ++a)
-      if (row_scale_[a] > 0)
-        reach = std::max(reach, farthest_motion * std::abs(problem_.s[a]) / row_scale_[a]);
+      if (row_scale_[a] > 0) scale = std::max(scale, std::abs(problem_.s[a]) / row_scale_[a]);
+    const double reach = farthest_motion * scale;
     Vector proof = signed_right(weights);
     if (!(proof.cwiseAbs().maxCoeff() > 0)) return std::nullopt;
-    if (is_dense_size(problem_)) {
-      const std::optional<Vector> circuit = farkas_circuit(problem_, proof, reach);
-      if (circuit)
-        proof = *circuit;
-      else if (!proves_infeasibility(problem_, proof, reach))
-        return std::nullopt;
-    } else if (!proves_infeasibility(problem_, proof, reach)) {
+    std::optional<Vector> circuit;
+    if (is_dense_size(problem_)) circuit = farkas_circuit(problem_, proof, reach);
+    if (circuit)
+      proof = *std::move(circuit);
+    else if (!proves_infeasibility(problem_, proof, reach))
       return std::nullopt;
-    }
-    Solution solution;
+    Solution solution = infeasible_answer(problem_, proof, scale, candidate_.steps);
     solution.method = candidate_.method;
-    solution.steps = candidate_.steps;
-    solution.status = Status::infeasible;
     solution.force_norm = z_norm_;
-    if (!problem_.radii) {
-      std::optional<InfeasibilityProof> exact = infeasibility_proof(problem_, proof);
-      if (exact) {
-        solution.farkas = std::move(exact->farkas);
-        return solution;
-      }
-      solution.status = Status::gave_up;
-      solution.farkas = std::move(proof);
-      solution.undecided = open_question::contradiction;
+    if (solution.status != Status::infeasible)
       solution = decided_in_fractions(problem_, std::move(solution), accuracy_);
-      return solution.status == Status::infeasible ? std::optional(std::move(solution)) : std::nullopt;
-    }
-    solution.farkas = proof / (proof.array() != 0).select(proof.cwiseAbs(), infinity).minCoeff();
-    return solution;
+    return solution.status == Status::infeasible ? std::optional(std::move(solution)) : std::nullopt;
   }
 
  private:
@@ -148,26 +130,19 @@ class Judge {
     return clipped;
   }
 
-  double rounding_norm(const Vector& lo) const {
-    return std::sqrt(static_cast<double>(problem_.dimension()) * problem_.A.diagonal().dot(lo.cwiseAbs2()));
-  }
-
   Solution measured(const Vector& q, const Vector& lambda, const Vector& slack) const {
     Solution solution;
     solution.method = candidate_.method;
     solution.steps = candidate_.steps;
     solution.q = q;
     solution.lambda = lambda;
-    solution.slack = slack;
+    solution.slack = problem_.U.times(q) - problem_.s;
     solution.acceleration_norm = problem_.A.norm(q);
     solution.force_norm = z_norm_;
     // Exact lengths cost a solve with A for each row, which is too much for thousands of them.
-    KnownParts known{is_dense_size(problem_) ? Vector(Vector::Zero(problem_.rows())) : row_scale_,
-                     problem_.U.times(q) - problem_.s,
-                     {},
-                     solution.acceleration_norm,
-                     z_norm_};
-    solution.residuals = residuals(problem_, q, lambda, std::move(known));
+    solution.residuals =
+        residuals(problem_, solution, {.length = is_dense_size(problem_) ? Vector() : row_scale_});
+    solution.slack = slack;
     return solution;
   }
 
@@ -200,10 +175,9 @@ class Judge {
 
   Solution with_status(Solution solution) const {
     if (!std::isfinite(solution.error_bound)) solution.error_bound = infinity;
-    const double most = accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
-    solution.status = solution.error_bound <= most ? Status::solved
-                      : candidate_.finished        ? Status::inaccurate
-                                                   : Status::gave_up;
+    solution.status = solution.is_within(accuracy_) ? Status::solved
+                      : candidate_.finished         ? Status::inaccurate
+                                                    : Status::gave_up;
     return solution;
   }
 
@@ -212,7 +186,7 @@ class Judge {
   const Accuracy& accuracy_;
   Vector row_scale_;
   std::vector<bool> two_sided_;
-  double z_norm_ = 0;
+  double z_norm_;
 };
 
 }  // namespace
@@ -223,11 +197,11 @@ Solution crossover(const NearestPointProblem& problem, const Candidate& candidat
 
 std::optional<Solution> without_a_method(const NearestPointProblem& problem, std::string_view method,
                                          const Accuracy& accuracy) {
+  validate(problem);
   const Index m = problem.rows();
   Candidate candidate{.method = method, .q = {}, .lambda = Vector::Zero(m), .farkas = {}};
   const Vector length = problem.U.lengths(Vector::Ones(problem.dimension()));
-  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(m, problem.two_sided);
   for (Index a = 0; a < m; ++a) {
     const bool is_two_sided = two_sided[static_cast<std::size_t>(a)];
     if (length[a] > 0 || !(problem.s[a] > 0 || (is_two_sided && problem.s[a] < 0))) continue;

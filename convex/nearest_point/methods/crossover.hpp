@@ -41,8 +41,8 @@ struct Candidate {
 /// or a circuit among them.
 Solution crossover(const NearestPointProblem&, const Candidate&, const Accuracy&);
 
-/// The answer when none of the rows matters or one is a contradiction by itself (u_a = 0): nothing is left to
-/// a method.
+/// Validates the problem. The answer when none of the rows matters or one is a contradiction by itself
+/// (u_a = 0): nothing is left to a method.
 std::optional<Solution> without_a_method(const NearestPointProblem&, std::string_view method,
                                          const Accuracy&);
 

@@ -17,10 +17,10 @@ class Polish {
   using Split = Set::Split;
 
   Polish(const NearestPointProblem& problem, const Vector& row_scale)
-      : problem_(problem), row_scale_(row_scale), set_(problem) {
-    two_sided_.assign(static_cast<std::size_t>(problem.rows()), false);
-    for (Index a : problem.two_sided) two_sided_[static_cast<std::size_t>(a)] = true;
-  }
+      : problem_(problem),
+        row_scale_(row_scale),
+        set_(problem),
+        two_sided_(marked(problem.rows(), problem.two_sided)) {}
 
   Holding run(const Vector& q, const Vector& lambda, Index most_changes) {
     for (Index p : problem_.two_sided) {
@@ -68,17 +68,7 @@ class Polish {
   void take_in(Index p, double multiplier) {
     set_.split(p, split_);
     while (!(split_.rho > 0)) {
-      double step = multiplier;
-      Index blocking = -1;
-      for (Index k = 0; k < set_.size(); ++k) {
-        const double r = split_.coefficients[k];
-        if (!set_.one_sided(k) || r >= 0 || is_noise(set_, k, split_)) continue;
-        const double ratio = std::max(0.0, set_.lambda()[k]) / -r;
-        if (ratio < step) {
-          step = ratio;
-          blocking = k;
-        }
-      }
+      const auto [blocking, step] = blocking_row(set_, split_, -1, multiplier);
       set_.lambda().head(set_.size()) += step * split_.coefficients.head(set_.size());
       multiplier -= step;
       if (blocking < 0) return;
@@ -138,15 +128,7 @@ class Polish {
   /// then the rows contradict each other.
   bool exchange(Index p) {
     while (!(split_.rho > 0)) {
-      double step = infinity;
-      Index blocking = -1;
-      for (Index k = 0; k < set_.size(); ++k) {
-        const double r = split_.coefficients[k];
-        if (!set_.one_sided(k) || r <= 0 || is_noise(set_, k, split_)) continue;
-        if (set_.lambda()[k] / r >= step) continue;
-        step = set_.lambda()[k] / r;
-        blocking = k;
-      }
+      const auto [blocking, step] = blocking_row(set_, split_);
       if (blocking < 0) {
         found_.farkas = contradiction_weights(set_, p, split_, 1);
         return false;

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/drop_negative.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <numeric>
 
@@ -34,7 +34,6 @@ Held hold(const NearestPointProblem& problem, const std::vector<Index>& rows) {
 }  // namespace
 
 Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "drop-negative", accuracy)) return *found;
   std::vector<Index> rows(static_cast<std::size_t>(problem.rows()));
   std::iota(rows.begin(), rows.end(), Index{0});
@@ -43,9 +42,7 @@ Solution drop_negative(const NearestPointProblem& problem, const Accuracy& accur
   const double least = -noise * first.lambda.cwiseProduct(length).cwiseAbs().maxCoeff();
   std::vector<Index> kept = problem.two_sided;
   for (Index a : rows)
-    if (first.lambda[a] * length[a] >= least &&
-        !std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
-      kept.push_back(a);
+    if (first.lambda[a] * length[a] >= least && !problem.is_two_sided(a)) kept.push_back(a);
   const Held second = hold(problem, kept);
   Candidate candidate{.method = "drop-negative", .q = second.q, .lambda = second.lambda, .farkas = {}};
   candidate.steps = problem.rows() - static_cast<Index>(kept.size());

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/enumerate.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -24,8 +24,7 @@ class Enumeration {
         set_(problem),
         length_(problem.U.lengths(problem.A.diagonal().cwiseInverse())),
         limit_(limit) {
-    std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-    for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+    const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
     for (Index a = 0; a < problem.rows(); ++a) {
       if (two_sided[static_cast<std::size_t>(a)]) {
         typename Set::Split split;
@@ -119,7 +118,6 @@ class Enumeration {
 }  // namespace
 
 Solution enumerate(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "enumerate", accuracy)) return *found;
   const Index limit = accuracy.step_limit > 0 ? accuracy.step_limit : std::numeric_limits<Index>::max();
   Enumeration all(problem, accuracy, limit);

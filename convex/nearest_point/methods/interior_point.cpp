@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/interior_point.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -95,7 +95,6 @@ class InteriorPoint {
 }  // namespace
 
 Solution interior_point(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "interior-point", accuracy)) return *found;
   const ScaledProblem scaled(problem);
   InteriorPoint method(scaled);

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/lemke.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include <cmath>
 
@@ -126,7 +126,6 @@ class Tableau {
 }  // namespace
 
 Solution lemke(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "lemke", accuracy)) return *found;
   const WhitenedProblem white(problem);
   const Complementarity lcp(white);

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/nnls.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
@@ -14,7 +14,6 @@ constexpr double consistent = 1e-12;
 }  // namespace
 
 Solution nnls(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "nnls", accuracy)) return *found;
   const WhitenedProblem white(problem);
   const Index n = problem.dimension(), k = white.size();

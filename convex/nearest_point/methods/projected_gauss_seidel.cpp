@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/projected_gauss_seidel.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/nearest_point/methods/iteration.hpp"
 #include "convex/nearest_point/reductions/whitened_problem.hpp"
@@ -15,7 +15,6 @@ constexpr Index most_sweeps = 1000000;
 }  // namespace
 
 Solution projected_gauss_seidel(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  validate(problem);
   if (const auto found = without_a_method(problem, "projected-gauss-seidel", accuracy)) return *found;
   const WhitenedProblem white(problem);
   const Index k = white.size();

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/methods/proximal_point.hpp"
+#include "convex/nearest_point/methods/every_method.hpp"
 
 #include "convex/nearest_point/methods/augmented_lagrangian.hpp"
 #include "convex/nearest_point/methods/iteration.hpp"
@@ -19,7 +19,6 @@ struct ProximalSteps {
 
 Solution by_proximal_steps(const NearestPointProblem& problem, const Accuracy& accuracy,
                            const ProximalSteps& steps) {
-  validate(problem);
   if (const auto found = without_a_method(problem, steps.method, accuracy)) return *found;
   const ScaledProblem scaled(problem);
   AugmentedLagrangian inner(scaled);

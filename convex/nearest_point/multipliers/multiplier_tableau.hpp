@@ -1,48 +1,201 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <vector>
 
-#include "convex/nearest_point/multipliers/multipliers.hpp"
+#include "convex/invariant.hpp"
+#include "convex/vector.hpp"
 
 namespace convex::inline multiplier_sets {
 
+/// [low, high]; none is infinite.
+template <class Number>
+struct MultiplierRange {
+  std::optional<Number> low, high;
+};
+
 /// The polyhedron of multipliers at one of its vertices, as a simplex tableau: the basic multipliers are
-/// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0.
+/// value - T (nonbasic ones). Multipliers of two-sided rows are free; the others are >= 0. In doubles, where
+/// what rounding leaves about 0 counts as 0, or in fractions.
+template <class Number>
 class MultiplierTableau {
  public:
-  /// basic: names of the basic multipliers with their values (>= 0 where not free); nonbasic: those at 0; T:
-  /// one row a basic one, one column a nonbasic one; is_free: by name.
-  MultiplierTableau(std::vector<Index> basic, Vector value, std::vector<Index> nonbasic, Matrix T,
-                    const std::vector<bool>& is_free);
+  using Numbers = std::vector<Number>;
+
+  /// basic: names of the basic multipliers with their values (>= 0 where not free); nonbasic: those at 0,
+  /// each with its column of T, one entry a basic one; is_free: by name.
+  MultiplierTableau(std::vector<Index> basic, Numbers value, std::vector<Index> nonbasic,
+                    std::vector<Numbers> T, std::vector<bool> is_free)
+      : now_{std::move(basic), std::move(nonbasic), std::move(value), std::move(T)},
+        free_(std::move(is_free)),
+        unbounded_(free_.size(), false),
+        fixed_(now_.nonbasic.size(), false) {
+    if constexpr (is_rounded) {
+      // Entries and values below these parts of the largest are rounding about zero.
+      constexpr double entry_noise = 1e-11, relative_value_noise = 1e-14;
+      double entry = 1, value_size = 0;
+      for (const Numbers& column : now_.T)
+        for (const double x : column) entry = std::max(entry, std::abs(x));
+      for (const double x : now_.value) value_size = std::max(value_size, std::abs(x));
+      noise_ = entry_noise * entry;
+      value_noise_ = relative_value_noise * value_size;
+    }
+    settle_free_columns();
+    if (is_rounded) start_ = now_;
+  }
 
   /// The interval of the multiplier named `a` over the polyhedron; not a number where rounding keeps the
   /// pivots from an end.
-  Interval range(Index a);
+  MultiplierRange<Number> range(Index a) {
+    if (unbounded_[at(a)]) return {};
+    // After so many pivots the next range is found from the tableau at the start: rounding does not add up.
+    constexpr Index most_pivots_since_start = 64;
+    if (is_rounded && pivots_ > most_pivots_since_start) {
+      now_ = start_;
+      pivots_ = 0;
+    }
+    std::optional<Number> low = extreme(a, false);
+    return {std::move(low), extreme(a, true)};
+  }
 
  private:
+  static constexpr bool is_rounded = std::is_same_v<Number, double>;
   /// What pivots change.
   struct State {
     std::vector<Index> basic, nonbasic;
-    Vector value;
-    Matrix T;
+    Numbers value;
+    std::vector<Numbers> T;  ///< by columns
   };
+  struct Block {
+    std::size_t row = none;
+    Number step{};
+  };
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  static std::size_t at(Index a) { return static_cast<std::size_t>(a); }
+  bool is_free(Index name) const { return free_[at(name)]; }
+  static bool is_zero(const Number& x) {
+    if constexpr (is_rounded)
+      return x == 0;
+    else
+      return sign(x) == 0;
+  }
+  /// Whether x > 0 beyond rounding.
+  bool is_positive(const Number& x) const {
+    if constexpr (is_rounded)
+      return !(x <= noise_);
+    else
+      return sign(x) > 0;
+  }
 
-  double extreme(Index a, double direction);
-  /// A column whose growth moves the basic multiplier of `row` that way: the steepest or the least by name;
-  /// or -1.
-  Index entering_column(Index row, double direction, bool by_name) const;
-  /// The row that blocks the increase of nonbasic column `column`, or -1; `step` is how far it may go.
-  Index blocking_row(Index column, double sign, double& step) const;
-  void pivot(Index row, Index column);
-  void settle_free_columns();
-  bool is_free(Index name) const { return free_[static_cast<std::size_t>(name)]; }
+  /// The row that blocks nonbasic column `column` when it grows, or shrinks, and how far it may go.
+  Block blocking_row(std::size_t column, bool grows) const {
+    Block first;
+    for (std::size_t k = 0; k < now_.basic.size(); ++k) {
+      const Index name = now_.basic[k];
+      if (is_free(name)) continue;
+      const Number& entry = now_.T[column][k];
+      const Number rate = grows ? entry : -entry;
+      if (!is_positive(rate)) continue;
+      Number ratio = value_noise_ < now_.value[k] ? now_.value[k] / rate : Number{};
+      const bool is_first =
+          first.row == none || ratio < first.step || (!(first.step < ratio) && name < now_.basic[first.row]);
+      if (is_first) first = {k, std::move(ratio)};
+    }
+    return first;
+  }
 
-  std::vector<Index> basic_, nonbasic_;
-  Vector value_;
-  Matrix T_;
+  void pivot(std::size_t row, std::size_t column) {
+    ++pivots_;
+    const Number element = now_.T[column][row], entering = now_.value[row] / element;
+    Numbers& of_entering = now_.T[column];
+    const auto subtract = [&](Numbers& from, const Number& factor) {
+      for (std::size_t k = 0; k < from.size(); ++k)
+        if (k != row && !is_zero(of_entering[k])) from[k] = from[k] - of_entering[k] * factor;
+      from[row] = factor;
+    };
+    subtract(now_.value, entering);
+    for (std::size_t j = 0; j < now_.T.size(); ++j)
+      if (j != column && !is_zero(now_.T[j][row])) subtract(now_.T[j], now_.T[j][row] / element);
+    for (Number& entry : of_entering) entry = -entry / element;
+    of_entering[row] = Number{1} / element;
+    std::swap(now_.basic[row], now_.nonbasic[column]);
+  }
+
+  /// Free multipliers enter the basis for good; one that no sign hinders moves its partners without bound.
+  void settle_free_columns() {
+    for (std::size_t column = 0; column < now_.T.size(); ++column) {
+      if (!is_free(now_.nonbasic[column])) continue;
+      const Block up = blocking_row(column, true), down = blocking_row(column, false);
+      const Block& nearer = up.row != none && (down.row == none || !(down.step < up.step)) ? up : down;
+      if (nearer.row != none) {
+        pivot(nearer.row, column);
+        // What left the basis is one-sided and at zero; the free one is basic and stays.
+        continue;
+      }
+      // No sign restricts it: a line in the polyhedron.
+      fixed_[column] = unbounded_[at(now_.nonbasic[column])] = true;
+      for (std::size_t k = 0; k < now_.basic.size(); ++k)
+        if (is_positive(now_.T[column][k]) || is_positive(-now_.T[column][k]))
+          unbounded_[at(now_.basic[k])] = true;
+    }
+  }
+
+  /// A column whose growth raises, or lowers, the basic multiplier of `row`: the steepest or the least by
+  /// name; or none.
+  std::size_t entering_column(std::size_t row, bool rises, bool by_name) const {
+    const auto slope = [&](std::size_t j) { return rises ? -now_.T[j][row] : now_.T[j][row]; };
+    std::size_t entering = none;
+    for (std::size_t j = 0; j < now_.T.size(); ++j)
+      if (!fixed_[j] && is_positive(slope(j)) &&
+          (entering == none ||
+           (by_name ? now_.nonbasic[j] < now_.nonbasic[entering] : slope(entering) < slope(j))))
+        entering = j;
+    return entering;
+  }
+
+  std::optional<Number> extreme(Index a, bool rises) {
+    // By the rule of Bland (1977), the entering multiplier of least name that improves, the leaving one of
+    // least name, nothing comes back. In doubles the steepest column enters; after a step of length 0 the
+    // rule holds until there is a longer one. So nothing comes back, but for rounding: then the rule holds to
+    // the end, and there is one.
+    bool by_name = !is_rounded;
+    const std::size_t usual = now_.basic.size() + now_.nonbasic.size();
+    for (std::size_t count = 0; !is_rounded || count <= 20 * usual; ++count) {
+      const auto position = std::find(now_.basic.begin(), now_.basic.end(), a);
+      std::size_t entering = none;
+      if (position == now_.basic.end()) {
+        if (!rises) return Number{};  // nonbasic and one-sided: at its least value
+        entering = at(std::find(now_.nonbasic.begin(), now_.nonbasic.end(), a) - now_.nonbasic.begin());
+        invariant(entering < now_.nonbasic.size(), "a tight row is basic or nonbasic");
+      } else {
+        const std::size_t row = at(position - now_.basic.begin());
+        entering = entering_column(row, rises, by_name);
+        if (entering == none) return without_noise(now_.value[row], is_free(a));
+      }
+      const Block block = blocking_row(entering, true);
+      if (block.row == none) return std::nullopt;
+      by_name = !is_rounded || !(Number{} < block.step) || count >= usual;
+      pivot(block.row, entering);
+    }
+    if constexpr (is_rounded) return std::numeric_limits<double>::quiet_NaN();
+    return std::nullopt;
+  }
+
+  Number without_noise(const Number& value, bool may_be_negative) const {
+    if constexpr (is_rounded) {
+      const double end = may_be_negative ? value : std::max(0.0, value);
+      return std::abs(end) <= value_noise_ ? 0 : end;
+    } else {
+      return value;
+    }
+  }
+
+  State now_, start_;
   std::vector<bool> free_, unbounded_, fixed_;
-  double noise_, value_noise_;
-  State start_;
+  Number noise_{}, value_noise_{};
   Index pivots_ = 0;  // since the tableau was as at the start
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "convex/infinity.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
@@ -16,12 +17,6 @@
 
 namespace convex::inline multiplier_sets {
 namespace {
-
-std::vector<bool> marked(Index count, const std::vector<Index>& chosen) {
-  std::vector<bool> mark(static_cast<std::size_t>(count), false);
-  for (Index a : chosen) mark[static_cast<std::size_t>(a)] = true;
-  return mark;
-}
 
 /// lambda of least norm as the nearest point to 0 in {lambda : lambda_k + Σ T(k, p) lambda_p the same for
 /// each k, lambda >= 0 on one-sided rows}, every entry rounded once. start: lambda of the rows `names`, those
@@ -100,7 +95,8 @@ class MultiplierPolyhedron {
 
   /// Of the multiplier times the length of its row.
   Interval range_of_multiplier(Index a) {
-    return tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
+    const auto range = tableau_.range(std::find(names_.begin(), names_.end(), a) - names_.begin());
+    return {range.low.value_or(-infinity), range.high.value_or(infinity)};
   }
   Interval range(Index a) {
     const Interval range = range_of_multiplier(a);
@@ -108,8 +104,8 @@ class MultiplierPolyhedron {
   }
 
  private:
-  static MultiplierTableau made(const Dependence& rows, const Vector& lambda, const Vector& length,
-                                const std::vector<bool>& is_free, std::vector<Index>& names) {
+  static MultiplierTableau<double> made(const Dependence& rows, const Vector& lambda, const Vector& length,
+                                        const std::vector<bool>& is_free, std::vector<Index>& names) {
     const std::size_t k = rows.basic.size();
     names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
     std::vector<Index> places(names.size());
@@ -117,17 +113,21 @@ class MultiplierPolyhedron {
     std::vector<bool> free;
     for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
     const auto end_of_basic = places.begin() + static_cast<std::ptrdiff_t>(k);
-    const Vector of_basic = length(rows.basic), of_dependent = length(rows.dependent);
+    const Vector of_basic = length(rows.basic), of_dependent = length(rows.dependent),
+                 value = lambda(rows.basic).cwiseProduct(of_basic);
+    const Matrix T = of_basic.asDiagonal() * rows.T * of_dependent.cwiseInverse().asDiagonal();
+    std::vector<std::vector<double>> columns;
+    for (Index j = 0; j < T.cols(); ++j) columns.emplace_back(T.col(j).begin(), T.col(j).end());
     return {{places.begin(), end_of_basic},
-            lambda(rows.basic).cwiseProduct(of_basic),
+            {value.begin(), value.end()},
             {end_of_basic, places.end()},
-            of_basic.asDiagonal() * rows.T * of_dependent.cwiseInverse().asDiagonal(),
-            free};
+            std::move(columns),
+            std::move(free)};
   }
 
   std::vector<Index> names_;
   const Vector& length_;
-  MultiplierTableau tableau_;
+  MultiplierTableau<double> tableau_;
 };
 
 /// 1 for a positive multiplier of a one-sided row, else 0. Whether there are other multipliers is a question

@@ -12,12 +12,6 @@
 namespace convex::inline multiplier_sets {
 namespace {
 
-std::vector<bool> marks_of(Index size, const std::vector<Index>& rows) {
-  std::vector<bool> mark(static_cast<std::size_t>(size), false);
-  for (Index a : rows) mark[static_cast<std::size_t>(a)] = true;
-  return mark;
-}
-
 /// Multipliers that are this part of the largest push, each measured by its row's length, or of z, count as
 /// 0.
 constexpr double weak = 1e-12;
@@ -25,7 +19,7 @@ constexpr double weak = 1e-12;
 /// By row: two-sided, or with a multiplier that is not 0.
 std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution& solution,
                               const Multipliers& multipliers) {
-  std::vector<bool> loaded = marks_of(problem.rows(), problem.two_sided);
+  std::vector<bool> loaded = marked(problem.rows(), problem.two_sided);
   const Vector push =
       multipliers.least_norm.cwiseAbs().cwiseProduct(problem.U.lengths(problem.A.diagonal().cwiseInverse()));
   const double largest = std::max(solution.force_norm, push.size() > 0 ? push.maxCoeff() : 0);
@@ -41,7 +35,7 @@ std::vector<bool> loaded_rows(const NearestPointProblem& problem, const Solution
 /// do.
 std::optional<std::vector<Index>> loaded_by_change(const NearestPointProblem& face, const Vector& R) {
   const double push = face.A.dual_norm(R);
-  const std::vector<bool> two_sided = marks_of(face.rows(), face.two_sided);
+  const std::vector<bool> two_sided = marked(face.rows(), face.two_sided);
   if (!(push > 0)) return face.two_sided;
   NearestPointProblem pulled = face;
   constexpr int most_trials = 8;
@@ -80,7 +74,7 @@ std::optional<Derivative> directional_derivative(const NearestPointProblem& prob
                                                  const Multipliers& multipliers, const Vector& dz,
                                                  const Vector& ds) {
   const std::vector<Index>& tight = multipliers.tight;
-  const std::vector<bool> two_sided = marks_of(problem.rows(), problem.two_sided),
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided),
                           loaded = loaded_rows(problem, solution, multipliers);
   const bool choose = !multipliers.unique && (ds.array() != 0).any();
   const std::vector<bool>& held = choose ? two_sided : loaded;
@@ -111,7 +105,7 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
   if (!multipliers.unique) return std::nullopt;
   const Index m = problem.rows();
   const std::vector<bool> loaded = loaded_rows(problem, solution, multipliers),
-                          two_sided = marks_of(m, problem.two_sided);
+                          two_sided = marked(m, problem.two_sided);
   std::vector<Index> held;
   for (Index a : multipliers.tight)  // independent, for the multipliers are unique
     if (loaded[static_cast<std::size_t>(a)]) held.push_back(a);
@@ -130,7 +124,7 @@ std::optional<Vector> margins(const NearestPointProblem& problem, const Solution
     if (!two_sided[static_cast<std::size_t>(a)])
       found[a] = std::max(0.0, multipliers.least_norm[a]) / R_inverse.row(r).norm();
   }
-  const std::vector<bool> is_tight = marks_of(m, multipliers.tight), is_held = marks_of(m, held);
+  const std::vector<bool> is_tight = marked(m, multipliers.tight), is_held = marked(m, held);
   std::vector<Index> others;
   for (Index a = 0; a < m; ++a)
     if (!is_held[static_cast<std::size_t>(a)] && !two_sided[static_cast<std::size_t>(a)]) others.push_back(a);

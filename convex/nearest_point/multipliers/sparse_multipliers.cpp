@@ -42,14 +42,10 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   std::vector<Index> signed_rows;
   for (Index j = 0; j < k; ++j) {
     const Index a = tight[static_cast<std::size_t>(j)];
-    if (problem.U.is_sparse())
-      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it)
-        entries.emplace_back(static_cast<int>(it.col()), static_cast<int>(j), it.value());
-    else
-      for (Index i = 0; i < n; ++i)
-        if (problem.U.dense()(a, i) != 0)
-          entries.emplace_back(static_cast<int>(i), static_cast<int>(j), problem.U.dense()(a, i));
-    if (!std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a)) signed_rows.push_back(j);
+    problem.U.for_each_entry(a, [&](Index i, double value) {
+      entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+    });
+    if (!problem.is_two_sided(a)) signed_rows.push_back(j);
   }
   const Index m = n + static_cast<Index>(signed_rows.size());
   Vector start(k), s = Vector::Zero(m);

@@ -256,13 +256,11 @@ std::optional<Solution> solve_obstacle(const NearestPointProblem& problem, const
   found.acceleration_norm = problem.A.norm(found.q);
   GridNorm norm(grid->A, multigrid);
   found.force_norm = norm.dual(grid->z);
-  KnownParts known{std::move(length), found.slack, {}, found.acceleration_norm, found.force_norm};
-  known.dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };
-  found.residuals = residuals(problem, found.q, found.lambda, std::move(known));
+  const auto dual_norm = [&](const Vector& c) { return norm.rough_dual(on_grid(grid->A, c)); };
+  found.residuals = residuals(problem, found, {.length = std::move(length), .dual_norm = dual_norm});
   found.rounding = std::sqrt(2 * grid->A.d * off_grid(grid->A, point.q.lo).squaredNorm());
   found.error_bound = 2 * point.missing + found.rounding;
-  const bool close = found.error_bound <= accuracy.tolerance * std::max(1.0, found.acceleration_norm);
-  found.status = close && decided ? Status::solved : Status::inaccurate;
+  found.status = found.is_within(accuracy) && decided ? Status::solved : Status::inaccurate;
   if (!decided) found.undecided = open_question::touched;
   found.model.islands = {{found.method, n, problem.rows(), 0, 60.0 * static_cast<double>(point.steps * n),
                           6.0 * static_cast<double>(n)}};

@@ -50,10 +50,6 @@ bool is_on_some_grid(Index n, const double* x) {
   return std::isnormal(grid) && kernels.is_on_grid(n, x, 1.5 * grid / unit_roundoff * 0.5);
 }
 
-bool is_two_sided(const NearestPointProblem& problem, Index a) {
-  return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
-}
-
 double entry(const ConstraintRows& U, Index a, Index i) {
   return U.is_sparse() ? U.sparse().coeff(a, i) : U.dense()(a, i);
 }
@@ -62,11 +58,7 @@ double entry(const ConstraintRows& U, Index a, Index i) {
 ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Point& q) {
   ExactSum sum;
   sum.add(-problem.s[a]);
-  if (problem.U.is_sparse())
-    for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it)
-      sum.add_product(it.value(), q[it.col()]);
-  else
-    for (Index i = 0; i < q.size(); ++i) sum.add_product(problem.U.dense()(a, i), q[i]);
+  problem.U.for_each_entry(a, [&](Index i, double u) { sum.add_product(u, q[i]); });
   return sum;
 }
 
@@ -149,7 +141,7 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
 bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<const Index> held,
                 std::span<const Index> touched, double* slacks) {
   const auto is_kept = [&](Index a, double slack) {
-    return slack == 0 || (slack > 0 && !is_two_sided(problem, a));
+    return slack == 0 || (slack > 0 && !problem.is_two_sided(a));
   };
   const bool at_rest = (q.array() == 0).all();
   const GridSum on_grid(q);

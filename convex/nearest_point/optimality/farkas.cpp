@@ -14,18 +14,15 @@ constexpr double combination_roundings = 16;
 constexpr double gap_roundings = 16;
 
 double largest_entry(const ConstraintRows& U, Index a) {
-  if (!U.is_sparse()) return U.dense().row(a).cwiseAbs().maxCoeff();
   double largest = 0;
-  for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it)
-    largest = std::max(largest, std::abs(it.value()));
+  U.for_each_entry(a, [&](Index, double u) { largest = std::max(largest, std::abs(u)); });
   return largest;
 }
 
 }  // namespace
 
 bool proves_infeasibility(const NearestPointProblem& problem, const Vector& w, double reach) {
-  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   DoubleDoubleVector combination(problem.dimension());
   DoubleDouble gap;
   double terms = 0, magnitude = 0, unsure = 0;  // unsure: what radii may make of the gap

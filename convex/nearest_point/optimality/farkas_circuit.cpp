@@ -16,8 +16,7 @@ constexpr double support = 1e-9;
 
 std::optional<Vector> farkas_circuit(const NearestPointProblem& problem, const Vector& w, double reach) {
   using Set = WorkingSet;
-  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
   const Vector weight = w.cwiseAbs().cwiseProduct(length);
   if (problem.rows() == 0 || !weight.allFinite() || !(weight.maxCoeff() > 0)) return std::nullopt;

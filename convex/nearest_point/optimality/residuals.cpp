@@ -48,23 +48,29 @@ Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>
   return length;
 }
 
-Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
-                    const Vector& length) {
-  return residuals(
-      problem, q, lambda,
-      KnownParts{
-          length, problem.U.times(q) - problem.s, {}, problem.A.norm(q), problem.A.dual_norm(problem.z)});
+double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
+  return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
 }
 
-Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
-                    KnownParts known) {
+Residuals residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda) {
+  Solution found;
+  found.q = q;
+  found.lambda = lambda;
+  found.slack = problem.U.times(q) - problem.s;
+  found.acceleration_norm = problem.A.norm(q);
+  found.force_norm = problem.A.dual_norm(problem.z);
+  return residuals(problem, found);
+}
+
+Residuals residuals(const NearestPointProblem& problem, const Solution& judged, KnownParts known) {
   const bool plain = problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity;
-  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, q, lambda, known);
+  if (plain && problem.U.is_sparse()) return sparse_residuals(problem, judged);
+  const Vector &q = judged.q, &lambda = judged.lambda;
   Vector& length = known.length;
-  Vector& rest = known.slack;
+  if (length.size() == 0) length = Vector::Zero(problem.rows());
+  Vector rest = judged.slack;
   const Index m = problem.rows();
-  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(m, problem.two_sided);
 
   const DoubleDoubleVector point(q);
   // A slack far from zero is known well enough; one near zero is computed again in twice the precision.
@@ -89,7 +95,7 @@ Residuals residuals(const NearestPointProblem& problem, const Vector& q, const V
   for (std::size_t k = 0; k < loaded.size(); ++k) weights.hi[static_cast<Index>(k)] = lambda[loaded[k]];
   const Vector unbalanced = stationarity_residual(problem, point, loaded, weights);
   const double stationarity = known.dual_norm ? known.dual_norm(unbalanced) : problem.A.dual_norm(unbalanced);
-  const double q_norm = known.q_norm, scale = std::max(q_norm, known.force_norm);
+  const double q_norm = judged.acceleration_norm, scale = std::max(q_norm, judged.force_norm);
   const double largest = m > 0 ? lambda.cwiseAbs().maxCoeff() : 0;
 
   Residuals found;

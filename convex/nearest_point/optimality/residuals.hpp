@@ -8,22 +8,23 @@
 namespace convex::inline optimality {
 
 /// Judges q and lambda, as they stand, by the residuals of `Residuals`; whoever found them is judged by this
-/// one piece of code. `length` has ||u_a||_(A⁻¹) where it is known, else 0. Sums are in twice the working
-/// precision.
-Residuals residuals(const NearestPointProblem&, const Vector& q, const Vector& lambda, const Vector& length);
+/// one piece of code. Sums are in twice the working precision.
+Residuals residuals(const NearestPointProblem&, const Vector& q, const Vector& lambda);
 
-/// The same for somebody who has the norms and slacks at hand. `slack`: Uq - s as doubles give it; those near
-/// zero are computed again.
+/// What else is known of an answer.
 struct KnownParts {
-  Vector length, slack;
-  Vector magnitude;       ///< at least Σ_i |u_ai q_i| of every row, m; may be empty
-  double q_norm = 0;      ///< ||q||_A
-  double force_norm = 0;  ///< ||z||_(A⁻¹)
+  Vector length = {};     ///< ||u_a||_(A⁻¹), 0 where it is not known: m; may be empty
+  Vector magnitude = {};  ///< at least Σ_i |u_ai q_i| of every row, m; may be empty
   std::function<double(const Vector&)> dual_norm = {};  ///< ||c||_(A⁻¹) without A's factor; may be empty
 };
-Residuals residuals(const NearestPointProblem&, const Vector& q, const Vector& lambda, KnownParts known);
+/// The same for an answer with its norms and slacks, Uq - s as doubles give it; those near zero are computed
+/// again.
+Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts known = {});
 
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
 Vector dual_lengths(const NearestPointProblem&, const std::vector<Index>& rows);
+
+/// At least ||lo||_A of what the rounding of q to doubles leaves behind: ||lo||_A² <= n Σ a_ii lo_i².
+double rounding_norm(const NearestPointProblem&, const Vector& lo);
 
 }  // namespace convex::inline optimality

@@ -67,17 +67,15 @@ double unbalanced(const NearestPointProblem& problem, const Vector& q, const Vec
 
 }  // namespace
 
-Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
-                           const KnownParts& known) {
-  const KnownNorms norms{known.q_norm, known.force_norm, unbalanced(problem, q, lambda)};
-  return sparse_residuals(problem, q, lambda, known.slack, norms, 0, problem.rows());
+Residuals sparse_residuals(const NearestPointProblem& problem, const Solution& judged) {
+  return sparse_residuals(problem, judged, unbalanced(problem, judged.q, judged.lambda), 0, problem.rows());
 }
 
-Residuals sparse_residuals(const NearestPointProblem& problem, const Vector& q, const Vector& lambda,
-                           const Vector& slack, const KnownNorms& known, Index first, Index end) {
+Residuals sparse_residuals(const NearestPointProblem& problem, const Solution& judged, double stationarity,
+                           Index first, Index end) {
   const SparseRows& U = problem.U.sparse();
-  const Vector& d = problem.A.diagonal();
-  const double stationarity = known.unbalanced, q_norm = known.q, scale = std::max(q_norm, known.z);
+  const Vector &d = problem.A.diagonal(), &q = judged.q, &lambda = judged.lambda, &slack = judged.slack;
+  const double q_norm = judged.acceleration_norm, scale = std::max(q_norm, judged.force_norm);
   const double largest = end > first ? lambda.cwiseAbs().maxCoeff() : 0;
   Residuals found;
   double gap = 0.5 * stationarity * stationarity;

@@ -61,7 +61,7 @@ std::optional<Solution> in_fractions(const NearestPointProblem& problem, const S
   solution.steps += open.steps;
   solution.force_norm = problem.A.dual_norm(problem.z);
   if (found.status != Status::infeasible)
-    solution.residuals = residuals(problem, solution.q, solution.lambda, Vector::Zero(problem.rows()));
+    solution.residuals = residuals(problem, solution.q, solution.lambda);
   solution.model.islands = {
       {open.method, problem.dimension(), problem.rows(), 0, found.word_operations, n * n / 2, why}};
   return solution;
@@ -89,11 +89,8 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
 
 bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) {
   if (solved.status != Status::solved || problem.radii) return false;
-  const auto two_sided = [&](Index a) {
-    return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
-  };
   if (std::none_of(solved.basis.begin(), solved.basis.end(),
-                   [&](Index a) { return solved.lambda[a] == 0 && !two_sided(a); }))
+                   [&](Index a) { return solved.lambda[a] == 0 && !problem.is_two_sided(a); }))
     return false;
   std::vector<bool> told(static_cast<std::size_t>(problem.rows()), false);  // without a sign to tell
   for (Index a : problem.two_sided) told[static_cast<std::size_t>(a)] = true;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "convex/linear_algebra/pivoted_qr.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
@@ -21,8 +22,7 @@ constexpr Index largest_dimension = 1500, most_active_entries = largest_dimensio
 
 bool multipliers_are_positive(const NearestPointProblem& problem, const std::vector<Index>& rows,
                               const HeldPoint& point) {
-  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (two_sided[static_cast<std::size_t>(rows[r])]) continue;
     const auto k = static_cast<Index>(r);
@@ -47,9 +47,7 @@ Parts parts_of(const NearestPointProblem& problem, const Preconditioned& P, cons
   for (Index r = 0; r < c.size(); ++r) {
     if (!(std::abs(c[r]) > noticeable * c.cwiseAbs().maxCoeff())) continue;
     parts.others.push_back(held[static_cast<std::size_t>(r)]);
-    parts.against =
-        parts.against && (c[r] < 0 || std::binary_search(problem.two_sided.begin(), problem.two_sided.end(),
-                                                         parts.others.back()));
+    parts.against = parts.against && (c[r] < 0 || problem.is_two_sided(parts.others.back()));
   }
   return parts;
 }
@@ -75,9 +73,7 @@ std::optional<double> shift_of_open_rows(const NearestPointProblem& problem, con
                                          const std::vector<Index>& held, const HeldPoint& point) {
   const HeldSlacks slacks(problem, radii, P, held, point);
   std::vector<OpenRow> open = slacks.open(0);
-  const auto is_two_sided = [&](const OpenRow& row) {
-    return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), row.row);
-  };
+  const auto is_two_sided = [&](const OpenRow& row) { return problem.is_two_sided(row.row); };
   if (follow(problem, radii, P, active, held, open)) return 0;
   // Rows that the motion may reach are counted as open, until no other is reached.
   constexpr int rounds = 4;
@@ -118,17 +114,10 @@ struct Held {
 
 /// Independent rows, among those without slack, that make R = A q - z (Lawson and Hanson's method ends at
 /// such rows), and as many of the two-sided rows as are independent.
-
 std::optional<Held> independent(const NearestPointProblem& problem, const Solution& solution) {
-  const auto whitened = [&](const std::vector<Index>& rows) {
-    Matrix V(problem.dimension(), static_cast<Index>(rows.size()));
-    for (std::size_t r = 0; r < rows.size(); ++r) problem.U.copy_row(rows[r], V.col(static_cast<Index>(r)));
-    problem.A.whiten_in_place(V);
-    return V;
-  };
   std::vector<Index> rows;
   if (!problem.two_sided.empty()) {
-    const linear_algebra::PivotedQr factor(whitened(problem.two_sided));
+    const linear_algebra::PivotedQr factor(whitened_rows(problem, problem.two_sided));
     for (Index r = 0; r < factor.rank; ++r)
       rows.push_back(problem.two_sided[static_cast<std::size_t>(factor.order[static_cast<std::size_t>(r)])]);
   }
@@ -140,10 +129,10 @@ std::optional<Held> independent(const NearestPointProblem& problem, const Soluti
   for (Index a = 0; a < problem.rows(); ++a)
     if (std::abs(slack[a]) <=
             tight * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, solution.q.cwiseAbs())) &&
-        !std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
+        !problem.is_two_sided(a))
       rows.push_back(a);
   const Vector residual = problem.A.multiply(solution.q) - problem.z;
-  const ConeProjection push = cone_projection(whitened(rows), problem.A.whiten(residual), free);
+  const ConeProjection push = cone_projection(whitened_rows(problem, rows), problem.A.whiten(residual), free);
   if (!push.finished) return std::nullopt;
   Held held{{}, Vector::Zero(problem.rows())};
   for (std::size_t r = 0; r < rows.size(); ++r) {
@@ -160,8 +149,7 @@ bool drop_idle_rows(const NearestPointProblem& problem, const HeldPoint& point, 
   std::vector<Index> kept;
   for (std::size_t r = 0; r < held.rows.size(); ++r) {
     const auto k = static_cast<Index>(r);
-    const bool two_sided =
-        std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), held.rows[r]);
+    const bool two_sided = problem.is_two_sided(held.rows[r]);
     if (two_sided || !(std::abs(point.lambda[k] + point.dlambda[k]) <= above(point.multiplier_radius[k])))
       kept.push_back(held.rows[r]);
   }
@@ -216,9 +204,8 @@ NearestPointProblem with_equalities(NearestPointProblem problem, const std::vect
 /// negative: then ||q - q*||_A <= ||Aq - z - Uᵀlambda||_(A⁻¹), however the rows depend on each other.
 bool is_kept_exactly(const NearestPointProblem& problem, const std::vector<Index>& held,
                      const HeldPoint& point) {
-  std::vector<bool> is_held(static_cast<std::size_t>(problem.rows()), false), two_sided = is_held;
-  for (Index a : held) is_held[static_cast<std::size_t>(a)] = true;
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> is_held = marked(problem.rows(), held),
+                          two_sided = marked(problem.rows(), problem.two_sided);
   for (std::size_t r = 0; r < held.size(); ++r) {
     const auto k = static_cast<Index>(r);
     if (!two_sided[static_cast<std::size_t>(held[r])] && !(below(point.lambda[k] + point.dlambda[k]) >= 0))

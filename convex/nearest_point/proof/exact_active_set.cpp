@@ -91,8 +91,7 @@ class ExactActiveSet {
       : problem_(problem),
         n_(problem.z.size()),
         most_words_(most_words),
-        two_sided_(problem.s.size(), false) {
-    for (Index a : problem.two_sided) two_sided_[at(a)] = true;
+        two_sided_(marked(problem.rows(), problem.two_sided)) {
     IntegerRows candidates;
     for (Index a : guess) candidates.push_back(problem.U[at(a)]);
     for (std::size_t k : independent_rows(candidates, n_)) rows_.push_back(guess[k]);
@@ -263,8 +262,7 @@ class ExactActiveSet {
 }  // namespace
 
 bool proves_infeasibility(const ExactProblem& problem, const IntegerVector& w) {
-  std::vector<bool> two_sided(problem.s.size(), false);
-  for (Index a : problem.two_sided) two_sided[at(a)] = true;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   std::vector<Fraction> parts;  // weights of the integer rows
   for (std::size_t a = 0; a < w.size(); ++a) {
     if (w[a].sign() < 0 && !two_sided[a]) return false;

@@ -51,10 +51,6 @@ IntegerVector dependence_of(const ExactProblem& exact) {
 
 namespace {
 
-bool holds_both_ways(const NearestPointProblem& problem, Index a) {
-  return std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a);
-}
-
 /// Weights w, all needed and w_0 > 0, with Σ w_r u_r = 0 exactly over the rows, and Σ w_r s_r.
 struct ZeroSum {
   IntegerVector w;
@@ -90,7 +86,7 @@ std::vector<Index> with_first(Index a, const std::vector<Index>& others) {
 bool follows_exactly(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
   const auto found = zero_sum(problem, with_first(a, others));
   if (!found) return false;
-  return holds_both_ways(problem, a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
+  return problem.is_two_sided(a) ? sign(found->left) == 0 : sign(found->left) * found->w[0].sign() <= 0;
 }
 
 bool are_equalities(const NearestPointProblem& problem, Index a, const std::vector<Index>& others) {
@@ -98,7 +94,7 @@ bool are_equalities(const NearestPointProblem& problem, Index a, const std::vect
   const auto found = zero_sum(problem, rows);
   if (!found || sign(found->left) != 0) return false;
   for (std::size_t r = 0; r < rows.size(); ++r)
-    if (found->w[r].sign() <= 0 && !holds_both_ways(problem, rows[r])) return false;
+    if (found->w[r].sign() <= 0 && !problem.is_two_sided(rows[r])) return false;
   return true;
 }
 
@@ -130,7 +126,7 @@ bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>
       if (dot(columns[i], c.numerators) != c.denominator * u[i]) return false;
     const IntegerVector bounds(exact.s.begin(), exact.s.begin() + static_cast<std::ptrdiff_t>(k));
     const int off = (dot(bounds, c.numerators) - c.denominator * exact.s[k + p]).sign();
-    if (holds_both_ways(problem, rows[p]) ? off != 0 : off < 0) return false;
+    if (problem.is_two_sided(rows[p]) ? off != 0 : off < 0) return false;
     std::size_t bits = c.denominator.bits();
     for (const Integer& numerator : c.numerators) bits = std::max(bits, numerator.bits());
     words += K * K * (2 + 2 * static_cast<double>(bits) / 62) * 2;

@@ -80,10 +80,9 @@ Solution rounded(const ExactProblem& problem, const ExactSolution& exact, const 
     solution.slack[a] = nearest_double(exact.slack[static_cast<std::size_t>(a)]);
   solution.error_bound = solution.rounding = distance_above(problem, solution.q, exact.q);
   solution.acceleration_norm = root_above(squared_norm(problem, exact.q));
-  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
   const bool finite =
       solution.q.allFinite() && solution.lambda.allFinite() && std::isfinite(solution.acceleration_norm);
-  solution.status = close && finite ? Status::solved : Status::inaccurate;
+  solution.status = solution.is_within(accuracy) && finite ? Status::solved : Status::inaccurate;
   return solution;
 }
 
@@ -101,7 +100,7 @@ Solution exact_method(const NearestPointProblem& problem, const Accuracy& accura
   Solution solution = rounded(exact, exact_active_set(exact, likely_active_rows(problem)), accuracy);
   if (solution.q.size() == 0) return solution;
   solution.force_norm = problem.A.dual_norm(problem.z);
-  solution.residuals = residuals(problem, solution.q, solution.lambda, Vector::Zero(problem.rows()));
+  solution.residuals = residuals(problem, solution.q, solution.lambda);
   return solution;
 }
 

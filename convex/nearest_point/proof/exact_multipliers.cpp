@@ -6,7 +6,6 @@
 #include "convex/exact/modular.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/proof/exact_tableau.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -82,11 +81,11 @@ std::vector<std::pair<Index, Fraction>> null_vector(const std::vector<Index>& ba
   return mu;
 }
 
-std::vector<std::vector<Fraction>> tableau(const std::vector<ExactVector>& T, std::size_t basics) {
-  std::vector<std::vector<Fraction>> rows(basics);
-  for (std::size_t k = 0; k < basics; ++k)
-    for (const ExactVector& column : T) rows[k].push_back(entry(column, k));
-  return rows;
+std::vector<std::vector<Fraction>> columns(const std::vector<ExactVector>& T) {
+  std::vector<std::vector<Fraction>> found(T.size());
+  for (std::size_t j = 0; j < T.size(); ++j)
+    for (std::size_t k = 0; k < T[j].numerators.size(); ++k) found[j].push_back(entry(T[j], k));
+  return found;
 }
 
 }  // namespace
@@ -95,12 +94,11 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
                                    bool want_ranges) {
   ExactMultipliers found;
   found.least_norm = solution.lambda;
-  std::vector<bool> is_free(problem.s.size(), false), held(problem.s.size(), false);
-  for (Index a : problem.two_sided) is_free[at(a)] = true;
+  const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
   for (Index a = 0; a < problem.rows(); ++a)
     if (sign(solution.slack[at(a)]) == 0) found.tight.push_back(a);
   const std::vector<Index> basic = spanning(problem, solution.basis, found.tight);
-  for (Index a : basic) held[at(a)] = true;
+  const std::vector<bool> held = marked(problem.rows(), basic);
   std::vector<Index> dependent;
   for (Index a : found.tight)
     if (!held[at(a)]) dependent.push_back(a);
@@ -115,7 +113,7 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
       found.null_space.push_back(null_vector(basic, T[p], dependent[p]));
     std::vector<Fraction> value;
     for (Index a : basic) value.push_back(entry(solution.lambda, at(a)));
-    ExactTableau all(basic, value, dependent, tableau(T, basic.size()), is_free);
+    MultiplierTableau<Fraction> all(basic, value, dependent, columns(T), is_free);
     // They are unique when every dependent row keeps its multiplier 0.
     for (Index p : dependent) {
       ranges[at(p)] = all.range(p);

@@ -2,15 +2,13 @@
 
 #include <optional>
 
+#include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
 namespace convex::inline proof {
 
-/// [low, high]; none is infinite.
-struct ExactInterval {
-  std::optional<Fraction> low, high;
-};
+using ExactInterval = MultiplierRange<Fraction>;
 
 /// All multipliers of a solved problem, in fractions; as `Multipliers`, with no tolerance anywhere.
 struct ExactMultipliers {

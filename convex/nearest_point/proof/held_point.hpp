@@ -2,9 +2,9 @@
 
 #include <optional>
 
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/nearest_point/entry_radii.hpp"
 #include "convex/nearest_point/problem.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 /// The point that some rows define, with proved bounds for every problem within radii of the one given
 /// (docs/proof.md, section 3).

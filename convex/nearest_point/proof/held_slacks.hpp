@@ -13,11 +13,7 @@ class HeldSlacks {
  public:
   HeldSlacks(const NearestPointProblem& problem, const RadiiOf& radii, const Preconditioned& P,
              const std::vector<Index>& rows, const HeldPoint& point)
-      : problem_(problem),
-        radii_(radii),
-        point_(point),
-        held_(static_cast<std::size_t>(problem.rows()), false) {
-    for (Index a : rows) held_[static_cast<std::size_t>(a)] = true;
+      : problem_(problem), radii_(radii), point_(point), held_(marked(problem.rows(), rows)) {
     // |v_i| <= ||v||_A sqrt((A⁻¹)_ii), and A⁻¹ = Xᵀ A'⁻¹ X.
     const Index n = P.dimension();
     per_length_.resize(n);
@@ -39,7 +35,7 @@ class HeldSlacks {
       problem_.U.copy_row(a, row);
       const double s = problem_.s[a];
       const double uncertain = above(radii_.s(a) + radii_.row_times(a, size_ + hidden));
-      const bool is_two_sided = std::binary_search(problem_.two_sided.begin(), problem_.two_sided.end(), a);
+      const bool is_two_sided = problem_.is_two_sided(a);
       if (!is_two_sided &&
           row.dot(point_.q) - s > above(row.cwiseAbs().dot(loose) + gamma(n + 1) * std::abs(s) + uncertain))
         continue;

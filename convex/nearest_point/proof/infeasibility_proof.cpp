@@ -6,10 +6,10 @@
 #include "convex/exact/elimination.hpp"
 #include "convex/exact/exact_sum.hpp"
 #include "convex/exact/grid_sum.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/linear_algebra/inverse.hpp"
 #include "convex/nearest_point/proof/exact_dependence.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -29,8 +29,7 @@ Support support(const NearestPointProblem& problem, const Vector& w) {
   for (Index& a : rows)
     if (w[a] > w[rows.front()]) std::swap(a, rows.front());
   Support found{touched_rows(problem, rows), rows, w(rows), {}};
-  for (Index a : rows)
-    found.two_sided.push_back(std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a));
+  for (Index a : rows) found.two_sided.push_back(problem.is_two_sided(a));
   return found;
 }
 

@@ -9,12 +9,6 @@ namespace {
 
 std::size_t place_of(Index k) { return static_cast<std::size_t>(k); }
 
-std::vector<bool> marked(Index size, const std::vector<Index>& chosen) {
-  std::vector<bool> marks(place_of(size), false);
-  for (Index a : chosen) marks[place_of(a)] = true;
-  return marks;
-}
-
 /// A direction d with u_a·d about `length_a` on one-sided rows and 0 on two-sided ones, as short as can be.
 std::optional<Vector> opening(const NearestPointProblem& problem, const std::vector<Index>& rows,
                               const std::vector<bool>& two_sided, const Vector& length) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/linear_algebra/sparse_cholesky.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -134,14 +134,10 @@ ResidualBounds residuals_above(const NearestPointProblem& problem, const RadiiOf
   for (std::size_t k = 0; k < held.size(); ++k) {
     CompensatedSum gap;
     gap.add(problem.s[held[k]], 1);
-    const auto add = [&](Index i, double u) {
+    problem.U.for_each_entry(held[k], [&](Index i, double u) {
       gap.add(-u, solution.q[i]);
       balance[static_cast<std::size_t>(i)].add(u, solution.lambda[held[k]]);
-    };
-    if (problem.U.is_sparse())
-      for (SparseRows::InnerIterator it(problem.U.sparse(), held[k]); it; ++it) add(it.col(), it.value());
-    else
-      for (Index i = 0; i < n; ++i) add(i, problem.U.dense()(held[k], i));
+    });
     found.r2[static_cast<Index>(k)] = above(std::abs(gap.result().value) + gap.result().radius);
   }
   for (Index i = 0; i < n; ++i) {
@@ -169,14 +165,10 @@ bool slacks_are_positive(const NearestPointProblem& problem, const RadiiOf& radi
     CompensatedSum sum;
     double hidden = radii.s(a) + radii.row_times(a, size);
     sum.add(-problem.s[a], 1);
-    const auto add = [&](Index i, double u) {
+    problem.U.for_each_entry(a, [&](Index i, double u) {
       sum.add(u, q[i]);
       hidden += std::abs(u) * reach[i];
-    };
-    if (problem.U.is_sparse())
-      for (SparseRows::InnerIterator it(problem.U.sparse(), a); it; ++it) add(it.col(), it.value());
-    else
-      for (Index i = 0; i < q.size(); ++i) add(i, problem.U.dense()(a, i));
+    });
     const Enclosed slack = sum.result();
     if (!(below(slack.value) > above(slack.radius + above(hidden)))) return false;
   }
@@ -225,12 +217,10 @@ std::optional<double> sparse_enclosed_error(const NearestPointProblem& problem, 
   const double change = above(weak * gap + std::sqrt(weak) * imbalance);
   if (!std::isfinite(radius) || !std::isfinite(change)) return std::nullopt;
 
-  std::vector<bool> is_held(static_cast<std::size_t>(problem.rows()), false), two_sided = is_held;
-  for (Index a : held) is_held[static_cast<std::size_t>(a)] = true;
-  for (Index a : problem.two_sided) {
-    two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> is_held = marked(problem.rows(), held),
+                          two_sided = marked(problem.rows(), problem.two_sided);
+  for (Index a : problem.two_sided)
     if (!is_held[static_cast<std::size_t>(a)]) return std::nullopt;
-  }
   for (std::size_t k = 0; k < held.size(); ++k)
     if (!two_sided[static_cast<std::size_t>(held[k])] &&
         !(solution.lambda[held[k]] > above(scaled.r[static_cast<Index>(k)] * change)))

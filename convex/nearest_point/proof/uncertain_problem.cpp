@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "convex/exact/positive_definite.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_algebra/complete_orthogonal.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -171,8 +171,7 @@ class Enclosing {
     const Vector size = size_above(nearest(solution.q)), lambda = size_above(nearest(solution.lambda));
     const Reach reach = reach_at(problem_, near_, two_sided, size);
     double gap = 0;  // 2 Σ lambda_a (u_a·(x + c) - s_a)
-    std::vector<bool> is_two_sided(problem_.middle.s.size(), false);
-    for (Index a : problem_.middle.two_sided) is_two_sided[at(a)] = true;
+    const std::vector<bool> is_two_sided = marked(problem_.middle.rows(), problem_.middle.two_sided);
     for (Index a = 0; a < problem_.middle.rows(); ++a) {
       if (is_two_sided[at(a)]) continue;
       const double slack = nearest_double(solution.slack[at(a)]);  // over the raised bound

@@ -46,8 +46,7 @@ BalancedProblem balanced_problem(const NearestPointProblem& problem) {
   scaled.linear = unit * root;
   scaled.bound = unit * length;
   scaled.multiplier = unit * length.cwiseInverse();
-  scaled.two_sided.assign(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) scaled.two_sided[static_cast<std::size_t>(a)] = true;
+  scaled.two_sided = marked(problem.rows(), problem.two_sided);
   return scaled;
 }
 

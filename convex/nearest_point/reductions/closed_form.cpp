@@ -123,9 +123,7 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
   }
   solution.acceleration_norm = problem.A.norm(solution.q);
   solution.force_norm = formula.free_norm();
-  // ||lo||_A² <= n Σ a_ii lo_i².
-  solution.rounding =
-      std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(point.q.lo.cwiseAbs2()));
+  solution.rounding = rounding_norm(problem, point.q.lo);
   if (problem.A.kind() == MetricKind::diagonal || problem.A.kind() == MetricKind::identity)
     solution.rounding = problem.A.norm(point.q.lo);
   // A slack within its rounding counts as 0: then the row's edge is that close.
@@ -134,14 +132,9 @@ std::optional<Solution> closed_form(const NearestPointProblem& problem, const Ac
                           : 0;
   solution.error_bound = 4 * point.remaining + edge + solution.rounding;
   solution.residuals =
-      residuals(problem, solution.q, solution.lambda,
-                KnownParts{Vector::Constant(problem.rows(), problem.rows() > 0 ? formula.length() : 0.0),
-                           solution.slack,
-                           {},
-                           solution.acceleration_norm,
-                           solution.force_norm});
-  const bool close = solution.error_bound <= accuracy.tolerance * std::max(1.0, solution.acceleration_norm);
-  solution.status = close ? Status::solved : Status::inaccurate;
+      residuals(problem, solution,
+                {.length = Vector::Constant(problem.rows(), problem.rows() > 0 ? formula.length() : 0.0)});
+  solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
   return solution;
 }
 

@@ -112,9 +112,7 @@ ConstraintRows row_block(const ConstraintRows& U, const std::vector<Index>& coor
     for (Index k = 0; k < m; ++k) {
       const Index a = rows[static_cast<std::size_t>(k)];
       if (U.is_sparse())
-        for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it) {
-          if (it.value() != 0) block(k, place[static_cast<std::size_t>(it.col())]) = it.value();
-        }
+        U.for_each_entry(a, [&](Index i, double u) { block(k, place[static_cast<std::size_t>(i)]) = u; });
       else
         for (Index i = 0; i < n; ++i) block(k, i) = U.dense()(a, coordinates[static_cast<std::size_t>(i)]);
     }
@@ -122,10 +120,9 @@ ConstraintRows row_block(const ConstraintRows& U, const std::vector<Index>& coor
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index k = 0; k < m; ++k)
-    for (SparseRows::InnerIterator it(U.sparse(), rows[static_cast<std::size_t>(k)]); it; ++it)
-      if (it.value() != 0)
-        entries.emplace_back(static_cast<int>(k), static_cast<int>(place[static_cast<std::size_t>(it.col())]),
-                             it.value());
+    U.for_each_entry(rows[static_cast<std::size_t>(k)], [&](Index i, double u) {
+      entries.emplace_back(static_cast<int>(k), static_cast<int>(place[static_cast<std::size_t>(i)]), u);
+    });
   SparseRows block(m, n);
   block.setFromTriplets(entries.begin(), entries.end());
   return ConstraintRows(std::move(block));
@@ -178,7 +175,7 @@ NearestPointProblem island_problem(const NearestPointProblem& whole, const std::
   for (Index k = 0; k < m; ++k) {
     const Index a = rows[static_cast<std::size_t>(k)];
     part.s[k] = whole.s[a];
-    if (std::binary_search(whole.two_sided.begin(), whole.two_sided.end(), a)) part.two_sided.push_back(k);
+    if (whole.is_two_sided(a)) part.two_sided.push_back(k);
   }
   return part;
 }

@@ -79,15 +79,10 @@ Solution JoinedIslands::finish(const Accuracy& accuracy) {
   solution_.rounding = std::sqrt(rounding_);
   solution_.acceleration_norm = std::sqrt(acceleration_);
   solution_.force_norm = std::sqrt(linear_);
-  solution_.residuals = residuals(whole_, solution_.q, solution_.lambda,
-                                  KnownParts{Vector::Zero(whole_.rows()),
-                                             solution_.slack,
-                                             {},
-                                             solution_.acceleration_norm,
-                                             solution_.force_norm});
-  const bool close = solution_.error_bound <= accuracy.tolerance * std::max(1.0, solution_.acceleration_norm);
-  solution_.status =
-      close && (whole_.radii || solution_.undecided.empty()) ? Status::solved : Status::inaccurate;
+  solution_.residuals = residuals(whole_, solution_);
+  solution_.status = solution_.is_within(accuracy) && (whole_.radii || solution_.undecided.empty())
+                         ? Status::solved
+                         : Status::inaccurate;
   return std::move(solution_);
 }
 

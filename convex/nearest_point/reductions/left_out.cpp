@@ -54,8 +54,7 @@ NearestPointProblem with_rows(const NearestPointProblem& problem, const std::vec
                            select(problem.radii, kept)};
   for (std::size_t k = 0; k < kept.size(); ++k) {
     part.s[static_cast<Index>(k)] = problem.s[kept[k]];
-    if (std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), kept[k]))
-      part.two_sided.push_back(static_cast<Index>(k));
+    if (problem.is_two_sided(kept[k])) part.two_sided.push_back(static_cast<Index>(k));
   }
   return part;
 }

@@ -15,15 +15,14 @@ ConstraintRows divided(const ConstraintRows& U, const std::vector<Index>& rows, 
 ScaledProblem::ScaledProblem(const NearestPointProblem& original)
     : problem{original.A, original.z, {}, {}, {}}, original_rows(original.rows()) {
   const Vector all = original.U.lengths(original.A.diagonal().cwiseInverse());
-  std::vector<bool> marked(static_cast<std::size_t>(original_rows), false);
-  for (Index a : original.two_sided) marked[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> is_two_sided = marked(original_rows, original.two_sided);
   for (Index a = 0; a < original_rows; ++a)
     if (all[a] > 0) rows.push_back(a);
   length = all(rows);
   problem.U = divided(original.U, rows, length);
   problem.s = original.s(rows).cwiseQuotient(length);
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    two_sided.push_back(marked[static_cast<std::size_t>(rows[k])]);
+    two_sided.push_back(is_two_sided[static_cast<std::size_t>(rows[k])]);
     if (two_sided.back()) problem.two_sided.push_back(static_cast<Index>(k));
   }
   const Vector gap = problem.s - problem.U.times(problem.A.solve(problem.z));

@@ -10,8 +10,7 @@ WhitenedProblem::WhitenedProblem(const NearestPointProblem& problem) {
   for (Index a = 0; a < m; ++a) problem.U.copy_row(a, all.col(a));
   problem.A.whiten_in_place(all);
   const Vector lengths = all.colwise().norm(), w_free = problem.A.whiten(problem.z);
-  std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = marked(m, problem.two_sided);
   for (Index a = 0; a < m; ++a)
     if (lengths[a] > 0) {
       rows.push_back(a);

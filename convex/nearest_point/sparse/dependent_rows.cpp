@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "convex/exact/modular.hpp"
-#include "convex/nearest_point/sparse/elimination_order.hpp"
+#include "convex/linear_algebra/elimination_order.hpp"
 
 namespace convex::inline sparse {
 namespace {
@@ -49,17 +49,6 @@ class Residues {
   std::vector<Residue> powers_;
 };
 
-template <class Visit>
-void visit_entries(const ConstraintRows& U, Index a, Visit visit) {
-  if (U.is_sparse()) {
-    for (SparseRows::InnerIterator it(U.sparse(), a); it; ++it)
-      if (it.value() != 0) visit(static_cast<int>(it.col()), it.value());
-  } else {
-    for (Index i = 0; i < U.dimension(); ++i)
-      if (U.dense()(a, i) != 0) visit(static_cast<int>(i), U.dense()(a, i));
-  }
-}
-
 class RowEchelon {
  public:
   RowEchelon(const ConstraintRows& U, const Vector& s, const std::vector<Index>& rows, std::uint64_t prime,
@@ -76,7 +65,8 @@ class RowEchelon {
   /// What is left of a row; with `take` an independent one joins the echelon.
   Kind put(Index a, bool take) {
     const auto n = static_cast<int>(U_.dimension());
-    visit_entries(U_, a, [&](int i, double u) { set(place_[static_cast<std::size_t>(i)], residues_.of(u)); });
+    U_.for_each_entry(a,
+                      [&](Index i, double u) { set(place_[static_cast<std::size_t>(i)], residues_.of(u)); });
     set(n, residues_.of(s_[a]));
     std::vector<Term> left;
     while (!heap_.empty()) {
@@ -108,13 +98,13 @@ class RowEchelon {
     std::vector<int> columns;
     for (Index a : rows) {
       columns.clear();
-      visit_entries(U_, a, [&](int i, double) { columns.push_back(i); });
+      U_.for_each_entry(a, [&](Index i, double) { columns.push_back(static_cast<int>(i)); });
       if (columns.size() > long_row) continue;
       for (std::size_t k = 0; k < columns.size(); ++k)
         for (std::size_t l = 0; l < k; ++l) edges.emplace_back(columns[l], columns[k]);
     }
-    const Neighbours graph(U_.dimension(), static_cast<Index>(edges.size()),
-                           [&](Index k) { return edges[static_cast<std::size_t>(k)]; });
+    const linear_algebra::Neighbours graph(U_.dimension(), static_cast<Index>(edges.size()),
+                                           [&](Index k) { return edges[static_cast<std::size_t>(k)]; });
     place_ = elimination_order(graph).new_place;
   }
   void set(int column, Residue value) {

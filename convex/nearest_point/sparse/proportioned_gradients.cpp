@@ -18,8 +18,7 @@ constexpr Index steps_between_residuals = 60;
 class ProportionedGradients {
  public:
   ProportionedGradients(const NearestPointProblem& problem, const Accuracy& accuracy, const Vector& guess)
-      : problem_(problem), accuracy_(accuracy), free_(static_cast<std::size_t>(problem.rows()), false) {
-    for (const Index a : problem.two_sided) free_[static_cast<std::size_t>(a)] = true;
+      : problem_(problem), accuracy_(accuracy), free_(marked(problem.rows(), problem.two_sided)) {
     if (problem.A.kind() == MetricKind::diagonal) inverse_ = problem.A.diagonal().cwiseInverse();
     scale_ = problem.U.lengths(problem.A.diagonal().cwiseInverse());
     for (double& d : scale_) d = d > 0 ? 1 / d : 0;

@@ -70,14 +70,8 @@ bool RegularisedKkt::factor(const std::vector<Index>& rows, const Vector& theta)
   for (Index i = 0; i < k; ++i) {
     const Index a = rows[static_cast<std::size_t>(i)];
     const int at = static_cast<int>(n + i);
-    if (problem_.U.is_sparse()) {
-      for (SparseRows::InnerIterator it(problem_.U.sparse(), a); it; ++it)
-        entries.emplace_back(at, static_cast<int>(it.col()), it.value());
-    } else {
-      for (Index j = 0; j < n; ++j)
-        if (problem_.U.dense()(a, j) != 0)
-          entries.emplace_back(at, static_cast<int>(j), problem_.U.dense()(a, j));
-    }
+    problem_.U.for_each_entry(
+        a, [&](Index j, double value) { entries.emplace_back(at, static_cast<int>(j), value); });
     entries.emplace_back(at, at, -theta[i]);
   }
   SparseMatrix whole(n + k, n + k);

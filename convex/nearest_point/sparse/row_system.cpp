@@ -47,11 +47,11 @@ RowSystem::Pattern RowSystem::pattern(const BalancedProblem& problem) {
   return found;
 }
 
-std::variant<SparseFactor, BandFactor> RowSystem::analysed(Index n,
-                                                           const std::vector<SparseFactor::Place>& places) {
-  const Index width = BandFactor::width(places);
-  if (width <= narrow_band) return BandFactor(n, width);
-  return SparseFactor(n, places);
+std::variant<linear_algebra::SparseFactor, linear_algebra::BandFactor> RowSystem::analysed(
+    Index n, const std::vector<linear_algebra::SparseFactor::Place>& places) {
+  const Index width = linear_algebra::BandFactor::width(places);
+  if (width <= narrow_band) return linear_algebra::BandFactor(n, width);
+  return linear_algebra::SparseFactor(n, places);
 }
 
 RowSystem::RowSystem(const BalancedProblem& problem) : RowSystem(problem, pattern(problem)) {}

@@ -2,9 +2,9 @@
 
 #include <variant>
 
+#include "convex/linear_algebra/band_factor.hpp"
+#include "convex/linear_algebra/sparse_factor.hpp"
 #include "convex/nearest_point/reductions/balanced_problem.hpp"
-#include "convex/nearest_point/sparse/band_factor.hpp"
-#include "convex/nearest_point/sparse/sparse_factor.hpp"
 
 namespace convex::inline sparse {
 
@@ -26,18 +26,19 @@ class RowSystem {
 
  private:
   struct Pattern {
-    std::vector<SparseFactor::Place> places;
+    std::vector<linear_algebra::SparseFactor::Place> places;
     std::vector<double> of_A, of_rows, of_border;
     std::vector<Index> first;  ///< of the products of each short row
     std::vector<Index> long_rows, border_entries;
   };
   static Pattern pattern(const BalancedProblem&);
-  static std::variant<SparseFactor, BandFactor> analysed(Index n, const std::vector<SparseFactor::Place>&);
+  static std::variant<linear_algebra::SparseFactor, linear_algebra::BandFactor> analysed(
+      Index n, const std::vector<linear_algebra::SparseFactor::Place>&);
   RowSystem(const BalancedProblem&, Pattern);
 
   Index n_;
   Pattern pattern_;
-  std::variant<SparseFactor, BandFactor> factor_;
+  std::variant<linear_algebra::SparseFactor, linear_algebra::BandFactor> factor_;
   std::vector<Index> slots_;
   Index factorisations_ = 0;
 };

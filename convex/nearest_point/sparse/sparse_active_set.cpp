@@ -46,10 +46,9 @@ class SparseActiveSet {
       : problem_(problem), accuracy_(accuracy), scaled_(balanced_problem(problem)), system_(scaled_) {}
 
   Solution run(const std::vector<Index>& guess) {
-    active_.assign(static_cast<std::size_t>(problem_.rows()), false);
+    active_ = marked(problem_.rows(), guess);
     const bool all_two_sided = static_cast<Index>(problem_.two_sided.size()) == problem_.rows();
     if (!guess.empty() || all_two_sided) {
-      for (Index a : guess) active_[static_cast<std::size_t>(a)] = true;
       point_.q = DoubleDoubleVector(problem_.dimension());
       point_.lambda = DoubleDoubleVector(problem_.rows());
       if (exchange(most_exchanges, 1)) return answer();
@@ -192,8 +191,7 @@ class SparseActiveSet {
         count(a, -lambda, push);
       }
     }
-    std::vector<bool> held(static_cast<std::size_t>(problem_.rows()), false);
-    for (Index a : rows_) held[static_cast<std::size_t>(a)] = true;
+    const std::vector<bool> held = marked(problem_.rows(), rows_);
     for (Index a = 0; a < problem_.rows(); ++a) {
       if (held[static_cast<std::size_t>(a)]) continue;
       slack_[a] = slack(problem_, a, point_.q).value();
@@ -234,10 +232,7 @@ class SparseActiveSet {
       solution.basis = rows_;  // else they may depend on each other
     solution.acceleration_norm = problem_.A.norm(solution.q);
     solution.force_norm = problem_.A.dual_norm(problem_.z);
-    Vector length = Vector::Zero(problem_.rows());
-    solution.residuals =
-        residuals(problem_, solution.q, solution.lambda,
-                  KnownParts{std::move(length), slack_, {}, solution.acceleration_norm, solution.force_norm});
+    solution.residuals = residuals(problem_, solution);
     // ||lo||_A² <= (largest row sum of the scaled A) Σ a_ii lo_i².
     Vector ones = Vector::Ones(problem_.dimension());
     const double spread = (scaled_.A.cwiseAbs() * ones).maxCoeff();
@@ -250,9 +245,7 @@ class SparseActiveSet {
     solution.error_bound = unit * (2 * point_.remaining() + point_.silenced) + solution.rounding +
                            unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
                                std::sqrt(static_cast<double>(rows_.size() + 1));
-    const bool close =
-        solution.error_bound <= accuracy_.tolerance * std::max(1.0, solution.acceleration_norm);
-    solution.status = close ? Status::solved : Status::inaccurate;
+    solution.status = solution.is_within(accuracy_) ? Status::solved : Status::inaccurate;
     // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
     if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
     if (solution.undecided.empty())

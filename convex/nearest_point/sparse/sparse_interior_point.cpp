@@ -30,17 +30,14 @@ Solution point_of(const NearestPointProblem& problem, const BalancedProblem& sca
   now.farkas = Vector::Zero(problem.rows());
   now.acceleration_norm = problem.A.norm(now.q);
   now.force_norm = problem.A.dual_norm(problem.z);
-  now.residuals = residuals(
-      problem, now.q, now.lambda,
-      KnownParts{Vector::Zero(problem.rows()), now.slack, {}, now.acceleration_norm, now.force_norm});
+  now.residuals = residuals(problem, now);
   return now;
 }
 
 bool settle(Solution& now, const Accuracy& accuracy, double error) {
   now.error_bound = error;
-  const bool is_close = error <= accuracy.tolerance * std::max(1.0, now.acceleration_norm);
-  now.status = is_close ? Status::solved : Status::inaccurate;
-  return is_close;
+  now.status = now.is_within(accuracy) ? Status::solved : Status::inaccurate;
+  return now.status == Status::solved;
 }
 
 Solution approached(const NearestPointProblem& problem, const Accuracy& accuracy,

@@ -35,8 +35,7 @@ std::string_view decide_tight_rows(const TightRows& rows, const DoubleDoubleVect
   if (rounded.empty()) {
     // The doubles q are the point: what twice the precision left beside them is noise.
     const Vector magnitude = q.hi.cwiseAbs();
-    std::vector<bool> is_tight(static_cast<std::size_t>(problem.rows()), false);
-    for (Index a : tight) is_tight[static_cast<std::size_t>(a)] = true;
+    const std::vector<bool> is_tight = marked(problem.rows(), tight);
     for (Index a = 0; a < problem.rows(); ++a)
       if (!is_tight[static_cast<std::size_t>(a)] &&
           slack[a] <= near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)))

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/interval_arithmetic.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
 namespace convex {

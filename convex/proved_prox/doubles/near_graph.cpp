@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "convex/double_double.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 
 namespace convex {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "convex/catalogue/catalogue.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/metric_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "convex/double_double.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 
 /// Sets whose normals have one level on all entries that are not at a bound.

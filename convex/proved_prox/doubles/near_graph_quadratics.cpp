@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 

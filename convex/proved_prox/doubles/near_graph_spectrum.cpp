@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "convex/double_double.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/linear_algebra/singular_values.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph_makers.hpp"
 #include "convex/prox_formulas/simplex.hpp"
 

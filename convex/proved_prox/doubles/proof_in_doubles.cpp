@@ -4,9 +4,9 @@
 
 #include "convex/catalogue/catalogue.hpp"
 #include "convex/double_double.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/interval_arithmetic.hpp"
 #include "convex/invalid_input.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "convex/proved_prox/doubles/metric_bounds.hpp"
 #include "convex/proved_prox/doubles/near_graph.hpp"
 

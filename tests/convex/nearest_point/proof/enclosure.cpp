@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "convex/exact/rounding_bounds.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
 #include "tests/oracles/full_mantissa.hpp"
 #include "tests/oracles/planted_problem.hpp"
 #include "tests/oracles/rational_kkt.hpp"

@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "convex/linear_algebra/sparse_factor.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
@@ -9,7 +10,6 @@
 #include "convex/nearest_point/obstacle/obstacle.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
-#include "convex/nearest_point/sparse/sparse_factor.hpp"
 #include "tests/oracles/nearest_point_error.hpp"
 
 using convex::ConstraintRows;
@@ -254,7 +254,7 @@ TEST_CASE("the sparse factor solves quasi-definite systems in any pattern") {
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
   for (Index n : {1, 2, 7, 40, 150}) {
-    std::vector<convex::SparseFactor::Place> places;
+    std::vector<convex::linear_algebra::SparseFactor::Place> places;
     std::vector<double> values;
     convex::Matrix K = convex::Matrix::Zero(n, n);
     const auto put = [&](Index i, Index j, double value) {
@@ -270,7 +270,7 @@ TEST_CASE("the sparse factor solves quasi-definite systems in any pattern") {
       const Index j = static_cast<Index>(generator() % static_cast<unsigned>(n));
       if ((i < split) != (j < split)) put(i, j, normal(generator));
     }
-    convex::SparseFactor factor(n, places);
+    convex::linear_algebra::SparseFactor factor(n, places);
     const std::vector<Index> slots = factor.slots(places);
     for (std::size_t k = 0; k < slots.size(); ++k)
       factor.values()[static_cast<std::size_t>(slots[k])] += values[k];

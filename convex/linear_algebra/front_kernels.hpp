@@ -2,7 +2,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 
 /// The dense work of a multifrontal factorisation, column-major, lower triangles only.
 
@@ -29,4 +29,4 @@ void forward_panel(const double* panel, Index rows, Index columns, double* x);
 /// x, one number a row of a factored panel, below its columns the solution: there that too, of D Lᵀ.
 void backward_panel(const double* panel, Index rows, Index columns, double* x);
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

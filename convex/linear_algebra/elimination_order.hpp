@@ -4,7 +4,7 @@
 
 #include "convex/vector.hpp"
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 
 /// The neighbours of each of n vertices, without the vertex itself, each once, in no order.
 struct Neighbours {
@@ -48,4 +48,4 @@ struct Elimination {
 /// Approximate minimum degree (Amestoy, Davis and Duff 1996), the elimination tree (Liu 1990) in postorder.
 Elimination elimination_order(const Neighbours&);
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

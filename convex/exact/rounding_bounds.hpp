@@ -7,7 +7,7 @@
 /// Upper bounds on what rounding to nearest may have done (Higham 2002, chapter 3; Ogita, Rump and Oishi
 /// 2005). They hold for sums in any order, with or without fused operations, as long as nothing underflows or
 /// overflows; whoever uses them sees to that. The rounding mode is never touched.
-namespace convex::inline proof {
+namespace convex::inline exact_arithmetic {
 
 /// Nonzero numbers outside of this range might underflow in products of a few of them.
 inline constexpr double largest_ordinary = 0x1p150, smallest_ordinary = 0x1p-150;
@@ -68,4 +68,4 @@ class CompensatedSums {
   Index terms_ = 0;
 };
 
-}  // namespace convex::inline proof
+}  // namespace convex::inline exact_arithmetic

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "convex/nearest_point/sparse/sparse_factor.hpp"
+#include "convex/linear_algebra/sparse_factor.hpp"
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 
 /// L D Lᵀ of a symmetric matrix whose entries are all close to the diagonal, in the order as it stands: the
 /// matrix of a string, a beam, or a chain with its springs. Used as `SparseFactor` is.
@@ -34,4 +34,4 @@ class BandFactor {
   std::vector<double> values_;  // of column j, from the diagonal down: width + 1 numbers, past the end 0
 };
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

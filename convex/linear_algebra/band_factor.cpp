@@ -1,9 +1,9 @@
-#include "convex/nearest_point/sparse/band_factor.hpp"
+#include "convex/linear_algebra/band_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 
 Index BandFactor::width(const std::vector<Place>& places) {
   Index width = 0;
@@ -57,4 +57,4 @@ double BandFactor::flops() const {
   return static_cast<double>(n_) * (w * (w + 1) / 2 + 2 * w);
 }
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

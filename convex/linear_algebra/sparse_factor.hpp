@@ -3,10 +3,10 @@
 #include <array>
 #include <vector>
 
-#include "convex/nearest_point/sparse/elimination_order.hpp"
-#include "convex/nearest_point/sparse/front_kernels.hpp"
+#include "convex/linear_algebra/elimination_order.hpp"
+#include "convex/linear_algebra/front_kernels.hpp"
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 
 /// L D Lᵀ of a symmetric matrix of fixed pattern whose values change: positive definite, or quasi-definite
 /// (Vanderbei 1995: blocks E and -F, both positive definite), which has such a factor in every order.
@@ -65,4 +65,4 @@ class SparseFactor {
   Index longest_ = 0;  // rows of a panel
 };
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

@@ -7,7 +7,7 @@
 #include "convex/dense/triangular_solve.hpp"
 #include "convex/vector.hpp"
 
-namespace convex::inline dual_active_set {
+namespace convex::linear_algebra {
 
 /// The factorisation V = QR of the whitened active rows v_1 … v_k (columns of V, n×k), kept up to date as
 /// rows come and go: Q n×k with orthonormal columns, R k×k upper triangular. Gram-Schmidt with
@@ -136,4 +136,4 @@ class OrthogonalFactor {
   mutable double inverse_norm_ = 0;  // once asked for, until the rows change
 };
 
-}  // namespace convex::inline dual_active_set
+}  // namespace convex::linear_algebra

@@ -1,8 +1,8 @@
-#include "convex/nearest_point/proof/rounding_bounds.hpp"
+#include "convex/exact/rounding_bounds.hpp"
 
 #include "convex/processor.hpp"
 
-namespace convex::inline proof {
+namespace convex::inline exact_arithmetic {
 namespace {
 
 constexpr double splitter = 0x1p27 + 1;  // Dekker 1971
@@ -63,4 +63,4 @@ void CompensatedSums::result(Vector& value, Vector& radii) const {
   for (Index i = 0; i < value.size(); ++i) radii[i] = radius(value[i], magnitude_[i], terms_);
 }
 
-}  // namespace convex::inline proof
+}  // namespace convex::inline exact_arithmetic

@@ -1,8 +1,8 @@
-#include "convex/nearest_point/sparse/elimination_order.hpp"
+#include "convex/linear_algebra/elimination_order.hpp"
 
 #include <Eigen/OrderingMethods>
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -131,4 +131,4 @@ Elimination elimination_order(const Neighbours& graph) {
   return order;
 }
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/sparse/band_factor.hpp"
+#include "convex/linear_algebra/band_factor.hpp"
 
 #include <doctest/doctest.h>
 
@@ -9,8 +9,8 @@
 namespace {
 
 using convex::Index;
-using convex::SparseFactor;
 using convex::Vector;
+using convex::linear_algebra::SparseFactor;
 
 /// A symmetric matrix of small integers whose diagonal outweighs its rows, by place.
 struct Entries {
@@ -47,7 +47,7 @@ TEST_CASE("a band system gives back the integers that its right side was made of
       CAPTURE(n);
       CAPTURE(width);
       const Entries K = dominant_band(n, width, random);
-      CHECK(convex::BandFactor::width(K.places) == std::min(width, n - 1));
+      CHECK(convex::linear_algebra::BandFactor::width(K.places) == std::min(width, n - 1));
       Vector planted(n), x = Vector::Zero(n);
       for (double& value : planted) value = static_cast<double>(random() % 19) - 9;
       for (std::size_t k = 0; k < K.places.size(); ++k) {
@@ -55,7 +55,7 @@ TEST_CASE("a band system gives back the integers that its right side was made of
         x[i] += K.values[k] * planted[j];
         if (i != j) x[j] += K.values[k] * planted[i];
       }
-      convex::BandFactor factor(n, width);
+      convex::linear_algebra::BandFactor factor(n, width);
       const std::vector<Index> slots = factor.slots(K.places);
       for (int again = 0; again < 2; ++again) {  // values change, the pattern stays
         factor.clear_values();
@@ -72,7 +72,7 @@ TEST_CASE("a band system gives back the integers that its right side was made of
 }
 
 TEST_CASE("a band with a pivot of zero is refused") {
-  convex::BandFactor factor(2, 1);
+  convex::linear_algebra::BandFactor factor(2, 1);
   factor.values() = {1, 1, 1, 0};
   CHECK_FALSE(factor.factor());
 }

@@ -1,4 +1,4 @@
-#include "convex/nearest_point/sparse/front_kernels.hpp"
+#include "convex/linear_algebra/front_kernels.hpp"
 
 #include <doctest/doctest.h>
 
@@ -33,10 +33,11 @@ TEST_CASE("columns eliminated leave the Schur complement of the others, however 
       CAPTURE(rows);
       CAPTURE(columns);
       const Matrix M = dominated(rows, static_cast<unsigned>(rows + 1000 * columns));
-      std::vector<double> panel(static_cast<std::size_t>(rows * columns + convex::read_beyond), 7.0);
+      std::vector<double> panel(
+          static_cast<std::size_t>(rows * columns + convex::linear_algebra::read_beyond), 7.0);
       for (Index j = 0; j < columns; ++j)
         for (Index i = j; i < rows; ++i) panel[static_cast<std::size_t>(j * rows + i)] = M(i, j);
-      REQUIRE(convex::factor_panel(panel.data(), rows, columns));
+      REQUIRE(convex::linear_algebra::factor_panel(panel.data(), rows, columns));
       const Index below = rows - columns;
       const Matrix first = M.topLeftCorner(columns, columns), beside = M.bottomLeftCorner(below, columns);
       const Matrix inverse = first.inverse();
@@ -54,7 +55,7 @@ TEST_CASE("columns eliminated leave the Schur complement of the others, however 
       CHECK((under * D * L.transpose() - beside).norm() <= bound);
 
       Matrix update = Matrix::Constant(below, below, 7.0);
-      convex::outer_product(update.data(), below, panel.data(), rows, columns);
+      convex::linear_algebra::outer_product(update.data(), below, panel.data(), rows, columns);
       const Matrix taken = beside * inverse * beside.transpose();
       double error = 0;
       bool is_lower = true;
@@ -76,7 +77,7 @@ TEST_CASE("an update is added where its rows stand, each number of its lower tri
   Matrix update(size, size), target = Matrix::Zero(stride, stride);
   for (Index j = 0; j < size; ++j)
     for (Index i = 0; i < size; ++i) update(i, j) = static_cast<double>(1 + i + 100 * j);
-  convex::add_columns(update.data(), size, from, to, place.data(), target.data(), stride);
+  convex::linear_algebra::add_columns(update.data(), size, from, to, place.data(), target.data(), stride);
   Matrix expected = Matrix::Zero(stride, stride);
   for (Index j = from; j < to; ++j)
     for (Index i = j; i < size; ++i)

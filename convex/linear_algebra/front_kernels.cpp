@@ -1,4 +1,4 @@
-#include "convex/nearest_point/sparse/front_kernels.hpp"
+#include "convex/linear_algebra/front_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "convex/dense/packs.hpp"
 #include "convex/processor.hpp"
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 namespace {
 
 /// Columns eliminated one by one before they are taken off the others, and columns that a vector takes at
@@ -276,4 +276,4 @@ void backward_panel(const double* panel, Index rows, Index columns, double* x) {
   }
 }
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra

@@ -1,9 +1,9 @@
-#include "convex/nearest_point/sparse/sparse_factor.hpp"
+#include "convex/linear_algebra/sparse_factor.hpp"
 
 #include <algorithm>
 #include <numeric>
 
-namespace convex::inline sparse {
+namespace convex::linear_algebra {
 namespace {
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -222,4 +222,4 @@ void SparseFactor::solve(Vector& x) const {
   for (Index i = 0; i < x.size(); ++i) x[i] = y[new_place_[at(i)]];
 }
 
-}  // namespace convex::inline sparse
+}  // namespace convex::linear_algebra
