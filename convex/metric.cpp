@@ -159,7 +159,8 @@ Metric Metric::dense(const Matrix& W) {
   if (W.rows() != W.cols())
     throw InvalidInput("A: " + std::to_string(W.rows()) + " rows of " + std::to_string(W.cols()) +
                        " entries; give a square matrix");
-  auto data = std::make_shared<Data>();
+  // Not set to zeros first, which no member that has a value needs.
+  auto data = std::make_shared_for_overwrite<Data>();
   const Index n = W.rows();
   data->kind = MetricKind::dense;
   data->W = W;
@@ -170,15 +171,16 @@ Metric Metric::dense(const Matrix& W) {
   }
   data->diagonal = data->W.diagonal();
   data->triangle->factor();
-  const auto L = data->triangle->view();
-  double smallest = 1;  // of L_ii² / w_ii
+  const double* const inverse = data->triangle->inverse();
+  double largest = 1;  // of w_ii / L_ii²
   for (Index i = 0; i < n; ++i) {
-    const double relative = L(i, i) * L(i, i) / data->diagonal[i];
-    if (!(relative > pivot_roundings * unit_roundoff * static_cast<double>(n)))
+    const double over = inverse[i / 8 * 128 + i % 8 * 9],
+                 relative = std::abs(data->diagonal[i] * over * over);
+    if (!(relative * (pivot_roundings * unit_roundoff * static_cast<double>(n)) < 1))
       refuse_indefinite(data->diagonal);
-    smallest = std::min(smallest, relative);
+    largest = std::max(largest, relative);
   }
-  data->factor_condition = 1 / std::sqrt(smallest);
+  data->factor_condition = std::sqrt(largest);
   return Metric(std::move(data));
 }
 

@@ -32,6 +32,7 @@ MOREAU_COMPILED(8, [[gnu::target("avx512f")]])
 template <int W>
 struct Register {
   using Doubles [[gnu::vector_size(W * sizeof(double))]] = double;
+  using Wholes [[gnu::vector_size(W * sizeof(double))]] = long long;
 };
 
 /// Eight doubles in registers of W, and what is done with them entry by entry, so that results do not depend
@@ -40,6 +41,7 @@ struct Register {
 template <int W, bool Fused>
 struct Packs {
   using Part = typename Register<W>::Doubles;
+  using Wholes = typename Register<W>::Wholes;
   static constexpr int parts = 8 / W, width = W;
   struct Pack {
     Part part[parts];
@@ -120,6 +122,36 @@ struct Packs {
     Pack quotient;
     for (int k = 0; k < parts; ++k) quotient.part[k] = x.part[k] / y.part[k];
     return quotient;
+  }
+  MOREAU_INLINE Pack root(const Pack& x) {
+    Pack found;
+    for (int k = 0; k < parts; ++k)
+      if constexpr (W == 8)
+        asm("vsqrtpd %1, %0" : "=v"(found.part[k]) : "v"(x.part[k]));
+      else if constexpr (W == 4)
+        asm("vsqrtpd %1, %0" : "=x"(found.part[k]) : "x"(x.part[k]));
+      else
+        for (int i = 0; i < W; ++i) found.part[k][i] = __builtin_sqrt(x.part[k][i]);
+    return found;
+  }
+  /// The places in part k, less i.
+  MOREAU_INLINE Wholes places(int k, Index i) {
+    alignas(64) static constexpr long long all[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    Wholes place;
+    std::memcpy(&place, all + k * W, sizeof(Wholes));
+    return place - static_cast<long long>(i);
+  }
+  /// x with `value` at place i, which may lie outside: then x.
+  MOREAU_INLINE Pack with_entry(const Pack& x, Index i, double value) {
+    Pack changed;
+    for (int k = 0; k < parts; ++k) changed.part[k] = places(k, i) == 0 ? value - Part{} : x.part[k];
+    return changed;
+  }
+  /// The entries of y before place i, those of x from there on.
+  MOREAU_INLINE Pack joined(const Pack& y, const Pack& x, Index i) {
+    Pack both;
+    for (int k = 0; k < parts; ++k) both.part[k] = places(k, i) < 0 ? y.part[k] : x.part[k];
+    return both;
   }
   /// Where x > c, y; otherwise `other`.
   MOREAU_INLINE Pack where_larger(const Pack& x, double c, const Pack& y, double other) {

@@ -18,14 +18,17 @@ struct TriangleKernels : Packs<W, Fused> {
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
 
-  /// Takes from four columns, from j on, of a pack of rows what the `before` columns before contribute.
+  /// Columns of a block at a time, as registers allow.
+  static constexpr int together = W == 8 ? 8 : 4;
+
+  /// Takes from some columns, from j on, of a pack of rows what the `before` columns before contribute.
   MOREAU_INLINE void subtract_before(Index before, Index ld, const double* T, Index j, Index row,
-                                     Pack (&column)[4]) {
+                                     Pack (&column)[together]) {
     const double *l = T + row, *across = T + j;
     for (Index p = 0; p < before; ++p, l += ld, across += ld) {
       const Pack x = P::load(l);
-#pragma GCC unroll 4
-      for (int c = 0; c < 4; ++c) P::subtract_product(column[c], x, across[c]);
+#pragma GCC unroll 8
+      for (int c = 0; c < together; ++c) P::subtract_product(column[c], x, across[c]);
     }
   }
 
@@ -34,20 +37,29 @@ struct TriangleKernels : Packs<W, Fused> {
   MOREAU_INLINE void invert_block(Index width, Index ld, const double* T, double* inverse) {
     Pack row[8];  // of the inverse
 #pragma GCC unroll 8
+    for (int r = 0; r < 8; ++r) row[r] = P::load(unit_block + 8 * r);
+#pragma GCC unroll 8
     for (int r = 0; r < 8; ++r) {
       if (r >= width) break;
-      row[r] = P::load(unit_block + 8 * r);
 #pragma GCC unroll 8
       for (int c = 0; c < r; ++c) P::subtract_product(row[r], row[c], T[c * ld + r]);
       row[r] = P::times(row[r], 1 / T[r * (ld + 1)]);
     }
-    for (int k = 0; k < 8; ++k) P::store(inverse + 8 * k, P::load(unit_block + 8 * k));
 #pragma GCC unroll 8
-    for (int r = 0; r < 8; ++r)
-      P::store(inverse + 64 + 8 * r, r < width ? row[r] : P::load(unit_block + 8 * r));
-    for (int r = 0; r < width; ++r) {
-      for (int c = 0; c <= r; ++c) inverse[8 * c + r] = inverse[64 + 8 * r + c];
-    }
+    for (int r = 0; r < 8; ++r) P::store(inverse + 64 + 8 * r, row[r]);
+    P::transpose(row);
+#pragma GCC unroll 8
+    for (int r = 0; r < 8; ++r) P::store(inverse + 8 * r, row[r]);
+  }
+
+  /// The factor of a block on the diagonal and its transpose to where they belong.
+  MOREAU_INLINE void place_block(Index ld, const double* L, double* T) {
+    Pack across[8];
+#pragma GCC unroll 8
+    for (int c = 0; c < 8; ++c) across[c] = P::load(L + 8 * c);
+    P::transpose(across);
+#pragma GCC unroll 8
+    for (int c = 0; c < 8; ++c) P::store(T + c * ld, P::joined(across[c], P::load(L + 8 * c), c));
   }
 
   MOREAU_INLINE void factor(Index n, Index ld, double* T, double* inverse) {
@@ -55,38 +67,38 @@ struct TriangleKernels : Packs<W, Fused> {
       const Index columns = n - j < 8 ? n - j : 8;
       for (Index row = j; row < n; row += 8) {
         double B[64];  // eight columns of the pack of rows
-        for (int half = 0; half < 8; half += 4) {
-          Pack column[4];
-#pragma GCC unroll 4
-          for (int c = 0; c < 4; ++c) column[c] = P::load(T + (j + half + c) * ld + row);
-          subtract_before(j, ld, T, j + half, row, column);
-#pragma GCC unroll 4
-          for (int c = 0; c < 4; ++c) P::store(B + 8 * (half + c), column[c]);
+        for (int first = 0; first < 8; first += together) {
+          Pack column[together];
+#pragma GCC unroll 8
+          for (int c = 0; c < together; ++c) column[c] = P::load(T + (j + first + c) * ld + row);
+          subtract_before(j, ld, T, j + first, row, column);
+#pragma GCC unroll 8
+          for (int c = 0; c < together; ++c) P::store(B + 8 * (first + c), column[c]);
         }
         if (row == j) {
           factor_block(columns, B);
-          for (int c = 0; c < columns; ++c)
-            for (int i = c; i < columns; ++i)
-              T[(j + c) * ld + j + i] = T[(j + i) * ld + j + c] = B[8 * c + i];
-          invert_block(columns, ld, T + j * (ld + 1), inverse);
+          invert_block(columns, 8, B, inverse);
+          place_block(ld, B, T + j * (ld + 1));
           continue;
         }
-        for (int half = 0; half < 8; half += 4) {  // B L⁻ᵀ
-          Pack column[4];
+        Pack across[8];
+        for (int first = 0; first < 8; first += together) {  // B L⁻ᵀ
+          Pack column[together];
           P::clear(column);
-          for (int d = 0; d < half + 4; ++d) {
+          for (int d = 0; d < first + together; ++d) {
             const Pack x = P::load(B + 8 * d);
-#pragma GCC unroll 4
-            for (int c = 0; c < 4; ++c) P::add_product(column[c], x, inverse[8 * d + half + c]);
+#pragma GCC unroll 8
+            for (int c = 0; c < together; ++c) P::add_product(column[c], x, inverse[8 * d + first + c]);
           }
-#pragma GCC unroll 4
-          for (int c = 0; c < 4; ++c) {
-            double X[8];
-            P::store(X, column[c]);
-            P::store(T + (j + half + c) * ld + row, column[c]);
-            for (int i = 0; i < 8; ++i) T[(row + i) * ld + j + half + c] = X[i];
+#pragma GCC unroll 8
+          for (int c = 0; c < together; ++c) {
+            P::store(T + (j + first + c) * ld + row, column[c]);
+            across[first + c] = column[c];
           }
         }
+        P::transpose(across);
+#pragma GCC unroll 8
+        for (int i = 0; i < 8; ++i) P::store(T + (row + i) * ld + j, across[i]);
       }
     }
   }
@@ -143,30 +155,44 @@ struct TriangleKernels : Packs<W, Fused> {
   }
 
   MOREAU_INLINE void forward_pack(Index n, Index ld, const double* T, const double* inverse, double* X) {
-    const auto reciprocal = [&](Index i) { return inverse[i / 8 * 128 + i % 8 * 9]; };
+    forward_packs<1>(n, ld, T, inverse, X, 0);
+  }
+
+  /// The same for `count` times eight vectors, `apart` doubles from each other: each waits for its own
+  /// entries alone.
+  template <int count>
+  MOREAU_INLINE void forward_packs(Index n, Index ld, const double* T, const double* inverse, double* X,
+                                   Index apart) {
     Index i = 0;
-    for (; i + 4 <= n; i += 4) {
-      Pack sum[4];
-      const double* row = T + i * ld;
-#pragma GCC unroll 4
-      for (int r = 0; r < 4; ++r) sum[r] = P::load(X + 8 * (i + r));
-      for (Index j = 0; j < i; ++j) {
-        const Pack x = P::load(X + 8 * j);
-#pragma GCC unroll 4
-        for (int r = 0; r < 4; ++r) P::subtract_product(sum[r], x, row[r * ld + j]);
-      }
-#pragma GCC unroll 4
-      for (int r = 0; r < 4; ++r) {
-        for (int c = 0; c < r; ++c) P::subtract_product(sum[r], sum[c], row[r * ld + i + c]);
-        sum[r] = P::times(sum[r], reciprocal(i + r));
-        P::store(X + 8 * (i + r), sum[r]);
-      }
+    for (; i + 4 <= n; i += 4) forward_rows<4, count>(i, ld, T, inverse, X, apart);
+    if (n - i == 1) forward_rows<1, count>(i, ld, T, inverse, X, apart);
+    if (n - i == 2) forward_rows<2, count>(i, ld, T, inverse, X, apart);
+    if (n - i == 3) forward_rows<3, count>(i, ld, T, inverse, X, apart);
+  }
+  template <int rows, int count>
+  MOREAU_INLINE void forward_rows(Index i, Index ld, const double* T, const double* inverse, double* X,
+                                  Index apart) {
+    const double* const row = T + i * ld;
+    Pack sum[rows * count];
+#pragma GCC unroll 8
+    for (int r = 0; r < rows * count; ++r) sum[r] = P::load(X + r % count * apart + 8 * (i + r / count));
+    for (Index j = 0; j < i; ++j) {
+      Pack x[count];
+#pragma GCC unroll 2
+      for (int k = 0; k < count; ++k) x[k] = P::load(X + k * apart + 8 * j);
+#pragma GCC unroll 8
+      for (int r = 0; r < rows * count; ++r)
+        P::subtract_product(sum[r], x[r % count], row[r / count * ld + j]);
     }
-    for (; i < n; ++i) {
-      Pack sum = P::load(X + 8 * i);
-      for (Index j = 0; j < i; ++j) P::subtract_product(sum, P::load(X + 8 * j), T[i * ld + j]);
-      P::store(X + 8 * i, P::times(sum, reciprocal(i)));
-    }
+#pragma GCC unroll 4
+    for (int r = 0; r < rows; ++r)
+#pragma GCC unroll 2
+      for (int k = 0; k < count; ++k) {
+        Pack& own = sum[r * count + k];
+        for (int c = 0; c < r; ++c) P::subtract_product(own, sum[c * count + k], row[r * ld + i + c]);
+        own = P::times(own, inverse[(i + r) / 8 * 128 + (i + r) % 8 * 9]);
+        P::store(X + k * apart + 8 * (i + r), own);
+      }
   }
 
   MOREAU_INLINE void backward_pack(Index n, Index ld, const double* T, const double* inverse, double* X) {

@@ -34,18 +34,18 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     return !(t.swept[k * (stride(t) + 1)] > nearly_dependent * t.square[k]);
   }
 
-  /// Takes row k in or out.
-  MOREAU_INLINE void sweep(SmallTableau& t, Index k) {
+  /// Takes row k in or out; raised: what its multiplier has come to before.
+  MOREAU_INLINE void sweep(SmallTableau& t, Index k, double raised = 0) {
     if constexpr (packs == 1)
-      Compiled<W, &SmallTableauPivots::template sweep_packs<1>>::apart(t, k);
+      Compiled<W, &SmallTableauPivots::template sweep_packs<1>>::apart(t, k, raised);
     else if (t.stride <= SmallTableau::few_rows)
-      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::few_rows / 8>>::apart(t, k);
+      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::few_rows / 8>>::apart(t, k, raised);
     else
-      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::most / 8>>::apart(t, k);
+      Compiled<W, &SmallTableauPivots::template sweep_packs<SmallTableau::most / 8>>::apart(t, k, raised);
   }
   /// A column has `most` packs at most.
   template <int most>
-  MOREAU_INLINE void sweep_packs(SmallTableau& t, Index k) {
+  MOREAU_INLINE void sweep_packs(SmallTableau& t, Index k, double raised) {
     const Index step = stride(t);
     double* const column = t.swept + k * step;
     const double pivot = column[k], inverse = 1 / pivot, sign = t.held[k] ? -1 : 1;
@@ -62,7 +62,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       P::store(part + 8 * r, scaled[r]);
       Pack b = P::load(t.b + 8 * r);
       P::subtract_product(b, c[r], load);
-      P::store(t.b + 8 * r, b);
+      P::store(t.b + 8 * r, P::with_entry(b, k - 8 * r, sign * load + raised));
     }
     for (Index j = 0; j < t.m; ++j) {
       double* const other = t.swept + j * step;
@@ -81,7 +81,6 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       P::store(column + 8 * r, P::times(scaled[r], sign));
     }
     column[k] = -inverse;
-    t.b[k] = sign * load;
     t.is_listed = false;
     set_state(t, k, !t.held[k]);
   }
@@ -157,9 +156,9 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
         P::add_products(energy, P::times(b, P::load(t.share + r)), P::load(load + r));
       }
       const Index a = largest(wrong, stride(t));
-      if (!(wrong[a] > GramPivoting::least_violation * norm)) return true;
-      if (!(wrong[a] > GramPivoting::least_violation * (norm + std::sqrt(std::abs(P::total(energy))))))
-        return true;
+      // A violation counts beyond this part of norm and the root of |energy|, for which it need not wait.
+      const double beyond = wrong[a] / GramPivoting::least_violation - norm;
+      if (!(beyond > 0 && beyond * beyond > std::abs(P::total(energy)))) return true;
       if (!raise(t, a, patience)) return false;
     }
   }
@@ -181,8 +180,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       const Index first = largest(falls, stride(t));
       const double partial = falls[first] < 0 ? -falls[first] : 0;
       if (!dependent && t.b[a] <= partial * column[a]) {
-        sweep(t, a);
-        t.b[a] += raised;
+        sweep(t, a, raised);
         return true;
       }
       if (!(partial < infinite)) {
@@ -193,9 +191,8 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       for (Index r = 0; r < stride(t); r += 8) {
         Pack b = P::load(t.b + r);
         P::subtract_product(b, P::load(column + r), partial);
-        P::store(t.b + r, b);
+        P::store(t.b + r, P::with_entry(b, first - r, 0));
       }
-      t.b[first] = 0;
       sweep(t, first);
     }
     return false;

@@ -25,12 +25,27 @@ struct SmallTableauRows : Kernels<W, Fused> {
     for (Index i = 0; i < count; i += 8) work(i);
   }
 
+  /// x_a := value. By the pack: a number by itself would keep the next that loads it waiting until it has
+  /// reached the memory.
+  MOREAU_INLINE void put(double* x, Index a, double value) {
+    double* const pack = x + a / 8 * 8;
+    P::store(pack, P::with_entry(P::load(pack), a % 8, value));
+  }
+
   MOREAU_INLINE void set_state(SmallTableau& t, Index a, bool held) {
     t.held[a] = held;
-    t.share[a] = held ? 1 : 0;
+    put(t.share, a, held ? 1 : 0);
     const bool may_leave = held && !t.two_sided[a];
-    t.leave[a] = may_leave ? -t.scale_at[a] : 0;
-    t.enter[a] = held ? 0 : t.inverse_scale[a];
+    put(t.leave, a, may_leave ? -t.scale_at[a] : 0);
+    put(t.enter, a, held ? 0 : t.inverse_scale[a]);
+  }
+
+  /// The block at r, of which no row is held.
+  MOREAU_INLINE void set_outside(SmallTableau& t, Index r) {
+    for (Index a = r; a < r + 8; ++a) t.held[a] = false;
+    P::store(t.share + r, Pack{});
+    P::store(t.leave + r, Pack{});
+    P::store(t.enter + r, P::load(t.inverse_scale + r));
   }
 
   MOREAU_INLINE void whiten_z(SmallTableau& t) {
@@ -54,26 +69,42 @@ struct SmallTableauRows : Kernels<W, Fused> {
     }
   }
 
-  /// Looks at the rows of the block at r, and at their products with those before.
-  MOREAU_INLINE void whiten_block(SmallTableau& t, Index r) {
-    double* const raw = t.raw + r * t.n;
-    gather(t.n, t.U, t.U + t.all * t.n, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
-    double* const whitened = t.whitened + r * t.n;
-    Pack scale{};
-    for (Index i = 0; i < t.n; ++i) {
+  /// Takes in the rows of the block at r, as they are.
+  MOREAU_INLINE void take_block(SmallTableau& t, Index r) {
+    const Index n = t.n;
+    double *const raw = t.raw + r * n, *const whitened = t.whitened + r * n;
+    gather(n, t.U, t.U + t.all * n, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
+    Pack square[2];
+    P::clear(square);
+    const double* const weight = t.inverse_diagonal;
+    const auto add = [&](int odd, Index i) __attribute__((always_inline)) {
       const Pack u = P::load(raw + 8 * i);
       P::store(whitened + 8 * i, u);
-      P::add_products(scale, P::times(u, t.inverse_diagonal[i]), u);
-    }
+      P::add_products(square[odd], P::times(u, weight[i]), u);
+    };
+    Index i = 0;
+    for (; i + 2 <= n; i += 2) add(0, i), add(1, i + 1);
+    if (i < n) add(0, i);
+    const Pack scale = P::root(P::plus(square[0], square[1]));
     P::store(t.scale_at + r, scale);
-    K::forward_pack(t.n, ld(t), t.T, t.inverse, whitened);
+    P::store(t.inverse_scale + r, P::where_larger(scale, 0, P::over(P::plus(Pack{}, 1), scale), 0));
+  }
+
+  /// Whitens the blocks from r on.
+  MOREAU_INLINE void whiten_blocks(SmallTableau& t, Index r) {
+    constexpr int together = W == 8 && packs > 1 ? 2 : 1;
+    for (; r + 8 * together <= stride(t); r += 8 * together)
+      K::template forward_packs<together>(t.n, ld(t), t.T, t.inverse, t.whitened + r * t.n, 8 * t.n);
+    if constexpr (together > 1)
+      if (r < stride(t)) K::forward_pack(t.n, ld(t), t.T, t.inverse, t.whitened + r * t.n);
+  }
+
+  /// The products of the block at r with itself and those before.
+  MOREAU_INLINE void multiply_block(SmallTableau& t, Index r) {
     for (Index other = 0; other <= r; other += 8)
-      K::gram(t.n, t.whitened + other * t.n, whitened, t.swept + r * stride(t) + other, stride(t));
-    for (Index a = r; a < r + 8; ++a) {
-      t.scale_at[a] = std::sqrt(t.scale_at[a]);
-      t.inverse_scale[a] = t.scale_at[a] > 0 ? 1 / t.scale_at[a] : 0;
-      t.square[a] = t.swept[a * (stride(t) + 1)];
-    }
+      K::gram(t.n, t.whitened + other * t.n, t.whitened + r * t.n, t.swept + r * stride(t) + other,
+              stride(t));
+    for (Index a = r; a < r + 8; ++a) t.square[a] = t.swept[a * (stride(t) + 1)];
   }
 
   /// Rows r to r + 7 of the columns before are those of the columns r to r + 7.
@@ -100,7 +131,9 @@ struct SmallTableauRows : Kernels<W, Fused> {
       for (Index r = before - 8; r >= 0; r -= 8)
         P::store(t.swept + j * step + r, P::load(t.swept + j * before + r));
     t.stride = step;
-    whiten_block(t, before);
+    take_block(t, before);
+    whiten_blocks(t, before);
+    multiply_block(t, before);
     load_block(t, before);
     alignas(64) double products[8 * SmallTableau::most];  // with the rows held
     Index held[SmallTableau::most], count = 0;
@@ -135,8 +168,8 @@ struct SmallTableauRows : Kernels<W, Fused> {
       for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
       t.two_sided[before + l] = false;
       t.lambda_at[before + l] = t.lambda_low_at[before + l] = 0;
-      set_state(t, before + l, false);
     }
+    set_outside(t, before);
     mirror_block(t, before);
   }
 

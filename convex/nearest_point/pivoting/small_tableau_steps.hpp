@@ -16,8 +16,8 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using Pack = typename P::Pack;
   using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
       Pivots::sweep_load;
-  using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::set_state, Rows::stride,
-      Rows::whiten_block, Rows::whiten_z;
+  using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::multiply_block, Rows::set_outside,
+      Rows::set_state, Rows::stride, Rows::take_block, Rows::whiten_blocks, Rows::whiten_z;
 
   MOREAU_INLINE void find_loads(SmallTableau& t) {
     whiten_z(t);
@@ -25,8 +25,10 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   }
 
   MOREAU_INLINE bool begin(SmallTableau& t) {
+    for (Index r = 0; r < stride(t); r += 8) take_block(t, r);
+    whiten_blocks(t, 0);
     for (Index r = 0; r < stride(t); r += 8) {
-      whiten_block(t, r);
+      multiply_block(t, r);
       mirror_block(t, r);
     }
     find_loads(t);
@@ -34,10 +36,8 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     t.is_listed = false;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallTableau::most];
-    for (Index a = 0; a < stride(t); ++a) {
-      wanted[a] = a < t.m && (t.held[a] || t.two_sided[a]);
-      set_state(t, a, false);
-    }
+    for (Index a = 0; a < t.m; ++a) wanted[a] = t.held[a] || t.two_sided[a];
+    for (Index r = 0; r < stride(t); r += 8) set_outside(t, r);
     for (Index a = 0; a < t.m; ++a)
       if (wanted[a] && !is_nearly_dependent(t, a))
         sweep(t, a);
@@ -59,15 +59,23 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
     return true;
   }
 
-  /// into := x + Σ_k weight_k u_k over the rows held.
-  MOREAU_INLINE void add_rows(const SmallTableau& t, const double* weight, const double* x, double* into) {
-    const double* const end = t.U + t.all * t.n;
+  /// x := x + Σ_k b_k v_k over the rows held: L⁻¹ times the sum of the b_k u_k, with no triangle to solve.
+  MOREAU_INLINE void add_whitened_rows(const SmallTableau& t, double* x) {
+    alignas(64) double weight[SmallTableau::most];
+    for (Index r = 0; r < stride(t); r += 8)
+      P::store(weight + r, P::where_larger(P::load(t.share + r), 0, P::load(t.b + r), 0));
+    const Index n = t.n;
     for (Index i = 0; i < ld(t); i += 8) {
-      Pack sum = P::load(x + i);
-      for (Index k = 0; k < t.size; ++k)
-        P::add_product(sum, P::load_before(t.U + t.rows[k] * t.n + i, end), weight[k]);
-      // Beyond n the sums have what stands behind the rows.
-      P::store(into + i, P::first(sum, t.n - i));
+      Pack sum[8];
+      P::clear(sum);
+      for (Index r = 0; r < stride(t); r += 8) {
+        const Pack factor = P::load(weight + r);
+        const double* const v = t.whitened + r * n + 8 * i;
+#pragma GCC unroll 8
+        for (int l = 0; l < 8; ++l)
+          if (i + l < n) P::add_products(sum[l], P::load(v + 8 * l), factor);
+      }
+      P::store(x + i, P::plus(P::load(x + i), P::totals(sum)));
     }
   }
 
@@ -89,8 +97,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       P::store(t.lambda_low_at + r, Pack{});
     }
     take_multipliers(t);
-    add_rows(t, t.lambda, t.z, t.w);
-    K::forward(t.n, ld(t), t.T, t.inverse, t.w);
+    each(
+        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w + i, P::load(t.w_free + i)); });
+    add_whitened_rows(t, t.w);
     t.acceleration_norm = std::sqrt(K::dot(ld(t), t.w, t.w));
     each(
         ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.q + i, P::load(t.w + i)); });
@@ -160,8 +169,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
       if (!settled) return false;
     }
     take_multipliers(t);
-    add_rows(t, t.change, t.r, t.dq);
-    K::forward(t.n, ld(t), t.T, t.inverse, t.dq);
+    add_whitened_rows(t, t.dq);
     t.step = std::sqrt(K::dot(ld(t), t.dq, t.dq));
     K::backward(t.n, ld(t), t.T, t.inverse, t.dq);
     each(

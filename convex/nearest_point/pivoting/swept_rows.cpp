@@ -35,8 +35,9 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
   fill_packs(tableau.ld, 0, tableau.inverse_diagonal);
   const auto diagonal = problem.A.diagonal().array();
   Eigen::Map<Eigen::ArrayXd>(tableau.diagonal, tableau.n) = diagonal;
-  Eigen::Map<Eigen::ArrayXd>(tableau.inverse_diagonal, tableau.n) = diagonal.inverse();
-  Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = diagonal.sqrt().inverse();
+  Eigen::Map<Eigen::ArrayXd> inverse(tableau.inverse_diagonal, tableau.n);
+  inverse = diagonal.inverse();
+  Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = inverse.sqrt();
   tableau.row_scale = tableau.scale_at;
   tableau.slack = tableau.slack_at;
   tableau.touched_slack = tableau.room.touched_slack;
