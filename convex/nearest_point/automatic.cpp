@@ -75,6 +75,21 @@ std::optional<Solution> obstacle_decided(const NearestPointProblem& problem, con
   return found;
 }
 
+/// The dense active set, with what it cost.
+Solution active_set_of_island(const NearestPointProblem& problem, const Accuracy& accuracy,
+                              const std::vector<Index>& guess) {
+  Solution found = active_set_of_valid(problem, accuracy, guess);
+  if (!found.model.islands.empty()) return found;  // fractions said what they did
+  const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
+  Island& island = found.model.islands.emplace_back();
+  island.method = found.method;
+  island.coordinates = problem.dimension();
+  island.rows = problem.rows();
+  island.flops = dense_flops(problem, static_cast<Index>(found.basis.size()));
+  island.factor_nonzeros = (problem.A.kind() == MetricKind::dense ? n * n / 2 : n) + n * k + k * k / 2;
+  return found;
+}
+
 Solution solve_connected(const NearestPointProblem& problem, const Accuracy& accuracy,
                          const std::vector<Index>& guess) {
   if (problem.rows() <= 1)
@@ -105,13 +120,7 @@ Solution solve_connected(const NearestPointProblem& problem, const Accuracy& acc
     }
     if (!found.basis.empty()) likely = found.basis;
   }
-  Solution found = active_set_of_valid(problem, accuracy, likely);
-  if (!found.model.islands.empty()) return found;  // fractions said what they did
-  const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(found.basis.size());
-  found.model.islands = {{found.method, problem.dimension(), problem.rows(), 0,
-                          dense_flops(problem, static_cast<Index>(found.basis.size())),
-                          (problem.A.kind() == MetricKind::dense ? n * n / 2 : n) + n * k + k * k / 2}};
-  return found;
+  return active_set_of_island(problem, accuracy, likely);
 }
 
 /// Rows of an island that the free motion keeps were never looked at again.
@@ -121,15 +130,18 @@ void name_rows_kept_free(const NearestPointProblem& problem, Solution& solution)
     if (solution.slack[a] > 0) solution.model.left_out.push_back({a, LeftOutBecause::free_motion_keeps});
 }
 
+Solution solve_all_rows(const NearestPointProblem& problem, const Accuracy& accuracy,
+                        const std::vector<Index>& guess) {
+  Solution found = solve_connected(problem, accuracy, guess);
+  name_rows_kept_free(problem, found);
+  return found;
+}
+
 /// One island: rows that 0 proves out of reach are taken out first.
 Solution solve_island(const NearestPointProblem& problem, const Accuracy& accuracy,
                       const std::vector<Index>& guess) {
   const std::vector<Index> out = rows_out_of_reach(problem);
-  if (out.empty()) {
-    Solution found = solve_connected(problem, accuracy, guess);
-    name_rows_kept_free(problem, found);
-    return found;
-  }
+  if (out.empty()) return solve_all_rows(problem, accuracy, guess);
   std::vector<Index> kept, place(static_cast<std::size_t>(problem.rows()), -1);
   for (Index a = 0; a < problem.rows(); ++a)
     if (!std::binary_search(out.begin(), out.end(), a)) {
@@ -140,8 +152,7 @@ Solution solve_island(const NearestPointProblem& problem, const Accuracy& accura
   std::vector<Index> part_guess;
   for (Index a : guess)
     if (place[static_cast<std::size_t>(a)] >= 0) part_guess.push_back(place[static_cast<std::size_t>(a)]);
-  Solution found = solve_connected(part, accuracy, part_guess);
-  name_rows_kept_free(part, found);
+  Solution found = solve_all_rows(part, accuracy, part_guess);
   JoinedIslands whole(problem);
   std::vector<Index> all(static_cast<std::size_t>(problem.dimension()));
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Index>(i);

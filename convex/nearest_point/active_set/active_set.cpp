@@ -331,7 +331,7 @@ class DualActiveSet {
 Solution active_set_of_valid(const NearestPointProblem& problem, const Accuracy& accuracy,
                              const std::vector<Index>& guess) {
   GramOutcome quick = solve_by_gram_matrix(problem, accuracy, guess);
-  if (quick.solution) return with_open_signs(problem, *std::move(quick.solution), accuracy);
+  if (quick.is_answer) return with_open_signs(problem, std::move(quick.solution), accuracy);
   Solution found = DualActiveSet(problem, accuracy).run(quick.rows);
   if (found.undecided.empty() && (found.status == Status::inaccurate || found.status == Status::gave_up))
     found.undecided = open_question::conditioning;

@@ -28,11 +28,14 @@ NearestPointProblem with_dense_metric(NearestPointProblem problem) {
 
 GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accuracy& accuracy,
                                  const std::vector<Index>& guess) {
-  GramOutcome found{std::nullopt, guess};
+  GramOutcome found;
+  found.rows = guess;
   if (!has_gram_matrix(problem) || accuracy.step_limit > 0) return found;
-  if (problem.A.kind() == MetricKind::diagonal)
-    return solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
-  Solution& solution = found.solution.emplace();
+  if (problem.A.kind() == MetricKind::diagonal) {
+    found = solve_by_gram_matrix(with_dense_metric(problem), accuracy, guess);
+    return found;
+  }
+  Solution& solution = found.solution;
   const auto is_solved_by = [&](GramWorkingSet& set) {
     if (GramSolve(set).solve(found.rows, accuracy, solution) && solution.status == Status::solved)
       return true;
@@ -44,11 +47,12 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
   if (SweptRows::fits(problem)) {
     thread_local const auto tableau = std::make_unique_for_overwrite<SmallTableau>();
     SweptRows swept(problem, *tableau);
-    if (is_solved_by(swept)) return found;
+    found.is_answer = is_solved_by(swept);
+    if (found.is_answer) return found;
   }
   thread_local Arena arena;
   FactoredRows factored(problem, arena);
-  if (!is_solved_by(factored)) found.solution.reset();
+  found.is_answer = is_solved_by(factored);
   if (arena.lines() > most_kept_lines) arena.give_back();
   return found;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "convex/nearest_point/problem.hpp"
@@ -8,10 +7,11 @@
 
 namespace convex::inline pivoting {
 
-/// What the Gram matrix of whitened rows tells of a problem: the answer; else the one-sided rows held when it
-/// stopped in doubt.
+/// What the Gram matrix of whitened rows tells of a problem: the answer, if it is one; else the one-sided
+/// rows held when it stopped in doubt.
 struct GramOutcome {
-  std::optional<Solution> solution;
+  bool is_answer = false;
+  Solution solution;
   std::vector<Index> rows;
 };
 

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <random>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -27,6 +28,13 @@ double scale(const NearestPointProblem& problem, const Vector& x) {
   return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
 }
 
+/// The answer that the Gram matrix gives, where it gives one.
+std::optional<Solution> by_gram_matrix(const NearestPointProblem& problem,
+                                       const std::vector<Index>& guess = {}) {
+  convex::GramOutcome found = convex::solve_by_gram_matrix(problem, {}, guess);
+  return found.is_answer ? std::optional(std::move(found.solution)) : std::nullopt;
+}
+
 }  // namespace
 
 TEST_CASE("where the Gram matrix answers, it is right to rounding, and its bound holds") {
@@ -39,7 +47,7 @@ TEST_CASE("where the Gram matrix answers, it is right to rounding, and its bound
       CAPTURE(static_cast<int>(difficulty));
       const Index n = 1 + static_cast<Index>((5 * seed) % 37), m = 1 + static_cast<Index>((11 * seed) % 71);
       const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
-      const std::optional<Solution> found = convex::solve_by_gram_matrix(problem, {}, {}).solution;
+      const std::optional<Solution> found = by_gram_matrix(problem);
       if (!found) continue;
       ++answered;
       CHECK(found->status == Status::solved);
@@ -59,10 +67,9 @@ TEST_CASE("the Gram matrix settles well-posed problems, whatever the rows it beg
   const convex::GalleryFamily& family = *convex::find_family("well-posed");
   for (const Index n : {4, 9, 17, 33, 60}) {
     const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
-    const std::optional<Solution> cold = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
+    const std::optional<Solution> cold = by_gram_matrix(instance.problem);
     REQUIRE(cold.has_value());
-    const std::optional<Solution> warm =
-        convex::solve_by_gram_matrix(instance.problem, {}, cold->basis).solution;
+    const std::optional<Solution> warm = by_gram_matrix(instance.problem, cold->basis);
     REQUIRE(warm.has_value());
     CHECK(warm->q == cold->q);
     CHECK(warm->steps <= cold->steps);
@@ -74,7 +81,7 @@ TEST_CASE("what the Gram matrix answers of nearly parallel or opposite rows is r
     const convex::GalleryFamily& family = *convex::find_family(name);
     for (const double angle : {1e-4, 1e-8, 1e-12}) {
       const convex::GalleryInstance instance = convex::gallery_instance(family, 12, angle);
-      const std::optional<Solution> found = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
+      const std::optional<Solution> found = by_gram_matrix(instance.problem);
       if (found)
         CHECK((found->q - instance.solution.hi).norm() <= few_roundings * instance.solution.hi.norm());
     }
@@ -87,7 +94,7 @@ TEST_CASE("the Gram matrix tells of rows that contradict each other, with a proo
   for (const double margin : family.ladder)
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
       const NearestPointProblem problem = convex::gallery_instance(family, 12, margin, seed).problem;
-      const std::optional<Solution> found = convex::solve_by_gram_matrix(problem, {}, {}).solution;
+      const std::optional<Solution> found = by_gram_matrix(problem);
       if (!found) continue;  // left to the orthogonal factor
       CHECK(found->status == Status::infeasible);
       CHECK(convex::infeasibility_proof(problem, found->farkas).has_value());

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <optional>
 #include <random>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -23,6 +24,13 @@ constexpr double few_roundings = 4e-15;
 
 double scale(const NearestPointProblem& problem, const Vector& x) {
   return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
+}
+
+/// The answer that the Gram matrix gives, where it gives one.
+std::optional<Solution> by_gram_matrix(const NearestPointProblem& problem,
+                                       const std::vector<Index>& guess = {}) {
+  convex::GramOutcome found = convex::solve_by_gram_matrix(problem, {}, guess);
+  return found.is_answer ? std::optional(std::move(found.solution)) : std::nullopt;
 }
 
 Solution exact(const NearestPointProblem& problem) {
@@ -83,7 +91,7 @@ TEST_CASE("many rows that are sums and multiples of few leave the answer as it i
     const NearestPointProblem problem = degenerate(seed, 0, 48);
     const Solution truth = exact(problem);
     if (truth.status != Status::solved) continue;
-    const std::optional<Solution> found = convex::solve_by_gram_matrix(problem, {}, {}).solution;
+    const std::optional<Solution> found = by_gram_matrix(problem);
     REQUIRE(found.has_value());
     CHECK(problem.A.norm(found->q - truth.q) <= few_roundings * scale(problem, truth.q));
     CHECK(found->slack.minCoeff() >= 0);
@@ -151,7 +159,7 @@ TEST_CASE("repeated rows, sums of rows and many rows to a coordinate are settled
       CAPTURE(seed);
       const convex::GalleryInstance instance =
           convex::gallery_instance(*convex::find_family(family), n, difficulty, seed);
-      const std::optional<Solution> found = convex::solve_by_gram_matrix(instance.problem, {}, {}).solution;
+      const std::optional<Solution> found = by_gram_matrix(instance.problem);
       REQUIRE(found.has_value());
       const double unit = scale(instance.problem, instance.solution.hi);
       CHECK(instance.problem.A.norm(found->q - instance.solution.hi) <= few_roundings * unit);
