@@ -109,21 +109,23 @@ class OrthogonalFactor {
   void solve_lower(Eigen::Ref<Vector> x) const {
     if (size_ > 0) R_.topLeftCorner(size_, size_).triangularView<Eigen::Upper>().transpose().solveInPlace(x);
   }
-  /// An estimate of 1 / (smallest singular value of R): one step of inverse iteration each way, from signs
-  /// that let the first solution grow (Cline, Moler, Stewart and Wilkinson 1979).
+  /// An estimate of 1 / (smallest singular value of R with every column of length 1), so that no row's unit
+  /// enters: one step of inverse iteration each way, from signs that let the first solution grow (Cline,
+  /// Moler, Stewart and Wilkinson 1979).
   double inverse_norm() const {
     if (size_ == 0) return 0;
     if (inverse_norm_ > 0) return inverse_norm_;
-    Vector x(size_);
-    double least = std::abs(R_(0, 0));
+    Vector x(size_);  // of the columns as they are: those of length 1, divided by the lengths
+    double least = 1;
     for (Index j = 0; j < size_; ++j) {
-      const double sum = R_.col(j).head(j).dot(x.head(j));
-      x[j] = -(std::copysign(1, sum) + sum) / R_(j, j);
-      least = std::min(least, std::abs(R_(j, j)));
+      const double sum = R_.col(j).head(j).dot(x.head(j)) / lengths_[j];
+      const double part = R_(j, j) / lengths_[j];
+      x[j] = -(std::copysign(1, sum) + sum) / part;
+      least = std::min(least, std::abs(part));
     }
     x /= x.norm();
     solve_upper(x);
-    return inverse_norm_ = std::max(x.norm(), 1 / least);
+    return inverse_norm_ = std::max(x.cwiseProduct(lengths_.head(size_)).norm(), 1 / least);
   }
 
  private:

@@ -66,20 +66,14 @@ class DualActiveSet {
   /// Judges what rounding may have done to w (`w_noise_`): the sums of its terms, and R⁻ᵀs, which the
   /// condition of W amplifies; and what a refinement has seen, which has the condition of A in it.
   void judge_noise() {
-    double terms = set_.w_free().norm() + set_.w().norm(), longest = 0;
-    for (Index k = 0; k < set_.size(); ++k) {
-      const double length = set_.factor().length(k);
-      terms += std::abs(set_.lambda()[k]) * length;
-      longest = std::max(longest, length);
-    }
-    inverse_norm_ = set_.factor().inverse_norm();
-    w_noise_ = std::max(seen_noise_, rounding_of_w * terms * std::max(1.0, inverse_norm_ * longest));
+    double terms = set_.w_free().norm() + set_.w().norm();
+    for (Index k = 0; k < set_.size(); ++k) terms += std::abs(set_.lambda()[k]) * set_.factor().length(k);
+    row_condition_ = std::max(1.0, set_.factor().inverse_norm());
+    w_noise_ = std::max(seen_noise_, rounding_of_w * terms * row_condition_);
   }
 
-  /// What that does to lambda_k |v_k|.
-  double multiplier_noise(Index k) const {
-    return w_noise_ * std::max(1.0, inverse_norm_ * set_.factor().length(k));
-  }
+  /// What that does to any lambda_k |v_k|.
+  double multiplier_noise() const { return w_noise_ * row_condition_; }
 
   /// False when the two-sided rows contradict each other.
   bool hold_two_sided() {
@@ -111,7 +105,7 @@ class DualActiveSet {
       double lowest = 0;
       for (Index k = 0; k < set_.size(); ++k) {
         const double push = set_.lambda()[k] * set_.factor().length(k);
-        if (!set_.one_sided(k) || !(push < std::min(lowest, -multiplier_noise(k)))) continue;
+        if (!set_.one_sided(k) || !(push < std::min(lowest, -multiplier_noise()))) continue;
         lowest = push;
         worst = k;
       }
@@ -156,7 +150,7 @@ class DualActiveSet {
     steps_ += static_cast<Index>(rows.size());
     bool allowed = true;
     for (Index k = 0; k < set_.size() && allowed; ++k)
-      allowed = !set_.one_sided(k) || set_.lambda()[k] * set_.factor().length(k) >= -multiplier_noise(k);
+      allowed = !set_.one_sided(k) || set_.lambda()[k] * set_.factor().length(k) >= -multiplier_noise();
     if (!allowed)
       while (set_.size() > 0 && set_.one_sided(set_.size() - 1)) set_.remove(set_.size() - 1);
     else
@@ -323,7 +317,7 @@ class DualActiveSet {
   bool flat_wedge_ = false, weak_went_ = false;
   Index steps_ = 0;
   // left_outside_: parts of the rows passed over that W does not span
-  double w_noise_ = 0, seen_noise_ = 0, inverse_norm_ = 0, left_outside_ = 0;
+  double w_noise_ = 0, seen_noise_ = 0, row_condition_ = 1, left_outside_ = 0;
 };
 
 }  // namespace

@@ -24,6 +24,21 @@ namespace {
 
 constexpr std::string_view method = "active-set";
 
+/// The largest distance from a row that is not held and is violated: its slack over its length.
+double farthest_beyond(const WorkingSet& set, const Vector& slack) {
+  const NearestPointProblem& problem = set.problem();
+  Vector beyond = (-slack).cwiseMax(0);
+  for (Index a : problem.two_sided) beyond[a] = std::abs(slack[a]);
+  for (Index a : set.rows()) beyond[a] = 0;
+  std::vector<Index> violated;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (beyond[a] > 0) violated.push_back(a);
+  const Vector length = dual_lengths(problem, violated);
+  double farthest = 0;
+  for (Index a : violated) farthest = std::max(farthest, beyond[a] / length[a]);
+  return farthest;
+}
+
 }  // namespace
 
 Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const Vector& slack,
@@ -48,11 +63,6 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   solution.residuals =
       residuals(problem, solution, {.length = std::move(length), .magnitude = row_scale * diagonal_norm});
 
-  double worst = 0;
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (!set.holds(a)) worst = std::max(worst, -slack[a]);
-  for (Index a : problem.two_sided)
-    if (!set.holds(a)) worst = std::max(worst, std::abs(slack[a]));
   solution.rounding = rounding_norm(problem, refined.q.lo);
   double multipliers = 0,
          taken_for_zero = 0;  // multipliers that rounding made negative: q solves another problem
@@ -63,7 +73,7 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   }
   solution.error_bound =
       2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
-      worst * set.factor().inverse_norm() +
+      farthest_beyond(set, slack) * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(multipliers, std::numeric_limits<double>::min()) : 0);
   solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
   return solution;

@@ -29,13 +29,6 @@ double silence_noise(DoubleDoubleVector& x, Noise noise, Weight weight) {
   return silenced;
 }
 
-/// The condition of the whitened rows held.
-double row_condition(const WorkingSet& set) {
-  double longest = 0;
-  for (Index k = 0; k < set.size(); ++k) longest = std::max(longest, set.factor().length(k));
-  return set.factor().inverse_norm() * longest;
-}
-
 }  // namespace
 
 RefinedPoint refine(const WorkingSet& set) {
@@ -43,7 +36,7 @@ RefinedPoint refine(const WorkingSet& set) {
   RefinedPoint point{DoubleDoubleVector(set.point()),
                      DoubleDoubleVector(Vector(set.lambda().head(set.size())))};
   const double scale = set.scale();
-  const double of_A = problem.A.factor_condition(), of_rows = row_condition(set);
+  const double of_A = problem.A.factor_condition(), of_rows = set.factor().inverse_norm();
   // A residual is rounded once, its terms in twice the precision.
   const double of_residuals = 4 * unit_roundoff * unit_roundoff * of_A * (1 + of_rows) * scale;
   const double of_pull = pull_rounding(of_A, 1);
@@ -107,7 +100,8 @@ RefinedPoint refine(const WorkingSet& set) {
 }
 
 Index most_negative(const WorkingSet& set, const RefinedPoint& refined) {
-  const double noise = 4 * refined.remaining() * row_condition(set);  // of a multiplier times its length
+  const double noise =
+      4 * refined.remaining() * set.factor().inverse_norm();  // of a multiplier times its length
   Index worst = -1;
   double lowest = 0;
   for (Index k = 0; k < set.size(); ++k) {

@@ -11,13 +11,14 @@ namespace convex::inline algorithms {
 /// The point at which the rows of a set W hold with equality, as in `RefinedPoint`, for the set that a given
 /// q and lambda show to be active.
 struct HeldRows {
-  std::vector<Index> rows;   ///< W; independent when n·m is small enough for a dense factor
-  DoubleDoubleVector q;      ///< n
-  Vector lambda;             ///< m; 0 off W. Negative ones on one-sided rows are smaller than `noise`
-  Vector slack;              ///< Uq - s: m; 0 on W and where refinement cannot tell it from 0
-  double remaining = 0;      ///< an estimate of ||q - q_W||_A, q_W the exact point of W
-  double inverse_norm = 0;   ///< an estimate of 1 / (smallest singular value of the whitened rows of W)
-  double contradiction = 0;  ///< what the worst row off W that W contradicts by rounding alone is violated by
+  std::vector<Index> rows;  ///< W; independent when n·m is small enough for a dense factor
+  DoubleDoubleVector q;     ///< n
+  Vector lambda;            ///< m; 0 off W. Negative ones on one-sided rows are smaller than `noise`
+  Vector slack;             ///< Uq - s: m; 0 on W and where refinement cannot tell it from 0
+  double remaining = 0;     ///< an estimate of ||q - q_W||_A, q_W the exact point of W
+  double inverse_norm =
+      0;  ///< an estimate of 1 / (smallest singular value of the whitened rows of W, each of length 1)
+  double contradiction = 0;  ///< how far beyond the worst row off W that W contradicts by rounding alone
   std::string_view undecided = {};  ///< what doubles leave open about rows off W
 };
 

@@ -157,3 +157,21 @@ TEST_CASE("a third row of two coordinates depends on the two held, however much 
     CHECK(convex::find_method(method)->solve(problem, {}).status == Status::infeasible);
   }
 }
+
+TEST_CASE("the unit in which a row is written again does not enter the error bound") {
+  // sqrt(x² + y²) = l and (x² + y²)³ = l⁶ at l = 1e6; and the other way round, at l = 1e-6.
+  for (const double unit : {6e30, 6e-30}) {
+    CAPTURE(unit);
+    RowMatrix U(2, 2);
+    U << 0.8414709848078965, -0.5403023058681397, 0.8414709848078966 * unit, -0.5403023058681398 * unit;
+    NearestPointProblem problem{
+        convex::Metric::identity(2), Vector{{0, -9.81}}, convex::ConstraintRows(U), Vector::Zero(2), {0, 1}};
+    problem.radii = convex::DataRadii{Vector{{0x1p-52, 0x1p-52 * unit}}, Vector::Zero(2)};
+    for (const char* method : {"auto", "active-set"}) {
+      CAPTURE(std::string(method));
+      const Solution found = convex::find_method(method)->solve(problem, {});
+      CHECK(found.status == Status::solved);
+      CHECK(found.error_bound <= 1e-13);
+    }
+  }
+}
