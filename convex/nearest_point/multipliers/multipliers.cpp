@@ -10,6 +10,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/dependence.hpp"
 #include "convex/nearest_point/methods/crossover.hpp"
+#include "convex/nearest_point/multipliers/least_norm_by_newton.hpp"
 #include "convex/nearest_point/multipliers/multiplier_tableau.hpp"
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -51,11 +52,27 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   const Index d = rows.T.cols(), k = rows.T.rows();
   std::vector<Index> names = rows.basic;
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
+  Vector start(k + d);
+  for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
+  const auto take = [&](const Vector& best) {
+    const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
+    for (Index j = 0; j < k + d; ++j) {
+      const Index a = names[static_cast<std::size_t>(j)];
+      lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
+      if (!is_free[static_cast<std::size_t>(a)]) lambda[a] = std::max(0.0, lambda[a]);
+    }
+  };
+  // From here on the d×d matrix below is slower than a few k×k ones: of a thousand rows through one point it
+  // takes seconds.
+  constexpr Index many = 100;
+  if (d > std::max(k, many)) {
+    std::vector<bool> free;
+    for (Index a : names) free.push_back(is_free[static_cast<std::size_t>(a)]);
+    if (Vector best = start; least_norm_by_newton(rows.T, free, best)) return take(best);
+  }
   Matrix N(k + d, d);
   N.topRows(k) = -rows.T;
   N.bottomRows(d).setIdentity();
-  Vector start(k + d);
-  for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
   // The condition of N is at most about the size of T. Beyond, as for rows told in units far apart, each
   // multiplier needs digits of its own; where fractions cost too much, an orthonormal basis of the columns
   // serves.
@@ -76,13 +93,7 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
     problem.s[static_cast<Index>(j)] = -start[signed_rows[j]];
   const Solution solution = active_set(problem, {.limit = 0});
   if (solution.q.size() != d) return;
-  const Vector best = start + N * solution.q;
-  const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
-  for (Index j = 0; j < k + d; ++j) {
-    const Index a = names[static_cast<std::size_t>(j)];
-    lambda[a] = std::abs(best[j]) <= noise ? 0 : best[j];
-    if (!is_free[static_cast<std::size_t>(a)]) lambda[a] = std::max(0.0, lambda[a]);
-  }
+  take(start + N * solution.q);
 }
 
 /// The tableau of a group of rows, whose multipliers are named by their places in it. Each is measured by the

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 
+#include "convex/linear_algebra/cholesky.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/methods.hpp"
 #include "tests/oracles/planted_problem.hpp"
@@ -244,4 +246,35 @@ TEST_CASE("every method that solves tells the same multipliers where they are no
     }
   }
   CHECK(solved >= 8);
+}
+
+TEST_CASE("thousands of contacts through one point have multipliers of least norm, at the price of a few") {
+  // By the conditions of the shortest lambda >= 0 with Uᵀlambda = R: lambda = (Uy)⁺ for some y.
+  constexpr Index n = 4, m = 1500;
+  std::mt19937 generator(13);
+  std::normal_distribution<double> normal;
+  RowMatrix U(m, n);
+  for (double& entry : U.reshaped()) entry = normal(generator);
+  U.col(0) = U.col(0).cwiseAbs();
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector{{1, 2, 3, 4}}),
+                                    Vector{{-9, 1, 2, -3}},
+                                    convex::ConstraintRows(U),
+                                    Vector::Zero(m),
+                                    {0}};
+  const Multipliers found = convex::multipliers(problem, convex::active_set(problem), tolerance, false);
+  CHECK_FALSE(found.unique);
+  const Vector& lambda = found.least_norm;
+  CHECK((U.transpose() * lambda + problem.z).norm() <= 1e-13 * problem.z.norm());
+  std::vector<Index> loaded;
+  for (Index a = 0; a < m; ++a)
+    if (a == 0 || lambda[a] != 0) loaded.push_back(a);
+  const RowMatrix held = U(loaded, Eigen::all);
+  const Vector of_held = lambda(loaded);
+  const Vector y =
+      convex::linear_algebra::Cholesky(held.transpose() * held).solve(held.transpose() * of_held);
+  CHECK((held * y - of_held).norm() <= 1e-13 * of_held.norm());
+  for (Index a = 1; a < m; ++a) {
+    CHECK(lambda[a] >= 0);
+    if (lambda[a] == 0) CHECK(U.row(a).dot(y) <= 1e-13 * of_held.norm());
+  }
 }
