@@ -14,6 +14,9 @@ constexpr double softness_of_columns = 0x1p-40;
 /// Roundings of its terms, per entry of the gradient.
 constexpr double gradient_roundings = 4;
 
+/// Of the terms of the value, within which a step to the least point may seem to rise.
+constexpr double value_roundings = 16;
+
 constexpr double enough_decrease = 1e-4;
 constexpr double shortest_step = 0x1p-40;
 constexpr int most_steps = 200;
@@ -53,7 +56,9 @@ bool least_norm_by_newton(const Matrix& T, const std::vector<bool>& is_free, Vec
     const linear_algebra::Cholesky factor(H);
     if (!factor.is_definite()) return false;
     const Vector direction = -factor.solve(gradient);
-    const double slope = gradient.dot(direction), before = value(y, lambda);
+    const double slope = gradient.dot(direction);
+    const double before = value(y, lambda) + value_roundings * unit_roundoff *
+                                                 (lambda.squaredNorm() + r.cwiseAbs().dot(y.cwiseAbs()));
     double part = 1;
     Vector next = y + direction, of_next = positive(E * next);
     while (value(next, of_next) > before + enough_decrease * part * slope && part > shortest_step) {
