@@ -112,11 +112,17 @@ std::string added_rows_text(const SolvedScene& solved) {
       if (scene.added[k].row[i] != 0)
         terms.push_back(fmt::format("{} {}''", number_text(scene.added[k].row[i]),
                                     scene.coordinates[static_cast<std::size_t>(i)]));
-    text += fmt::format(
-        "Second derivatives do not tell the motion here (theory.md, B.8). Added row {}, from the third ones "
-        "({}): the sum of {} is {}; multiplier {}.\n",
-        k + 1, listed(weighed), listed(terms), number_text(scene.added[k].rhs),
-        number_text(multiplier(solved, k).value_or(std::numeric_limits<double>::quiet_NaN())));
+    const std::string equation =
+        fmt::format("the sum of {} is {}; multiplier {}.\n", listed(terms), number_text(scene.added[k].rhs),
+                    number_text(multiplier(solved, k).value_or(std::numeric_limits<double>::quiet_NaN())));
+    text +=
+        scene.added[k].is_linear_form
+            ? fmt::format("In place of {}, which says the same here (theory.md, B.8), row {}: {}",
+                          scene.constraints[static_cast<std::size_t>(scene.added[k].main)], k + 1, equation)
+            : fmt::format(
+                  "Second derivatives do not tell the motion here (theory.md, B.8). Added row {}, "
+                  "from the third ones ({}): {}",
+                  k + 1, listed(weighed), equation);
   }
   return text;
 }

@@ -79,6 +79,7 @@ std::vector<AddedRow> SingularGroup::linear_forms(const Dependence& dependence) 
     AddedRow& form = found.emplace_back();
     form.main = constraints_[static_cast<std::size_t>(main)];
     form.weights.emplace_back(form.main, 1);
+    form.is_linear_form = true;
     form.row = Vector::Zero(state_.q.size());
     const double length = scaled.rows.row(a).cwiseAbs().maxCoeff();
     for (std::size_t i = 0; i < n; ++i) {

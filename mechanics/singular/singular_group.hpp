@@ -15,6 +15,7 @@ struct AddedRow {
   double rhs = 0;
   double row_radius = 0, rhs_radius = 0;  ///< as convex::DataRadii has them
   Index main = 0;                         ///< the constraint whose gradient the others of `weights` make up
+  bool is_linear_form = false;            ///< a row of the Hessian of `main`, not of third derivatives
 };
 
 /// Two-sided constraints that hang together by their coordinates, at a state at which some of their gradients

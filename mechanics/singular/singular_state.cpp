@@ -214,7 +214,15 @@ std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added,
     say({a}, "its gradient vanishes wherever it holds; it is read as " +
                  written(model.tape, model.f[static_cast<std::size_t>(a)], model.coordinates) +
                  " = 0, of which f, df/dt, d²f/dt² and the multiplier are given");
+  std::set<Index> held;
   for (const AddedRow& row : added) {
+    if (row.is_linear_form) {
+      if (held.insert(row.main).second)
+        say({row.main},
+            "its gradient vanishes wherever it holds near this state, and it is held to the linear equations "
+            "that say the same; its own multiplier is not given");
+      continue;
+    }
     std::vector<Index> constraints;
     for (const auto& [constraint, weight] : row.weights) constraints.push_back(constraint);
     say(constraints,

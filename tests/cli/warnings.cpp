@@ -185,6 +185,18 @@ TEST_CASE("an equation of third derivatives is proved by no certificate, and the
   CHECK(run({"solve", "--sensitivity", file}).code == 0);
 }
 
+TEST_CASE("a constraint that is held to linear equations is told once, and not as one of third derivatives") {
+  const std::string point = particle("point = \"x^2 + y^2 = 0\"", "x = 0");
+  const Json object = solved(point);
+  CHECK(object.at("added_rows").size() == 2);
+  REQUIRE(object.at("warnings").size() == 1);
+  CHECK(object.at("warnings")[0].at("message").get<std::string>().find("vanishes wherever it holds") !=
+        std::string::npos);
+  const std::string text = run_on("solve", point).out;
+  CHECK(text.find("In place of point") != std::string::npos);
+  CHECK(text.find("third ones") == std::string::npos);
+}
+
 TEST_CASE("a state with several branches is wrong input, at the line of the constraint") {
   const Outcome outcome = run_json_on("solve", particle("wires = \"y^2 = x^2\"", "x = 0"));
   CHECK(outcome.code == 2);
