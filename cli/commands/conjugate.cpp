@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,9 +154,8 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
     text += "that is, g(y) = " + formula + "\n";
   text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
   if (question.y) {
-    std::string entries;
-    for (const double entry : *question.y) entries += (entries.empty() ? "" : ", ") + number_text(entry);
-    text += fmt::format("g([{}]) = {}\n", entries, number_text(answer.value->value));
+    // All digits of the point: six of them may be those of one on the other side of the domain's edge.
+    text += fmt::format("g([{}]) = {}\n", fmt::join(*question.y, ", "), number_text(answer.value->value));
     if (answer.proof && answer.proof->exact) text += "exactly " + convex::text(*answer.proof->exact) + "\n";
     if (answer.proof)
       text += answer.proof->level == convex::ProofLevel::none

@@ -66,6 +66,11 @@ TEST_CASE("the conjugate prints as an expression that reads back, with its domai
     CHECK(text.find(words) != std::string::npos);
 }
 
+TEST_CASE("a point beyond the edge of a conjugate's domain is told with the digits that put it there") {
+  CHECK(run({"conjugate", "norm2()", "--at", "[1.0000001, 0]"}).out.find("g([1.0000001, 0]) = inf\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("a conjugate needs no number of entries where the data tell it") {
   const Json answer = Json::parse(run({"conjugate", "quadratic([[2, 0], [0, 4]])", "--json"}).out);
   CHECK(answer["entries"] == 2);
