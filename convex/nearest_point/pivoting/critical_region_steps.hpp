@@ -178,14 +178,16 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
       least = P::smaller(P::where_larger(enter, 0, clear, infinite), least);
       P::add_product(sum[6], clear, 0);  // not 0 where a level is not finite
     }
-    alignas(64) double total[8];
-    P::store(total, P::totals(sum));
+    alignas(64) double total[8], root[8];
+    const Pack totals = P::totals(sum);
+    P::store(total, totals);
+    P::store(root, P::root(totals));
     region.remaining = total[0] + region.error_of_sums * largest;
-    region.rounded = std::sqrt(total[1]);
-    t.magnitude = std::sqrt(total[2]);
-    t.acceleration_norm = std::sqrt(total[3]);
-    t.z_norm = std::sqrt(total[4]);
-    t.stationarity = std::sqrt(total[5]);
+    region.rounded = root[1];
+    t.magnitude = root[2];
+    t.acceleration_norm = root[3];
+    t.z_norm = root[4];
+    t.stationarity = root[5];
     region.least = total[6] - K::largest(P::times(least, -1));
   }
 };
