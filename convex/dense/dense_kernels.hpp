@@ -19,13 +19,6 @@ inline void fill_packs(Index n, double value, double* to) {
     for (Index k = 0; k < 8; ++k) to[i + k] = value;
 }
 
-/// X := up to eight rows of U side by side, n packs, filled with zeros.
-inline void side_by_side(Index n, const double* U, const Index* rows, Index count, double* X) {
-  if (count < 8) fill_packs(8 * n, 0, X);
-  for (Index k = 0; k < count; ++k)
-    for (Index i = 0; i < n; ++i) X[8 * i + k] = U[rows[k] * n + i];
-}
-
 /// Kernels on dense data for one processor family. Sums are taken in an order that is the same for all of
 /// them, products and sums are rounded apart, so all give the same bytes. Eight doubles are a pack.
 ///
@@ -73,11 +66,21 @@ struct DenseKernels {
   /// y += Σ_k c_(column k) X_(column k) over `count` columns of n numbers, a multiple of 8, `stride` apart.
   void (*add_columns)(Index n, Index count, const Index* columns, const double* c, const double* X,
                       Index stride, double* y);
-  /// into := Σ_i u_i D_i, D_i the i-th of n runs of `width` numbers, a multiple of 8.
-  void (*combine_runs)(Index n, Index width, const double* D, const double* u, double* into);
+  /// X := up to eight of the m rows of U side by side, n packs, filled with zeros.
+  void (*side_by_side)(Index n, Index m, const double* U, const Index* rows, Index count, double* X);
+  /// Whether eight vectors side by side are sums of `count` rows of U with whole numbers as coefficients; c:
+  /// eight for each row, guesses, which become these numbers, or 0 where c_jk length_j <= least_k. size_k: 1
+  /// and the sum of their sizes, infinite where a guess is more than `close` off, as a part of the larger of
+  /// itself and 1. rest_k: Σ_i |Σ_j c_jk u_(row j)i - X_ki| and load_k: Σ_j c_jk s_(row j) - s_k, in
+  /// doubles.
+  void (*whole_sums)(Index n, const double* X, const double* s_of_X, const double* U, const double* s,
+                     Index count, const Index* rows, const double* length, const double* least, double close,
+                     double* c, double* size, double* rest, double* load);
   /// Whether Σ_k c_k u_(row k) - whole u_p is 0 in doubles, entry by entry, over `count` rows of n numbers.
   bool (*cancels)(Index n, const double* U, Index p, double whole, Index count, const Index* rows,
                   const double* c);
+  /// Whether none of the m rows of U begins with 0.
+  bool (*first_entries_differ_from_zero)(Index m, Index n, const double* U);
   /// max |x_i| of n numbers.
   double (*largest_size)(Index n, const double* x);
   /// Whether adding `shift` rounds none of n numbers.

@@ -3,15 +3,17 @@
 #include <cmath>
 #include <type_traits>
 
+#include "convex/dense/row_kernels.hpp"
 #include "convex/dense/triangle_kernels.hpp"
 
 namespace convex::inline dense {
 
 /// The kernels of `DenseKernels`, to be compiled for a processor family each.
 template <int W, bool Fused>
-struct Kernels : TriangleKernels<W, Fused> {
+struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
+  using RowKernels<W, Fused>::rows;
 
   MOREAU_INLINE void gram(Index n, const double* X, const double* Y, double* into, Index stride) {
     constexpr Index together = W == 8 ? 8 : 4;
@@ -76,84 +78,6 @@ struct Kernels : TriangleKernels<W, Fused> {
     Pack sum{};
     for (Index i = 0; i < n; i += 8) P::add_products(sum, P::load(x + i), P::load(y + i));
     return P::total(sum);
-  }
-
-  static constexpr int rows = W == 8 ? 8 : 4;  ///< at a time, as registers allow
-
-  /// Σ of products of packs along `count` rows of U, from which nothing may be read beyond `end`; factors are
-  /// 0 where rows have ended.
-  template <int count, class Factor>
-  MOREAU_INLINE void along(Index n, const double* U, const double* end, Factor factor, double* into) {
-    Pack sum[count];
-    P::clear(sum);
-    Index i = 0;
-    for (; i + 8 <= n; i += 8)
-#pragma GCC unroll 8
-      for (int r = 0; r < count; ++r) {
-        const Pack u = P::load(U + r * n + i);
-        P::add_products(sum[r], factor(i, u), u);
-      }
-    if (i < n)
-#pragma GCC unroll 8
-      for (int r = 0; r < count; ++r) {
-        // A row that others follow has at least as many numbers behind it as its last pack reaches beyond.
-        const double* const from = U + r * n + i;
-        const Pack u = r < count - 1 ? P::load(from) : P::load_before(from, end);
-        P::add_products(sum[r], factor(i, u), u);
-      }
-    if constexpr (count == 8)
-      P::store(into, P::totals(sum));
-    else
-#pragma GCC unroll 8
-      for (int r = 0; r < count; ++r) into[r] = P::total(sum[r]);
-  }
-
-  /// into_a := Σ_i factor(i, u_ai) u_ai, row by row, for so few entries that a pack would be mostly empty.
-  template <int n, class Factor>
-  MOREAU_INLINE void along_few(Index m, const double* U, Factor factor, double* into) {
-    for (Index a = 0; a < m; ++a, U += n) {
-      double sum = factor(0, U[0]) * U[0];
-#pragma GCC unroll 4
-      for (int i = 1; i < n; ++i) sum += factor(i, U[i]) * U[i];
-      into[a] = sum;
-    }
-  }
-  template <class Factor>
-  MOREAU_INLINE bool along_few(Index m, Index n, const double* U, Factor factor, double* into) {
-    if (n == 1) along_few<1>(m, U, factor, into);
-    if (n == 2) along_few<2>(m, U, factor, into);
-    if (n == 3) along_few<3>(m, U, factor, into);
-    if (n == 4) along_few<4>(m, U, factor, into);
-    return n > 0 && n <= 4;
-  }
-
-  MOREAU_INLINE void slacks(Index m, Index n, const double* U, const double* x, const double* s,
-                            double* into) {
-    if (along_few(
-            m, n, U, [x](int i, double) __attribute__((always_inline)) { return x[i]; }, into)) {
-      for (Index a = 0; a < m; ++a) into[a] -= s[a];
-      return;
-    }
-    const double* const end = U + m * n;
-    const auto factor = [x](Index i, const Pack&) __attribute__((always_inline)) { return P::load(x + i); };
-    Index a = 0;
-    for (; a + rows <= m; a += rows, U += rows * n) along<rows>(n, U, end, factor, into + a);
-    for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
-    for (a = 0; a < m; ++a) into[a] -= s[a];
-  }
-
-  MOREAU_INLINE void squares(Index m, Index n, const double* U, const double* weight, double* into) {
-    if (along_few(
-            m, n, U, [weight](int i, double u) __attribute__((always_inline)) { return u * weight[i]; },
-            into))
-      return;
-    const double* const end = U + m * n;
-    const auto factor = [weight](Index i, const Pack& u) __attribute__((always_inline)) {
-      return P::times(u, P::load(weight + i));
-    };
-    Index a = 0;
-    for (; a + rows <= m; a += rows, U += rows * n) along<rows>(n, U, end, factor, into + a);
-    for (; a < m; ++a, U += n) along<1>(n, U, end, factor, into + a);
   }
 
   MOREAU_INLINE void stationarity(Index n, const double* A, const double* q, Index m, const double* U,
@@ -234,24 +158,6 @@ struct Kernels : TriangleKernels<W, Fused> {
     }
   }
 
-  MOREAU_INLINE void combine_runs(Index n, Index width, const double* D, const double* u, double* into) {
-    Index k = 0;
-    for (; k + 32 <= width; k += 32) {
-      Pack sum[4];
-      P::clear(sum);
-      for (Index i = 0; i < n; ++i)
-#pragma GCC unroll 4
-        for (int r = 0; r < 4; ++r) P::add_product(sum[r], P::load(D + i * width + k + 8 * r), u[i]);
-#pragma GCC unroll 4
-      for (int r = 0; r < 4; ++r) P::store(into + k + 8 * r, sum[r]);
-    }
-    for (; k < width; k += 8) {
-      Pack sum{};
-      for (Index i = 0; i < n; ++i) P::add_product(sum, P::load(D + i * width + k), u[i]);
-      P::store(into + k, sum);
-    }
-  }
-
   MOREAU_INLINE Pack size(const Pack& x) { return P::larger(x, P::times(x, -1)); }
   MOREAU_INLINE double largest(const Pack& x) {
     double most[8];
@@ -259,6 +165,60 @@ struct Kernels : TriangleKernels<W, Fused> {
     for (int half = 4; half > 0; half /= 2)
       for (int k = 0; k < half; ++k) most[k] = most[k] > most[k + half] ? most[k] : most[k + half];
     return most[0];
+  }
+
+  MOREAU_INLINE void side_by_side(Index n, Index m, const double* U, const Index* row, Index count,
+                                  double* X) {
+    const double* const end = U + m * n;
+    for (Index i = 0; i < n; i += 8) {
+      Pack block[8];
+#pragma GCC unroll 8
+      for (int k = 0; k < 8; ++k) block[k] = k < count ? P::load_before(U + row[k] * n + i, end) : Pack{};
+      P::transpose(block);
+#pragma GCC unroll 8
+      for (int k = 0; k < 8; ++k)
+        if (i + k < n) P::store(X + 8 * (i + k), block[k]);
+    }
+  }
+
+  MOREAU_INLINE void whole_sums(Index n, const double* X, const double* s_of_X, const double* U,
+                                const double* s, Index count, const Index* row, const double* length,
+                                const double* least, double close, double* c, double* sizes, double* rest,
+                                double* load) {
+    constexpr double shift = 0x1.8p52, infinite = __builtin_inf();
+    Pack sum = P::plus(Pack{}, 1), off{}, loads = P::minus(Pack{}, P::load(s_of_X));
+    for (Index j = 0; j < count; ++j) {
+      const Pack guess = P::load(c + 8 * j),
+                 beyond = P::minus(P::times(size(guess), length[row[j]]), P::load(least)),
+                 counted = P::where_larger(beyond, 0, guess, 0),
+                 whole = P::plus(P::plus(counted, shift), -shift),
+                 allowed = P::times(P::larger(size(counted), P::plus(Pack{}, 1)), close);
+      off = P::larger(off, P::minus(size(P::minus(counted, whole)), allowed));
+      sum = P::plus(sum, size(whole));
+      P::add_product(loads, whole, s[row[j]]);
+      P::store(c + 8 * j, whole);
+    }
+    P::store(sizes, P::plus(sum, P::where_larger(off, 0, P::plus(Pack{}, infinite), 0)));
+    P::store(load, loads);
+    Pack left{};  // a sum, which nothing that is no number is lost in
+    const auto look = [&](Index i, auto together) __attribute__((always_inline)) {
+      constexpr int entries = decltype(together)::value;
+      Pack missing[entries];
+      P::clear(missing);
+      for (Index j = 0; j < count; ++j) {
+        const double* const u = U + row[j] * n + i;
+        const Pack whole = P::load(c + 8 * j);
+#pragma GCC unroll 4
+        for (int r = 0; r < entries; ++r) P::add_product(missing[r], whole, u[r]);
+      }
+#pragma GCC unroll 4
+      for (int r = 0; r < entries; ++r)
+        left = P::plus(left, size(P::minus(missing[r], P::load(X + 8 * (i + r)))));
+    };
+    Index i = 0;
+    for (; i + 4 <= n; i += 4) look(i, std::integral_constant<int, 4>());
+    for (; i < n; ++i) look(i, std::integral_constant<int, 1>());
+    P::store(rest, left);
   }
 
   MOREAU_INLINE bool cancels(Index n, const double* U, Index p, double whole, Index count, const Index* row,

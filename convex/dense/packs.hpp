@@ -10,6 +10,7 @@
 
 /// Inlined into kernels that are compiled for a processor family each.
 #define MOREAU_INLINE [[gnu::always_inline]] static inline
+#define MOREAU_INLINE_MEMBER [[gnu::always_inline]] inline
 
 namespace convex::inline dense {
 

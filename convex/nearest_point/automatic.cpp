@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convex/dense/dense_kernels.hpp"
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/guess.hpp"
 #include "convex/nearest_point/isotonic/bordered_chain.hpp"
@@ -27,7 +28,8 @@ bool plainly_connected(const NearestPointProblem& problem) {
     return true;
   if (problem.dimension() <= 2 || problem.rows() == 0) return false;
   const RowMatrix& U = problem.U.dense();
-  return (U.row(0).array() != 0).all() && (U.col(0).array() != 0).all();
+  return (U.row(0).array() != 0).all() &&
+         dense_kernels().first_entries_differ_from_zero(U.rows(), U.cols(), U.data());
 }
 
 /// Multiplications of the dense active set: the factor of A, the whitening of the rows held, their orthogonal

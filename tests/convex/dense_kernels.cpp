@@ -32,7 +32,7 @@ Data draw(Index n, unsigned seed) {
     for (Index i = 0; i < M.size(); ++i) M.data()[i] = normal(generator);
   };
   Matrix B(n, n);
-  Data data{{}, RowMatrix(n + 3, n), Vector(n), Vector::Zero(padded(n)), Vector(n + 3), {}};
+  Data data{{}, RowMatrix(n + 11, n), Vector(n), Vector::Zero(padded(n)), Vector(n + 11), {}};
   fill(B);
   fill(data.U);
   fill(data.z);
@@ -79,6 +79,15 @@ std::vector<double> outcome(const DenseKernels& kernels, const Data& data) {
   keep(Vector(into.head(m)));
   kernels.squares(m, n, data.U.data(), data.x.data(), into.data());
   keep(Vector(into.head(m)));
+  const Index count = static_cast<Index>(data.rows.size());
+  kernels.side_by_side(n, m, data.U.data(), data.rows.data(), std::min<Index>(8, count), X.data());
+  keep(X);
+  Vector c = Vector::LinSpaced(8 * count, -3, 5), found(24);
+  kernels.whole_sums(n, X.data(), Vector(Vector::Ones(8)).data(), data.U.data(), data.s.data(), count,
+                     data.rows.data(), Vector(Vector::Ones(m)).data(), Vector(Vector::Ones(8)).data(), 0.1,
+                     c.data(), found.data(), found.data() + 8, found.data() + 16);
+  keep(c);
+  keep(found);
   kernels.stationarity(n, data.A.data(), data.x.data(), m, data.U.data(),
                        static_cast<Index>(data.rows.size()), data.rows.data(), data.s.data(), z.data(),
                        into.data());
@@ -89,12 +98,36 @@ std::vector<double> outcome(const DenseKernels& kernels, const Data& data) {
 }  // namespace
 
 TEST_CASE("the dense kernels give the same bytes for every processor family") {
-  for (Index n : {1, 2, 5, 7, 8, 9, 16, 23, 41}) {
+  for (Index n : {1, 2, 3, 4, 5, 7, 8, 9, 16, 23, 41}) {
     const Data data = draw(n, static_cast<unsigned>(n));
     const std::vector<double> reference = outcome(convex::dense_kernels(), data);
     for (const DenseKernels* kernels : convex::all_dense_kernels())
       CHECK(outcome(*kernels, data) == reference);
   }
+}
+
+TEST_CASE("slacks and squares are sums along each row, however few entries it has") {
+  for (Index n : {1, 2, 3, 4, 5, 9}) {
+    const Data data = draw(n, 11);
+    const Index m = data.U.rows();
+    Vector slack(m), square(m);
+    const DenseKernels& kernels = convex::dense_kernels();
+    kernels.slacks(m, n, data.U.data(), data.x.data(), data.s.data(), slack.data());
+    kernels.squares(m, n, data.U.data(), data.x.data(), square.data());
+    const Vector x = data.x.head(n);
+    CHECK((slack - (data.U * x - data.s)).norm() <= 1e-14 * slack.norm());
+    CHECK((square - data.U.cwiseAbs2() * x).norm() <= 1e-14 * square.norm());
+  }
+}
+
+TEST_CASE("a row that begins with 0 is found, wherever it stands") {
+  for (Index n : {1, 2, 3, 4, 9})
+    for (Index zero = 0; zero <= n + 11; ++zero) {
+      RowMatrix U = draw(n, 3).U;
+      if (zero < U.rows()) U(zero, 0) = 0;
+      for (const DenseKernels* kernels : convex::all_dense_kernels())
+        CHECK(kernels->first_entries_differ_from_zero(U.rows(), n, U.data()) == (zero == U.rows()));
+    }
 }
 
 TEST_CASE("a dense factor times its transpose is the matrix, and solves with it are right to rounding") {

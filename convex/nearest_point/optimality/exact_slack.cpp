@@ -62,6 +62,22 @@ ExactSum exact_slack(const NearestPointProblem& problem, Index a, const Point& q
   return sum;
 }
 
+/// Whether twice the working precision shows that row a of a dense U is off its edge at q: the error of the
+/// sum of n + 1 terms is below (n + 1)² u² of their sizes (Ogita, Rump and Oishi 2005).
+bool is_plainly_off(const NearestPointProblem& problem, Index a, const Point& q) {
+  const double *const u = problem.U.dense().data() + a * q.size(), terms = static_cast<double>(q.size() + 2);
+  RunningSum sum;
+  sum.add(-problem.s[a]);
+  double size = std::abs(problem.s[a]);
+  for (Index i = 0; i < q.size(); ++i) {
+    const DoubleDouble product = two_product(u[i], q[i]);
+    sum.add(product);
+    size += std::abs(product.hi);
+  }
+  const double error = 4 * terms * terms * unit_roundoff * unit_roundoff * size;
+  return std::abs(sum.value()) > error + std::numeric_limits<double>::min() && std::isfinite(size);
+}
+
 }  // namespace
 
 SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_scale)
@@ -69,6 +85,7 @@ SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_s
   const Index room = std::min(problem.dimension(), problem.rows());
   rows_.resize(static_cast<std::size_t>(room));
   coefficients_.resize(static_cast<std::size_t>(room));
+  side_by_side_.resize(static_cast<std::size_t>(9 * room));
   if (problem.U.is_sparse() || problem.rows() == 0) return;
   rows_on_grid_ = is_on_some_grid(problem.U.dense().size(), problem.U.dense().data());
 }
@@ -138,6 +155,42 @@ std::optional<double> SlackOnEdge::slack(Index p, const Index* held, Index count
   return slack_of_loads(p, whole);
 }
 
+/// Most rows that are no sum show it in their first entry.
+bool SlackOnEdge::shows_that_it_is_none(Index p, const Index* held, Index count,
+                                        const double* coefficients) const {
+  double rest = entry(problem_.U, p, 0);
+  for (Index k = 0; k < count; ++k) rest -= coefficients[k] * entry(problem_.U, held[k], 0);
+  return std::abs(rest) > zero_coefficient * row_scale_[p] * std::sqrt(problem_.A.diagonal()[0]);
+}
+
+/// Whole coefficients are tried for all rows at once, where sums of few rows have no rounding.
+void SlackOnEdge::slacks(std::span<const Index> rows, const double* X, const Index* held, Index count,
+                         const double* coefficients, std::optional<double>* into) {
+  alignas(64) double s[8] = {}, least[8] = {}, size[8], rest[8], load[8];
+  for (std::size_t l = 0; l < 8; ++l) size[l] = std::numeric_limits<double>::infinity();
+  double *const whole = side_by_side_.data(), *const alone = whole + 8 * count;
+  if (rows_on_grid_) {
+    for (std::size_t l = 0; l < rows.size(); ++l) {
+      s[l] = problem_.s[rows[l]];
+      least[l] = zero_coefficient * row_scale_[rows[l]];
+    }
+    std::copy_n(coefficients, 8 * count, whole);
+    dense_kernels().whole_sums(problem_.dimension(), X, s, problem_.U.dense().data(), problem_.s.data(),
+                               count, held, row_scale_, least, close, whole, size, rest, load);
+  }
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    const bool is_whole = size[l] <= most_terms;
+    if (is_whole && (rest[l] != 0 || loads_on_grid_)) {
+      into[l] = rest[l] == 0 ? std::optional(load[l]) : std::nullopt;
+      continue;
+    }
+    for (Index k = 0; k < count; ++k) alone[k] = coefficients[8 * k + static_cast<Index>(l)];
+    into[l] = is_whole || !shows_that_it_is_none(rows[l], held, count, alone)
+                  ? slack(rows[l], held, count, alone)
+                  : std::nullopt;
+  }
+}
+
 bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<const Index> held,
                 std::span<const Index> touched, double* slacks) {
   const auto is_kept = [&](Index a, double slack) {
@@ -153,7 +206,10 @@ bool keeps_rows(const NearestPointProblem& problem, const Point& q, std::span<co
         return *slack;
     return slack_at(problem, a, q);
   };
-  return std::all_of(held.begin(), held.end(), [&](Index a) { return slack_of(a) == 0; }) &&
+  const auto holds = [&](Index a) {
+    return (problem.U.is_sparse() || at_rest || !is_plainly_off(problem, a, q)) && slack_of(a) == 0;
+  };
+  return std::all_of(held.begin(), held.end(), holds) &&
          std::all_of(touched.begin(), touched.end(),
                      [&](Index a) { return is_kept(a, *slacks++ = slack_of(a)); });
 }

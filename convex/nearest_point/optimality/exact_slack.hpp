@@ -22,15 +22,20 @@ class SlackOnEdge {
   /// equality. None unless u_p is the sum of c_k / c_0 u_k over them with whole numbers c up to
   /// `largest_denominator` that `coefficients` are close to: then not one bit is left over.
   std::optional<double> slack(Index p, const Index* held, Index count, const double* coefficients);
+  /// The same for up to eight rows of a dense U, which are also side by side in X; coefficients: eight for
+  /// each row held.
+  void slacks(std::span<const Index> rows, const double* X, const Index* held, Index count,
+              const double* coefficients, std::optional<double>* into);
 
  private:
+  bool shows_that_it_is_none(Index p, const Index* held, Index count, const double* coefficients) const;
   bool cancels(Index p, double whole) const;
   double slack_of_loads(Index p, double whole) const;
 
   const NearestPointProblem& problem_;
   const double* row_scale_;
   std::vector<Index> rows_;  // the first count_: of a sum, with their coefficients; all with sum_ added up
-  std::vector<double> coefficients_;
+  std::vector<double> coefficients_, side_by_side_;
   std::size_t count_ = 0;
   double sum_ = 0;                                     ///< of the sizes of all factors
   bool rows_on_grid_ = false, loads_on_grid_ = false;  ///< sums of few U or s are exact in doubles

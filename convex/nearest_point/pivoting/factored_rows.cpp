@@ -20,7 +20,7 @@ FactoredRows::FactoredRows(const NearestPointProblem& problem, Arena& arena)
   p_.A = problem.A.dense_gram().data();
   p_.U = problem.U.dense().data();
   p_.factor_condition = problem.A.factor_condition();
-  arena.start((10 * ld + 5 * padded(m) + 8 * n + (n + 26) * padded(k) + 4 * padded(places)) / 8 +
+  arena.start((10 * ld + 5 * padded(m) + 8 * n + (n + 18) * padded(k) + 4 * padded(places)) / 8 +
               GramPivoting::lines(n, m));
   for (double** x : {&p_.z, &p_.w_free, &p_.w, &p_.q, &p_.q_low, &p_.r, &p_.dq, &p_.diagonal,
                      &p_.inverse_diagonal, &p_.unit})
@@ -34,7 +34,6 @@ FactoredRows::FactoredRows(const NearestPointProblem& problem, Arena& arena)
   p_.pack = arena.take<double>(8 * n);
   p_.coefficients = arena.take<double>(8 * padded(k));
   dual_ = arena.take<double>(n * padded(k));
-  products_ = arena.take<double>(8 * padded(k));
   const double* diagonal = problem_.A.diagonal().data();
   for (Index i = 0; i < n; ++i) {
     p_.diagonal[i] = diagonal[i];
@@ -197,7 +196,7 @@ bool FactoredRows::are_independent(std::span<const Index> rows, double part) {
   double distance[8];
   for (; !rows.empty(); rows = rows.subspan(std::min<std::size_t>(8, rows.size()))) {
     const Index some = std::min<Index>(8, std::ssize(rows));
-    set_->distances(rows.data(), some, products_, distance);
+    set_->distances(rows.data(), some, p_.coefficients, distance);
     for (Index k = 0; k < some; ++k)
       if (!(distance[k] > part * set_->rows().square(set_->rows().place(rows[static_cast<std::size_t>(k)]))))
         return false;
@@ -221,14 +220,11 @@ void FactoredRows::find_dual_rows() {
   }
 }
 
-void FactoredRows::combine(std::span<const Index> rows) {
+void FactoredRows::combine(std::span<const Index>) {
   const Index k = p_.size;
   find_dual_rows();
-  side_by_side(p_.n, p_.U, rows.data(), std::ssize(rows), p_.pack);
-  for (Index j = 0; j < k; j += 8) kernels_.gram(p_.n, p_.pack, dual_ + j * p_.n, products_ + 8 * j, 8);
-  set_->solve_pack(products_);
-  for (Index l = 0; l < std::ssize(rows); ++l)
-    for (Index j = 0; j < k; ++j) p_.coefficients[l * padded(k) + j] = products_[8 * j + l];
+  for (Index j = 0; j < k; j += 8) kernels_.gram(p_.n, p_.pack, dual_ + j * p_.n, p_.coefficients + 8 * j, 8);
+  set_->solve_pack(p_.coefficients);
 }
 
 double FactoredRows::raise(std::span<const Index> rows) {

@@ -42,7 +42,7 @@ class FactoredRows final : public GramWorkingSet {
   GramPoint p_;
   std::optional<GramPivoting> set_;
   double *load_, *y_, *rest_;  // y_, rest_: at places, y_ the last change of the multipliers
-  double *dual_, *products_;
+  double* dual_;
   Index *fresh_, *dual_of_;  // dual_of_: the rows that dual_ is of, dual_count_
   Index dual_count_ = 0;
 };

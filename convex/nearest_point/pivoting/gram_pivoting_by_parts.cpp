@@ -48,20 +48,14 @@ bool GramPivoting::pivot_by_parts() {
 /// Where rows are repeated or are multiples of each other, as some have turned out to be, the first `count`
 /// of the list hold them in groups, one as deep as the other: one of each is left.
 Index GramPivoting::skip_parallel_rows(Index count) {
-  constexpr double alike = 1e-9;  // only a choice: what is left out is looked at again
   const double* U = problem_.U.dense().data();
   const auto depth = [&](Index a) { return slack_[a] / row_scale_[a]; };
-  const auto close = [](double x, double y) { return std::abs(x - y) <= alike * std::abs(x); };
-  const auto parallel = [&](Index a, Index b) {
-    const double *u = U + a * n_, *v = U + b * n_, ratio = row_scale_[a] / row_scale_[b];
-    return std::equal(u, u + n_, v, [&](double x, double y) { return close(x, y * ratio); });
-  };
   std::sort(list_, list_ + count, [&](Index a, Index b) { return depth(a) < depth(b); });
   Index kept = 0;
   for (Index k = 0; k < count; ++k) {
     bool repeats = false;
-    for (Index l = kept; l-- > 0 && !repeats && close(depth(list_[l]), depth(list_[k]));)
-      repeats = parallel(list_[l], list_[k]);
+    for (Index l = kept; l-- > 0 && !repeats && are_alike(depth(list_[l]), depth(list_[k]));)
+      repeats = is_multiple(n_, U + list_[l] * n_, U + list_[k] * n_);
     if (!repeats) list_[kept++] = list_[k];
   }
   return kept;

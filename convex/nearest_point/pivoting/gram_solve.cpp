@@ -72,7 +72,7 @@ bool GramSolve::doubles_do(double close) {
 
 /// Whether no row outside is close, of ||q||_A or that size if it is larger.
 bool GramSolve::is_clear(double size) {
-  return close_rows(near_zero, near_zero * std::max(size, p_.magnitude) + known_.missing_slack(1)) == 0;
+  return close_rows(near_zero, near_zero * std::max(size, p_.magnitude) + known_.missing_slack(1), 0) == 0;
 }
 
 /// Corrects the point of the rows held until all is told. What multipliers and slacks are wrong then, by
@@ -117,12 +117,8 @@ double GramSolve::near_scale(double part) {
   if (!set_.is_near(small)) return 0;
   set_held_slacks_apart();
   const Index most = p_.size == p_.n ? 0 : set_.most_near();
-  Index near = 0;
-  for (Index a = 0; a < p_.all; ++a) {
-    if (!(p_.slack[a] <= p_.row_scale[a] * small)) continue;
-    if (near == most) return 0;
-    p_.close[near++] = a;
-  }
+  const Index near = close_rows(0, small, most);
+  if (near > most) return 0;
   for (Index first = 0, end = std::min(few, near); first < near; first = end, end = near) {
     const std::span<const Index> rows(p_.close + first, p_.close + end);
     if (!set_.look_at(rows) || !set_.are_independent(rows, least_independent)) return 0;

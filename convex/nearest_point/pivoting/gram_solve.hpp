@@ -48,7 +48,7 @@ class GramSolve {
   void set_held_slacks_apart();
   bool is_at_rest() const;
   bool touches_rows() const;
-  Index close_rows(double absolute, double by_length);
+  Index close_rows(double absolute, double by_length, Index most);
   void find_violation_of_touched_rows(Index count);
   Index measure_precisely(Index count);
   double slack_noise(Index a) const;

@@ -18,10 +18,11 @@ constexpr double least_rise = 1e-3;
 
 }  // namespace
 
-/// Lists the rows outside whose slack is not above `absolute` |s| + `by_length` times the length.
-Index GramSolve::close_rows(double absolute, double by_length) {
+/// Lists the rows outside whose slack is not above `absolute` |s| + `by_length` times the length, until there
+/// are more than `most`.
+Index GramSolve::close_rows(double absolute, double by_length, Index most) {
   const double* const s = problem_.s.data();
-  return small_kernels().close_rows(p_.all, p_.slack, s, s + p_.all, p_.row_scale, absolute, by_length,
+  return small_kernels().close_rows(p_.all, p_.slack, s, s + p_.all, p_.row_scale, absolute, by_length, most,
                                     p_.close);
 }
 
@@ -47,16 +48,18 @@ bool GramSolve::touches_rows() const {
 /// Slacks at the refined point. Rows violated have been looked at then, for the next correction to take them
 /// in.
 GramSolve::Slacks GramSolve::measure_slacks() {
-  set_.measure();
-  set_held_slacks_apart();
   moved_ = touched_violation_ = 0;
   if (known_.wrong == 0 && is_at_rest()) {
     for (Index a = 0; a < p_.all; ++a) p_.slack[a] = 0 - problem_.s[a];
+    for (Index k = 0; k < p_.size; ++k) p_.held_slack[k] = 0;
+    p_.magnitude = 0;
     return Slacks::kept;
   }
+  set_.measure();
+  set_held_slacks_apart();
   const double rounding = 2 * static_cast<double>(p_.n) * unit_roundoff,
                by_length = rounding * p_.magnitude + known_.missing_slack(1);
-  const Index open = close_rows(rounding, by_length);
+  const Index open = close_rows(rounding, by_length, p_.all);
   const Index touched = std::partition(p_.close, p_.close + open,
                                        [&](Index a) {
                                          return !(p_.slack[a] < -(rounding * std::abs(problem_.s[a]) +
@@ -144,7 +147,7 @@ Index GramSolve::measure_precisely(Index count) {
     const Index some = std::min<Index>(8, count - first);
     const Index* const rows = p_.close + first;
     for (Index k = 0; k < some; ++k) s[k] = problem_.s[rows[k]];
-    side_by_side(p_.n, p_.U, rows, some, p_.pack);
+    dense_kernels().side_by_side(p_.n, p_.all, p_.U, rows, some, p_.pack);
     dense_kernels().precise_slacks(p_.n, p_.pack, p_.q, s, rest);
     dense_kernels().dots(p_.n, p_.pack, p_.q_low, low);
     for (Index k = 0; k < some; ++k) {
@@ -198,17 +201,15 @@ Index GramSolve::leave_sums_of_rows_held(Index count) {
   Index left = 0;
   for (Index first = 0; first < count; first += 8) {
     const Index some = std::min<Index>(8, count - first);
-    set_.combine(close(first, first + some));
+    const std::span<const Index> rows = close(first, first + some);
+    dense_kernels().side_by_side(p_.n, p_.all, p_.U, rows.data(), some, p_.pack);
+    set_.combine(rows);
+    std::optional<double> on_edge[8];
+    edge_->slacks(rows, p_.pack, p_.rows, p_.size, p_.coefficients, on_edge);
     for (Index l = 0; l < some; ++l) {
       const Index a = p_.close[first + l];
-      const double *const c = p_.coefficients + l * padded(p_.size), *const u = p_.U + a * p_.n;
-      double rest = u[0];  // most rows that are no sum show it in their first entry
-      for (Index k = 0; k < p_.size; ++k) rest -= c[k] * p_.U[p_.rows[k] * p_.n];
-      std::optional<double> on_edge;
-      if (!(std::abs(rest) * p_.unit[0] > zero_coefficient * p_.row_scale[a]))
-        on_edge = edge_->slack(a, p_.rows, p_.size, c);
-      if (on_edge && *on_edge >= 0)
-        p_.slack[a] = *on_edge;
+      if (on_edge[l] && *on_edge[l] >= 0)
+        p_.slack[a] = *on_edge[l];
       else
         p_.close[left++] = a;
     }

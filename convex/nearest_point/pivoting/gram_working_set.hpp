@@ -42,8 +42,8 @@ class GramWorkingSet {
   /// Whether rows that have been looked at each have more than this part, squared, outside the span of those
   /// held.
   virtual bool are_independent(std::span<const Index> rows, double part) = 0;
-  /// Up to eight rows as if they were combinations of those held: for each its coefficients, one after the
-  /// other, into `coefficients`.
+  /// Up to eight rows, side by side in `pack`, as if they were combinations of those held: the coefficients
+  /// into `coefficients`, eight for each row held.
   virtual void combine(std::span<const Index> rows) = 0;
   /// dq: a motion along the rows held that raises the others given, as far as they are independent. Its
   /// ||·||_A; 0 where none is found.

@@ -44,8 +44,9 @@ constexpr SmallKernels small_table{Compiled<W, &All::begin>::at,
                                    Compiled<W, &All::measure_balance>::at,
                                    Compiled<W, &Four::dual_rows>::at,
                                    Compiled<W, &Four::close_rows>::at,
-                                   Compiled<W, &Four::rough_inverse_roots>::at,
-                                   Compiled<W, &Four::deepest>::at};
+                                   Compiled<W, &Four::rough_lengths>::at,
+                                   Compiled<W, &Four::deepest>::at,
+                                   Compiled<W, &Four::deepest_known>::at};
 
 const SmallKernels* const small_tables[] = {&small_table<2, SmallTableauSizes<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES

@@ -84,17 +84,24 @@ struct SmallKernels {
   void (*measure)(SmallTableau&);
   /// What is missing of the equations of motion, in doubles.
   void (*measure_balance)(SmallTableau&);
-  /// n runs of `size` in whole packs: combined by a row u of U they are its coefficients over the rows held.
+  /// A vector for each of the rows held, by eights side by side: their products with a row of U are its
+  /// coefficients over these.
   void (*dual_rows)(const SmallTableau&, double* dual);
   /// Lists the rows of m whose slack is not above `absolute` |s| + `by_length` times the length; s may be
-  /// read up to `end`. Their number.
+  /// read up to `end`. Their number; where it is more than `most`, it may not be that of all.
   Index (*close_rows)(Index m, const double* slack, const double* s, const double* end, const double* length,
-                      double absolute, double by_length, Index* rows);
-  /// About 1 over the root of each of m numbers, within a hundredth of it; 0 for 0.
-  void (*rough_inverse_roots)(Index m, const double* squares, double* into);
-  /// Of the rows a = k mod 8 the one that lies deepest below its edge, by slack over length, and how deep,
-  /// negative for violated ones: 8 each, for k = 0, ..., 7.
-  void (*deepest)(Index m, const double* slack, const double* inverse_length, double* depth, double* row);
+                      double absolute, double by_length, Index most, Index* rows);
+  /// About the root of Σ_i u_ai² weight_i, times `longer`, for each of the m rows of U, and about 1 over the
+  /// root, within a hundredth of it; 0 for 0. The sum of the squares of these lengths.
+  double (*rough_lengths)(Index m, Index n, const double* U, const double* weight, double longer,
+                          double* length, double* inverse);
+  /// slack_a := u_a·q - s_a. Of the rows a = k mod 8 the one that lies deepest below its edge, by slack over
+  /// length, and how deep, negative for violated ones: 8 each, for k = 0, ..., 7.
+  void (*deepest)(Index m, Index n, const double* U, const double* q, const double* s,
+                  const double* inverse_length, double* slack, double* depth, double* row);
+  /// The same for slacks that are known.
+  void (*deepest_known)(Index m, const double* slack, const double* inverse_length, double* depth,
+                        double* row);
 };
 
 const SmallKernels& small_kernels();

@@ -55,25 +55,11 @@ struct SmallTableauRows : Kernels<W, Fused> {
     t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
   }
 
-  /// As `side_by_side`; nothing is read beyond `end`.
-  MOREAU_INLINE void gather(Index n, const double* U, const double* end, const Index* rows, Index count,
-                            double* X) {
-    for (Index i = 0; i < n; i += 8) {
-      Pack block[8];
-#pragma GCC unroll 8
-      for (int k = 0; k < 8; ++k) block[k] = k < count ? P::load_before(U + rows[k] * n + i, end) : Pack{};
-      P::transpose(block);
-#pragma GCC unroll 8
-      for (int k = 0; k < 8; ++k)
-        if (i + k < n) P::store(X + 8 * (i + k), block[k]);
-    }
-  }
-
   /// Takes in the rows of the block at r, as they are.
   MOREAU_INLINE void take_block(SmallTableau& t, Index r) {
     const Index n = t.n;
     double *const raw = t.raw + r * n, *const whitened = t.whitened + r * n;
-    gather(n, t.U, t.U + t.all * n, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
+    K::side_by_side(n, t.all, t.U, t.row + r, t.m - r < 8 ? t.m - r : 8, raw);
     Pack square[2];
     P::clear(square);
     const double* const weight = t.inverse_diagonal;
@@ -173,7 +159,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
     mirror_block(t, before);
   }
 
-  /// D = A⁻¹U_Sᵀ (U_S A⁻¹U_Sᵀ)⁻¹.
+  /// D = A⁻¹U_Sᵀ (U_S A⁻¹U_Sᵀ)⁻¹, by eight columns side by side.
   MOREAU_INLINE void dual_rows(const SmallTableau& t, double* dual) {
     const Index width = padded(t.size);
     alignas(64) double block[8 * SmallTableau::most_coordinates], inverse[8 * SmallTableau::most];
@@ -192,18 +178,19 @@ struct SmallTableauRows : Kernels<W, Fused> {
       K::backward_pack(t.n, t.ld, t.T, t.inverse, block);
       for (Index i = 0; i < t.n; ++i)
         for (Index k = 0; k < width; k += 8) {
-          Pack sum = P::load(dual + i * width + k);
+          Pack sum = P::load(dual + k * t.n + 8 * i);
           for (Index l = 0; l < count; ++l)
             P::add_product(sum, P::load(inverse + width * l + k), block[8 * i + l]);
-          P::store(dual + i * width + k, sum);
+          P::store(dual + k * t.n + 8 * i, sum);
         }
     }
   }
 
   MOREAU_INLINE Index close_rows(Index m, const double* slack, const double* s, const double* end,
-                                 const double* length, double absolute, double by_length, Index* rows) {
+                                 const double* length, double absolute, double by_length, Index most,
+                                 Index* rows) {
     Index count = 0;
-    for (Index a = 0; a < m; a += 8) {
+    for (Index a = 0; a < m && count <= most; a += 8) {
       const Pack level = P::load_before(s + a, end);
       Pack bound = P::times(P::larger(level, P::times(level, -1)), absolute);
       P::add_product(bound, P::load(length + a), by_length);
@@ -219,24 +206,67 @@ struct SmallTableauRows : Kernels<W, Fused> {
     return count;
   }
 
-  /// The exponent halved, and one step of Newton's method.
-  MOREAU_INLINE void rough_inverse_roots(Index m, const double* squares, double* into) {
-    for (Index a = 0; a < m; a += 8) {
-      const Pack x = P::load_before(squares + a, squares + m), guess = P::halved_exponent(x);
-      const Pack cube = P::times(P::times(guess, guess), P::times(guess, P::times(x, 0.5)));
-      P::store(into + a, P::where_larger(x, 0, P::minus(P::times(guess, 1.5), cube), 0));
-    }
+  /// work(a, sums along rows a to a + 7), 0 where there is no row.
+  template <class Terms, class Work>
+  MOREAU_INLINE void by_eights(Index m, Index n, const double* U, const Terms& terms, Work work) {
+    double rest[8] = {};
+    K::each_sum(
+        m, n, U, terms,
+        work, [&rest](Index a, double sum) __attribute__((always_inline)) { rest[a % 8] = sum; });
+    if (m % 8 > 0) work(m / 8 * 8, P::load(rest));
   }
 
-  MOREAU_INLINE void deepest(Index m, const double* slack, const double* inverse_length, double* depth,
-                             double* row) {
+  /// The exponent halved, and one step of Newton's method.
+  MOREAU_INLINE double rough_lengths(Index m, Index n, const double* U, const double* weight, double longer,
+                                     double* length, double* inverse) {
+    Pack all{};
+    by_eights(
+        m, n, U, typename K::Square{weight}, [&](Index a, const Pack& x) __attribute__((always_inline)) {
+          const Pack guess = P::halved_exponent(x);
+          const Pack cube = P::times(P::times(guess, guess), P::times(guess, P::times(x, 0.5)));
+          const Pack root = P::where_larger(x, 0, P::minus(P::times(guess, 1.5), cube), 0);
+          const Pack size = P::times(P::times(root, longer), x);
+          P::store(inverse + a, root);
+          P::store(length + a, size);
+          P::add_products(all, size, size);
+        });
+    return P::total(all);
+  }
+
+  /// Of the rows a = k mod 8, of which packs come one after the other, that with the smallest depth.
+  struct Deepest {
+    Pack least{}, at{}, now;
+    MOREAU_INLINE_MEMBER void take(const Pack& depth) {
+      P::keep_smaller(least, at, depth, now);
+      now = P::plus(now, 8);
+    }
+    MOREAU_INLINE_MEMBER void store(double* depth, double* row) const {
+      P::store(depth, least);
+      P::store(row, at);
+    }
+  };
+  MOREAU_INLINE Deepest none_yet() {
     alignas(64) constexpr double first[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    Pack least{}, at{}, now = P::load(first);
-    const Pack eight = P::plus(Pack{}, 8);
-    for (Index a = 0; a < m; a += 8, now = P::plus(now, eight))
-      P::keep_smaller(least, at, P::times(P::load(slack + a), P::load(inverse_length + a)), now);
-    P::store(depth, least);
-    P::store(row, at);
+    return {{}, {}, P::load(first)};
+  }
+
+  MOREAU_INLINE void deepest(Index m, Index n, const double* U, const double* q, const double* s,
+                             const double* inverse_length, double* slack, double* depth, double* row) {
+    Deepest found = none_yet();
+    by_eights(
+        m, n, U, typename K::Product{q}, [&](Index a, const Pack& sum) __attribute__((always_inline)) {
+          const Pack x = P::minus(sum, P::load_before(s + a, s + m));
+          P::store(slack + a, x);
+          found.take(P::times(x, P::load(inverse_length + a)));
+        });
+    found.store(depth, row);
+  }
+
+  MOREAU_INLINE void deepest_known(Index m, const double* slack, const double* inverse_length, double* depth,
+                                   double* row) {
+    Deepest found = none_yet();
+    for (Index a = 0; a < m; a += 8) found.take(P::times(P::load(slack + a), P::load(inverse_length + a)));
+    found.store(depth, row);
   }
 };
 

@@ -51,11 +51,9 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
   tableau.touched_slack = tableau.all_rows.take<double>(rows);
   tableau.close = tableau.all_rows.take<Index>(rows);
   place_ = tableau.all_rows.take<Index>(rows);
-  fill_packs(8, 0, tableau.row_scale + rows - 8);
   fill_packs(8, 0, tableau.slack + rows - 8);
-  dense_kernels().squares(tableau.all, tableau.n, tableau.U, tableau.inverse_diagonal, tableau.row_scale);
-  small_kernels().rough_inverse_roots(tableau.all, tableau.row_scale, inverse_scale_);
-  for (Index a = 0; a < rows; ++a) tableau.row_scale[a] *= at_most_longer * inverse_scale_[a];
+  squares_ = small_kernels().rough_lengths(tableau.all, tableau.n, tableau.U, tableau.inverse_diagonal,
+                                           at_most_longer, tableau.row_scale, inverse_scale_);
 }
 
 void SweptRows::take_linear_term() {
@@ -105,9 +103,8 @@ void SweptRows::begin(const std::vector<Index>& guess) {
 bool SweptRows::settle(const std::vector<Index>& guess) {
   sweeps_ = 0;
   // Rows too long or many to be measured are left to others.
-  const double* const lengths = tableau_.row_scale;
-  if (!looks_at_all() && (problem_.two_sided.size() > SmallTableau::most_coordinates ||
-                          !std::isfinite(dense_kernels().dot(padded(tableau_.all), lengths, lengths))))
+  if (!looks_at_all() &&
+      (problem_.two_sided.size() > SmallTableau::most_coordinates || !std::isfinite(squares_)))
     return false;
   begin(guess);
   return small_kernels().begin(tableau_) && settle_all();
@@ -133,17 +130,41 @@ bool SweptRows::settle_all() {
   return false;
 }
 
-/// Up to eight rows, not looked at yet, that the point violates, those that lie deep below their edge.
+/// Up to eight rows, not looked at yet, that the point violates, those that lie deep below their edge; of
+/// rows that are multiples of each other one.
 Index SweptRows::fresh_violated_rows(Index* rows) {
+  constexpr int most_passes = 3;
   SmallTableau& t = tableau_;
-  dense_kernels().slacks(t.all, t.n, t.U, t.q, problem_.s.data(), t.slack);
-  alignas(64) double depth[8], row[8];
-  small_kernels().deepest(t.all, t.slack, inverse_scale_, depth, row);
+  alignas(64) double depth[8], row[8], depth_of[8];
+  small_kernels().deepest(t.all, t.n, t.U, t.q, problem_.s.data(), inverse_scale_, t.slack, depth, row);
   const double least = GramPivoting::least_violation * (t.z_norm + t.acceleration_norm);
   Index count = 0;
-  for (int k = 0; k < 8; ++k)
-    if (const Index a = static_cast<Index>(row[k]); depth[k] < -least && place(a) < 0) rows[count++] = a;
+  bool repeats = true;
+  for (int pass = 0; pass < most_passes && repeats && count < 8; ++pass) {
+    if (pass > 0) small_kernels().deepest_known(t.all, t.slack, inverse_scale_, depth, row);
+    repeats = false;
+    for (int k = 0; k < 8 && count < 8; ++k) {
+      const Index a = static_cast<Index>(row[k]);
+      if (!(depth[k] < -least) || place(a) >= 0) continue;
+      t.slack[a] = 0;  // found; all are measured again before they are used
+      if (repeats_one(a, depth[k], rows, depth_of, count)) {
+        repeats = true;
+        continue;
+      }
+      depth_of[count] = depth[k];
+      rows[count++] = a;
+    }
+  }
   return count;
+}
+
+/// Whether row a lies as deep as one of the others and is a multiple of it.
+bool SweptRows::repeats_one(Index a, double depth, const Index* rows, const double* depths,
+                            Index count) const {
+  const double *const U = tableau_.U, *const u = U + a * tableau_.n;
+  for (Index k = 0; k < count; ++k)
+    if (are_alike(depths[k], depth) && is_multiple(tableau_.n, u, U + rows[k] * tableau_.n)) return true;
+  return false;
 }
 
 /// Looks at more rows. Where there is no room for them those outside are forgotten. False when there is none
@@ -266,15 +287,15 @@ bool SweptRows::are_independent(std::span<const Index> rows, double part) {
 /// Swept, the column of a row looked at has its coefficients.
 void SweptRows::combine(std::span<const Index> rows) {
   const SmallTableau& t = tableau_;
-  double* into = t.coefficients;
-  for (Index a : rows) {
-    if (const Index p = place(a); p >= 0) {
-      for (Index k = 0; k < t.size; ++k) into[k] = t.swept[p * t.stride + t.place[k]];
-    } else {
-      find_dual_rows();
-      dense_kernels().combine_runs(t.n, padded(t.size), dual_, t.U + a * t.n, into);
-    }
-    into += padded(t.size);
+  if (std::any_of(rows.begin(), rows.end(), [&](Index a) { return place(a) < 0; })) {
+    find_dual_rows();
+    for (Index k = 0; k < t.size; k += 8)
+      dense_kernels().gram(t.n, t.pack, dual_ + k * t.n, t.coefficients + 8 * k, 8);
+    return;
+  }
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    const double* const column = t.swept + place(rows[l]) * t.stride;
+    for (Index k = 0; k < t.size; ++k) t.coefficients[8 * k + static_cast<Index>(l)] = column[t.place[k]];
   }
 }
 

@@ -51,6 +51,7 @@ class SweptRows final : public GramWorkingSet {
   bool take_in(const Index* rows, Index count);
   bool settle_all();
   Index fresh_violated_rows(Index* rows);
+  bool repeats_one(Index a, double depth, const Index* rows, const double* depths, Index count) const;
   bool looks_at_all() const { return tableau_.slack == tableau_.slack_at; }
   Index place(Index a) const { return looks_at_all() ? a : place_[a]; }
   void measure_slacks_of_all();
@@ -60,7 +61,8 @@ class SweptRows final : public GramWorkingSet {
   const NearestPointProblem& problem_;
   SmallTableau& tableau_;
   double *inverse_scale_ = nullptr,
-         zeroed_ = 0;       ///< zeroed_: the multipliers of weak rows, times their lengths
+         zeroed_ = 0,       ///< the multipliers of weak rows, times their lengths
+      squares_ = 0;         ///< the sum of the squares of `row_scale`, where rows are many
   Index* place_ = nullptr;  ///< of a row, -1 for one not looked at; where rows are many
   Index sweeps_ = 0, dual_count_ = 0, dual_of_[SmallTableau::most_coordinates];  ///< rows that dual_ is of
   alignas(64) double dual_[SmallTableau::most_coordinates * SmallTableau::most_coordinates];
