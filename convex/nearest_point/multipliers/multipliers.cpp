@@ -220,12 +220,11 @@ Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
   return solution;
 }
 
-}  // namespace
-
-Multipliers multipliers(const NearestPointProblem& problem, const Solution& given, double tolerance,
-                        bool want_ranges) {
+/// The multipliers over the rows `tight`.
+Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& given,
+                           const std::vector<Index>& tight, double tolerance, bool want_ranges) {
   Multipliers found;
-  found.tight = tight_rows(problem, given, tolerance);
+  found.tight = tight;
   Solution solution = off_open_rows(given, found.tight);
   auto groups = dependences(problem, solution.basis, found.tight);
   // A point may be right and the multipliers that led to it not: those of Delassus' rule, where it hits.
@@ -286,6 +285,43 @@ Multipliers multipliers(const NearestPointProblem& problem, const Solution& give
     return std::isnan(range.low) || std::isnan(range.high);
   });
   if ((want_ranges && are_found) || found.unique) found.ranges = std::move(ranges);
+  return found;
+}
+
+/// Of the rows `tight` those that hold: whose slack is no more than the error bound and rounding make of 0.
+std::vector<Index> rows_that_hold(const NearestPointProblem& problem, const Solution& solution,
+                                  const std::vector<Index>& tight) {
+  constexpr double roundings = 16 * unit_roundoff;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
+  const std::vector<bool> basis = marked(problem.rows(), solution.basis);
+  const Vector length = dual_lengths(problem, tight), size = solution.q.cwiseAbs();
+  std::vector<Index> rows;
+  for (Index a : tight)
+    if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
+        solution.lambda[a] != 0 ||
+        solution.slack[a] <= length[a] * solution.error_bound +
+                                 roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, size)))
+      rows.push_back(a);
+  return rows;
+}
+
+}  // namespace
+
+Multipliers multipliers(const NearestPointProblem& problem, const Solution& given, double tolerance,
+                        bool want_ranges) {
+  Multipliers found =
+      multipliers_of(problem, given, tight_rows(problem, given, tolerance), tolerance, want_ranges);
+  if (problem.radii) return found;
+  // A row that opens by less than the tolerance counts as tight, but where a multiplier on it would break
+  // lambda_a (u_a·q - s_a) = 0 it has none.
+  const std::vector<Index> holding = rows_that_hold(problem, given, found.tight);
+  const std::vector<bool> holds = marked(problem.rows(), holding);
+  if (std::any_of(found.tight.begin(), found.tight.end(),
+                  [&](Index a) { return !holds[static_cast<std::size_t>(a)] && found.least_norm[a] != 0; })) {
+    std::vector<Index> tight = std::move(found.tight);
+    found = multipliers_of(problem, given, holding, tolerance, want_ranges);
+    found.tight = std::move(tight);
+  }
   return found;
 }
 

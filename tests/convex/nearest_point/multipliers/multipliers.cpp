@@ -278,3 +278,20 @@ TEST_CASE("thousands of contacts through one point have multipliers of least nor
     if (lambda[a] == 0) CHECK(U.row(a).dot(y) <= 1e-13 * of_held.norm());
   }
 }
+
+TEST_CASE("a row that opens by less than the tolerance takes no multiplier from those that hold") {
+  // Masses 1e23 apart: q = (1, -3, -1), and c_3 opens by 1, which is 1e-12 of its scale.
+  RowMatrix U(7, 3);
+  U << 1, 0, -2, 3, 0, 0, -3, 0, 3, 0, 1, 2, 0, 2, 0, 1, 0, 0, 2, 0, 0;
+  const NearestPointProblem problem{convex::Metric::diagonal(Vector{{1e10, 1, 1e-13}}),
+                                    Vector{{6, -9, 6}},
+                                    convex::ConstraintRows(U),
+                                    Vector{{3, 3, -6, -6, -6, 0, 2}},
+                                    {}};
+  const convex::Solution found = convex::find_method("auto")->solve(problem, {});
+  const Multipliers all = convex::multipliers(problem, found, tolerance, true);
+  CHECK(all.least_norm[3] == 0);
+  CHECK(all.least_norm[4] == doctest::Approx(3));
+  CHECK((*all.ranges)[3].high == 0);
+  CHECK((*all.ranges)[4].low == doctest::Approx(3));
+}
