@@ -76,21 +76,33 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
     return found;
   }
 
+  // A contact that opens, however little beside the largest force, does not persist.
+  std::vector<bool> opens(all.size(), true);
+  for (const Index a : convex::tight_rows(problem, truth, tolerance))
+    opens[static_cast<std::size_t>(a)] = false;
+  const auto persist = [&](const std::vector<Index>& rows) {
+    return std::none_of(rows.begin(), rows.end(),
+                        [&](Index a) { return opens[static_cast<std::size_t>(a)]; });
+  };
   const convex::Multipliers set = convex::multipliers(classical, solution, tolerance, false);
   found.two_sided = {true, solution.q, set.least_norm, set.unique};
   // Some two-sided multipliers are >= 0 if and only if the two-sided motion is the true one: (2), (7)-(9)
   // then hold.
-  found.accepted = same(solution.q);
+  found.accepted = same(solution.q) && persist(all);
 
   const Vector length = convex::dual_lengths(problem, all);
   std::vector<bool> two_sided(all.size(), false);
   for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
   const double push = std::max(
       scale, set.least_norm.size() > 0 ? set.least_norm.cwiseAbs().cwiseProduct(length).maxCoeff() : 0.0);
+  // Below 0 by more than its rounding, however little beside the largest force.
+  constexpr double rounding_of_forces = 0x1p-44;
+  const double least = set.unique
+                           ? std::min(tolerance * push, solution.error_bound + rounding_of_forces * push)
+                           : tolerance * push;
   std::vector<Index> kept;
   for (Index a : all) {
-    const bool negative =
-        !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -tolerance * push;
+    const bool negative = !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -least;
     (negative ? found.negative : kept).push_back(a);
   }
   if (found.accepted || !set.unique) return found;
@@ -98,7 +110,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;
   // What is not solved is no truth to judge the rule by.
   if (truth.status == convex::Status::solved)
-    found.drop_negative_is_right = has_answer(dropped) && same(dropped.q);
+    found.drop_negative_is_right = has_answer(dropped) && same(dropped.q) && persist(kept);
   return found;
 }
 

@@ -146,3 +146,34 @@ TEST_CASE("what the error bound leaves open is no reason to reject the hypothesi
   CHECK(found.primal.error_bound >= found.primal.acceleration_norm);
   CHECK(found.hypothesis.accepted);
 }
+
+TEST_CASE("a weight of 1 beside a press of 1e12 presses, and what lifts with 1 there opens") {
+  const auto beside_press = [](double force) {
+    const Matrix A{{1, 1e-3}, {1e-3, 1}};
+    return mechanics::solve({convex::Metric::dense(A),
+                             Vector{{-1e12, force}},
+                             convex::ConstraintRows(RowMatrix::Identity(2, 2)),
+                             Vector::Zero(2),
+                             {}});
+  };
+  const mechanics::GaussSolution weight = beside_press(-1), none = beside_press(0), lift = beside_press(1);
+  CHECK(weight.touching.empty());
+  CHECK(weight.hypothesis.accepted);
+  CHECK(none.touching == std::vector<Index>{1});
+  CHECK(none.hypothesis.accepted);
+  CHECK_FALSE(lift.hypothesis.accepted);
+  CHECK(lift.hypothesis.negative == std::vector<Index>{1});
+  CHECK(lift.hypothesis.drop_negative_is_right == std::optional<bool>(true));
+}
+
+TEST_CASE("what lifts with 1 opens beside a coordinate that moves with 1e12") {
+  const Matrix A{{1, 0x1p-50}, {0x1p-50, 1}};
+  const mechanics::GaussSolution flung = mechanics::solve({convex::Metric::dense(A),
+                                                           Vector{{1e12, 1}},
+                                                           convex::ConstraintRows(RowMatrix::Identity(2, 2)),
+                                                           Vector::Zero(2),
+                                                           {}});
+  CHECK(flung.multipliers.tight.empty());
+  CHECK(flung.touching.empty());
+  CHECK(flung.hypothesis.negative == std::vector<Index>{0, 1});
+}

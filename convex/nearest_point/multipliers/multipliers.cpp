@@ -157,8 +157,17 @@ Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
   // Where z is rounded, its rounding moves slacks; its size moves none.
-  constexpr double rounding_of_z = 0x1p-40;
-  const double moved = problem.radii ? std::min(tolerance, rounding_of_z) * solution.force_norm : 0;
+  constexpr double rounding_of_z = 0x1p-40, rounding_of_q = 0x1p-44;
+  const double size = solution.acceleration_norm;
+  // An entry of q that is large makes a slack open only where the row has it.
+  const double moved = std::min(tolerance * size, solution.error_bound + rounding_of_q * size) +
+                       (problem.radii ? std::min(tolerance, rounding_of_z) * solution.force_norm : 0);
+  const Vector magnitude = solution.q.cwiseAbs();
+  const auto is_small = [&](Index a, double length) {
+    const double of_data = problem.radii ? problem.radii->s[a] + problem.radii->row[a] * size : 0;
+    return solution.slack[a] <= tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
+                                    moved * length + of_data;
+  };
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const std::vector<bool> basis = marked(problem.rows(), solution.basis);
   std::vector<Index> candidates;
@@ -170,8 +179,7 @@ std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution
   std::vector<Index> tight;
   for (Index a = 0; a < problem.rows(); ++a)
     if (two_sided[static_cast<std::size_t>(a)] || basis[static_cast<std::size_t>(a)] ||
-        solution.slack[a] <=
-            tolerance * (std::abs(problem.s[a]) + length[a] * solution.acceleration_norm) + moved * length[a])
+        is_small(a, length[a]))
       tight.push_back(a);
   return tight;
 }

@@ -24,8 +24,8 @@ struct Multipliers {
   std::vector<Index> tight;  ///< rows with u_a·q = s_a within the tolerance, in order
 };
 
-/// Rows with |u_a·q - s_a| <= tolerance (|s_a| + ||u_a||_(A⁻¹) ||q||_A) or, where z is rounded,
-/// within what that makes of a slack; and the two-sided ones.
+/// Rows with |u_a·q - s_a| <= tolerance (|s_a| + Σ_i |u_ai q_i|), or within what the error bound of q, up to
+/// the tolerance of ||q||_A, and the rounding of the data make of a slack; and the two-sided ones.
 std::vector<Index> tight_rows(const NearestPointProblem&, const Solution&, double tolerance);
 
 /// The dual optima of a solved (or inaccurately solved) problem. `want_ranges`: two linear programs for every
