@@ -152,11 +152,12 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     if (by_entry && slopes_miss(conjugates[0], conjugates[1])) refuse_improper();
     if (const auto other = with_pinned_slopes(f, g, n)) return inf_convolution(*other, g, n);
     if (const auto other = with_pinned_slopes(g, f, n)) return inf_convolution(f, *other, n);
-    if (!conjugates[0].facts().finite && !conjugates[1].facts().finite) try {
-        require_proper(proper_sum(conjugates), n, "inf_convolution");
-      } catch (const InvalidInput&) {
-        refuse_improper();
-      }
+    if (conjugates[0].facts().finite || conjugates[1].facts().finite) return proper_inf_convolution(f, g);
+    try {
+      require_proper(proper_sum(conjugates), n, "inf_convolution");
+    } catch (const InvalidInput&) {
+      refuse_improper();
+    }
     if (!all_of(parts, &Facts::piecewise_quadratic) && falls_without_end(f, g, n)) refuse_improper();
   }
   return proper_inf_convolution(f, g);

@@ -203,7 +203,8 @@ Search search(const Function& f, const Vector& v, const std::optional<Vector>& s
 Value supremum(const Function& f, const Vector& v) { return search(f, v, std::nullopt).value; }
 
 bool grows_without_end(const Function& f, const Vector& v) {
-  const WorkLimit question;
+  constexpr double part = 0.3;  // it is asked before the question itself
+  const WorkLimit question(part);
   return search(f, v, std::nullopt).growing;
 }
 

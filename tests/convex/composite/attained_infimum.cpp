@@ -1,6 +1,7 @@
 // Infima that are not attained: the functions that they are come out all the same.
 #include <doctest/doctest.h>
 
+#include "convex/composite/receding_directions.hpp"
 #include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
@@ -39,4 +40,16 @@ TEST_CASE("entries that an infimum moves far out leave the function of the other
     CHECK(std::abs(x[2] - truth) <= 1e-10);
   }
   CHECK(f.evaluate(Vector{{-1, 5, 2}}).value == doctest::Approx(0.5).epsilon(1e-10));
+}
+
+TEST_CASE("where quadratics hold all that is curved still, no program looks for a way far out") {
+  for (const char* text :
+       {"inf_convolution(pointwise_max(inverse_power(1), squared_norm2(2)), power(2))",
+        "sum(inverse_power(1), inf_convolution(squared_norm2(1), pointwise_max(exponential(), "
+        "huber(2))))"}) {
+    CAPTURE(std::string(text));
+    const auto form = samples::function(text, 2).node().graph(2, 1);
+    REQUIRE(form);
+    CHECK_FALSE(convex::RecedingDirections(*form).is_within_reach());
+  }
 }
