@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "convex/composite/composite_prox.hpp"
@@ -58,11 +59,21 @@ class ComputedConjugate : public Operation {
       if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
         return {*found, {}};
     if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return by_program(v);
-    const double slope = parts->slope_of(v);
-    const auto form = parts->graph(v.size(), unit_of_slope(slope));
+    const double unit = unit_of_slope(parts->slope_of(v));
+    const auto form = parts->graph(v.size(), unit);
     if (!form) return by_program(v);
     const GraphValue found = convex::evaluate(convex::conjugate(*form), v);
-    return {value_of(found), found.v};
+    const ByProgram in_units{value_of(found), found.v};
+    return unit < 1 ? held_against(in_units, by_program(v)) : in_units;
+  }
+  /// A small v may be the sum of slopes that cancel: units far below theirs hide that a part is missed.
+  static ByProgram held_against(ByProgram found, const ByProgram& plain) {
+    constexpr double roundings = 64;
+    const double apart = std::abs(found.value.value - plain.value.value);
+    const double size = 1 + std::abs(found.value.value) + std::abs(plain.value.value);
+    const double open = found.value.error + plain.value.error + roundings * unit_roundoff * size;
+    if (apart > open) found.value.error = std::max(found.value.error, apart);
+    return found;
   }
 
   Function f_;

@@ -71,7 +71,20 @@ class Distance : public Operation {
   }
 
  private:
-  Prox nearest(const Vector& x) const { return set_.indicator.prox(x, Metric::identity(x.size())); }
+  /// A point of the set is its own nearest, also where the search for one knows less of it.
+  Prox nearest(const Vector& x) const {
+    Prox found = set_.indicator.prox(x, Metric::identity(x.size()));
+    const double membership = membership_tolerance * x.norm();
+    if (found.error_bound <= membership || set_.indicator(x) != 0) return found;
+    Prox own;
+    own.x = x;
+    own.v = Vector::Zero(x.size());
+    own.error_bound = membership;
+    own.route = ProxRoute::iterative;
+    own.method = "a point of the set";
+    own.values.emplace();
+    return own;
+  }
   /// weight times the unit vector away from the set, 0 when the distance is rounding.
   Vector slope(const Vector& away, const Vector& x) const {
     const double length = away.norm();

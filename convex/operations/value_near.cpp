@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
+#include "convex/infinity.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -24,7 +24,7 @@ constexpr double roundings_of_a_formula = 64;
 Vector beyond(const Vector& y, const Vector& lo) {
   Vector next = y;
   for (Index i = 0; i < y.size(); ++i)
-    if (lo[i] != 0) next[i] = std::nextafter(y[i], lo[i] * std::numeric_limits<double>::infinity());
+    if (lo[i] != 0) next[i] = std::nextafter(y[i], lo[i] * infinity);
   return next;
 }
 
@@ -32,9 +32,12 @@ Vector beyond(const Vector& y, const Vector& lo) {
 
 Value value_near(const Function& f, const Vector& y, double size) {
   const Value value = f.evaluate(y);
-  if (!(value.value == std::numeric_limits<double>::infinity()) || !(size > 0)) return value;
-  // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less.
+  if (!(value.value == infinity) || !(size > 0)) return value;
+  // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less. One that rises
+  // there without end, as |p|³/s² at s = 0, is told the better the farther the point is inside.
   const double near = std::min(size, 1.0);
+  Value best = value;
+  double least = infinity;
   for (const double stiff : {stiffest_weight, nearest_point_weight}) {
     const double weight = f.facts().indicator ? 1 : stiff / (near * near);
     if (!std::isfinite(weight) || !(weight > 0) || WorkLimit::passed()) continue;
@@ -45,9 +48,14 @@ Value value_near(const Function& f, const Vector& y, double size) {
     if (!std::isfinite(inside.value)) continue;
     // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
     const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
-    return {inside.value, inside.error + 2 * rise};
+    const Value farther = f.evaluate(2 * nearest.x - y);
+    const double fall = std::isfinite(farther.value) ? std::max(0.0, inside.value - farther.value) : 0;
+    const Value found{inside.value, inside.error + 2 * rise};
+    if (found.error + fall < least) best = found;
+    least = std::min(least, found.error + fall);
+    if (rise + fall == 0) break;
   }
-  return value;
+  return best;
 }
 
 Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {

@@ -259,3 +259,33 @@ TEST_CASE("a value at a point that rounding left outside is that of the edge, no
   const Vector x{{145454546.18181819, 3.76158192263132e-37, 145454545.18181819}};
   CHECK(std::abs(f(x)) <= 1e-20);
 }
+
+TEST_CASE("at a point that rounds the apex of a perspective, its value is that of the apex") {
+  // There |p|³/(3 s²) takes all values above 0.
+  const auto f =
+      samples::function("precompose(tilt(perspective(power(3)), [3,-3]), [[-1,2,3],[3,-2,3]], [0,-2])", 3);
+  const Decomposition split = convex::decompose(f, Vector{{-50, 1, -10}}, Metric::identity(3));
+  CHECK(split.status == Status::solved);
+  CHECK(std::abs(split.f_x) <= 1e-12);
+  CHECK(f.evaluate(split.x.x).error <= 1e-10);
+}
+
+TEST_CASE("the conjugate of a maximum of tilted functions is told at slopes next to 0 as at 0") {
+  const auto g =
+      samples::function(
+          "precompose(tilt(pointwise_max(entropy(), negative_power(0.5)), [2,0]), [[-1],[2]], [1,0])", 1)
+          .conjugate();
+  const Value at_zero = g.evaluate(Vector::Zero(1));
+  for (const double v : {-1e-12, 1e-12, -1e-9, 1e-15}) {
+    CAPTURE(v);
+    CHECK(std::abs(g.evaluate(Vector::Constant(1, v)).value - at_zero.value) <= 1e-11 + std::abs(v));
+  }
+}
+
+TEST_CASE("a point of a flat side of an epigraph is at the distance 0") {
+  const auto f =
+      samples::function("distance(epigraph(scale(squared_distance(box(0,inf), 0.0009765625), 3)), 0.125)", 4);
+  const Vector z{{2, 2, 0, 0}};
+  CHECK(f.evaluate(z).value <= 1e-9);
+  CHECK(convex::decompose(f, z, Metric::identity(4)).status == Status::solved);
+}
