@@ -102,6 +102,7 @@ std::optional<At> at(const Function& f, const Function& g, double t, const Vecto
   if (of_f > 0) terms.push_back(weighted(f, of_f));
   if (of_g > 0) terms.push_back(weighted(g, of_g));
   const Function mean = proper_sum(terms);
+  WorkLimit::count(WorkLimit::of_a_program);
   At found{t, mean, mean.prox(z, W, look), 0, 0, {}};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
@@ -135,7 +136,8 @@ double left(const At& found) { return std::max(std::abs(found.difference), found
 Prox named(const At& at_weight) {
   Prox made = at_weight.prox;
   const Function& mean = at_weight.mean;
-  if (!made.values && mean.facts().piecewise_quadratic)
+  const bool is_one = at_weight.t == 0 || at_weight.t == 1;
+  if (!made.values && (is_one || mean.facts().piecewise_quadratic))
     made.values = {mean.evaluate(made.x), mean.conjugate().evaluate(made.v), 0};
   made = with_values(made, made.values, at_weight.above);
   made.method = "dual of a maximum, " + made.method;

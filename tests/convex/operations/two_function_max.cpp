@@ -2,6 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
+#include "convex/composite/work_limit.hpp"
+#include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 using convex::Function;
@@ -85,4 +89,23 @@ TEST_CASE("where one function is nearly +inf at the other's prox, a small weight
   CHECK(t > 0);
   CHECK(t < 1e-3);
   CHECK((v - of_f - t * (of_g - of_f)).norm() <= 1e-6 * v.norm());
+}
+
+TEST_CASE("the programs that the dual of a maximum asks count as work") {
+  const Function f =
+      samples::function("pointwise_max(quadratic([[1,0],[0,2]], [-3,2]), squared_norm2(0.25))", 2);
+  const convex::WorkLimit question(1e-3);
+  convex::prox_of_two_function_max(convex::parts_of_max(f)[0], convex::parts_of_max(f)[1], Vector{{2, 5}},
+                                   Metric::identity(2));
+  CHECK(convex::WorkLimit::passed());
+}
+
+TEST_CASE("where one of two functions is the maximum, its own conjugate tells that of the maximum") {
+  // The other's epigraph, 1e8 far out, hides 6e-7 of the least entry.
+  const Function f = samples::function("pointwise_max(squared_hinge(), inverse_power(0.5))", 2);
+  const auto W = Metric::diagonal(Vector{{2, 10}});
+  const auto split = convex::decompose(f, Vector{{1e8, -1e8}}, W);
+  CHECK(split.status == convex::Status::solved);
+  const double least = split.x.x[1], slope = 0.5 / (least * std::sqrt(least));
+  CHECK(split.g_y == doctest::Approx(-1 / std::sqrt(least) - slope * least).epsilon(1e-6));
 }
