@@ -19,6 +19,8 @@ constexpr double most_steps = 0x1p36, most_terms = 0x1p16;
 /// Coefficients of an exact sum are fractions with a denominator up to this; doubles tell them apart from
 /// others by `close`. That is a guess: the sum itself is made without rounding.
 constexpr double largest_denominator = 4096, close = 1e-9;
+/// Divided by all numbers up to ten, and by sixteen.
+constexpr double many_denominators = 5040;
 
 /// The nearest whole number, of |x| < 2^51; a call of the library's function takes longer.
 double nearest_whole(double x) {
@@ -85,7 +87,7 @@ SlackOnEdge::SlackOnEdge(const NearestPointProblem& problem, const double* row_s
   const Index room = std::min(problem.dimension(), problem.rows());
   rows_.resize(static_cast<std::size_t>(room));
   coefficients_.resize(static_cast<std::size_t>(room));
-  side_by_side_.resize(static_cast<std::size_t>(9 * room));
+  side_by_side_.resize(static_cast<std::size_t>(9 * room + 8 * problem.dimension()));
   if (problem.U.is_sparse() || problem.rows() == 0) return;
   rows_on_grid_ = is_on_some_grid(problem.U.dense().size(), problem.U.dense().data());
 }
@@ -163,25 +165,28 @@ bool SlackOnEdge::shows_that_it_is_none(Index p, const Index* held, Index count,
   return std::abs(rest) > zero_coefficient * row_scale_[p] * std::sqrt(problem_.A.diagonal()[0]);
 }
 
-/// Whole coefficients are tried for all rows at once, where sums of few rows have no rounding.
+/// Fractions with small denominators are tried for all rows at once, as whole numbers over one that these
+/// divide, where sums of few rows have no rounding.
 void SlackOnEdge::slacks(std::span<const Index> rows, const double* X, const Index* held, Index count,
                          const double* coefficients, std::optional<double>* into) {
   alignas(64) double s[8] = {}, least[8] = {}, size[8], rest[8], load[8];
   for (std::size_t l = 0; l < 8; ++l) size[l] = std::numeric_limits<double>::infinity();
-  double *const whole = side_by_side_.data(), *const alone = whole + 8 * count;
+  const Index n = problem_.dimension();
+  double *const whole = side_by_side_.data(), *const alone = whole + 8 * count, *const all = alone + count;
   if (rows_on_grid_) {
     for (std::size_t l = 0; l < rows.size(); ++l) {
-      s[l] = problem_.s[rows[l]];
-      least[l] = zero_coefficient * row_scale_[rows[l]];
+      s[l] = many_denominators * problem_.s[rows[l]];
+      least[l] = many_denominators * zero_coefficient * row_scale_[rows[l]];
     }
-    std::copy_n(coefficients, 8 * count, whole);
-    dense_kernels().whole_sums(problem_.dimension(), X, s, problem_.U.dense().data(), problem_.s.data(),
-                               count, held, row_scale_, least, close, whole, size, rest, load);
+    for (Index k = 0; k < 8 * count; ++k) whole[k] = many_denominators * coefficients[k];
+    for (Index i = 0; i < 8 * n; ++i) all[i] = many_denominators * X[i];
+    dense_kernels().whole_sums(n, all, s, problem_.U.dense().data(), problem_.s.data(), count, held,
+                               row_scale_, least, close, whole, size, rest, load);
   }
   for (std::size_t l = 0; l < rows.size(); ++l) {
-    const bool is_whole = size[l] <= most_terms;
+    const bool is_whole = size[l] + many_denominators <= most_terms;
     if (is_whole && (rest[l] != 0 || loads_on_grid_)) {
-      into[l] = rest[l] == 0 ? std::optional(load[l]) : std::nullopt;
+      into[l] = rest[l] == 0 ? std::optional(load[l] / many_denominators) : std::nullopt;
       continue;
     }
     for (Index k = 0; k < count; ++k) alone[k] = coefficients[8 * k + static_cast<Index>(l)];
