@@ -50,6 +50,7 @@ bool least_norm_multipliers(const NearestPointProblem& problem, const std::vecto
   const Index m = n + static_cast<Index>(signed_rows.size());
   Vector start(k), s = Vector::Zero(m);
   for (Index j = 0; j < k; ++j) start[j] = lambda[tight[static_cast<std::size_t>(j)]];
+  if (!start.allFinite()) return false;  // a multiplier is beyond doubles
   for (std::size_t j = 0; j < signed_rows.size(); ++j) {
     entries.emplace_back(static_cast<int>(n) + static_cast<int>(j), static_cast<int>(signed_rows[j]), 1.0);
     s[n + static_cast<Index>(j)] = -start[signed_rows[j]];

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include <algorithm>
 #include <random>
 
@@ -135,4 +137,13 @@ TEST_CASE("in a stack whose gaps are written twice each of them may carry all th
     CHECK(std::abs(low) <= 1e-9);
     CHECK(high == doctest::Approx(load * (blocks - 1 - i)));
   }
+}
+
+TEST_CASE("where a multiplier is beyond doubles, none of least norm is claimed") {
+  RowMatrix U(2, 1);
+  U << 5e-324, 1;
+  const NearestPointProblem problem{
+      convex::Metric::identity(1), Vector::Constant(1, -1), convex::ConstraintRows(U), Vector::Zero(2), {0}};
+  Vector lambda{{std::numeric_limits<double>::infinity(), 0}};
+  CHECK_FALSE(convex::least_norm_multipliers(problem, {0, 1}, lambda));
 }
