@@ -24,6 +24,9 @@ class LinearAtom final : public Atom {
   }
   Call call() const override { return call_of("linear", slope_); }
   double value(const Vector& x) const override { return slope_.dot(x); }
+  Value evaluate(const Vector& x) const override {
+    return sum_of_terms(value(x), slope_.cwiseAbs().dot(x.cwiseAbs()));
+  }
   Function conjugate() const override { return Function(point_atom(slope_)); }
   std::optional<Vector> subgradient(const Vector&) const override { return slope_; }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
@@ -48,6 +51,11 @@ class FormAtom final : public Atom {
   Call call() const override { return dense().node().call(); }
   double value(const Vector& x) const override {
     return x.dot(0.5 * (form_.Q * x) + form_.c) + form_.constant;
+  }
+  Value evaluate(const Vector& x) const override {
+    const Vector size = x.cwiseAbs();
+    const double squares = size.dot(Vector(form_.Q.cwiseAbs() * size));
+    return sum_of_terms(value(x), 0.5 * squares + form_.c.cwiseAbs().dot(size) + std::abs(form_.constant));
   }
   Function conjugate() const override { return dense().conjugate(); }
   std::optional<Vector> subgradient(const Vector& x) const override { return Vector(form_.Q * x + form_.c); }

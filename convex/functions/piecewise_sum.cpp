@@ -86,11 +86,16 @@ class PiecewiseNode : public Atom {
   }
   std::optional<Value> constant_beside_entries() const override { return Value{parts_.offset, 0}; }
 
-  double value(const Vector& x) const override {
+  double value(const Vector& x) const override { return evaluate(x).value; }
+  Value evaluate(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();
-    double sum = parts_.offset;
-    for (Index i = 0; i < x.size(); ++i) sum += piece(i)(inside(domain(piece(i)), x[i], size));
-    return sum;
+    double sum = parts_.offset, sizes = std::abs(parts_.offset);
+    for (Index i = 0; i < x.size(); ++i) {
+      const double entry = piece(i)(inside(domain(piece(i)), x[i], size));
+      sum += entry;
+      sizes += std::abs(entry);
+    }
+    return sum_of_terms(sum, sizes);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();

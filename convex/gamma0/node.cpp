@@ -10,13 +10,11 @@ namespace convex::inline gamma0 {
 
 namespace {
 
-constexpr double roundings_of_a_value = 4;
-
 /// An upper bound of a support function. Of one entry it is a weight times |d| on each side: at d = ±1 a
 /// formula has nothing to round, and whether an end of a domain is another's is decided by its last digit.
 double on_direction(const FunctionNode& support, const Vector& d) {
   const Value found = support.evaluate(d);
-  const bool by_formula = found.error <= roundings_of_a_value * unit_roundoff * std::abs(found.value);
+  const bool by_formula = found.error <= sum_of_terms(found.value, std::abs(found.value)).error;
   if (d.size() == 1 && std::abs(d[0]) == 1 && by_formula) return found.value;
   return found.value + found.error;
 }
@@ -25,7 +23,7 @@ double on_direction(const FunctionNode& support, const Vector& d) {
 
 Value FunctionNode::evaluate(const Vector& x) const {
   const double found = value(x);
-  return {found, std::isfinite(found) ? roundings_of_a_value * unit_roundoff * std::abs(found) : 0};
+  return sum_of_terms(found, std::abs(found));
 }
 
 std::optional<Function> FunctionNode::entry(Index) const {

@@ -5,6 +5,15 @@
 #include "convex/vector.hpp"
 
 namespace convex::inline gamma0 {
+namespace {
+
+constexpr double roundings_of_a_sum = 4;
+
+}  // namespace
+
+Value sum_of_terms(double sum, double sizes) {
+  return {sum, std::isfinite(sum) ? roundings_of_a_sum * unit_roundoff * sizes : 0};
+}
 
 Value sum_of(const Value& a, const Value& b) {
   const double sum = a.value + b.value;

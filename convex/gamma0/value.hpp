@@ -9,6 +9,10 @@ struct Value {
   double error = 0;
 };
 
+/// A sum whose terms, of these sizes together, are rounded: it is right to some roundings of them, and where
+/// they cancel that is more than some of its own.
+Value sum_of_terms(double sum, double sizes);
+
 /// a + b, and factor · a, factor > 0, each rounded.
 Value sum_of(const Value& a, const Value& b);
 Value multiple_of(double factor, const Value& a);

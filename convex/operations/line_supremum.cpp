@@ -92,7 +92,7 @@ class Line {
       return true;
     }
     if (at <= best_) ++best_;
-    if (made.value > samples_[best_].value) best_ = at;
+    if (made.value - made.error > samples_[best_].value - samples_[best_].error) best_ = at;
     return true;
   }
 

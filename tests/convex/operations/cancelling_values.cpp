@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/separable_functions.hpp"
 #include "convex/operations/operations.hpp"
+#include "tests/convex/operations/samples.hpp"
 
 /// x log x at a point next to 1 is x log1p(x - 1): of the value itself the rounding of the point, where an
 /// operation makes it, leaves no digit.
@@ -52,4 +54,24 @@ TEST_CASE("the error of a sum over entries is relative to the entries") {
     CHECK(std::abs(found.value - truth) <= found.error);
     CHECK(found.error <= 64 * unit_roundoff * std::abs(std::log(x)));
   }
+}
+
+TEST_CASE("a linear form whose terms cancel is known to roundings of its terms") {
+  for (const double x : {1.7, 1e-200, 1e270 / 7}) {
+    const Vector at{{3 * x, x}};
+    const long double truth = 0.1 * static_cast<long double>(at[0]) - 0.3 * static_cast<long double>(at[1]);
+    const Value found = linear(Vector{{0.1, -0.3}}).evaluate(at);
+    CHECK(std::abs(static_cast<double>(found.value - truth)) <= found.error);
+    CHECK(found.error <= 64 * unit_roundoff * x);
+  }
+}
+
+TEST_CASE("a supremum that is approached far out is not taken from the rounding of values there") {
+  // -f tends to 4 where the slopes 6 and -6 cancel.
+  const Function f =
+      samples::function("precompose(sum(inverse_power(0.5), linear([2,-3,0])), [[3],[2],[1]], [-2,0,3])", 1);
+  const Value found = f.conjugate().evaluate(Vector::Zero(1));
+  CHECK(found.value - found.error <= 4);
+  CHECK(found.value + found.error >= 4 - 1e-12);
+  CHECK(found.value <= 4 + 1e-6);
 }
