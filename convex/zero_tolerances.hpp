@@ -17,6 +17,12 @@ inline constexpr double zero_coefficient = 1e-9;
 /// A slack in doubles that is closer to 0 is computed again in twice the working precision.
 inline constexpr double near_zero = 1e-8;
 
+/// Of sums in doubles that make up Aq - z, or q.
+inline constexpr double zero_in_doubles = 0x1p-44;
+
+/// The same where z was rounded before it came.
+inline constexpr double zero_where_z_is_rounded = 0x1p-40;
+
 /// Rows that are 0 together within their radii alone exclude motions up to so many times the scale: it is how
 /// large an answer may be, not what is dependent (docs/methods/decisions-without-rounding.md).
 inline constexpr double farthest_motion = 1e3;

@@ -225,8 +225,7 @@ void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& rep
 LawReport farkas_laws(const convex::NearestPointProblem& problem, const Vector& w) {
   LawReport report;
   constexpr double tolerance = 1e-12;  // what the contract promises of the weights
-  std::vector<bool> two_sided(static_cast<std::size_t>(problem.rows()), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = convex::marked(problem.rows(), problem.two_sided);
   double wrong_sign = 0;
   for (Index a = 0; a < problem.rows(); ++a)
     if (!two_sided[static_cast<std::size_t>(a)]) wrong_sign = std::max(wrong_sign, -w[a]);

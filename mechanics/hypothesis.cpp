@@ -6,6 +6,7 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace mechanics {
 namespace {
@@ -91,15 +92,13 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   found.accepted = same(solution.q) && persist(all);
 
   const Vector length = convex::dual_lengths(problem, all);
-  std::vector<bool> two_sided(all.size(), false);
-  for (Index a : problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
+  const std::vector<bool> two_sided = convex::marked(problem.rows(), problem.two_sided);
   const double push = std::max(
       scale, set.least_norm.size() > 0 ? set.least_norm.cwiseAbs().cwiseProduct(length).maxCoeff() : 0.0);
   // Below 0 by more than its rounding, however little beside the largest force.
-  constexpr double rounding_of_forces = 0x1p-44;
-  const double least = set.unique
-                           ? std::min(tolerance * push, solution.error_bound + rounding_of_forces * push)
-                           : tolerance * push;
+  const double zero = problem.radii ? convex::zero_where_z_is_rounded : convex::zero_in_doubles;
+  const double least =
+      set.unique ? std::min(tolerance * push, solution.error_bound + zero * push) : tolerance * push;
   std::vector<Index> kept;
   for (Index a : all) {
     const bool negative = !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -least;

@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace mechanics {
 namespace {
 
-/// What sums of forces round, as a part of the largest of them.
-constexpr double rounding_of_sums = 0x1p-44;
+/// What counts as no force beside the largest one.
+double zero_part(const convex::NearestPointProblem& problem) {
+  return problem.radii ? convex::zero_where_z_is_rounded : convex::zero_in_doubles;
+}
 
 /// Rows are looked at one by one up to so many; each look is a solution.
 constexpr std::size_t most_looks = 20;
@@ -19,21 +23,18 @@ constexpr std::size_t most_looks = 20;
 /// Is the acceleration the same without the rows `left_out`, in order?
 bool is_same_without(const std::vector<Index>& left_out, const convex::NearestPointProblem& problem,
                      const convex::Solution& solution) {
-  std::vector<Index> kept;
-  convex::NearestPointProblem other{problem.A, problem.z, problem.U, {}, {}, {}};
+  std::vector<Index> kept, two_sided;
   for (Index a = 0; a < problem.rows(); ++a) {
     if (std::binary_search(left_out.begin(), left_out.end(), a)) continue;
-    if (std::binary_search(problem.two_sided.begin(), problem.two_sided.end(), a))
-      other.two_sided.push_back(static_cast<Index>(kept.size()));
+    if (problem.is_two_sided(a)) two_sided.push_back(static_cast<Index>(kept.size()));
     kept.push_back(a);
   }
-  other.U = problem.U.select(kept);
-  other.s = problem.s(kept);
-  other.radii = convex::select(problem.radii, kept);
-  const convex::Solution found = convex::automatic(other);
+  const convex::Solution found =
+      convex::automatic({problem.A, problem.z, problem.U.select(kept), problem.s(kept), std::move(two_sided),
+                         convex::select(problem.radii, kept)});
   if (found.status != convex::Status::solved) return false;
   const double moved = problem.A.norm(found.q - solution.q);
-  return moved <= solution.error_bound + found.error_bound + rounding_of_sums * solution.acceleration_norm;
+  return moved <= solution.error_bound + found.error_bound + zero_part(problem) * solution.acceleration_norm;
 }
 
 }  // namespace
@@ -55,7 +56,7 @@ std::vector<Index> touching_contacts(const convex::NearestPointProblem& problem,
     if (!multipliers.unique)
       most = multipliers.ranges ? (*multipliers.ranges)[static_cast<std::size_t>(a)].high
                                 : std::numeric_limits<double>::infinity();
-    if (most * length[a] <= std::min(tolerance, rounding_of_sums) * push)
+    if (most * length[a] <= std::min(tolerance, zero_part(problem)) * push)
       found.push_back(a);
     else if (most * length[a] <= tolerance * push)
       weak.push_back(a);

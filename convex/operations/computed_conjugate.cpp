@@ -69,6 +69,7 @@ class ComputedConjugate : public Operation {
   /// A small v may be the sum of slopes that cancel: units far below theirs hide that a part is missed.
   static ByProgram held_against(ByProgram found, const ByProgram& plain) {
     constexpr double roundings = 64;
+    if (std::isfinite(plain.value.value) && !std::isfinite(found.value.value)) return plain;
     const double apart = std::abs(found.value.value - plain.value.value);
     const double size = 1 + std::abs(found.value.value) + std::abs(plain.value.value);
     const double open = found.value.error + plain.value.error + roundings * unit_roundoff * size;

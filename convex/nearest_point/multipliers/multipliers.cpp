@@ -15,6 +15,7 @@
 #include "convex/nearest_point/multipliers/sparse_multipliers.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/zero_tolerances.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {
@@ -54,6 +55,7 @@ void least_norm(const Dependence& rows, const std::vector<bool>& is_free, Vector
   names.insert(names.end(), rows.dependent.begin(), rows.dependent.end());
   Vector start(k + d);
   for (Index j = 0; j < k + d; ++j) start[j] = lambda[names[static_cast<std::size_t>(j)]];
+  if (!start.allFinite()) return;  // a multiplier is beyond doubles
   const auto take = [&](const Vector& best) {
     const double noise = 16 * unit_roundoff * start.cwiseAbs().maxCoeff();
     for (Index j = 0; j < k + d; ++j) {
@@ -156,12 +158,12 @@ Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
 
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
-  // Where z is rounded, its rounding moves slacks; its size moves none.
-  constexpr double rounding_of_z = 0x1p-40, rounding_of_q = 0x1p-44;
   const double size = solution.acceleration_norm;
   // An entry of q that is large makes a slack open only where the row has it.
-  const double moved = std::min(tolerance * size, solution.error_bound + rounding_of_q * size) +
-                       (problem.radii ? std::min(tolerance, rounding_of_z) * solution.force_norm : 0);
+  const double moved =
+      std::min(tolerance * size, solution.error_bound + zero_in_doubles * size) +
+      // Where z is rounded, its rounding moves slacks; its size moves none.
+      (problem.radii ? std::min(tolerance, zero_where_z_is_rounded) * solution.force_norm : 0);
   const Vector magnitude = solution.q.cwiseAbs();
   const auto is_small = [&](Index a, double length) {
     const double of_data = problem.radii ? problem.radii->s[a] + problem.radii->row[a] * size : 0;

@@ -1,8 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "convex/nearest_point/automatic.hpp"
