@@ -138,18 +138,10 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
   }
   const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
   // The dual's cone stands at x_0: what x_0 misses of the contacts moves y.
-  double missed = 0;
-  const TwoSided& two_sided = j.solution.hypothesis.two_sided;
-  double size = j.size;
-  if (two_sided.consistent) {
-    const Vector rest = j.problem.U.times(two_sided.acceleration) - j.problem.s;
-    for (Index a = 0; a < rest.size(); ++a)
-      if (j.length[a] > 0) missed = std::max(missed, std::abs(rest[a]) / j.length[a]);
-    size += j.problem.A.norm(two_sided.acceleration);
-  }
+  const double size = j.size + dual.found->apex_norm;
   const double bound =
       j.error() + force_rounding(j) +
-      condition_of_basis(j) * (std::sqrt(j.steps()) * missed +
+      condition_of_basis(j) * (std::sqrt(j.steps()) * dual.found->apex_missed +
                                roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size);
   report.checks.push_back(
       check_that(std::string("z = x + y, x = A q'' from the primal, y = -R from the dual by ") + dual.how,

@@ -39,10 +39,18 @@ std::vector<Index> all_rows(const NearestPointProblem& problem) {
   return all;
 }
 
-/// From this size on sparse factors are used where the data allow it.
+/// From this size on sparse factors are used where the data allow it. Contradictions, of which nobody asks
+/// for the weights, and what else doubles can tell cost no fractions.
 Solution held_solution(const NearestPointProblem& problem) {
   constexpr Index large = 200;
-  return problem.dimension() >= large ? convex::automatic(problem) : convex::active_set(problem);
+  const auto solve = [&](const convex::Accuracy& accuracy) {
+    return problem.dimension() >= large ? convex::automatic(problem, accuracy)
+                                        : convex::active_set(problem, accuracy);
+  };
+  convex::Accuracy in_doubles;
+  in_doubles.limit = 0;
+  Solution found = solve(in_doubles);
+  return found.status == Status::solved || found.status == Status::infeasible ? found : solve({});
 }
 
 }  // namespace
@@ -104,6 +112,8 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
     const bool negative = !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -least;
     (negative ? found.negative : kept).push_back(a);
   }
+  // Accelerations that are the same within the tolerance may be those of other forces.
+  if (set.unique && !found.negative.empty()) found.accepted = false;
   if (found.accepted || !set.unique) return found;
   const Solution dropped = held_solution(held(problem, kept));
   if (has_answer(dropped)) found.drop_negative_acceleration = dropped.q;

@@ -14,6 +14,9 @@ namespace mechanics {
 struct ReactionFromDual {
   Vector reaction;        ///< R = -y = Σ lambda_a u_a: n
   double difference = 0;  ///< ||R - (A q'' - z)||_(A⁻¹) over max(||q''||_A, ||z||_(A⁻¹)), q'' from the primal
+  /// Of the q_0 that the cone stands at, 0 without one: ||q_0||_A, the rounding of which is R's; and the most
+  /// that it misses a contact by, over that one's length.
+  double apex_norm = 0, apex_missed = 0;
 };
 
 /// Finds q_0 itself where `TwoSided` was read off the primal. None where x_0 does not exist (the rows are

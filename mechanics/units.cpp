@@ -86,7 +86,11 @@ void restore_units(GaussSolution& solution, const Units& units, double tolerance
   solution.hypothesis.two_sided.multipliers *= multiplier;
   if (solution.hypothesis.drop_negative_acceleration)
     *solution.hypothesis.drop_negative_acceleration *= units.acceleration;
-  if (solution.from_dual) solution.from_dual->reaction *= force;
+  if (solution.from_dual) {
+    solution.from_dual->reaction *= force;
+    solution.from_dual->apex_norm *= norm;
+    solution.from_dual->apex_missed *= norm;
+  }
   if (primal.status != Status::solved && primal.status != Status::inaccurate) return;
   if (!primal.q.allFinite() || !primal.lambda.allFinite() || !std::isfinite(primal.acceleration_norm))
     primal.error_bound = std::numeric_limits<double>::infinity();

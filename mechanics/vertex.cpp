@@ -1,11 +1,13 @@
 #include "mechanics/vertex.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/active_set/working_set.hpp"
 #include "convex/nearest_point/cone_projection.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
 
 namespace mechanics {
 namespace {
@@ -13,60 +15,56 @@ namespace {
 using convex::Index;
 using convex::Matrix;
 using convex::NearestPointProblem;
+using convex::unit_roundoff;
 
-/// A rest of this part of (u_p, s_p) is rounding. A row dropped or kept by mistake shows: the reaction found
-/// from the vertex is then not the one of the motion.
-constexpr double rounding = 1e-12;
+/// So many times farther than the problem's own size lies the point whose projection is the vertex: from
+/// there it is, unless the cone is flatter than that.
+constexpr double depth = 0x1p20;
 
-/// (v_a, s_a) as columns, whitened and of length 1, and (0, -1) behind them.
-Matrix homogenised(const NearestPointProblem& problem) {
-  const Index n = problem.dimension(), m = problem.rows();
-  std::vector<Index> all(static_cast<std::size_t>(m));
-  std::iota(all.begin(), all.end(), Index{0});
-  Matrix E = Matrix::Zero(n + 1, m + 1);
-  E.topLeftCorner(n, m) = convex::whitened_rows(problem, all);
-  double unit = 0;  // of the accelerations, so that both parts of a column are alike in size
-  for (Index a = 0; a < m; ++a)
-    if (const double length = E.col(a).norm(); length > 0)
-      unit = std::max(unit, std::abs(problem.s[a]) / length);
-  if (!(unit > 0)) unit = 1;
-  for (Index a = 0; a < m; ++a) {
-    E(n, a) = problem.s[a] / unit;
-    if (const double length = E.col(a).norm(); length > 0) E.col(a) /= length;
+/// A rest of so many roundings of u_p is what finding it leaves; a slack of so many, of its terms, is 0.
+constexpr double rest_roundings = 64 * unit_roundoff;
+
+/// The point of C that is lowest for the sum of the one-sided u_a, each of length 1, where that has one.
+convex::Solution lowest_point(const NearestPointProblem& problem, const Vector& length) {
+  NearestPointProblem deep = problem;
+  Vector sum = Vector::Zero(problem.dimension());
+  double size = problem.A.dual_norm(problem.z);
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (!(length[a] > 0)) continue;
+    size = std::max(size, std::abs(problem.s[a]) / length[a]);
+    if (!problem.is_two_sided(a)) sum += problem.U.row(a) / length[a];
   }
-  E(n, m) = -1;
-  return E;
-}
-
-bool is_implied(const Matrix& E, Index p, const std::vector<Index>& kept,
-                const std::vector<Index>& two_sided) {
-  std::vector<Index> columns, free;
-  for (Index a : kept) {
-    if (a == p) continue;
-    if (std::binary_search(two_sided.begin(), two_sided.end(), a))
-      free.push_back(static_cast<Index>(columns.size()));
-    columns.push_back(a);
-  }
-  columns.push_back(E.cols() - 1);
-  const Matrix others = E(Eigen::all, columns);
-  const auto found = convex::cone_projection(others, E.col(p), free);
-  return found.finished && (found.point - E.col(p)).norm() <= rounding;
+  deep.z -= depth * (size > 0 ? size : 1) * sum;
+  return convex::active_set(deep);
 }
 
 }  // namespace
 
 std::optional<Vector> vertex_acceleration(const NearestPointProblem& problem) {
-  const Matrix E = homogenised(problem);
-  std::vector<Index> kept(static_cast<std::size_t>(problem.rows()));
-  std::iota(kept.begin(), kept.end(), Index{0});
-  for (Index p = 0; p < problem.rows(); ++p)
-    if (!problem.is_two_sided(p) && is_implied(E, p, kept, problem.two_sided)) std::erase(kept, p);
-  NearestPointProblem held{problem.A, problem.z, problem.U.select(kept), problem.s(kept), {}};
-  held.two_sided.resize(kept.size());
-  std::iota(held.two_sided.begin(), held.two_sided.end(), Index{0});
-  convex::Solution solution = convex::active_set(held);
-  if (solution.status != convex::Status::solved) return std::nullopt;
-  return std::move(solution.q);
+  const Index m = problem.rows();
+  std::vector<Index> all(static_cast<std::size_t>(m)), held, free, others;
+  std::iota(all.begin(), all.end(), Index{0});
+  Matrix V = convex::whitened_rows(problem, all);
+  const Vector length = V.colwise().norm();
+  convex::Solution lowest = lowest_point(problem, length);
+  if (lowest.status != convex::Status::solved) return std::nullopt;
+  const convex::DoubleDoubleVector q(lowest.q);
+  const Vector size = lowest.q.cwiseAbs();
+  for (Index a = 0; a < m; ++a) {
+    if (!(length[a] > 0)) continue;
+    V.col(a) /= length[a];
+    const double open = length[a] * lowest.error_bound +
+                        rest_roundings * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, size));
+    const bool holds = problem.is_two_sided(a) || convex::slack(problem, a, q).value() <= open;
+    if (problem.is_two_sided(a)) free.push_back(static_cast<Index>(held.size()));
+    (holds ? held : others).push_back(a);
+  }
+  const Matrix generators = V(Eigen::all, held);
+  for (Index p : others) {
+    const auto found = convex::cone_projection(generators, V.col(p), free);
+    if (!found.finished || !((found.point - V.col(p)).norm() <= rest_roundings)) return std::nullopt;
+  }
+  return std::move(lowest.q);
 }
 
 }  // namespace mechanics

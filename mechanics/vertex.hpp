@@ -9,10 +9,11 @@ namespace mechanics {
 using convex::Vector;
 
 /// q_0 with A q_0 = x_0, where C = {q'' : u_a·q'' >= s_a} is a cone with the vertex x_0 though its equations
-/// contradict each other: a row that the others imply takes no part. A row is implied when (u_p, s_p) = Σ w_a
-/// (u_a, s_a) - (0, t), w_a >= 0 on one-sided rows and t >= 0 (Farkas), to rounding. Such rows are dropped
-/// one after the other, and the equations of the others solved. None when these contradict each other too:
-/// then C is no cone. C must not be empty.
+/// contradict each other, some being redundant. The rows are >= 0 in the directions of such a cone, so that
+/// x_0 is the lowest point of C for their sum, and the nearest one of C to points far enough below. It is the
+/// vertex if each row that it does not hold, p, is implied by those that it does: u_p = Σ w_a u_a with w_a >=
+/// 0 on one-sided rows (Farkas 1902), to rounding. None otherwise: then C is no cone, or one too flat to be
+/// told from a half-space in doubles. C must not be empty.
 std::optional<Vector> vertex_acceleration(const convex::NearestPointProblem&);
 
 }  // namespace mechanics

@@ -218,7 +218,7 @@ std::string dual_text(const SolvedScene& solved) {
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const double difference = solved.solution.from_dual->difference;
   constexpr const char* route = "The reaction found from the dual alone (Moreau 1966, section 5)";
-  if (difference <= agreement)
+  if (difference * scale <= agreement * std::max(scale, solved.solution.from_dual->apex_norm))
     return solved.verbose ? fmt::format("{} agrees to {:.1e}.\n", route, difference) : "";
   // At rest both are roundings, and a part of them says nothing.
   if (difference * scale <= primal.error_bound && primal.status == convex::Status::solved)

@@ -5,6 +5,7 @@
 #include "mechanics/gauss_laws.hpp"
 
 using convex::ConstraintRows;
+using convex::Matrix;
 using convex::Metric;
 using convex::NearestPointProblem;
 using convex::RowMatrix;
@@ -56,4 +57,45 @@ TEST_CASE("the reaction is found by section 5's cone where only redundant contac
   REQUIRE(solution.from_dual);
   CHECK((solution.from_dual->reaction - solution.reaction).norm() <= 1e-12);
   CHECK(mechanics::gauss_laws(corner, solution).all_passed());
+}
+
+TEST_CASE("a row that asks for more than the others by a few hundred roundings is no row to spare") {
+  const NearestPointProblem almost = problem(RowMatrix{{1}, {0.5000000000000284}}, Vector{{3, 1.5}});
+  const auto vertex = mechanics::vertex_acceleration(almost);
+  CHECK((!vertex || (*vertex)[0] == 3));
+  CHECK(mechanics::gauss_laws(almost, mechanics::solve(almost)).all_passed());
+}
+
+TEST_CASE("right answers pass where rows are almost opposite, or the vertex is far beside the acceleration") {
+  const NearestPointProblem scenes[] = {
+      {Metric::dense(Matrix{{5, 4}, {4, 5}}),
+       Vector{{-9, 3}},
+       ConstraintRows(RowMatrix{{3, 0}, {-3.000000000001819, 0}}),
+       Vector{{0, -5e-324}},
+       {}},
+      {Metric::dense(Matrix{{15, 2, -4}, {2, 12, 1}, {-4, 1, 12}}),
+       Vector::Zero(3),
+       ConstraintRows(RowMatrix{{-3, 3, 3}, {-3, 3, 3}, {-1, -1, 3}}),
+       Vector{{0, 0x1p-30, -1}},
+       {}},
+      {Metric::dense(Matrix{{6, -9}, {-9, 19}}),
+       Vector::Zero(2),
+       ConstraintRows(RowMatrix{{1, -1}, {2.9999999999999973, -3}, {-3, 1}}),
+       Vector{{-3, -9, 0}},
+       {2}},
+      {Metric::diagonal(Vector{{1, 11}}),
+       Vector::Zero(2),
+       ConstraintRows(RowMatrix{{-1, 3}, {-0.5, 1.5}, {-2, 1}, {-6, 3}}),
+       Vector{{-3, -1.5, 0, 0x1p-45}},
+       {}}};
+  for (const NearestPointProblem& scene : scenes) {
+    const mechanics::GaussSolution solution = mechanics::solve(scene);
+    CAPTURE(solution.primal.q.transpose());
+    CHECK(solution.primal.status == convex::Status::solved);
+    const convex::LawReport report = mechanics::gauss_laws(scene, solution);
+    CHECK(report.all_passed());
+    bool split = false;
+    for (const convex::Check& check : report.checks) split = split || check.name.rfind("z = x + y", 0) == 0;
+    CHECK(split);
+  }
 }

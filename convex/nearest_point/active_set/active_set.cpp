@@ -39,13 +39,13 @@ class DualActiveSet {
         passed_(two_sided_.size(), false) {}
 
   Solution run(const std::vector<Index>& guess) {
-    if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+    if (!hold_two_sided()) return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
     start(guess);
     const Index limit =
         accuracy_.step_limit > 0 ? accuracy_.step_limit : 100 + 10 * (problem_.rows() + problem_.dimension());
     RefinedPoint refined;
     for (Index round = 0; round < most_rounds + problem_.rows(); ++round) {
-      if (!descend(limit)) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+      if (!descend(limit)) return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
       refined = refine(set_);
       // Should doubles and refinement contradict each other in turn, doubles are trusted less and less.
       if (refined.contraction < 1)
@@ -53,7 +53,8 @@ class DualActiveSet {
       if (!(refined.contraction < 1)) return answer(refined, false);
       if (drop_negative(refined)) continue;
       const Outcome outcome = admit_violated(refined);
-      if (outcome == Outcome::infeasible) return infeasible_answer(problem_, farkas_, set_.scale(), steps_);
+      if (outcome == Outcome::infeasible)
+        return infeasible_answer(problem_, farkas_, set_.scale(), steps_, accuracy_);
       if (outcome == Outcome::unchanged && !let_weak_go(refined)) return answer(refined, true);
     }
     set_.solve();

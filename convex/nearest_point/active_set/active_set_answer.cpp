@@ -80,14 +80,15 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
 }
 
 Solution infeasible_answer(const NearestPointProblem& problem, const Vector& weights, double scale,
-                           Index steps) {
+                           Index steps, const Accuracy& accuracy) {
   Solution solution;
   solution.method = method;
   solution.steps = steps;
   solution.status = Status::infeasible;
   if (problem.radii) {
     if (!proves_infeasibility(problem, weights, farthest_motion * scale)) solution.status = Status::gave_up;
-  } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem, weights)) {
+  } else if (std::optional<InfeasibilityProof> proof =
+                 infeasibility_proof(problem, weights, accuracy.limit > 0)) {
     solution.farkas = std::move(proof->farkas);
     return solution;
   } else {

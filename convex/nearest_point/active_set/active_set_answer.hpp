@@ -15,7 +15,8 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
                        const Vector& row_scale, double left_outside, const Accuracy& accuracy, Index steps);
 
 /// The answer when rows contradict each other; `infeasible` only if the weights prove it. scale:
-/// max(||q||_A, ||z||_(A⁻¹)).
-Solution infeasible_answer(const NearestPointProblem&, const Vector& weights, double scale, Index steps);
+/// max(||q||_A, ||z||_(A⁻¹)). accuracy.limit = 0: without fractions.
+Solution infeasible_answer(const NearestPointProblem&, const Vector& weights, double scale, Index steps,
+                           const Accuracy&);
 
 }  // namespace convex::inline dual_active_set

@@ -88,7 +88,10 @@ RefinedPoint refine(const WorkingSet& set) {
       return point;
     }
     const bool at_the_end = point.last <= floor && (is_held || pull > previous_pull / 2);
-    if (k > 0 && (at_the_end || point.remaining() <= enough * scale)) break;
+    // Rows that nearly depend on each other share a pull that says little of q: what one of them has too much
+    // is corrected as long as that shrinks.
+    const bool is_told = pull <= unit_roundoff * scale || pull > previous_pull / 2;
+    if (k > 0 && is_told && (at_the_end || point.remaining() <= enough * scale)) break;
     previous = point.last;
   }
   if (point.contraction < slowest_contraction) {

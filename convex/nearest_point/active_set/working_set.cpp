@@ -1,5 +1,7 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 
+#include "convex/infinity.hpp"
+
 namespace convex::inline dual_active_set {
 namespace {
 
@@ -54,9 +56,11 @@ void WorkingSet::split(Index p, Split& into) {
 
 void WorkingSet::sharpen(Index p, Split& split) {
   DoubleDoubleVector r(Vector(split.coefficients));
-  constexpr int passes =
-      3;  // each multiplies the error of r by the condition of W times u; then W is near singular
-  for (int pass = 0; pass < passes; ++pass) {
+  // Each pass multiplies the error of r by the condition of W times u: until nothing is left of it in twice
+  // the precision, or it shrinks no more, as W is singular to rounding.
+  constexpr int least_passes = 2, most_passes = 16;
+  double moved = infinity;
+  for (int pass = 0; pass < most_passes; ++pass) {
     DoubleDoubleVector rest(problem_.U.row(p));
     for (Index k = 0; k < size(); ++k)
       problem_.U.add_multiple(rows_[static_cast<std::size_t>(k)], {-r.hi[k], -r.lo[k]}, rest);
@@ -66,6 +70,13 @@ void WorkingSet::sharpen(Index p, Split& split) {
     Vector step = correction.head(size());
     factor_.solve_upper(step);
     r.add(step);
+    double moves = 0, size_of_r = split.length;
+    for (Index k = 0; k < size(); ++k) {
+      moves = std::max(moves, std::abs(step[k]) * factor_.length(k));
+      size_of_r = std::max(size_of_r, std::abs(r.hi[k]) * factor_.length(k));
+    }
+    if (pass + 1 >= least_passes && (moves <= smallest_rest * size_of_r || !(moves < moved / 2))) break;
+    moved = moves;
   }
   split.coefficients = r.hi;
   for (Index k = 0; k < size(); ++k) split.magnitude += std::abs(r.hi[k]) * factor_.length(k);

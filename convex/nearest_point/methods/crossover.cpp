@@ -114,7 +114,7 @@ class Judge {
       proof = *std::move(circuit);
     else if (!proves_infeasibility(problem_, proof, reach))
       return std::nullopt;
-    Solution solution = infeasible_answer(problem_, proof, scale, candidate_.steps);
+    Solution solution = infeasible_answer(problem_, proof, scale, candidate_.steps, accuracy_);
     solution.method = candidate_.method;
     solution.force_norm = z_norm_;
     if (solution.status != Status::infeasible)

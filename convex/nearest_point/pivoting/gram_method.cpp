@@ -40,7 +40,8 @@ GramOutcome solve_by_gram_matrix(const NearestPointProblem& problem, const Accur
     if (GramSolve(set).solve(found.rows, accuracy, solution) && solution.status == Status::solved)
       return true;
     const std::optional<Vector> weights = set.contradiction();
-    if (weights) solution = infeasible_answer(problem, *weights, set.point().norm(), set.point().steps);
+    if (weights)
+      solution = infeasible_answer(problem, *weights, set.point().norm(), set.point().steps, accuracy);
     found.rows = set.one_sided_rows_held();
     return weights && solution.status == Status::infeasible;
   };

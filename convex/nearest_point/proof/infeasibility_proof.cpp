@@ -128,12 +128,14 @@ std::optional<InfeasibilityProof> by_enclosure(const Support& rows, Index m) {
 
 }  // namespace
 
-std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem& problem, const Vector& w) {
+std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem& problem, const Vector& w,
+                                                      bool in_fractions) {
   if (w.size() != problem.rows() || !w.allFinite()) return std::nullopt;
   const Support rows = support(problem, w);
   if (rows.rows.empty()) return std::nullopt;
   if (auto proof = by_whole_numbers(rows, w.size())) return proof;
-  if (static_cast<Index>(rows.rows.size()) <= most_exact_rows) return by_fractions(rows, w.size());
+  if (in_fractions && static_cast<Index>(rows.rows.size()) <= most_exact_rows)
+    return by_fractions(rows, w.size());
   return by_enclosure(rows, w.size());
 }
 

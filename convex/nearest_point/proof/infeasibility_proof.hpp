@@ -19,8 +19,9 @@ struct InfeasibilityProof {
 /// so that it takes as long as these are many, not as the problem is large. Their one dependence is found in
 /// fractions while they are at most `most_exact_rows`; else, when they are one more than the coordinates that
 /// they touch, it exists whatever the roundings, and its signs are proved in doubles. None where neither
-/// applies.
-std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem&, const Vector& w);
+/// applies. in_fractions = false: whole numbers and doubles are all that is tried.
+std::optional<InfeasibilityProof> infeasibility_proof(const NearestPointProblem&, const Vector& w,
+                                                      bool in_fractions = true);
 
 inline constexpr Index most_exact_rows = 250;
 
