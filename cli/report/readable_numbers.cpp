@@ -42,7 +42,9 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
   const Scene& scene = solved.scene;
   const convex::Metric& A = scene.problem.A;
   const convex::Solution& primal = solved.solution.primal;
-  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
+  // Beside a size that is beyond doubles nothing is known to be rounding.
+  const double largest_size = std::max(primal.acceleration_norm, primal.force_norm),
+               scale = std::isfinite(largest_size) ? largest_size : 0;
   const double error = std::clamp(primal.error_bound, rounding * scale, coarsest * scale);
   const Index n = std::min(shown, A.dimension());
   const auto m = std::min(shown, static_cast<Index>(scene.constraints.size()));
@@ -52,7 +54,8 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
                        {},
                        solved.second_rates.head(m),
                        scene.over_constraints(solved.solution.multipliers.least_norm).head(m),
-                       std::vector<std::optional<double>>(static_cast<std::size_t>(m))};
+                       std::vector<std::optional<double>>(static_cast<std::size_t>(m)),
+                       {}};
   const double largest = primal.q.size() > 0 ? primal.q.cwiseAbs().maxCoeff() : 0;
   for (Index i = 0; i < n; ++i) {
     if (std::abs(read.reaction[i]) <= error * std::sqrt(A.diagonal()[i])) read.reaction[i] = 0;
@@ -79,6 +82,16 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
     read.second_rates[a] = std::abs(read.second_rates[a]) <= off
                                ? 0
                                : without_rounding(read.second_rates[a], std::abs(s[a]) + length * scale);
+  }
+  const convex::Multipliers& multipliers = solved.solution.multipliers;
+  if (multipliers.ranges && !multipliers.unique) {
+    read.ranges = *multipliers.ranges;
+    for (const Index row : multipliers.tight) {
+      const double length = A.dual_norm(scene.problem.U.row(row));
+      convex::Interval& range = read.ranges[static_cast<std::size_t>(row)];
+      for (double* end : {&range.low, &range.high})
+        if (std::abs(*end) * length <= error) *end = 0;
+    }
   }
   if (scene.rates) {
     read.f = scene.rates->f.head(m);

@@ -12,6 +12,8 @@ struct ReadableNumbers {
   convex::Vector acceleration, reaction;       ///< the first `shown` coordinates
   convex::Vector f, df, second_rates, lambda;  ///< the first `shown` constraints; f, df of a system
   std::vector<std::optional<double>> forces;  ///< |lambda_a ∂f_a/∂q| where `force_per_multiplier` has one
+  std::vector<convex::Interval>
+      ranges;  ///< of the multipliers of all contacts, where they are not unique and known
 };
 
 /// Of an answer there is.

@@ -80,20 +80,20 @@ std::string coordinate_table(const SolvedScene& solved, const ReadableNumbers& r
   return table.text() + cut(solved.scene.coordinates.size(), "coordinates") + "\n";
 }
 
-std::string uniqueness_text(const SolvedScene& solved) {
+std::string uniqueness_text(const SolvedScene& solved, const ReadableNumbers& read) {
   const convex::Multipliers& multipliers = solved.solution.multipliers;
   if (solved.multipliers_are_unique()) return "";
   std::string text =
       "The multipliers are not unique (the acceleration and the reaction are); shown are those of least "
       "norm.\n";
-  if (!multipliers.ranges) return text;
+  if (read.ranges.empty()) return text;
   std::vector<std::string> parts;
   for (Index row : multipliers.tight) {
     const auto k = static_cast<std::size_t>(row);
     if (k < solved.scene.contacts.size() &&
         solved.is_weighed(static_cast<std::size_t>(solved.scene.contacts[k])))
       continue;
-    const convex::Interval range = (*multipliers.ranges)[static_cast<std::size_t>(row)];
+    const convex::Interval range = read.ranges[static_cast<std::size_t>(row)];
     parts.push_back(fmt::format("{} in [{}, {}]", solved.scene.contact_name(row), number_text(range.low),
                                 number_text(range.high)));
   }
@@ -271,8 +271,10 @@ std::string accuracy_text(const SolvedScene& solved) {
   else if (solved.scene.written && !(solved.text != nullptr && is_proved(solved.certificate)))
     accuracy += ", for A, z, U, s as evaluated";
   if (primal.status != convex::Status::solved)
-    return fmt::format("NOT solved to the accuracy that was asked for; {} reached: {}.\n", primal.method,
-                       accuracy);
+    return fmt::format(
+        "NOT solved to the accuracy that was asked for; {} reached: {}.{}\n", primal.method, accuracy,
+        primal.lambda.allFinite() ? ""
+                                  : " A multiplier is beyond what doubles hold: other units bring it back.");
   return fmt::format("Solved{}{}: {}.\n",
                      solved.verbose || solved.asked_method ? " by " + methods_that_ran(solved) : "",
                      primal.polished ? ", polished" : "", accuracy);
@@ -308,7 +310,7 @@ std::string solve_text(const SolvedScene& solved) {
   const bool tells_how = solved.verbose || solved.solution.primal.status != convex::Status::solved;
   const bool tells_hypothesis = solved.verbose || !solved.solution.hypothesis.accepted;
   return text + verdict_line(solved) + constraint_table(solved, read) + coordinate_table(solved, read) +
-         added_rows_text(solved) + touching_text(solved) + uniqueness_text(solved) +
+         added_rows_text(solved) + touching_text(solved) + uniqueness_text(solved, read) +
          (tells_hypothesis ? hypothesis_text(solved) : "") + (tells_how ? model_text(solved) : "") +
          left_open_text(solved) + dual_text(solved) + accuracy_text(solved) + from_text_text(solved) +
          sensitivity_text(solved);

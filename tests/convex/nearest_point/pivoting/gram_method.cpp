@@ -1,5 +1,6 @@
-#include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
+
+#include "tests/convex/nearest_point/pivoting/gram_answer.hpp"
 
 #include <doctest/doctest.h>
 
@@ -20,23 +21,6 @@ using convex::Status;
 using convex::Vector;
 using oracles::Difficulty;
 
-namespace {
-
-constexpr double few_roundings = 4e-15;
-
-double scale(const NearestPointProblem& problem, const Vector& x) {
-  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
-}
-
-/// The answer that the Gram matrix gives, where it gives one.
-std::optional<Solution> by_gram_matrix(const NearestPointProblem& problem,
-                                       const std::vector<Index>& guess = {}) {
-  convex::GramOutcome found = convex::solve_by_gram_matrix(problem, {}, guess);
-  return found.is_answer ? std::optional(std::move(found.solution)) : std::nullopt;
-}
-
-}  // namespace
-
 TEST_CASE("where the Gram matrix answers, it is right to rounding, and its bound holds") {
   int answered = 0;
   for (Difficulty difficulty :
@@ -47,16 +31,16 @@ TEST_CASE("where the Gram matrix answers, it is right to rounding, and its bound
       CAPTURE(static_cast<int>(difficulty));
       const Index n = 1 + static_cast<Index>((5 * seed) % 37), m = 1 + static_cast<Index>((11 * seed) % 71);
       const auto [problem, truth] = oracles::planted_problem(seed, n, m, difficulty);
-      const std::optional<Solution> found = by_gram_matrix(problem);
+      const std::optional<Solution> found = gram_matrix::answer(problem);
       if (!found) continue;
       ++answered;
       CHECK(found->status == Status::solved);
-      const double error = problem.A.norm(found->q - truth), unit = scale(problem, truth);
-      CHECK(error <= few_roundings * unit);
-      CHECK(error <= found->error_bound + few_roundings * unit);
-      CHECK(found->residuals.stationarity <= few_roundings);
-      CHECK(found->residuals.feasibility <= few_roundings);
-      CHECK(found->residuals.complementarity <= few_roundings);
+      const double error = problem.A.norm(found->q - truth), unit = gram_matrix::scale(problem, truth);
+      CHECK(error <= gram_matrix::few_roundings * unit);
+      CHECK(error <= found->error_bound + gram_matrix::few_roundings * unit);
+      CHECK(found->residuals.stationarity <= gram_matrix::few_roundings);
+      CHECK(found->residuals.feasibility <= gram_matrix::few_roundings);
+      CHECK(found->residuals.complementarity <= gram_matrix::few_roundings);
       CHECK(found->lambda.minCoeff() >=
             (difficulty == Difficulty::two_sided_rows ? found->lambda.minCoeff() : 0));
     }
@@ -67,9 +51,9 @@ TEST_CASE("the Gram matrix settles well-posed problems, whatever the rows it beg
   const convex::GalleryFamily& family = *convex::find_family("well-posed");
   for (const Index n : {4, 9, 17, 33, 60}) {
     const convex::GalleryInstance instance = convex::gallery_instance(family, n, family.usual);
-    const std::optional<Solution> cold = by_gram_matrix(instance.problem);
+    const std::optional<Solution> cold = gram_matrix::answer(instance.problem);
     REQUIRE(cold.has_value());
-    const std::optional<Solution> warm = by_gram_matrix(instance.problem, cold->basis);
+    const std::optional<Solution> warm = gram_matrix::answer(instance.problem, cold->basis);
     REQUIRE(warm.has_value());
     CHECK(warm->q == cold->q);
     CHECK(warm->steps <= cold->steps);
@@ -81,9 +65,10 @@ TEST_CASE("what the Gram matrix answers of nearly parallel or opposite rows is r
     const convex::GalleryFamily& family = *convex::find_family(name);
     for (const double angle : {1e-4, 1e-8, 1e-12}) {
       const convex::GalleryInstance instance = convex::gallery_instance(family, 12, angle);
-      const std::optional<Solution> found = by_gram_matrix(instance.problem);
+      const std::optional<Solution> found = gram_matrix::answer(instance.problem);
       if (found)
-        CHECK((found->q - instance.solution.hi).norm() <= few_roundings * instance.solution.hi.norm());
+        CHECK((found->q - instance.solution.hi).norm() <=
+              gram_matrix::few_roundings * instance.solution.hi.norm());
     }
   }
 }
@@ -94,7 +79,7 @@ TEST_CASE("the Gram matrix tells of rows that contradict each other, with a proo
   for (const double margin : family.ladder)
     for (const std::uint32_t seed : {1U, 2U, 3U}) {
       const NearestPointProblem problem = convex::gallery_instance(family, 12, margin, seed).problem;
-      const std::optional<Solution> found = by_gram_matrix(problem);
+      const std::optional<Solution> found = gram_matrix::answer(problem);
       if (!found) continue;  // left to the orthogonal factor
       CHECK(found->status == Status::infeasible);
       CHECK(convex::infeasibility_proof(problem, found->farkas).has_value());

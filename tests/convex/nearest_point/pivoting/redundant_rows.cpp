@@ -1,3 +1,5 @@
+#include "tests/convex/nearest_point/pivoting/gram_answer.hpp"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -7,7 +9,6 @@
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/gallery/gallery.hpp"
 #include "convex/nearest_point/methods.hpp"
-#include "convex/nearest_point/pivoting/gram_method.hpp"
 
 using convex::ConstraintRows;
 using convex::Index;
@@ -19,19 +20,6 @@ using convex::Status;
 using convex::Vector;
 
 namespace {
-
-constexpr double few_roundings = 4e-15;
-
-double scale(const NearestPointProblem& problem, const Vector& x) {
-  return std::max({problem.A.norm(x), problem.A.dual_norm(problem.z), 1e-300});
-}
-
-/// The answer that the Gram matrix gives, where it gives one.
-std::optional<Solution> by_gram_matrix(const NearestPointProblem& problem,
-                                       const std::vector<Index>& guess = {}) {
-  convex::GramOutcome found = convex::solve_by_gram_matrix(problem, {}, guess);
-  return found.is_answer ? std::optional(std::move(found.solution)) : std::nullopt;
-}
 
 Solution exact(const NearestPointProblem& problem) {
   for (const convex::Method& method : convex::methods())
@@ -81,7 +69,8 @@ TEST_CASE("rows that are sums and multiples of others leave the answer as it is 
     const Solution truth = exact(problem), found = convex::active_set(problem);
     REQUIRE(found.status == truth.status);
     if (truth.status != Status::solved) continue;
-    CHECK(problem.A.norm(found.q - truth.q) <= few_roundings * scale(problem, truth.q));
+    CHECK(problem.A.norm(found.q - truth.q) <=
+          gram_matrix::few_roundings * gram_matrix::scale(problem, truth.q));
   }
 }
 
@@ -91,9 +80,10 @@ TEST_CASE("many rows that are sums and multiples of few leave the answer as it i
     const NearestPointProblem problem = degenerate(seed, 0, 48);
     const Solution truth = exact(problem);
     if (truth.status != Status::solved) continue;
-    const std::optional<Solution> found = by_gram_matrix(problem);
+    const std::optional<Solution> found = gram_matrix::answer(problem);
     REQUIRE(found.has_value());
-    CHECK(problem.A.norm(found->q - truth.q) <= few_roundings * scale(problem, truth.q));
+    CHECK(problem.A.norm(found->q - truth.q) <=
+          gram_matrix::few_roundings * gram_matrix::scale(problem, truth.q));
     CHECK(found->slack.minCoeff() >= 0);
   }
 }
@@ -124,7 +114,8 @@ TEST_CASE("multipliers of rows that just hold, made by rounding alone, are there
       const Solution truth = exact(problem), found = convex::active_set(problem);
       REQUIRE(truth.status == Status::solved);
       REQUIRE(found.status == Status::solved);
-      CHECK(problem.A.norm(found.q - truth.q) <= few_roundings * scale(problem, truth.q));
+      CHECK(problem.A.norm(found.q - truth.q) <=
+            gram_matrix::few_roundings * gram_matrix::scale(problem, truth.q));
       const double length = truth.lambda.maxCoeff();
       for (Index a = 0; a < m; ++a) {
         CHECK((found.lambda[a] > 0) == (truth.lambda[a] > 0));
@@ -141,7 +132,7 @@ TEST_CASE("rows that are sums of others but for an angle below rounding are judg
       const NearestPointProblem problem = degenerate(seed, off);
       const Solution truth = exact(problem), found = convex::active_set(problem);
       if (found.status != Status::solved || truth.status != Status::solved) continue;
-      CHECK(problem.A.norm(found.q - truth.q) <= 1e-9 * scale(problem, truth.q));
+      CHECK(problem.A.norm(found.q - truth.q) <= 1e-9 * gram_matrix::scale(problem, truth.q));
     }
 }
 
@@ -159,13 +150,13 @@ TEST_CASE("repeated rows, sums of rows and many rows to a coordinate are settled
       CAPTURE(seed);
       const convex::GalleryInstance instance =
           convex::gallery_instance(*convex::find_family(family), n, difficulty, seed);
-      const std::optional<Solution> found = by_gram_matrix(instance.problem);
+      const std::optional<Solution> found = gram_matrix::answer(instance.problem);
       REQUIRE(found.has_value());
-      const double unit = scale(instance.problem, instance.solution.hi);
-      CHECK(instance.problem.A.norm(found->q - instance.solution.hi) <= few_roundings * unit);
-      CHECK(found->error_bound <= few_roundings * unit);
+      const double unit = gram_matrix::scale(instance.problem, instance.solution.hi);
+      CHECK(instance.problem.A.norm(found->q - instance.solution.hi) <= gram_matrix::few_roundings * unit);
+      CHECK(found->error_bound <= gram_matrix::few_roundings * unit);
       CHECK(found->slack.minCoeff() >= 0);
       CHECK(found->lambda.minCoeff() >= 0);
-      CHECK(found->residuals.feasibility <= few_roundings);
+      CHECK(found->residuals.feasibility <= gram_matrix::few_roundings);
     }
 }
