@@ -159,13 +159,6 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
   }
 
   MOREAU_INLINE Pack size(const Pack& x) { return P::larger(x, P::times(x, -1)); }
-  MOREAU_INLINE double largest(const Pack& x) {
-    double most[8];
-    P::store(most, x);
-    for (int half = 4; half > 0; half /= 2)
-      for (int k = 0; k < half; ++k) most[k] = most[k] > most[k + half] ? most[k] : most[k + half];
-    return most[0];
-  }
 
   MOREAU_INLINE void side_by_side(Index n, Index m, const double* U, const Index* row, Index count,
                                   double* X) {
@@ -240,14 +233,14 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       for (Index k = 0; k < count; ++k) take(row[k], c[k]);
       most = P::larger(most, size(sum));
     }
-    return largest(most) == 0;
+    return P::largest(most) == 0;
   }
 
   MOREAU_INLINE double largest_size(Index n, const double* x) {
     Pack most{};
     Index i = 0;
     for (; i + 8 <= n; i += 8) most = P::larger(most, size(P::load(x + i)));
-    double found = largest(most);
+    double found = P::largest(most);
     for (; i < n; ++i) found = found > std::abs(x[i]) ? found : std::abs(x[i]);
     return found;
   }
@@ -259,7 +252,7 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       const Pack now = P::load(x + i);
       most = P::larger(most, size(P::minus(P::plus(P::plus(now, shift), -shift), now)));
     }
-    bool all = largest(most) == 0;
+    bool all = P::largest(most) == 0;
     for (; i < n && all; ++i) all = (x[i] + shift) - shift == x[i];
     return all;
   }

@@ -118,13 +118,9 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
 
   /// The place of the largest of `count` entries of x, the first if there are several.
   MOREAU_INLINE Index largest(const double (&x)[SmallTableau::most], Index count) {
-    double top[8], most;
     Pack best = P::load(x);
     for (Index r = 8; r < count; r += 8) best = P::larger(best, P::load(x + r));
-    P::store(top, best);
-    for (int half = 4; half > 0; half /= 2)
-      for (int k = 0; k < half; ++k) top[k] = top[k] > top[k + half] ? top[k] : top[k + half];
-    most = top[0];
+    const double most = P::largest(best);
     Index at = 0;
     while (at < count - 1 && !(x[at] >= most)) ++at;
     return at;
