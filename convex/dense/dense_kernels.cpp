@@ -54,7 +54,7 @@ constexpr DenseKernels table{Compiled<W, &K::factor>::at,
                              Compiled<W, &K::largest_size>::at,
                              Compiled<W, &K::is_on_grid>::at,
                              Compiled<W, &K::is_finite>::at,
-                             Compiled<W, &K::is_symmetric>::at};
+                             Compiled<W, &K::take_symmetric>::at};
 
 const DenseKernels* const tables[] = {&table<2, Kernels<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES

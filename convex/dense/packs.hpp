@@ -100,6 +100,12 @@ struct Packs {
     for (int k = 0; k < parts; ++k) most.part[k] = x.part[k] > y.part[k] ? x.part[k] : y.part[k];
     return most;
   }
+  MOREAU_INLINE Pack size(const Pack& x) {
+    Pack positive;
+    for (int k = 0; k < parts; ++k)
+      positive.part[k] = reinterpret_cast<Part>(reinterpret_cast<Wholes>(x.part[k]) & 0x7fffffffffffffffLL);
+    return positive;
+  }
   MOREAU_INLINE Pack smaller(const Pack& x, const Pack& y) {
     Pack least;
     for (int k = 0; k < parts; ++k) least.part[k] = x.part[k] < y.part[k] ? x.part[k] : y.part[k];

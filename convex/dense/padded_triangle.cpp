@@ -1,6 +1,5 @@
 #include "convex/dense/padded_triangle.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <new>
 #include <utility>
@@ -41,23 +40,11 @@ double* at_line(double* room) {
 }  // namespace
 
 PaddedTriangle::PaddedTriangle(const Matrix& W)
-    : n_(W.rows()), ld_(padded(n_)), room_(take_room(bytes(ld_))), T_(at_line(room_)) {
-  for (Index j = 0; j < n_; ++j) {
-    double* const column = T_ + j * ld_;
-    const double* const from = W.data() + j * n_;
-    if (from + ld_ <= W.data() + W.size())  // the next column begins in the last pack
-      copy_packs(ld_, from, column);
-    else
-      std::copy_n(from, n_, column);
-    for (Index i = n_; i < ld_; ++i) column[i] = 0;
-  }
-  for (Index j = n_; j < ld_; ++j) {
-    fill_packs(ld_, 0, T_ + j * ld_);
-    T_[j * (ld_ + 1)] = 1;
-  }
-}
-
-bool PaddedTriangle::is_exactly_symmetric() const { return dense_kernels().is_symmetric(ld_, T_); }
+    : n_(W.rows()),
+      ld_(padded(n_)),
+      room_(take_room(bytes(ld_))),
+      T_(at_line(room_)),
+      is_exactly_symmetric_(dense_kernels().take_symmetric(n_, ld_, W.data(), T_)) {}
 
 void PaddedTriangle::factor() {
   if (n_ < large) {

@@ -13,7 +13,7 @@ class PaddedTriangle {
  public:
   /// W itself, to be factored.
   explicit PaddedTriangle(const Matrix& W);
-  bool is_exactly_symmetric() const;
+  bool is_exactly_symmetric() const { return is_exactly_symmetric_; }
   void factor();
   ~PaddedTriangle();
   PaddedTriangle(const PaddedTriangle&) = delete;
@@ -28,6 +28,7 @@ class PaddedTriangle {
  private:
   Index n_, ld_;
   double *room_, *T_;
+  bool is_exactly_symmetric_;
 };
 
 }  // namespace convex::inline dense

@@ -157,7 +157,7 @@ struct RowKernels {
     for (; a + 8 <= m; a += 8, U += 8 * n) {
       Pack x[n];
       columns(U, x);
-      least = P::smaller(P::larger(x[0], P::times(x[0], -1)), least);
+      least = P::smaller(P::size(x[0]), least);
     }
     for (; a < m; ++a, U += n)
       if (*U == 0) return false;

@@ -40,6 +40,7 @@ struct SmallTableau : GramPoint {
   bool is_weak[most];             ///< may change sides in a correction
   Index row[most];                ///< at a place; -1 for none
   Arena all_rows;                 ///< arrays for all rows, where these are many
+  const double *linear = nullptr, *s = nullptr;  ///< z and s of the problem, not padded
   bool held[most], two_sided[most];
   bool is_listed = false;  ///< no row has come or gone since those held were listed
 
@@ -62,9 +63,11 @@ struct CriticalRegion;
 
 /// What `SweptRows` does with it, for one processor family. Each is false when something is in doubt.
 struct SmallKernels {
+  /// `diagonal`, that of A, and what is made of it.
+  void (*take_diagonal)(SmallTableau&, const double* diagonal);
   /// Whitens, and takes in the rows marked in `held` and `two_sided`.
   bool (*begin)(SmallTableau&);
-  /// Looks at eight more rows, at the places from `stride` on, which are to have their `row` and `level`.
+  /// Looks at eight more rows, at the places from `stride` on, which are to have their `row`.
   void (*append)(SmallTableau&);
   /// Whitens z anew and goes on with the rows that are held.
   bool (*begin_again)(SmallTableau&);

@@ -48,9 +48,23 @@ struct SmallTableauRows : Kernels<W, Fused> {
     P::store(t.enter + r, P::load(t.inverse_scale + r));
   }
 
+  MOREAU_INLINE void take_diagonal(SmallTableau& t, const double* diagonal) {
+    for (Index i = 0; i < ld(t); i += 8) {
+      const Pack x = P::load_before(diagonal + i, diagonal + t.n),
+                 inverse = P::where_larger(x, 0, P::over(P::plus(Pack{}, 1), x), 0);
+      P::store(t.diagonal + i, x);
+      P::store(t.inverse_diagonal + i, inverse);
+      P::store(t.unit + i, P::root(inverse));
+    }
+  }
+
   MOREAU_INLINE void whiten_z(SmallTableau& t) {
     each(
-        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack x = P::load_before(t.linear + i, t.linear + t.n);
+          P::store(t.z + i, x);
+          P::store(t.w_free + i, x);
+        });
     K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
     t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
   }
@@ -105,8 +119,12 @@ struct SmallTableauRows : Kernels<W, Fused> {
     }
   }
 
-  /// The loads of the block at r.
+  /// The levels and loads of the block at r.
   MOREAU_INLINE void load_block(SmallTableau& t, Index r) {
+    if (t.all <= SmallTableau::few_rows)
+      P::store(t.level + r, P::load_before(t.s + r, t.s + t.all));
+    else
+      for (Index p = r; p < r + 8; ++p) t.level[p] = t.row[p] < 0 ? 0 : t.s[t.row[p]];
     K::dots(t.n, t.whitened + r * t.n, t.w_free, t.load + r);
     P::store(t.load + r, P::minus(P::load(t.level + r), P::load(t.load + r)));
   }
@@ -192,7 +210,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
     Index count = 0;
     for (Index a = 0; a < m && count <= most; a += 8) {
       const Pack level = P::load_before(s + a, end);
-      Pack bound = P::times(P::larger(level, P::times(level, -1)), absolute);
+      Pack bound = P::times(P::size(level), absolute);
       P::add_product(bound, P::load(length + a), by_length);
       const Pack above = P::minus(P::load(slack + a), bound);
       if (P::total(P::where_larger(above, 0, Pack{}, 1)) == 0) continue;
