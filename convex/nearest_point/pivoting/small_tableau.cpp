@@ -39,7 +39,8 @@ constexpr SmallKernels small_table{
     Compiled<W, &All::settle>::at,         Compiled<W, &All::margin>::at,
     Compiled<W, &All::correct>::at,        Compiled<W, &All::take_affine_point>::at,
     Compiled<W, &All::measure>::at,        Compiled<W, &All::measure_balance>::at,
-    Compiled<W, &Four::dual_rows>::at,     Compiled<W, &Four::close_rows>::at,
+    Compiled<W, &Four::find_column>::at,
+                                   Compiled<W, &Four::dual_rows>::at,     Compiled<W, &Four::close_rows>::at,
     Compiled<W, &Four::rough_lengths>::at, Compiled<W, &Four::deepest>::at,
     Compiled<W, &Four::deepest_known>::at};
 

@@ -184,7 +184,8 @@ bool SweptRows::take_in(const Index* rows, Index count) {
 std::optional<Vector> SweptRows::contradiction() const {
   const SmallTableau& t = tableau_;
   if (t.dependent < 0) return std::nullopt;
-  const double* const coefficients = t.swept + t.dependent * t.stride;
+  alignas(64) double coefficients[SmallTableau::most];
+  small_kernels().find_column(t, t.dependent, coefficients);
   Vector weights = Vector::Zero(t.all);
   weights[t.row[t.dependent]] = 1;
   for (Index a = 0; a < t.m; ++a) {
@@ -267,7 +268,7 @@ bool SweptRows::look_at(std::span<const Index> rows) {
 bool SweptRows::are_independent(std::span<const Index> rows, double part) {
   const SmallTableau& t = tableau_;
   return std::all_of(rows.begin(), rows.end(),
-                     [&](Index a) { return t.swept[place(a) * (t.stride + 1)] > part * t.square[place(a)]; });
+                     [&](Index a) { return t.swept_diagonal[place(a)] > part * t.square[place(a)]; });
 }
 
 /// Swept, the column of a row looked at has its coefficients.
@@ -280,7 +281,8 @@ void SweptRows::combine(std::span<const Index> rows) {
     return;
   }
   for (std::size_t l = 0; l < rows.size(); ++l) {
-    const double* const column = t.swept + place(rows[l]) * t.stride;
+    alignas(64) double column[SmallTableau::most];
+    small_kernels().find_column(t, place(rows[l]), column);
     for (Index k = 0; k < t.size; ++k) t.coefficients[8 * k + static_cast<Index>(l)] = column[t.place[k]];
   }
 }
