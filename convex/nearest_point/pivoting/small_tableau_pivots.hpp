@@ -56,6 +56,25 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
     }
     put(x, k, t.pivot_sign[p] * part);
   }
+  /// What the pivots from p on make of it, two at a time: each loads and stores all entries.
+  MOREAU_INLINE void apply_from(const SmallTableau& t, Index p, double* x) {
+    for (; p + 2 <= t.pivots; p += 2) {
+      const double *const first = t.pivot_columns + p * SmallTableau::most, *const second =
+                                                                                first + SmallTableau::most;
+      const Index j = t.pivot_place[p], k = t.pivot_place[p + 1];
+      const double part = x[j] * t.over_pivot[p], own = t.pivot_sign[p] * part;
+      const double other = (j == k ? own : x[k] - first[k] * part) * t.over_pivot[p + 1];
+      for (Index r = 0; r < stride(t); r += 8) {
+        Pack y = P::load(x + r);
+        P::subtract_product(y, P::load(first + r), part);
+        P::subtract_product(y, P::load(second + r), other);
+        P::store(x + r, y);
+      }
+      put(x, j, own - second[j] * other);
+      put(x, k, t.pivot_sign[p + 1] * other);
+    }
+    if (p < t.pivots) apply(t, p, x);
+  }
   MOREAU_INLINE void find_column(const SmallTableau& t, Index a, double* x) {
     Index p = t.last_pivot[a];
     if (p < 0) {
@@ -66,7 +85,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       for (Index r = 0; r < stride(t); r += 8) P::store(x + r, P::times(P::load(from + r), factor));
       put(x, a, -t.over_pivot[p]);
     }
-    for (++p; p < t.pivots; ++p) apply(t, p, x);
+    apply_from(t, p + 1, x);
   }
 
   /// Takes row k in or out; raised: what its multiplier has come to before.
@@ -143,7 +162,7 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
   /// b := the load as the sweeps change it. Rows that came and went would leave the rounding of their loads.
   MOREAU_INLINE void sweep_load(SmallTableau& t, const double* load) {
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, load_of_held(t, load, r));
-    for (Index p = 0; p < t.pivots; ++p) apply(t, p, t.b);
+    apply_from(t, 0, t.b);
     for (Index r = 0; r < stride(t); r += 8) {
       const Pack outside = P::minus(P::load(load + r), load_of_held(t, load, r));
       P::store(t.b + r, P::plus(P::load(t.b + r), outside));
@@ -179,10 +198,14 @@ struct SmallTableauPivots : SmallTableauRows<W, Fused, packs> {
       Pack c = q < 0 ? P::load(x + before)
                      : P::times(P::load(t.pivot_columns + q * SmallTableau::most + before),
                                 t.over_pivot[q] * t.pivot_sign[q]);
-      for (++q; q < p; ++q) {
-        const double* const column = t.pivot_columns + q * SmallTableau::most;
-        P::subtract_product(c, P::load(column + before), column[k] * t.over_pivot[q]);
-      }
+      Pack odd{};
+      const auto take = [&](Pack & sum, Index from) __attribute__((always_inline)) {
+        const double* const column = t.pivot_columns + from * SmallTableau::most;
+        P::subtract_product(sum, P::load(column + before), column[k] * t.over_pivot[from]);
+      };
+      for (++q; q + 2 <= p; q += 2) take(c, q), take(odd, q + 1);
+      if (q < p) take(c, q);
+      c = P::plus(c, odd);
       P::store(t.pivot_columns + p * SmallTableau::most + before, c);
       diagonal = P::minus(diagonal, P::times(c, P::times(c, t.over_pivot[p])));
     }

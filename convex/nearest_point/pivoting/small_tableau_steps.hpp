@@ -16,6 +16,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using Pack = typename P::Pack;
   using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
       Pivots::forget_pivots, Pivots::sweep_anew, Pivots::sweep_load;
+  /// Beyond twice the rows held and so many more, pivots are forgotten but for one for each row held.
   static constexpr Index few_pivots = 8;
   using Rows::each, Rows::ld, Rows::load_block, Rows::measure_block, Rows::set_outside, Rows::set_state,
       Rows::stride, Rows::take_block, Rows::whiten_blocks, Rows::whiten_z;
