@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "convex/dense/padded_triangle.hpp"
 #include "convex/dense/triangular_solve.hpp"
@@ -129,12 +130,43 @@ bool make_symmetric(Matrix& W) {
 
 struct Metric::Data {
   MetricKind kind = MetricKind::identity;
-  Vector diagonal;                         // of W
-  Matrix W;                                // kind dense
-  std::optional<PaddedTriangle> triangle;  // kind dense
+  Vector diagonal;          // of W
+  Matrix W;                 // kind dense
+  PaddedTriangle triangle;  // kind dense
   std::optional<SparseGram> sparse;
   double factor_condition = 1;
+
+  /// In the room of the last small dense metric that the thread gave up: a solve after the other then takes
+  /// none from the system, which merges and splits what it gets back of such a size.
+  static std::shared_ptr<Data> dense();
+
+ private:
+  static constexpr Index small = 300;  // 1.5 MB
+  struct Spare {
+    Data* data = nullptr;
+    bool is_over = false;  // with the thread; metrics that outlive it are not kept
+    ~Spare() {
+      delete data;
+      is_over = true;
+    }
+  };
+  static thread_local Spare spare;
+  struct GiveBack {
+    void operator()(Data* data) const {
+      if (!spare.is_over && data->W.rows() <= small) std::swap(spare.data, data);
+      delete data;
+    }
+  };
 };
+
+thread_local Metric::Data::Spare Metric::Data::spare;
+
+std::shared_ptr<Metric::Data> Metric::Data::dense() {
+  Data* data = std::exchange(spare.data, nullptr);
+  if (!data) data = new Data;
+  data->kind = MetricKind::dense;
+  return {data, GiveBack()};
+}
 
 Metric Metric::identity(Index n) {
   auto data = std::make_shared<Data>();
@@ -159,19 +191,16 @@ Metric Metric::dense(const Matrix& W) {
   if (W.rows() != W.cols())
     throw InvalidInput("A: " + std::to_string(W.rows()) + " rows of " + std::to_string(W.cols()) +
                        " entries; give a square matrix");
-  // Not set to zeros first, which no member that has a value needs.
-  auto data = std::make_shared_for_overwrite<Data>();
+  const std::shared_ptr<Data> data = Data::dense();
   const Index n = W.rows();
-  data->kind = MetricKind::dense;
   data->W = W;
-  data->triangle.emplace(W);
-  if (!data->triangle->is_exactly_symmetric()) {
+  if (!data->triangle.take(W)) {
     if (!make_symmetric(data->W)) refuse_unequal(W);
-    data->triangle.emplace(data->W);
+    data->triangle.take(data->W);
   }
   data->diagonal = data->W.diagonal();
-  data->triangle->factor();
-  const double* const inverse = data->triangle->inverse();
+  data->triangle.factor();
+  const double* const inverse = data->triangle.inverse();
   double largest = 1;  // of w_ii / L_ii²
   for (Index i = 0; i < n; ++i) {
     const double over = inverse[i / 8 * 128 + i % 8 * 9],
@@ -223,7 +252,7 @@ double Metric::factor_condition() const {
 
 DenseFactor Metric::dense_factor() const {
   invariant(data_->kind == MetricKind::dense, "a dense factor is asked of a dense metric");
-  const PaddedTriangle& factor = *data_->triangle;
+  const PaddedTriangle& factor = data_->triangle;
   return {factor.ld(), factor.T(), factor.inverse()};
 }
 
@@ -264,7 +293,7 @@ double Metric::norm(const Vector& x) const {
       case MetricKind::diagonal:
         return data_->diagonal.cwiseSqrt().cwiseProduct(u).norm();
       case MetricKind::dense:
-        return (data_->triangle->view().triangularView<Eigen::Upper>() * u).norm();
+        return (data_->triangle.view().triangularView<Eigen::Upper>() * u).norm();
       case MetricKind::sparse:
         return data_->sparse->norm(u);
     }
@@ -297,7 +326,7 @@ void Metric::whiten_in_place(Eigen::Ref<Matrix> C) const {
       C.array().colwise() /= Vector(data_->diagonal.cwiseSqrt()).array();
       break;
     case MetricKind::dense:
-      solve_lower_triangle(data_->triangle->view(), C);
+      solve_lower_triangle(data_->triangle.view(), C);
       break;
     case MetricKind::sparse:
       data_->sparse->whiten_in_place(C);
@@ -313,7 +342,7 @@ void Metric::unwhiten_in_place(Eigen::Ref<Vector> w) const {
       w.array() /= data_->diagonal.array().sqrt();
       break;
     case MetricKind::dense:
-      solve_upper_triangle(data_->triangle->view(), w);
+      solve_upper_triangle(data_->triangle.view(), w);
       break;
     case MetricKind::sparse:
       data_->sparse->unwhiten_in_place(w);

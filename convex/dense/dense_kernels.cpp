@@ -7,24 +7,35 @@
 
 namespace convex::inline dense {
 
+namespace {
+
 // Each step waits for the one before: put into vectors, as the compiler would, it waits for their entries
 // too.
-[[gnu::optimize("no-tree-slp-vectorize"), gnu::noinline]] void factor_block(Index width, double* C) {
+template <int width>
+[[gnu::optimize("no-tree-slp-vectorize"), gnu::noinline]] void factor_columns(double* C) {
 #pragma GCC unroll 8
-  for (int c = 0; c < 8; ++c) {
-    if (c >= width) break;
+  for (int c = 0; c < width; ++c) {
     const double pivot = C[9 * c], inverse = 1 / pivot, root = std::sqrt(std::max(pivot, 0.0)), r = 1 / root;
     double part[8];
 #pragma GCC unroll 8
-    for (int i = c + 1; i < 8; ++i) part[i] = C[8 * c + i] * inverse;
+    for (int i = c + 1; i < width; ++i) part[i] = C[8 * c + i] * inverse;
 #pragma GCC unroll 8
-    for (int d = c + 1; d < 8; ++d)
+    for (int d = c + 1; d < width; ++d)
 #pragma GCC unroll 8
-      for (int i = d; i < 8; ++i) C[8 * d + i] -= C[8 * c + i] * part[d];
+      for (int i = d; i < width; ++i) C[8 * d + i] -= C[8 * c + i] * part[d];
     C[9 * c] = root;
 #pragma GCC unroll 8
-    for (int i = c + 1; i < 8; ++i) C[8 * c + i] *= r;
+    for (int i = c + 1; i < width; ++i) C[8 * c + i] *= r;
   }
+}
+
+}  // namespace
+
+void factor_block(Index width, double* C) {
+  static constexpr void (*by_width[])(double*) = {factor_columns<1>, factor_columns<2>, factor_columns<3>,
+                                                  factor_columns<4>, factor_columns<5>, factor_columns<6>,
+                                                  factor_columns<7>, factor_columns<8>};
+  by_width[width - 1](C);
 }
 
 namespace {
@@ -54,7 +65,7 @@ constexpr DenseKernels table{Compiled<W, &K::factor>::at,
                              Compiled<W, &K::largest_size>::at,
                              Compiled<W, &K::is_on_grid>::at,
                              Compiled<W, &K::is_finite>::at,
-                             Compiled<W, &K::is_symmetric>::at};
+                             Compiled<W, &K::take_symmetric>::at};
 
 const DenseKernels* const tables[] = {&table<2, Kernels<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES

@@ -87,8 +87,8 @@ struct DenseKernels {
   bool (*is_on_grid)(Index n, const double* x, double shift);
   /// Whether all of n numbers are finite.
   bool (*is_finite)(Index n, const double* x);
-  /// Whether T, ld×ld, is its own transpose, not one bit off, and finite.
-  bool (*is_symmetric)(Index ld, const double* T);
+  /// T := A, n×n by columns, padded. Whether A is its own transpose, not one bit off, and finite.
+  bool (*take_symmetric)(Index n, Index ld, const double* A, double* T);
 };
 
 /// Those for the processor that the program runs on.

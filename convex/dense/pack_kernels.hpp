@@ -158,15 +158,6 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
     }
   }
 
-  MOREAU_INLINE Pack size(const Pack& x) { return P::larger(x, P::times(x, -1)); }
-  MOREAU_INLINE double largest(const Pack& x) {
-    double most[8];
-    P::store(most, x);
-    for (int half = 4; half > 0; half /= 2)
-      for (int k = 0; k < half; ++k) most[k] = most[k] > most[k + half] ? most[k] : most[k + half];
-    return most[0];
-  }
-
   MOREAU_INLINE void side_by_side(Index n, Index m, const double* U, const Index* row, Index count,
                                   double* X) {
     const double* const end = U + m * n;
@@ -189,12 +180,12 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
     Pack sum = P::plus(Pack{}, 1), off{}, loads = P::minus(Pack{}, P::load(s_of_X));
     for (Index j = 0; j < count; ++j) {
       const Pack guess = P::load(c + 8 * j),
-                 beyond = P::minus(P::times(size(guess), length[row[j]]), P::load(least)),
+                 beyond = P::minus(P::times(P::size(guess), length[row[j]]), P::load(least)),
                  counted = P::where_larger(beyond, 0, guess, 0),
                  whole = P::plus(P::plus(counted, shift), -shift),
-                 allowed = P::times(P::larger(size(counted), P::plus(Pack{}, 1)), close);
-      off = P::larger(off, P::minus(size(P::minus(counted, whole)), allowed));
-      sum = P::plus(sum, size(whole));
+                 allowed = P::times(P::larger(P::size(counted), P::plus(Pack{}, 1)), close);
+      off = P::larger(off, P::minus(P::size(P::minus(counted, whole)), allowed));
+      sum = P::plus(sum, P::size(whole));
       P::add_product(loads, whole, s[row[j]]);
       P::store(c + 8 * j, whole);
     }
@@ -213,7 +204,7 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       }
 #pragma GCC unroll 4
       for (int r = 0; r < entries; ++r)
-        left = P::plus(left, size(P::minus(missing[r], P::load(X + 8 * (i + r)))));
+        left = P::plus(left, P::size(P::minus(missing[r], P::load(X + 8 * (i + r)))));
     };
     Index i = 0;
     for (; i + 4 <= n; i += 4) look(i, std::integral_constant<int, 4>());
@@ -238,16 +229,16 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
       };
       take(p, -whole);
       for (Index k = 0; k < count; ++k) take(row[k], c[k]);
-      most = P::larger(most, size(sum));
+      most = P::larger(most, P::size(sum));
     }
-    return largest(most) == 0;
+    return P::largest(most) == 0;
   }
 
   MOREAU_INLINE double largest_size(Index n, const double* x) {
     Pack most{};
     Index i = 0;
-    for (; i + 8 <= n; i += 8) most = P::larger(most, size(P::load(x + i)));
-    double found = largest(most);
+    for (; i + 8 <= n; i += 8) most = P::larger(most, P::size(P::load(x + i)));
+    double found = P::largest(most);
     for (; i < n; ++i) found = found > std::abs(x[i]) ? found : std::abs(x[i]);
     return found;
   }
@@ -257,9 +248,9 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
     Index i = 0;
     for (; i + 8 <= n; i += 8) {
       const Pack now = P::load(x + i);
-      most = P::larger(most, size(P::minus(P::plus(P::plus(now, shift), -shift), now)));
+      most = P::larger(most, P::size(P::minus(P::plus(P::plus(now, shift), -shift), now)));
     }
-    bool all = largest(most) == 0;
+    bool all = P::largest(most) == 0;
     for (; i < n && all; ++i) all = (x[i] + shift) - shift == x[i];
     return all;
   }
@@ -278,9 +269,15 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
 
   /// By tiles, for the rows of a large matrix are far apart in memory. The difference of numbers that are not
   /// finite is none.
-  MOREAU_INLINE bool is_symmetric(Index ld, const double* T) {
+  MOREAU_INLINE bool take_symmetric(Index n, Index ld, const double* A, double* T) {
+    for (Index c = 0; c < n; ++c, A += n)
+      for (Index i = 0; i < ld; i += 8) P::store(T + c * ld + i, P::load_before(A + i, A + n));
+    for (Index c = n; c < ld; ++c) {
+      for (Index i = 0; i < ld; i += 8) P::store(T + c * ld + i, Pack{});
+      T[c * (ld + 1)] = 1;
+    }
     Pack wrong{};
-    for (Index j = 0; j < ld; j += 8)
+    for (Index j = 0; j < n; j += 8)
       for (Index i = 0; i <= j; i += 8) {
         Pack across[8];
 #pragma GCC unroll 8
@@ -288,7 +285,7 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
         P::transpose(across);
 #pragma GCC unroll 8
         for (int c = 0; c < 8; ++c)
-          wrong = P::plus(wrong, size(P::minus(P::load(T + (j + c) * ld + i), across[c])));
+          wrong = P::plus(wrong, P::size(P::minus(P::load(T + (j + c) * ld + i), across[c])));
       }
     return P::total(wrong) == 0;
   }

@@ -1,34 +1,12 @@
 #pragma once
 
 #include <cstring>
+#include <utility>
 
+#include "convex/dense/compiled.hpp"
 #include "convex/dense/dense_kernels.hpp"
-#include "convex/processor.hpp"
-
-// Packs never cross a function that is not inlined, so how they would be passed does not matter.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-/// Inlined into kernels that are compiled for a processor family each.
-#define MOREAU_INLINE [[gnu::always_inline]] static inline
-#define MOREAU_INLINE_MEMBER [[gnu::always_inline]] inline
 
 namespace convex::inline dense {
-
-/// `at` is f, compiled for the family of processors with registers of W doubles; `apart` too, once for all
-/// that call it, where f is long and compiling it into each of them would take most of the time of a build.
-template <int W, auto f>
-struct Compiled;
-#define MOREAU_COMPILED(W, target)                                      \
-  template <class R, class... X, R (*f)(X...)>                          \
-  struct Compiled<W, f> {                                               \
-    target static R at(X... x) { return f(x...); }                      \
-    target [[gnu::noinline]] static R apart(X... x) { return f(x...); } \
-  };
-MOREAU_COMPILED(2, )
-#ifdef MOREAU_HAS_FAMILIES
-MOREAU_COMPILED(4, [[gnu::target("avx2,fma")]])
-MOREAU_COMPILED(8, [[gnu::target("avx512f")]])
-#endif
 
 template <int W>
 struct Register {
@@ -66,6 +44,19 @@ struct Packs {
       asm("vmovupd %2, %0%{%1%}%{z%}"
           : "=v"(pack.part[0])
           : "Yk"(mask), "m"(*reinterpret_cast<const double(*)[8]>(x)));
+      return pack;
+    }
+    if constexpr (W == 4) {
+      alignas(64) static constexpr long long inside[16] = {-1, -1, -1, -1, -1, -1, -1, -1};
+      const long long* const mask = inside + (end > x ? 8 - (end - x) : 8);
+      Pack pack;
+      for (int k = 0; k < parts; ++k) {
+        Wholes some;
+        std::memcpy(&some, mask + k * W, sizeof(Wholes));
+        asm("vmaskmovpd %2, %1, %0"
+            : "=x"(pack.part[k])
+            : "x"(some), "m"(*reinterpret_cast<const double(*)[W]>(x + k * W)));
+      }
       return pack;
     }
     double tail[8] = {};
@@ -108,6 +99,12 @@ struct Packs {
     Pack most;
     for (int k = 0; k < parts; ++k) most.part[k] = x.part[k] > y.part[k] ? x.part[k] : y.part[k];
     return most;
+  }
+  MOREAU_INLINE Pack size(const Pack& x) {
+    Pack positive;
+    for (int k = 0; k < parts; ++k)
+      positive.part[k] = reinterpret_cast<Part>(reinterpret_cast<Wholes>(x.part[k]) & 0x7fffffffffffffffLL);
+    return positive;
   }
   MOREAU_INLINE Pack smaller(const Pack& x, const Pack& y) {
     Pack least;
@@ -186,10 +183,33 @@ struct Packs {
   MOREAU_INLINE void add_products(Pack& sum, const Pack& x, const Pack& y) {
     for (int k = 0; k < parts; ++k) sum.part[k] = sum.part[k] + x.part[k] * y.part[k];
   }
+  /// Its halves by f, and theirs, until one number is left: ((0 4) (2 6)) ((1 5) (3 7)).
+  template <class Combine>
+  MOREAU_INLINE double folded(const Pack& x, Combine f) {
+    if constexpr (W == 2) {
+      const Part two = f(f(x.part[0], x.part[2]), f(x.part[1], x.part[3]));
+      return f(two[0], two[1]);
+    } else {
+      using Four [[gnu::vector_size(32)]] = double;
+      using Two [[gnu::vector_size(16)]] = double;
+      Four four;
+      if constexpr (W == 8)
+        four = f(Four(__builtin_shufflevector(x.part[0], x.part[0], 0, 1, 2, 3)),
+                 Four(__builtin_shufflevector(x.part[0], x.part[0], 4, 5, 6, 7)));
+      else
+        four = f(x.part[0], x.part[1]);
+      const Two two =
+          f(Two(__builtin_shufflevector(four, four, 0, 1)), Two(__builtin_shufflevector(four, four, 2, 3)));
+      return f(two[0], two[1]);
+    }
+  }
   MOREAU_INLINE double total(const Pack& x) {
-    double t[8];
-    store(t, x);
-    return ((t[0] + t[4]) + (t[2] + t[6])) + ((t[1] + t[5]) + (t[3] + t[7]));
+    return folded(
+        x, [](const auto& a, const auto& b) __attribute__((always_inline)) { return a + b; });
+  }
+  MOREAU_INLINE double largest(const Pack& x) {
+    return folded(
+        x, [](const auto& a, const auto& b) __attribute__((always_inline)) { return a > b ? a : b; });
   }
   /// The totals of eight packs, each as above.
   MOREAU_INLINE Pack totals(const Pack (&x)[8]) {
@@ -206,11 +226,34 @@ struct Packs {
       for (int k = 0; k < 4; ++k) half[k] = halved(x[2 * k].part[0], x[2 * k + 1].part[0], low, high);
       return {{halved(halved(half[0], half[1], first, second), halved(half[2], half[3], first, second), even,
                       odd)}};
+    } else if constexpr (W == 4) {
+      constexpr Wholes low{0, 1, 4, 5}, high{2, 3, 6, 7}, even{0, 4, 2, 6}, odd{1, 5, 3, 7},
+          apart{0, 2, 1, 3};
+      Pack sums;
+#pragma GCC unroll 2
+      for (int k = 0; k < 2; ++k) {
+        Part half[4], pair[2];
+        for (int l = 0; l < 4; ++l) half[l] = x[4 * k + l].part[0] + x[4 * k + l].part[1];
+        for (int l = 0; l < 2; ++l)
+          pair[l] = __builtin_shuffle(half[2 * l], half[2 * l + 1], low) +
+                    __builtin_shuffle(half[2 * l], half[2 * l + 1], high);
+        sums.part[k] = __builtin_shuffle(
+            __builtin_shuffle(pair[0], pair[1], even) + __builtin_shuffle(pair[0], pair[1], odd), apart);
+      }
+      return sums;
     } else {
       double sum[8];
       for (int k = 0; k < 8; ++k) sum[k] = total(x[k]);
       return load(sum);
     }
+  }
+  /// Four registers of four: rows become columns.
+  MOREAU_INLINE void transpose_four(Part& a, Part& b, Part& c, Part& d) {
+    constexpr Wholes even{0, 4, 2, 6}, odd{1, 5, 3, 7}, low{0, 1, 4, 5}, high{2, 3, 6, 7};
+    const Part ab = __builtin_shuffle(a, b, even), ba = __builtin_shuffle(a, b, odd);
+    const Part cd = __builtin_shuffle(c, d, even), dc = __builtin_shuffle(c, d, odd);
+    a = __builtin_shuffle(ab, cd, low), c = __builtin_shuffle(ab, cd, high);
+    b = __builtin_shuffle(ba, dc, low), d = __builtin_shuffle(ba, dc, high);
   }
   /// Rows become columns.
   MOREAU_INLINE void transpose(Pack (&x)[8]) {
@@ -236,6 +279,13 @@ struct Packs {
         x[k].part[0] = __builtin_shuffle(b[k], b[k + 4], low);
         x[k + 4].part[0] = __builtin_shuffle(b[k], b[k + 4], high);
       }
+    } else if constexpr (W == 4) {
+#pragma GCC unroll 4
+      for (int b = 0; b < 4; ++b)
+        transpose_four(x[b / 2 * 4].part[b % 2], x[b / 2 * 4 + 1].part[b % 2], x[b / 2 * 4 + 2].part[b % 2],
+                       x[b / 2 * 4 + 3].part[b % 2]);
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) std::swap(x[k].part[1], x[4 + k].part[0]);
     } else {
       double from[64], into[64];
       for (int k = 0; k < 8; ++k) store(from + 8 * k, x[k]);

@@ -11,13 +11,10 @@ namespace convex::inline dense {
 /// numbers on the diagonal that are not positive or not finite.
 class PaddedTriangle {
  public:
-  /// W itself, to be factored.
-  explicit PaddedTriangle(const Matrix& W);
-  bool is_exactly_symmetric() const;
+  /// W, to be factored. Whether it is its own transpose, not one bit off, and finite. Room is kept for
+  /// another of that size.
+  bool take(const Matrix& W);
   void factor();
-  ~PaddedTriangle();
-  PaddedTriangle(const PaddedTriangle&) = delete;
-  PaddedTriangle& operator=(const PaddedTriangle&) = delete;
 
   Index ld() const { return ld_; }
   const double* T() const { return T_; }
@@ -26,8 +23,12 @@ class PaddedTriangle {
   Eigen::Map<const Matrix, 0, Eigen::OuterStride<>> view() const { return {T_, n_, n_, {ld_}}; }
 
  private:
-  Index n_, ld_;
-  double *room_, *T_;
+  struct Free {
+    void operator()(double* room) const { std::free(room); }
+  };
+  Index n_ = 0, ld_ = 0;
+  std::unique_ptr<double, Free> room_;
+  double* T_ = nullptr;
 };
 
 }  // namespace convex::inline dense

@@ -11,6 +11,7 @@ template <int W, bool Fused>
 struct RowKernels {
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
+  using Part = typename P::Part;
   static constexpr int rows = W == 8 ? 8 : 4;  ///< at a time, as registers allow
 
   /// u_ai x_i and u_ai² x_i: `along` a row by packs, or one entry of eight rows, or of one.
@@ -47,26 +48,51 @@ struct RowKernels {
       }
   }
 
-  /// Entry i of eight rows of n <= 3, n packs.
+  /// Entry i of eight rows of n <= 4, n registers of eight.
   template <int n, int i, std::size_t... k>
-  MOREAU_INLINE typename P::Part column(const Pack (&u)[n], std::index_sequence<k...>) {
-    using Places [[gnu::vector_size(64)]] = long long;
-    constexpr Places front{(k * n + i) % 16 ...}, back{(k * n + i < 16 ? k : 8 + (k * n + i) % 8)...};
-    if constexpr (n == 1) return u[0].part[0];
-    const auto first = __builtin_shuffle(u[0].part[0], u[n > 1].part[0], front);
-    return n == 3 ? __builtin_shuffle(first, u[n - 1].part[0], back) : first;
+  MOREAU_INLINE Part column(const Part (&u)[n], std::index_sequence<k...>) {
+    constexpr typename P::Wholes inside{(k * n + i) % 16 ...}, join{(k * n + i < 16 ? k : 8 + k)...};
+    if constexpr (n == 1) return u[0];
+    const Part first = __builtin_shuffle(u[0], u[n > 1], inside);
+    if constexpr (n <= 2) return first;
+    return __builtin_shuffle(first, __builtin_shuffle(u[n > 2 ? 2 : 0], u[n - 1], inside), join);
+  }
+  template <int n, std::size_t... i>
+  MOREAU_INLINE void rows_to_columns(Part (&u)[n], std::index_sequence<i...>) {
+    if constexpr (W == 8) {
+      const Part x[n] = {column<n, i>(u, std::make_index_sequence<8>())...};
+      ((u[i] = x[i]), ...);
+    } else if constexpr (n == 2) {
+      const Part low = __builtin_shuffle(u[0], u[1], typename P::Wholes{0, 1, 4, 5}),
+                 high = __builtin_shuffle(u[0], u[1], typename P::Wholes{2, 3, 6, 7});
+      u[0] = __builtin_shuffle(low, high, typename P::Wholes{0, 4, 2, 6});
+      u[1] = __builtin_shuffle(low, high, typename P::Wholes{1, 5, 3, 7});
+    } else if constexpr (n == 3) {
+      using Places = typename P::Wholes;
+      const Part a = __builtin_shuffle(u[0], u[1], Places{0, 1, 6, 7}),
+                 b = __builtin_shuffle(u[0], u[2], Places{2, 3, 4, 5}),
+                 c = __builtin_shuffle(u[1], u[2], Places{0, 1, 6, 7});
+      u[0] = __builtin_shuffle(a, b, Places{0, 5, 2, 7});
+      u[1] = __builtin_shuffle(a, c, Places{1, 4, 3, 6});
+      u[2] = __builtin_shuffle(b, c, Places{0, 5, 2, 7});
+    } else if constexpr (n == 4) {
+      P::transpose_four(u[0], u[1], u[2], u[3]);
+    }
   }
 
-  /// x_i: entry i of eight rows of n.
+  /// x_i: entry i of eight rows of n <= 4.
   template <int n>
   MOREAU_INLINE void columns(const double* U, Pack (&x)[n]) {
-    if constexpr (W == 8 && n <= 3) {
-      Pack u[n];
-      for (int k = 0; k < n; ++k) u[k] = P::load(U + 8 * k);
-      [&]<std::size_t... i>(std::index_sequence<i...>) __attribute__((always_inline)) {
-        ((x[i].part[0] = column<n, i>(u, std::make_index_sequence<8>())), ...);
+    if constexpr (W >= 4) {
+#pragma GCC unroll 2
+      for (int part = 0; part < P::parts; ++part) {
+        Part u[n];
+#pragma GCC unroll 4
+        for (int k = 0; k < n; ++k) std::memcpy(&u[k], U + W * (part * n + k), sizeof(Part));
+        rows_to_columns(u, std::make_index_sequence<n>());
+#pragma GCC unroll 4
+        for (int i = 0; i < n; ++i) x[i].part[part] = u[i];
       }
-      (std::make_index_sequence<n>());
     } else {
       double entry[n][8];
       for (int k = 0; k < 8; ++k)
@@ -131,7 +157,7 @@ struct RowKernels {
     for (; a + 8 <= m; a += 8, U += 8 * n) {
       Pack x[n];
       columns(U, x);
-      least = P::smaller(P::larger(x[0], P::times(x[0], -1)), least);
+      least = P::smaller(P::size(x[0]), least);
     }
     for (; a < m; ++a, U += n)
       if (*U == 0) return false;

@@ -4,7 +4,8 @@
 
 namespace convex::inline dense {
 
-/// The Cholesky factor of the lower triangle of C, 8×8 by columns, its first `width` columns.
+/// The Cholesky factor of the lower triangle of C, 8×8 by columns, of which the first `width` rows and
+/// columns are there.
 void factor_block(Index width, double* C);
 
 alignas(64) inline constexpr double unit_block[64] = {

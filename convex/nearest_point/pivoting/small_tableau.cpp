@@ -33,20 +33,15 @@ struct SmallTableauSizes {
 };
 
 template <int W, class All, class Four = typename All::Four>
-constexpr SmallKernels small_table{Compiled<W, &All::begin>::at,
-                                   Compiled<W, &Four::append>::at,
-                                   Compiled<W, &All::begin_again>::at,
-                                   Compiled<W, &All::settle>::at,
-                                   Compiled<W, &All::margin>::at,
-                                   Compiled<W, &All::correct>::at,
-                                   Compiled<W, &All::take_affine_point>::at,
-                                   Compiled<W, &All::measure>::at,
-                                   Compiled<W, &All::measure_balance>::at,
-                                   Compiled<W, &Four::dual_rows>::at,
-                                   Compiled<W, &Four::close_rows>::at,
-                                   Compiled<W, &Four::rough_lengths>::at,
-                                   Compiled<W, &Four::deepest>::at,
-                                   Compiled<W, &Four::deepest_known>::at};
+constexpr SmallKernels small_table{
+    Compiled<W, &Four::take_diagonal>::at, Compiled<W, &All::begin>::at,
+    Compiled<W, &Four::append>::at,        Compiled<W, &All::begin_again>::at,
+    Compiled<W, &All::settle>::at,         Compiled<W, &All::margin>::at,
+    Compiled<W, &All::correct>::at,        Compiled<W, &All::take_affine_point>::at,
+    Compiled<W, &All::measure>::at,        Compiled<W, &All::measure_balance>::at,
+    Compiled<W, &Four::find_column>::at,   Compiled<W, &Four::dual_rows>::at,
+    Compiled<W, &Four::close_rows>::at,    Compiled<W, &Four::rough_lengths>::at,
+    Compiled<W, &Four::deepest>::at,       Compiled<W, &Four::deepest_known>::at};
 
 const SmallKernels* const small_tables[] = {&small_table<2, SmallTableauSizes<2, false>>,
 #ifdef MOREAU_HAS_FAMILIES

@@ -24,9 +24,12 @@ struct SmallTableau : GramPoint {
 
   alignas(64) double raw[most_coordinates * most];       ///< u_a
   alignas(64) double whitened[most_coordinates * most];  ///< v_a = L⁻¹u_a
-  /// The Gram matrix G of the v_a, by columns of `stride`, swept at the rows held S: -G_SS⁻¹ there, G_oS
-  /// G_SS⁻¹ beside it, and the Schur complement of G_SS elsewhere (Beaton 1964).
-  alignas(64) double swept[most * most];
+  /// The Gram matrix G of the v_a, swept at the rows held S, is -G_SS⁻¹ there, G_oS G_SS⁻¹ beside it, and the
+  /// Schur complement of G_SS elsewhere (Beaton 1964). Of that the diagonal is kept, and the column of each
+  /// pivot as it was before, from which any other is found (the product form: Dantzig and Orchard-Hays 1954).
+  alignas(64) double swept_diagonal[most], pivot_columns[most * most];
+  Index pivots = 0, pivot_place[most], last_pivot[most];  ///< last_pivot: at a place, -1 for none
+  double over_pivot[most], pivot_sign[most];  ///< sign: 1 for a row that came in, -1 for one that left
   /// lambda_a of a row held, s_a - u_a·q of another.
   alignas(64) double b[most];
   alignas(64) double load[most];                           ///< s_a - v_a·w_free
@@ -40,6 +43,7 @@ struct SmallTableau : GramPoint {
   bool is_weak[most];             ///< may change sides in a correction
   Index row[most];                ///< at a place; -1 for none
   Arena all_rows;                 ///< arrays for all rows, where these are many
+  const double *linear = nullptr, *s = nullptr;  ///< z and s of the problem, not padded
   bool held[most], two_sided[most];
   bool is_listed = false;  ///< no row has come or gone since those held were listed
 
@@ -62,9 +66,11 @@ struct CriticalRegion;
 
 /// What `SweptRows` does with it, for one processor family. Each is false when something is in doubt.
 struct SmallKernels {
+  /// `diagonal`, that of A, and what is made of it.
+  void (*take_diagonal)(SmallTableau&, const double* diagonal);
   /// Whitens, and takes in the rows marked in `held` and `two_sided`.
   bool (*begin)(SmallTableau&);
-  /// Looks at eight more rows, at the places from `stride` on, which are to have their `row` and `level`.
+  /// Looks at eight more rows, at the places from `stride` on, which are to have their `row`.
   void (*append)(SmallTableau&);
   /// Whitens z anew and goes on with the rows that are held.
   bool (*begin_again)(SmallTableau&);
@@ -84,6 +90,8 @@ struct SmallKernels {
   void (*measure)(SmallTableau&);
   /// What is missing of the equations of motion, in doubles.
   void (*measure_balance)(SmallTableau&);
+  /// The column at a place of the Gram matrix as it is swept.
+  void (*find_column)(const SmallTableau&, Index place, double* column);
   /// A vector for each of the rows held, by eights side by side: their products with a row of U are its
   /// coefficients over these.
   void (*dual_rows)(const SmallTableau&, double* dual);

@@ -7,7 +7,7 @@
 
 namespace convex::inline pivoting {
 
-/// The rows that a `SmallTableau` looks at: whitened, with their Gram matrix, swept as that of those before.
+/// The rows that a `SmallTableau` looks at, whitened.
 /// Packs of places: 1 when n and they are at most 8, so that loops over packs vanish; else 4, which stands
 /// for any number.
 template <int W, bool Fused, int packs>
@@ -48,9 +48,23 @@ struct SmallTableauRows : Kernels<W, Fused> {
     P::store(t.enter + r, P::load(t.inverse_scale + r));
   }
 
+  MOREAU_INLINE void take_diagonal(SmallTableau& t, const double* diagonal) {
+    for (Index i = 0; i < ld(t); i += 8) {
+      const Pack x = P::load_before(diagonal + i, diagonal + t.n),
+                 inverse = P::where_larger(x, 0, P::over(P::plus(Pack{}, 1), x), 0);
+      P::store(t.diagonal + i, x);
+      P::store(t.inverse_diagonal + i, inverse);
+      P::store(t.unit + i, P::root(inverse));
+    }
+  }
+
   MOREAU_INLINE void whiten_z(SmallTableau& t) {
     each(
-        ld(t), [&](Index i) __attribute__((always_inline)) { P::store(t.w_free + i, P::load(t.z + i)); });
+        ld(t), [&](Index i) __attribute__((always_inline)) {
+          const Pack x = P::load_before(t.linear + i, t.linear + t.n);
+          P::store(t.z + i, x);
+          P::store(t.w_free + i, x);
+        });
     K::forward(t.n, ld(t), t.T, t.inverse, t.w_free);
     t.z_norm = std::sqrt(K::dot(ld(t), t.w_free, t.w_free));
   }
@@ -85,105 +99,54 @@ struct SmallTableauRows : Kernels<W, Fused> {
       if (r < stride(t)) K::forward_pack(t.n, ld(t), t.T, t.inverse, t.whitened + r * t.n);
   }
 
-  /// The products of the block at r with itself and those before.
-  MOREAU_INLINE void multiply_block(SmallTableau& t, Index r) {
-    for (Index other = 0; other <= r; other += 8)
-      K::gram(t.n, t.whitened + other * t.n, t.whitened + r * t.n, t.swept + r * stride(t) + other,
-              stride(t));
-    for (Index a = r; a < r + 8; ++a) t.square[a] = t.swept[a * (stride(t) + 1)];
+  MOREAU_INLINE void measure_block(SmallTableau& t, Index r) {
+    Pack square[4];
+    P::clear(square);
+    const double* const v = t.whitened + r * t.n;
+    const auto add = [&](int k, Index i) __attribute__((always_inline)) {
+      const Pack x = P::load(v + 8 * i);
+      P::add_products(square[k], x, x);
+    };
+    Index i = 0;
+    for (; i + 4 <= t.n; i += 4)
+#pragma GCC unroll 4
+      for (int k = 0; k < 4; ++k) add(k, i + k);
+    for (; i < t.n; ++i) add(0, i);
+    P::store(t.square + r, P::plus(P::plus(square[0], square[2]), P::plus(square[1], square[3])));
   }
 
-  /// Rows r to r + 7 of the columns before are those of the columns r to r + 7.
-  MOREAU_INLINE void mirror_block(SmallTableau& t, Index r) {
-    for (Index other = 0; other < r; other += 8) {
-      Pack block[8];
-#pragma GCC unroll 8
-      for (int l = 0; l < 8; ++l) block[l] = P::load(t.swept + (r + l) * stride(t) + other);
-      P::transpose(block);
-#pragma GCC unroll 8
-      for (int l = 0; l < 8; ++l) P::store(t.swept + (other + l) * stride(t) + r, block[l]);
-    }
+  /// The products of row a with those of `count` blocks from r on.
+  template <int count>
+  MOREAU_INLINE void products(const SmallTableau& t, Index a, Index r, double* into) {
+    Pack sum[2][count];
+    P::clear(sum[0]), P::clear(sum[1]);
+    const double *const V = t.whitened + r * t.n, *const v = t.whitened + a / 8 * 8 * t.n + a % 8;
+    const auto add = [&](int odd, Index i) __attribute__((always_inline)) {
+#pragma GCC unroll 4
+      for (int k = 0; k < count; ++k) P::add_product(sum[odd][k], P::load(V + 8 * (k * t.n + i)), v[8 * i]);
+    };
+    Index i = 0;
+    for (; i + 2 <= t.n; i += 2) add(0, i), add(1, i + 1);
+    if (i < t.n) add(0, i);
+#pragma GCC unroll 4
+    for (int k = 0; k < count; ++k) P::store(into + r + 8 * k, P::plus(sum[0][k], sum[1][k]));
+  }
+  /// The products of row a with all: its column of the Gram matrix.
+  MOREAU_INLINE void gram_column(const SmallTableau& t, Index a, double* column) {
+    constexpr int together = packs == 1 ? 1 : W == 8 ? 4 : 2;
+    Index r = 0;
+    for (; r + 8 * together <= stride(t); r += 8 * together) products<together>(t, a, r, column);
+    for (; r < stride(t); r += 8) products<1>(t, a, r, column);
   }
 
-  /// The loads of the block at r.
+  /// The levels and loads of the block at r.
   MOREAU_INLINE void load_block(SmallTableau& t, Index r) {
+    if (t.all <= SmallTableau::few_rows)
+      P::store(t.level + r, P::load_before(t.s + r, t.s + t.all));
+    else
+      for (Index p = r; p < r + 8; ++p) t.level[p] = t.row[p] < 0 ? 0 : t.s[t.row[p]];
     K::dots(t.n, t.whitened + r * t.n, t.w_free, t.load + r);
     P::store(t.load + r, P::minus(P::load(t.level + r), P::load(t.load + r)));
-  }
-
-  MOREAU_INLINE void append(SmallTableau& t) {
-    const Index before = t.stride, step = before + 8;
-    for (Index j = before - 1; j > 0; --j)
-      for (Index r = before - 8; r >= 0; r -= 8)
-        P::store(t.swept + j * step + r, P::load(t.swept + j * before + r));
-    t.stride = step;
-    take_block(t, before);
-    whiten_blocks(t, before);
-    multiply_block(t, before);
-    load_block(t, before);
-    alignas(64) double products[8 * SmallTableau::most];  // with the rows held
-    Index held[SmallTableau::most], count = 0;
-    for (Index k = 0; k < before; ++k)
-      if (t.held[k]) {
-        held[count] = k;
-        for (Index l = 0; l < 8; ++l) {
-          double& product = t.swept[(before + l) * step + k];
-          products[8 * count + l] = product;
-          product = 0;
-        }
-        ++count;
-      }
-    double* const fresh = t.swept + before * step;
-    for (Index r = 0; r <= before; r += 8) {
-      const bool is_own = r == before;
-      const Index stride = is_own ? step : 1;
-      Pack x[8];
-#pragma GCC unroll 8
-      for (int l = 0; l < 8; ++l) x[l] = P::load(fresh + l * step + r);
-      for (Index k = 0; k < count; ++k) {
-        const Pack column = P::load(is_own ? products + 8 * k : t.swept + held[k] * step + r);
-        const double* const factor = is_own ? fresh + held[k] : products + 8 * k;
-#pragma GCC unroll 8
-        for (int l = 0; l < 8; ++l) P::subtract_product(x[l], column, factor[l * stride]);
-      }
-#pragma GCC unroll 8
-      for (int l = 0; l < 8; ++l) P::store(fresh + l * step + r, x[l]);
-    }
-    for (Index l = 0; l < 8; ++l) {
-      double& b = t.b[before + l] = t.load[before + l];
-      for (Index k = 0; k < count; ++k) b -= t.load[held[k]] * fresh[l * step + held[k]];
-      t.two_sided[before + l] = false;
-      t.lambda_at[before + l] = t.lambda_low_at[before + l] = 0;
-    }
-    set_outside(t, before);
-    mirror_block(t, before);
-  }
-
-  /// D = A⁻¹U_Sᵀ (U_S A⁻¹U_Sᵀ)⁻¹, by eight columns side by side.
-  MOREAU_INLINE void dual_rows(const SmallTableau& t, double* dual) {
-    const Index width = padded(t.size);
-    alignas(64) double block[8 * SmallTableau::most_coordinates], inverse[8 * SmallTableau::most];
-    fill_packs(t.n * width, 0, dual);
-    for (Index first = 0; first < t.size; first += 8) {
-      const Index count = t.size - first < 8 ? t.size - first : 8;
-      fill_packs(8 * t.n, 0, block);
-      fill_packs(8 * width, 0, inverse);
-      for (Index l = 0; l < count; ++l) {
-        const Index p = t.place[first + l];
-        const double *const from = t.whitened + p / 8 * 8 * t.n + p % 8, *const swept =
-                                                                             t.swept + p * t.stride;
-        for (Index i = 0; i < t.n; ++i) block[8 * i + l] = from[8 * i];
-        for (Index k = 0; k < t.size; ++k) inverse[width * l + k] = -swept[t.place[k]];
-      }
-      K::backward_pack(t.n, t.ld, t.T, t.inverse, block);
-      for (Index i = 0; i < t.n; ++i)
-        for (Index k = 0; k < width; k += 8) {
-          Pack sum = P::load(dual + k * t.n + 8 * i);
-          for (Index l = 0; l < count; ++l)
-            P::add_product(sum, P::load(inverse + width * l + k), block[8 * i + l]);
-          P::store(dual + k * t.n + 8 * i, sum);
-        }
-    }
   }
 
   MOREAU_INLINE Index close_rows(Index m, const double* slack, const double* s, const double* end,
@@ -192,7 +155,7 @@ struct SmallTableauRows : Kernels<W, Fused> {
     Index count = 0;
     for (Index a = 0; a < m && count <= most; a += 8) {
       const Pack level = P::load_before(s + a, end);
-      Pack bound = P::times(P::larger(level, P::times(level, -1)), absolute);
+      Pack bound = P::times(P::size(level), absolute);
       P::add_product(bound, P::load(length + a), by_length);
       const Pack above = P::minus(P::load(slack + a), bound);
       if (P::total(P::where_larger(above, 0, Pack{}, 1)) == 0) continue;

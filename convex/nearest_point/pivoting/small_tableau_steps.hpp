@@ -15,9 +15,11 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   using P = Packs<W, Fused>;
   using Pack = typename P::Pack;
   using Pivots::infinite, Pivots::is_nearly_dependent, Pivots::list_rows_held, Pivots::pivot, Pivots::sweep,
-      Pivots::sweep_load;
-  using Rows::each, Rows::ld, Rows::load_block, Rows::mirror_block, Rows::multiply_block, Rows::set_outside,
-      Rows::set_state, Rows::stride, Rows::take_block, Rows::whiten_blocks, Rows::whiten_z;
+      Pivots::forget_pivots, Pivots::sweep_anew, Pivots::sweep_load;
+  /// Beyond twice the rows held and so many more, pivots are forgotten but for one for each row held.
+  static constexpr Index few_pivots = 8;
+  using Rows::each, Rows::ld, Rows::load_block, Rows::measure_block, Rows::set_outside, Rows::set_state,
+      Rows::stride, Rows::take_block, Rows::whiten_blocks, Rows::whiten_z;
 
   MOREAU_INLINE void find_loads(SmallTableau& t) {
     whiten_z(t);
@@ -27,12 +29,9 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
   MOREAU_INLINE bool begin(SmallTableau& t) {
     for (Index r = 0; r < stride(t); r += 8) take_block(t, r);
     whiten_blocks(t, 0);
-    for (Index r = 0; r < stride(t); r += 8) {
-      multiply_block(t, r);
-      mirror_block(t, r);
-    }
+    for (Index r = 0; r < stride(t); r += 8) measure_block(t, r);
     find_loads(t);
-    t.sweep_growth = 1;
+    forget_pivots(t);
     t.is_listed = false;
     for (Index r = 0; r < stride(t); r += 8) P::store(t.b + r, P::load(t.load + r));
     bool wanted[SmallTableau::most];
@@ -48,6 +47,7 @@ struct SmallTableauSteps : SmallTableauPivots<W, Fused, packs> {
 
   MOREAU_INLINE bool begin_again(SmallTableau& t) {
     find_loads(t);
+    if (t.pivots > 2 * t.size + few_pivots) sweep_anew(t);
     sweep_load(t, t.load);
     return true;
   }

@@ -31,13 +31,7 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
   tableau.inverse = factor.inverse;
   tableau.A = problem.A.dense_gram().data();
   tableau.U = problem.U.dense().data();
-  fill_packs(tableau.ld, 0, tableau.diagonal);
-  fill_packs(tableau.ld, 0, tableau.inverse_diagonal);
-  const auto diagonal = problem.A.diagonal().array();
-  Eigen::Map<Eigen::ArrayXd>(tableau.diagonal, tableau.n) = diagonal;
-  Eigen::Map<Eigen::ArrayXd> inverse(tableau.inverse_diagonal, tableau.n);
-  inverse = diagonal.inverse();
-  Eigen::Map<Eigen::ArrayXd>(tableau.unit, tableau.n) = inverse.sqrt();
+  small_kernels().take_diagonal(tableau, problem.A.diagonal().data());
   tableau.row_scale = tableau.scale_at;
   tableau.slack = tableau.slack_at;
   tableau.touched_slack = tableau.room.touched_slack;
@@ -57,26 +51,18 @@ SweptRows::SweptRows(const NearestPointProblem& problem, SmallTableau& tableau)
 }
 
 void SweptRows::take_linear_term() {
-  std::copy_n(problem_.z.data(), tableau_.n, tableau_.z);
-  std::fill(tableau_.z + tableau_.n, tableau_.z + tableau_.ld, 0);
-  if (looks_at_all()) {
-    std::copy_n(problem_.s.data(), tableau_.m, tableau_.level);
-    std::fill(tableau_.level + tableau_.m, tableau_.level + tableau_.stride, 0);
-    return;
-  }
-  for (Index p = 0; p < tableau_.stride; ++p)
-    tableau_.level[p] = tableau_.row[p] < 0 ? 0 : problem_.s[tableau_.row[p]];
+  tableau_.linear = problem_.z.data();
+  tableau_.s = problem_.s.data();
 }
 
 void SweptRows::begin(const std::vector<Index>& guess) {
   SmallTableau& t = tableau_;
   t.m = 0;
   t.steps = 0;
-  for (bool& two_sided : t.two_sided) two_sided = false;
   if (looks_at_all()) {
     for (t.m = 0; t.m < t.all; ++t.m) {
       t.row[t.m] = t.m;
-      t.held[t.m] = false;
+      t.held[t.m] = t.two_sided[t.m] = false;
     }
     for (Index a : guess) t.held[a] = true;
   } else {
@@ -84,6 +70,7 @@ void SweptRows::begin(const std::vector<Index>& guess) {
     const auto begin_with = [&](Index a) {
       if (place(a) >= 0 || t.m == SmallTableau::most_coordinates) return;
       t.held[t.m] = true;
+      t.two_sided[t.m] = false;
       t.row[t.m] = a;
       place_[a] = t.m++;
     };
@@ -95,7 +82,7 @@ void SweptRows::begin(const std::vector<Index>& guess) {
   t.stride = padded(t.m);
   for (Index p = t.m; p < t.stride; ++p) {
     t.row[p] = -1;
-    t.held[p] = false;
+    t.held[p] = t.two_sided[p] = false;
   }
   take_linear_term();
 }
@@ -185,7 +172,6 @@ bool SweptRows::take_in(const Index* rows, Index count) {
     for (Index k = 0; k < 8; ++k) {
       const bool is_row = first + k < count;
       t.row[at + k] = is_row ? rows[first + k] : -1;
-      t.level[at + k] = is_row ? problem_.s[rows[first + k]] : 0;
       t.held[at + k] = false;
       if (is_row) place_[rows[first + k]] = at + k;
     }
@@ -198,7 +184,8 @@ bool SweptRows::take_in(const Index* rows, Index count) {
 std::optional<Vector> SweptRows::contradiction() const {
   const SmallTableau& t = tableau_;
   if (t.dependent < 0) return std::nullopt;
-  const double* const coefficients = t.swept + t.dependent * t.stride;
+  alignas(64) double coefficients[SmallTableau::most];
+  small_kernels().find_column(t, t.dependent, coefficients);
   Vector weights = Vector::Zero(t.all);
   weights[t.row[t.dependent]] = 1;
   for (Index a = 0; a < t.m; ++a) {
@@ -281,7 +268,7 @@ bool SweptRows::look_at(std::span<const Index> rows) {
 bool SweptRows::are_independent(std::span<const Index> rows, double part) {
   const SmallTableau& t = tableau_;
   return std::all_of(rows.begin(), rows.end(),
-                     [&](Index a) { return t.swept[place(a) * (t.stride + 1)] > part * t.square[place(a)]; });
+                     [&](Index a) { return t.swept_diagonal[place(a)] > part * t.square[place(a)]; });
 }
 
 /// Swept, the column of a row looked at has its coefficients.
@@ -294,7 +281,8 @@ void SweptRows::combine(std::span<const Index> rows) {
     return;
   }
   for (std::size_t l = 0; l < rows.size(); ++l) {
-    const double* const column = t.swept + place(rows[l]) * t.stride;
+    alignas(64) double column[SmallTableau::most];
+    small_kernels().find_column(t, place(rows[l]), column);
     for (Index k = 0; k < t.size; ++k) t.coefficients[8 * k + static_cast<Index>(l)] = column[t.place[k]];
   }
 }

@@ -87,10 +87,12 @@ bool SweptRows::find_critical_region() {
   fill_packs(t.stride, 0, t.leave);
   fill_packs(t.stride, 0, t.enter);
   const double root = std::sqrt(static_cast<double>(n));
+  Vector z = Vector::Zero(n), s = Vector::Zero(t.all);
+  t.linear = z.data();
+  t.s = s.data();
   for (Index j = 0; j < region.columns && is_known; ++j) {
-    fill_packs(t.ld, 0, t.z);
-    fill_packs(t.stride, 0, t.level);
-    (j < n ? t.z[j] : t.level[t.place[j - n]]) = 1;
+    double& entry = j < n ? z[j] : s[t.rows[j - n]];
+    entry = 1;
     is_known = small_kernels().begin_again(t) && small_kernels().settle(t);
     double before[SmallTableau::most];
     Corrections known;
@@ -114,7 +116,9 @@ bool SweptRows::find_critical_region() {
     // And of what underflows.
     region.error[j] = over * known.remaining + root * largest_unit * std::numeric_limits<double>::min();
     is_known = is_known && std::isfinite(region.error[j]) && std::isfinite(region.unit[j]);
+    entry = 0;
   }
+  take_linear_term();
   is_known = is_known && split(region, n);
   for (Index a = 0; a < t.stride; ++a) {
     t.leave[a] = t.held[a] && !t.two_sided[a] ? -t.scale_at[a] : 0;

@@ -59,6 +59,17 @@ std::vector<double> outcome(const SmallKernels& kernels, const NearestPointProbl
   return all;
 }
 
+/// The Gram matrix as its rows held have swept it.
+convex::Matrix swept(const SmallKernels& kernels, const SmallTableau& t) {
+  alignas(64) double column[SmallTableau::most];
+  convex::Matrix all(t.m, t.m);
+  for (Index a = 0; a < t.m; ++a) {
+    kernels.find_column(t, a, column);
+    all.col(a) = Eigen::Map<const Vector>(column, t.m);
+  }
+  return all;
+}
+
 bool is_answered(const NearestPointProblem& problem, Solution& found) {
   SmallTableau tableau;
   SweptRows rows(problem, tableau);
@@ -107,11 +118,14 @@ TEST_CASE("rows looked at later have the columns of rows looked at at once") {
       }
       for (later->m = 16; later->m <= 24; later->m += 8) kernels->append(*later);
       later->m = 24;
-      const Eigen::Map<const convex::Matrix> expected(at_once->swept, 24, 24), found(later->swept, 24, 24);
+      const convex::Matrix expected = swept(*kernels, *at_once), found = swept(*kernels, *later);
       CHECK((found - expected).norm() <= 1e-12 * expected.norm());
+      CHECK((found - found.transpose()).norm() <= 1e-12 * expected.norm());
+      const Eigen::Map<const Vector> diagonal(later->swept_diagonal, 24);
+      CHECK((found.diagonal() - diagonal).norm() <= 1e-12 * expected.norm());
       const Eigen::Map<const Vector> b(at_once->b, 24), later_b(later->b, 24);
       CHECK((later_b - b).norm() <= 1e-12 * b.norm());
-      const std::vector<double> bytes(later->swept, later->swept + 24 * 24);
+      const std::vector<double> bytes(found.data(), found.data() + found.size());
       if (reference.empty()) reference = bytes;
       CHECK(bytes == reference);
     }
