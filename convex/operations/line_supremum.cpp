@@ -80,7 +80,7 @@ class Line {
     WorkLimit::count();
     Sample made{rank, x, v_ * x - f_x.value, 0};
     made.error = f_x.error + roundings_of_terms * unit_roundoff * (std::abs(v_ * x) + std::abs(f_x.value));
-    if (f_x.value == infinity) made.error = 0;
+    if (f_x.value == infinity && f_x.error == 0) made.error = 0;
     if (!std::isfinite(made.error) || (!std::isfinite(made.value) && f_x.value != infinity)) return false;
     const auto place = std::lower_bound(samples_.begin(), samples_.end(), rank,
                                         [](const Sample& s, Rank r) { return s.rank < r; });
