@@ -69,3 +69,15 @@ TEST_CASE("a slope that is small beside slopes that cancel is not told to be in 
     CHECK((std::isinf(beside.value) || std::isinf(beside.error)));
   }
 }
+
+TEST_CASE("the distance of a point is told, however near 0 it is, to a set that ends at 0") {
+  for (const char* set : {"ball2(1, [1])", "box(0, 1)", "intersection(ball2(1, [1]), box(-inf, 0.5))"})
+    for (const double x : {-1e-8, -1e-10, -1e-13}) {
+      CAPTURE(std::string(set));
+      CAPTURE(x);
+      const Value found =
+          samples::function("distance(" + std::string(set) + ", 2)", 1).evaluate(Vector::Constant(1, x));
+      CHECK(std::abs(found.value - 2 * std::abs(x)) <= found.error);
+      CHECK(found.error <= 1e-11);
+    }
+}
