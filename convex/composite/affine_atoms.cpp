@@ -108,9 +108,9 @@ class PointAtom final : public Atom {
     return {.indicator = true, .cone = point_.isZero(0), .separable = true, .piecewise_quadratic = true};
   }
   Call call() const override { return call_of("indicator", nested(call_of("point", point_))); }
-  double value(const Vector& x) const override {
-    const double scale = std::max(x.norm(), point_.norm());
-    return (x - point_).norm() <= membership_tolerance * scale ? 0 : infinity;
+  double value(const Vector& x) const override { return evaluate(x).value; }
+  Value evaluate(const Vector& x) const override {
+    return indicated((x - point_).norm(), std::max(x.norm(), point_.norm()));
   }
   Function conjugate() const override { return Function(linear_atom(point_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -141,9 +141,9 @@ class OrthantAtom final : public Atom {
     reflected.arguments.push_back({"", -1.0, std::nullopt});
     return reflected;
   }
-  double value(const Vector& x) const override {
-    const double out = (-sign_ * x.array()).cwiseMax(0.0).matrix().norm();
-    return out <= membership_tolerance * x.norm() ? 0 : infinity;
+  double value(const Vector& x) const override { return evaluate(x).value; }
+  Value evaluate(const Vector& x) const override {
+    return indicated((-sign_ * x.array()).cwiseMax(0.0).matrix().norm(), x.norm());
   }
   Function conjugate() const override { return Function(std::make_shared<const OrthantAtom>(-sign_)); }
   std::optional<Vector> subgradient(const Vector& x) const override {

@@ -90,7 +90,7 @@ RecedingDirections::RecedingDirections(const GraphForm& f) : k_(static_cast<std:
 }
 
 Fractions RecedingDirections::direction() const {
-  Fractions d(k_);
+  Fractions d(next_);
   bool moves = false;
   std::vector<Side> sides;
   for (const CurvedEntry& entry : entries_)
@@ -212,7 +212,7 @@ bool RecedingDirections::take(const std::vector<Side>& sides, Fractions& d) cons
   if (!found || sign(found->f_x) == 0 || sign(dot(total_, found->xi)) < 0) return false;
   Fractions xi = found->xi;
   equations_.fill(xi);
-  for (std::size_t i = 0; i < k_; ++i) d[i] = d[i] + xi[i];
+  for (std::size_t i = 0; i < next_; ++i) d[i] = d[i] + xi[i];
   return true;
 }
 

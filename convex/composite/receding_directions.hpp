@@ -37,7 +37,8 @@ class RecedingDirections {
  public:
   explicit RecedingDirections(const GraphForm& f);
 
-  /// One along which as many of the curved entries move to a line as can; empty where none can.
+  /// One along which as many of the curved entries move to a line as can, w and then the auxiliary variables
+  /// of the programs; empty where none can.
   Fractions direction() const;
 
   /// Those that may move.

@@ -29,7 +29,8 @@ class SetIndicator : public Atom {
     return facts;
   }
   Call call() const override { return {"indicator", {argument(S_->call())}}; }
-  double value(const Vector& x) const override { return S_->contains(x) ? 0 : infinity; }
+  double value(const Vector& x) const override { return evaluate(x).value; }
+  Value evaluate(const Vector& x) const override { return S_->membership(x); }
   Function conjugate() const override { return support_of(S_); }
   double domain_size() const override { return S_->scale(); }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -77,6 +78,7 @@ class SetSupport : public Atom {
   }
   Call call() const override { return S_->support_call(); }
   double value(const Vector& x) const override { return S_->support(x); }
+  Value evaluate(const Vector& x) const override { return S_->support_value(x); }
   Function conjugate() const override { return indicator_of(S_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return S_->maximiser(x); }
   /// The domain's closure is the polar of the directions in which S has no end.
@@ -124,9 +126,9 @@ class ConeSet : public ConvexSet {
   bool takes_any_diagonal() const override { return K_.any_diagonal; }
   Vector project(const Vector& z, const Vector& d) const override { return K_.project(z, d); }
   Matrix project_jacobian(const Vector& z, const Vector& d) const override { return K_.jacobian(z, d); }
-  double support(const Vector& v) const override {
-    const double outside = project(v, Vector::Ones(v.size())).stableNorm();
-    return outside <= membership_tolerance * v.stableNorm() ? 0 : infinity;
+  double support(const Vector& v) const override { return support_value(v).value; }
+  Value support_value(const Vector& v) const override {
+    return indicated(project(v, Vector::Ones(v.size())).stableNorm(), v.stableNorm());
   }
   std::optional<Vector> maximiser(const Vector& v) const override {
     if (support(v) > 0) return std::nullopt;
@@ -150,9 +152,14 @@ class ConeSet : public ConvexSet {
 
 Call ConvexSet::support_call() const { return {"support", {argument(call())}}; }
 
-bool ConvexSet::contains(const Vector& x) const {
+Value ConvexSet::membership(const Vector& x) const {
   const double miss = (x - project(x, Vector::Ones(x.size()))).stableNorm();
-  return miss <= membership_tolerance * (x.stableNorm() + scale());
+  return indicated(miss, x.stableNorm() + scale());
+}
+
+Value ConvexSet::support_value(const Vector& v) const {
+  const double found = support(v);
+  return sum_of_terms(found, std::abs(found));
 }
 
 std::optional<LinearQuadratic> ConvexSet::indicator_form(Index) const { return std::nullopt; }

@@ -41,11 +41,15 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   virtual Vector project(const Vector& z, const Vector& d) const = 0;
   /// An element of the generalised Jacobian of z -> project(z, d).
   virtual Matrix project_jacobian(const Vector& z, const Vector& d) const = 0;
-  /// Is x in S, up to membership_tolerance · (|x| + scale())? The distance to the projection decides.
-  virtual bool contains(const Vector& x) const;
+  /// The indicator at x, with the tolerances relative to |x| + scale(). The distance to the projection
+  /// decides.
+  virtual Value membership(const Vector& x) const;
+  bool contains(const Vector& x) const { return membership(x).value == 0; }
 
   /// sup over s in S of s·v; +inf when v, up to `membership_tolerance`, has none.
   virtual double support(const Vector& v) const = 0;
+  /// The same with its rounding, and with the doubt where the tolerance decides.
+  virtual Value support_value(const Vector& v) const;
   /// One s in S with s·v = support(v); none when there is none.
   virtual std::optional<Vector> maximiser(const Vector& v) const = 0;
   /// The prox of the support function, by a formula of its own and not from `project`; see `SplitRoute`.

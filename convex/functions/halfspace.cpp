@@ -46,14 +46,16 @@ class Slab : public ConvexSet {
     if (!active) return identity;
     return identity - normal * a_.transpose() / a_.dot(normal);
   }
-  double support(const Vector& v) const override {
-    const auto weight = weight_of(v);
-    return weight ? *weight * b_ : infinity;
+  double support(const Vector& v) const override { return support_value(v).value; }
+  Value support_value(const Vector& v) const override {
+    Value found = is_normal(v);
+    if (found.value == 0) found.value = weight_of(v) * b_;
+    found.error += sum_of_terms(found.value, std::abs(found.value)).error;
+    return found;
   }
   std::optional<Vector> maximiser(const Vector& v) const override {
-    const auto weight = weight_of(v);
-    if (!weight) return std::nullopt;
-    return *weight != 0 || two_sided_ || b_ < 0 ? Vector(b_ * a_) : Vector::Zero(a_.size());
+    if (is_normal(v).value > 0) return std::nullopt;
+    return weight_of(v) != 0 || two_sided_ || b_ < 0 ? Vector(b_ * a_) : Vector::Zero(a_.size());
   }
   /// w b + ½ Σ d_i (w a_i - z_i)² is least at the w with w a·Da = a·Dz - b.
   Vector support_prox(const Vector& z, const Vector& d) const override {
@@ -83,11 +85,13 @@ class Slab : public ConvexSet {
     const double excess = a_.dot(z) - b_;
     return (two_sided_ ? excess : std::max(0.0, excess)) / length;
   }
-  /// The w with v = wa, w >= 0 unless two-sided; none when there is none.
-  std::optional<double> weight_of(const Vector& v) const {
-    const double weight = a_.dot(v), allowance = membership_tolerance * v.stableNorm();
-    if ((v - weight * a_).stableNorm() > allowance) return std::nullopt;
-    if (!two_sided_ && weight < -allowance) return std::nullopt;
+  /// The indicator of the v = wa, w >= 0 unless two-sided.
+  Value is_normal(const Vector& v) const {
+    const double weight = a_.dot(v), off = (v - weight * a_).stableNorm();
+    return indicated(std::max(off, two_sided_ ? 0 : -weight), v.stableNorm());
+  }
+  double weight_of(const Vector& v) const {
+    const double weight = a_.dot(v);
     return two_sided_ ? weight : std::max(0.0, weight);
   }
   Call call_;

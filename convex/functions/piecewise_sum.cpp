@@ -37,10 +37,16 @@ bool is_finite(const PiecewiseQuadratic& f) {
   return std::isinf(ends.low) && std::isinf(ends.high);
 }
 
-/// x, moved to the end of the domain that it misses by no more than the membership tolerance.
-double inside(const Interval& ends, double x, double size) {
+/// x, moved to the end of the domain that it misses by no more than the membership tolerance; and whether it
+/// is in the domain.
+struct Inside {
+  double x = 0;
+  Value membership;
+};
+Inside inside(const Interval& ends, double x, double size) {
   const double nearest = std::clamp(x, ends.low, ends.high);
-  return std::abs(nearest - x) <= membership_tolerance * (size + std::abs(nearest)) ? nearest : x;
+  const Value membership = indicated(std::abs(nearest - x), size + std::abs(nearest));
+  return {membership.value == 0 ? nearest : x, membership};
 }
 
 /// sup of v t over the t in an interval.
@@ -90,18 +96,23 @@ class PiecewiseNode : public Atom {
   Value evaluate(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();
     double sum = parts_.offset, sizes = std::abs(parts_.offset);
+    double doubt = 0;
     for (Index i = 0; i < x.size(); ++i) {
-      const double entry = piece(i)(inside(domain(piece(i)), x[i], size));
+      const Inside at = inside(domain(piece(i)), x[i], size);
+      const double entry = piece(i)(at.x);
       sum += entry;
       sizes += std::abs(entry);
+      doubt += at.membership.error;
     }
-    return sum_of_terms(sum, sizes);
+    Value found = sum_of_terms(sum, sizes);
+    found.error += doubt;
+    return found;
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const double size = x.cwiseAbs().maxCoeff();
     Vector v(x.size());
     for (Index i = 0; i < x.size(); ++i) {
-      const auto slopes = subdifferential(piece(i), inside(domain(piece(i)), x[i], size));
+      const auto slopes = subdifferential(piece(i), inside(domain(piece(i)), x[i], size).x);
       if (!slopes) return std::nullopt;
       v[i] = std::clamp(0.0, slopes->low, slopes->high);
     }

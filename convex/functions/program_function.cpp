@@ -26,6 +26,13 @@ class ProgramNode : public FunctionNode {
   }
   Call call() const override { return swapped_ ? parts_->conjugate_call : parts_->call; }
   double value(const Vector& x) const override { return convex::value(form(), x); }
+  Value evaluate(const Vector& x) const override {
+    const Evaluation found = convex::evaluate(form(), x);
+    if (found.status != Status::solved) return {std::numeric_limits<double>::quiet_NaN(), 0};
+    Value value = sum_of_terms(found.value, std::abs(found.value));
+    if (std::isinf(found.error)) value.error = found.error;
+    return value;
+  }
   Prox prox(const Vector& z, const Metric& W, const Look&) const override {
     return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
   }

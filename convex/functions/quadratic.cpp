@@ -134,11 +134,15 @@ class DualQuadratic : public Atom {
         {argument("A", Matrix(of_Q_.null.transpose())), argument("b", Vector(of_Q_.null.transpose() * c_))}};
     return {"sum", {argument(on_range), argument(Call{"indicator", {argument(range)}})}};
   }
-  double value(const Vector& v) const override {
+  double value(const Vector& v) const override { return evaluate(v).value; }
+  Value evaluate(const Vector& v) const override {
     const Vector from = v - c_;
-    const double off = (of_Q_.null.transpose() * from).norm();
-    if (off > membership_tolerance * (v.norm() + c_.norm())) return std::numeric_limits<double>::infinity();
-    return 0.5 * (L_.transpose() * solve(from)).dot(L_.transpose() * solve(from)) - constant_;
+    const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
+    if (std::isinf(on_range.value)) return on_range;
+    const double half = 0.5 * (L_.transpose() * solve(from)).squaredNorm();
+    Value found = sum_of_terms(half - constant_, half + std::abs(constant_));
+    found.error += on_range.error;
+    return found;
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {

@@ -117,13 +117,14 @@ class ScalarSum : public Atom {
   /// Entries of both signs may cancel: the rounding is relative to their sizes.
   Value sum_of_entries(const Vector& x) const {
     const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
-    double sum = 0, size = 0;
+    double sum = 0, size = 0, doubt = 0;
     for (Index i = 0; i < x.size(); ++i) {
-      const double part = law_.value(inside(x[i], allowance, i), i);
+      const double at = inside(x[i], allowance, i), part = law_.value(at, i);
       sum += part;
       size += std::abs(part);
+      doubt += indicated(std::abs(at - x[i]), allowance / membership_tolerance).error;
     }
-    return {sum, std::isfinite(sum) ? roundings_of_a_term * unit_roundoff * size : 0};
+    return {sum, doubt + (std::isfinite(sum) ? roundings_of_a_term * unit_roundoff * size : 0)};
   }
 
   /// x, moved to the end of the domain that it misses by no more than `allowance`.

@@ -41,8 +41,8 @@ class BoundedPartialSums : public DualBall {
   bool takes_any_diagonal() const override { return true; }
   double scale() const override { return bound_; }
   /// The sum of all is 0 whatever the bound: it is measured by x alone.
-  bool contains(const Vector& x) const override {
-    return std::abs(x.sum()) <= membership_tolerance * x.lpNorm<1>() && DualBall::contains(x);
+  Value membership(const Vector& x) const override {
+    return sum_of(indicated(std::abs(x.sum()), x.lpNorm<1>()), DualBall::membership(x));
   }
   double support(const Vector& v) const override {
     double sum = 0;

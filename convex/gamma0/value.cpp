@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/gamma0/facts.hpp"
+#include "convex/infinity.hpp"
 #include "convex/vector.hpp"
 
 namespace convex::inline gamma0 {
@@ -13,6 +15,11 @@ constexpr double roundings_of_a_sum = 4;
 
 Value sum_of_terms(double sum, double sizes) {
   return {sum, std::isfinite(sum) ? roundings_of_a_sum * unit_roundoff * sizes : 0};
+}
+
+Value indicated(double miss, double size) {
+  if (!(miss <= membership_tolerance * size)) return {infinity, 0};
+  return {0, miss <= accuracy_of_prox * size ? 0 : infinity};
 }
 
 Value sum_of(const Value& a, const Value& b) {

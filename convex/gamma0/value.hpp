@@ -13,6 +13,10 @@ struct Value {
 /// they cancel that is more than some of its own.
 Value sum_of_terms(double sum, double sizes);
 
+/// The indicator of a set that a point misses by `miss`, where the numbers compared are of `size`: a point
+/// of a prox is inside, and whether one that only `membership_tolerance` lets in is, is not decided.
+Value indicated(double miss, double size);
+
 /// a + b, and factor · a, factor > 0, each rounded.
 Value sum_of(const Value& a, const Value& b);
 Value multiple_of(double factor, const Value& a);

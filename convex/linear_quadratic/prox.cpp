@@ -17,7 +17,7 @@ Prox prox(const LinearQuadratic& f, const Vector& z, const Metric& W) {
   Prox found;
   found.route = ProxRoute::active_set;
   found.status = point.status;
-  if (point.status == Status::infeasible || point.lambda.size() != f.rows()) {
+  if (point.status == Status::infeasible || point.v.size() != f.n) {
     found.method = point.defect == Defect::unbounded_below ? "active set: the function is -inf"
                                                            : "active set: the domain is empty";
     if (point.status != Status::infeasible) found.method = "active set: gave up";

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/gamma0/facts.hpp"
+#include "convex/gamma0/value.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/minimise.hpp"
@@ -126,7 +127,8 @@ std::optional<Evaluation> over(const LinearQuadratic& f, const Vector& x, bool w
   const Gap left = free_of_cost ? Gap{} : value_gap(cut.program, point);
   if (free_of_cost || (point.status == Status::solved && left.gap <= accurate_value * left.terms))
     found.status = Status::solved;
-  found.error = left.gap;  // the objective itself is summed in twice the precision
+  // The objective itself is summed in twice the precision.
+  found.error = cut.worst <= accuracy_of_prox ? left.gap : infinity;
   Vector lambda = Vector::Zero(f.rows());
   for (std::size_t i = 0; i < cut.kept.size() && !free_of_cost; ++i) {
     const Index a = cut.kept[i];
@@ -136,8 +138,12 @@ std::optional<Evaluation> over(const LinearQuadratic& f, const Vector& x, bool w
   return found;
 }
 
-/// The nearest point of the domain when x misses it by rounding.
-std::optional<Vector> nearest_in_domain(const LinearQuadratic& f, const Vector& x) {
+/// The nearest point of the domain when x misses it by rounding, and whether x itself is in the domain.
+struct NearestInDomain {
+  Vector y;
+  Value membership;
+};
+std::optional<NearestInDomain> nearest_in_domain(const LinearQuadratic& f, const Vector& x) {
   LinearQuadratic domain = f;
   domain.H.setZero();
   domain.c.setZero();
@@ -148,8 +154,9 @@ std::optional<Vector> nearest_in_domain(const LinearQuadratic& f, const Vector& 
   for (Index a = 0; a < f.rows(); ++a)
     if (point.lambda[a] != 0) scale = std::max(scale, std::abs(f.h[a]) / f.G.row(a).norm());
   const Vector y = point.xi.head(f.n);
-  if ((y - x).norm() > membership_tolerance * scale) return std::nullopt;
-  return y;
+  const Value membership = indicated((y - x).norm(), scale);
+  if (membership.value > 0) return std::nullopt;
+  return NearestInDomain{y, membership};
 }
 
 }  // namespace
@@ -160,10 +167,13 @@ Evaluation evaluate(const LinearQuadratic& f, const Vector& x) {
   Evaluation outside;
   outside.value = infinity;
   if (f.auxiliaries() == 0) return outside;
-  const std::optional<Vector> y = nearest_in_domain(f, x);
-  if (!y) return outside;
+  const std::optional<NearestInDomain> nearest = nearest_in_domain(f, x);
+  if (!nearest) return outside;
   for (bool wide : {false, true})
-    if (std::optional<Evaluation> found = over(f, *y, wide)) return *found;
+    if (std::optional<Evaluation> found = over(f, nearest->y, wide)) {
+      found->error += nearest->membership.error;
+      return *std::move(found);
+    }
   outside.value = not_known;
   outside.status = Status::inaccurate;
   return outside;

@@ -9,9 +9,9 @@ namespace convex {
 
 /// f(x) with its witnesses.
 struct Evaluation {
-  double value = 0;         ///< +inf outside the domain, -inf where f is unbounded below in w
-  double error = 0;         ///< of a finite value: the duality gap of the program
-  Vector xi;                ///< (x, w), w optimal: n + k
+  double value = 0;  ///< +inf outside the domain, -inf where f is unbounded below in w
+  double error = 0;  ///< of a finite value: the duality gap of the program; +inf where x may be outside
+  Vector xi;         ///< (x, w), w optimal: n + k
   std::optional<Vector> v;  ///< a subgradient of f at x, from the multipliers; none where f(x) is infinite
   Status status = Status::solved;  ///< solved or inaccurate
 };

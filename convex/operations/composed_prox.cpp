@@ -106,7 +106,10 @@ std::optional<Prox> composed_prox(std::span<const Function> parts, const Vector&
   // A prox expands nothing: the error of u is one of x.
   Prox whole = moved(made, x.x, u.v + x.v, u.error_bound + x.error_bound, z, W);
   whole.duality_gap = u.duality_gap + x.duality_gap;
-  whole.values.reset();
+  // u.v is a subgradient of the first function at x too.
+  if (u.values && x.values)
+    whole.values = {sum_of(order->first.evaluate(x.x), x.values->f_x), sum_of(u.values->f_v, x.values->f_v),
+                    std::max(u.values->miss, x.values->miss)};
   whole.method += ", one prox after another";
   return whole;
 }

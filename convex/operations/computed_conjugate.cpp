@@ -3,6 +3,7 @@
 
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/composite/work_limit.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -33,9 +34,22 @@ class ComputedConjugate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::conjugate(*form);
   }
+  /// In units of the slope v where heights are measured: a small v may be the sum of slopes that cancel, and
+  /// units far below theirs hide that a part is missed.
   Value evaluate(const Vector& v) const override {
-    const ByProgram found = in_slopes(v);
-    return settled_value(found.value, found.slope, f_, v);
+    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
+    if (parts)
+      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
+        return settled_value(*found, {}, f_, v);
+    const double unit = parts && v.norm() > 0 ? unit_of_slope(parts->slope_of(v)) : 1;
+    const auto in_units = unit != 1 ? in_units_of(unit, *parts, v) : std::nullopt;
+    if (!in_units || unit > 1) {
+      const ByProgram found = in_units ? *in_units : by_program(v);
+      return settled_value(found.value, found.slope, f_, v);
+    }
+    const ByProgram plain = by_program(v), found = held_against(*in_units, plain);
+    const Value settled = settled_value(found.value, found.slope, f_, v);
+    return is_known(settled) || !is_known(plain.value) ? settled : plain.value;
   }
   double recession(const Vector& d) const override { return f_.node().domain_support(d); }
   double domain_support(const Vector& v) const override { return f_.node().recession(v); }
@@ -53,20 +67,18 @@ class ComputedConjugate : public Operation {
   }
 
  private:
-  ByProgram in_slopes(const Vector& v) const {
-    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
-    if (parts)
-      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
-        return {*found, {}};
-    if (!parts || facts().piecewise_quadratic || !(v.norm() > 0)) return by_program(v);
-    const double unit = unit_of_slope(parts->slope_of(v));
-    const auto form = parts->graph(v.size(), unit);
-    if (!form) return by_program(v);
+  /// Leaves work for the other ways.
+  std::optional<ByProgram> in_units_of(double unit, const Operation& parts, const Vector& v) const {
+    if (facts().piecewise_quadratic) return std::nullopt;
+    const auto form = parts.graph(v.size(), unit);
+    if (!form) return std::nullopt;
+    const auto part = WorkLimit::half_of_the_rest();
     const GraphValue found = convex::evaluate(convex::conjugate(*form), v);
-    const ByProgram in_units{value_of(found), found.v};
-    return unit < 1 ? held_against(in_units, by_program(v)) : in_units;
+    return ByProgram{value_of(found), found.v};
   }
-  /// A small v may be the sum of slopes that cancel: units far below theirs hide that a part is missed.
+  static bool is_known(const Value& value) {
+    return std::isfinite(value.value) && std::isfinite(value.error);
+  }
   static ByProgram held_against(ByProgram found, const ByProgram& plain) {
     constexpr double roundings = 64;
     if (std::isfinite(plain.value.value) && !std::isfinite(found.value.value)) return plain;

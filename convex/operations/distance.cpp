@@ -71,11 +71,14 @@ class Distance : public Operation {
   }
 
  private:
-  /// A point of the set is its own nearest, also where the search for one knows less of it.
+  /// A point of the set is its own nearest, up to what may be taken for a point of it, where the search for
+  /// one knows less.
   Prox nearest(const Vector& x) const {
     Prox found = set_.indicator.prox(x, Metric::identity(x.size()));
-    const double membership = membership_tolerance * x.norm();
-    if (found.error_bound <= membership || set_.indicator(x) != 0) return found;
+    const double membership = accuracy_of_prox * (x.norm() + size_of_set(x.size()));
+    if (found.error_bound <= membership) return found;
+    const Value inside = set_.indicator.evaluate(x);
+    if (inside.value != 0 || inside.error != 0) return found;
     Prox own;
     own.x = x;
     own.v = Vector::Zero(x.size());
@@ -84,6 +87,17 @@ class Distance : public Operation {
     own.method = "a point of the set";
     own.values.emplace();
     return own;
+  }
+  /// Of the numbers that bound it, as far as they are known.
+  double size_of_set(Index n) const {
+    const auto* atom = dynamic_cast<const Atom*>(&set_.indicator.node());
+    double size = atom ? atom->domain_size() : 0;
+    for (Index i = 0; i < n && !atom; ++i)
+      for (const double side : {1.0, -1.0}) {
+        const double end = set_.indicator.node().domain_support(side * Vector::Unit(n, i));
+        if (std::isfinite(end)) size = std::max(size, std::abs(end));
+      }
+    return size;
   }
   /// weight times the unit vector away from the set, 0 when the distance is rounding.
   Vector slope(const Vector& away, const Vector& x) const {

@@ -102,15 +102,14 @@ class Epigraph : public Lifted {
   Call call() const override { return {"indicator", {argument(Call{"epigraph", {argument(f_.call())}})}}; }
   Value evaluate(const Vector& x) const override {
     const Index n = x.size() - 1;
-    const double height = value_near(f_, x.head(n), x.norm()).value;
-    const double scale = std::abs(height) + x.norm();
-    if (height == infinity) return {infinity, 0};
-    if (height - x[n] <= membership_tolerance * scale) return {};
+    const Value height = value_near(f_, x.head(n), x.norm());
+    if (height.value == infinity) return height;
+    const double scale = std::abs(height.value) + x.norm();
+    const Value below = indicated(height.value - x[n], scale);
+    if (below.value == 0) return std::isfinite(height.error) ? below : Value{0, infinity};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
     const Prox nearest = prox(x, Metric::identity(x.size()), Look{});
-    const bool near =
-        nearest.x.size() == x.size() && (nearest.x - x).norm() <= membership_tolerance * x.norm();
-    return {near ? 0 : infinity, 0};
+    return nearest.x.size() == x.size() ? indicated((nearest.x - x).norm(), x.norm()) : Value{infinity, 0};
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (value(x) > 0) return std::nullopt;

@@ -1,31 +1,17 @@
 #include "convex/operations/line_supremum.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "convex/composite/work_limit.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
+#include "convex/operations/order_of_doubles.hpp"
 
 namespace convex::inline operations {
 namespace {
-
-using Rank = std::int64_t;
-
-/// The place of a double among all in their order; that of 0 is 0, and neighbours differ by 1.
-Rank rank_of(double x) {
-  const Rank bits = std::bit_cast<Rank>(std::abs(x));
-  return std::signbit(x) ? -bits : bits;
-}
-
-double double_of(Rank rank) {
-  const double size = std::bit_cast<double>(rank < 0 ? -rank : rank);
-  return rank < 0 ? -size : size;
-}
 
 /// Products with larger numbers may leave the range of doubles.
 constexpr double farthest = 0x1p900;
@@ -80,7 +66,7 @@ class Line {
     WorkLimit::count();
     Sample made{rank, x, v_ * x - f_x.value, 0};
     made.error = f_x.error + roundings_of_terms * unit_roundoff * (std::abs(v_ * x) + std::abs(f_x.value));
-    if (f_x.value == infinity) made.error = 0;
+    if (f_x.value == infinity && f_x.error == 0) made.error = 0;
     if (!std::isfinite(made.error) || (!std::isfinite(made.value) && f_x.value != infinity)) return false;
     const auto place = std::lower_bound(samples_.begin(), samples_.end(), rank,
                                         [](const Sample& s, Rank r) { return s.rank < r; });

@@ -13,6 +13,7 @@
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/composed_prox.hpp"
+#include "convex/operations/line_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/open_domain.hpp"
@@ -104,6 +105,8 @@ std::optional<Prox> prox_in_slopes(const Operation& f, double first, const Vecto
 
 std::optional<Prox> Operation::other_prox(const Vector& z, const Metric& W, const Look& look) const {
   if (facts().piecewise_quadratic) return std::nullopt;
+  if (z.size() == 1)
+    if (auto found = line_prox(self(), z[0], W.diagonal()[0])) return found;
   const std::vector<Function> parts = maximum_of();
   return parts.empty() ? std::nullopt : prox_of_max(parts, z, W, look);
 }

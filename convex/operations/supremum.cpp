@@ -98,7 +98,7 @@ bool recedes_far_out(const Function& f, const Vector& v) {
   return false;
 }
 
-/// Is v·x - f(x) more than `bound` beside x, along an axis?
+/// Is v·x - f(x) more than `bound` beside x, along an axis, or not known there?
 bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bound) {
   const Index n = v.size();
   if (n > most_axes) return false;
@@ -107,7 +107,7 @@ bool is_surpassed(const Function& f, const Vector& v, const Vector& x, double bo
       for (Index i = 0; i < n; ++i) {
         const Vector beside = x + step * Vector::Unit(n, i);
         const Value value = f.evaluate(beside);
-        if (v.dot(beside) - value.value - value.error > bound) return true;
+        if (!std::isfinite(value.error) || v.dot(beside) - value.value - value.error > bound) return true;
       }
   return false;
 }

@@ -32,7 +32,8 @@ Vector beyond(const Vector& y, const Vector& lo) {
 
 Value value_near(const Function& f, const Vector& y, double size) {
   const Value value = f.evaluate(y);
-  if (!(value.value == infinity) || !(size > 0)) return value;
+  const bool decided = !(value.value == infinity) && std::isfinite(value.error);
+  if (decided || f.facts().finite || !(size > 0)) return value;
   // A function that is steep at its domain's edge gains by leaving it; the stiffer, the less. One that rises
   // there without end, as |p|³/s² at s = 0, is told the better the farther the point is inside.
   const double near = std::min(size, 1.0);
@@ -43,15 +44,17 @@ Value value_near(const Function& f, const Vector& y, double size) {
     if (!std::isfinite(weight) || !(weight > 0) || WorkLimit::passed()) continue;
     WorkLimit::count(WorkLimit::of_a_nearest_point);
     const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
-    if (nearest.x.size() != y.size() || !((nearest.x - y).norm() <= membership_tolerance * size)) continue;
+    if (nearest.x.size() != y.size()) continue;
+    const Value membership = indicated((nearest.x - y).norm(), size);
+    if (membership.value > 0) continue;
     const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
     if (!std::isfinite(inside.value)) continue;
     // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
     const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
     const Value farther = f.evaluate(2 * nearest.x - y);
     const double fall = std::isfinite(farther.value) ? std::max(0.0, inside.value - farther.value) : 0;
-    const Value found{inside.value, inside.error + 2 * rise};
-    if (found.error + fall < least) best = found;
+    const Value found{inside.value, inside.error + membership.error + 2 * rise};
+    if (best.value == infinity || found.error + fall < least) best = found;
     least = std::min(least, found.error + fall);
     if (rise + fall == 0) break;
   }

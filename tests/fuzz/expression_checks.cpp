@@ -26,6 +26,9 @@ constexpr double allowed_descent = 1e-8;
 constexpr double growing =
     1e5;  ///< a supremum that is +inf grows so much as the search goes 1e8 times as far
 
+/// One that rises by more than this part of itself over the last tenfold has not been reached.
+constexpr double rising = 1e-2;
+
 /// A supremum that is approached at infinity rises by less beyond 1e16 than from 1e8 to there: by 1e-4 of it
 /// where it is approached as by the root.
 constexpr double part_beyond = 2e-4;
@@ -174,6 +177,8 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
     if (tiny || !(value > near + 100 * slack)) continue;
     const double far = within(1e16);
     if (!(far > -INFINITY) || !exact || far >= growing * std::max(1.0, std::abs(near))) continue;
+    // What still rises at the end of the search has its supremum beyond.
+    if (std::isfinite(value) && far - within(1e15) > rising * std::abs(far)) continue;
     if (std::isinf(value)) {
       // As a logarithm does, by as much at each scale.
       if (!(far > near && far - near > 0.5 * (near - within(1e4))))

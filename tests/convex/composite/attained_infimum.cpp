@@ -5,6 +5,7 @@
 #include "convex/functions/decomposition.hpp"
 #include "tests/convex/operations/samples.hpp"
 
+using convex::Matrix;
 using convex::Metric;
 using convex::Status;
 using convex::Vector;
@@ -40,6 +41,16 @@ TEST_CASE("entries that an infimum moves far out leave the function of the other
     CHECK(std::abs(x[2] - truth) <= 1e-10);
   }
   CHECK(f.evaluate(Vector{{-1, 5, 2}}).value == doctest::Approx(0.5).epsilon(1e-10));
+}
+
+TEST_CASE("where a half-space leaves a sum of entries the point 0 alone, the split is that of 0") {
+  const auto f = samples::function("sum(indicator(halfspace([1,3], 0)), entropy())", 2);
+  const Vector z{{5.9906932192840365, 8.494209123805103}};
+  Matrix gram(2, 2);
+  gram << 9, -6, -6, 13;
+  const auto split = convex::decompose(f, z, Metric::dense(gram));
+  CHECK(split.status == Status::solved);
+  CHECK(split.x.x.norm() <= 1e-9 * z.norm());
 }
 
 TEST_CASE("where quadratics hold all that is curved still, no program looks for a way far out") {

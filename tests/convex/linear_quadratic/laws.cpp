@@ -119,3 +119,11 @@ TEST_CASE("fifty entries in an ill-conditioned metric are found as well") {
     CHECK(W.norm(x.x + y.x - z) <= left_by_condition * W.norm(z));
   }
 }
+
+TEST_CASE("where the metric is nothing beside the quadratic part, the prox gives up without a point") {
+  convex::LinearQuadraticBuilder builder(2, 0);
+  for (const auto& [i, j] : {std::pair<Index, Index>{0, 0}, {0, 1}, {1, 1}}) builder.curve(i, j, 1e20);
+  const Prox found = prox(builder.finish(), Vector{{1, 2}}, Metric::identity(2).scaled(1e-20));
+  CHECK(found.status == Status::gave_up);
+  CHECK(found.x.size() == 0);
+}

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "convex/functions/decomposition.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
@@ -119,4 +120,28 @@ TEST_CASE("the entries of a separable function add up to it but for a constant")
   }
   CHECK_FALSE(samples::function("norm2()", 3).node().entry(0));
   CHECK_FALSE(samples::function("sum(norm1(), norm2())", 3).node().entry(0));
+}
+
+TEST_CASE(
+    "functions of one entry that are steep at 0 are split to the last digits from a point far outside") {
+  struct Steep {
+    const char* f;
+    Vector z;
+  };
+  for (const Steep& question :
+       {Steep{"sum(negative_power(0.5), inverse_power(1))", Vector{{-1e8}}},
+        {"sum(tilt(negative_power(0.5), [-2,2]), scale(inverse_power(0.5), 0.25))", Vector{{-3e8, 2e8}}},
+        {"sum(sum(negative_power(0.5), max()), inverse_power(1))", Vector{{-1e8, 3e8, -3e8, -3e8}}}}) {
+    CAPTURE(std::string(question.f));
+    const Vector& z = question.z;
+    const Metric W = Metric::identity(z.size());
+    const convex::Decomposition split = convex::decompose(samples::function(question.f, z.size()), z, W);
+    CHECK(split.status == Status::solved);
+    CHECK(std::abs(split.fenchel_gap) <= 1e-9 * (std::abs(split.f_x) + std::abs(split.g_y)));
+  }
+  // 0 = x + 1e8 - 1/(2 sqrt(x)) - 1/x²: x = 1e-4 up to some 1e-11 of it
+  const Vector x = samples::function("sum(negative_power(0.5), inverse_power(1))", 1)
+                       .prox(Vector{{-1e8}}, Metric::identity(1))
+                       .x;
+  CHECK(std::abs(x[0] - 1e-4 - 0.5 * 1e-4 * 50e-8) <= 1e-12);
 }

@@ -192,3 +192,13 @@ TEST_CASE("roots in roots end, and what they leave is said") {
     CHECK(std::abs(split.fenchel_gap) <= 1e-9 * size);
   }
 }
+
+TEST_CASE("where the rounding of a far point leaves x outside its domain, f(x) is the value at the edge") {
+  const auto f = samples::function("sum(kullback_leibler(2), binary_entropy())", 3);
+  Matrix gram(3, 3);
+  gram << 1, 2, -1, 2, 8, 14, -1, 14, 66;
+  const Decomposition split = convex::decompose(f, Vector{{-2e8, 1, 2e8}}, Metric::dense(gram));
+  CHECK(split.status == Status::solved);
+  // x = (0, 1, 1): 2 + 2 (log(1/2) - 1 + 2)
+  CHECK(std::abs(split.f_x - (4 - 2 * std::log(2.0))) <= 1e-9);
+}

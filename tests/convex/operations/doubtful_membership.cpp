@@ -1,0 +1,83 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/convex/operations/samples.hpp"
+
+/// Between what a prox may miss a set by, 1e-12 of its size, and the membership tolerance, 1e-9, a point
+/// counts as inside and the doubt is told.
+using convex::Function;
+using convex::Metric;
+using convex::Value;
+using convex::Vector;
+
+namespace {
+
+struct WayOut {
+  const char* f;
+  std::vector<double> at, towards;  ///< a point of the boundary and the way out of the domain there
+};
+
+const WayOut ways_out[] = {
+    {"indicator(box(-1, 1))", {1, 0}, {1, 0}},
+    {"indicator(ball2(2))", {0, 2}, {0, 1}},
+    {"indicator(halfspace([3, 4], 5))", {1, 0.5}, {3, 4}},
+    {"indicator(hyperplane([3, 4], 5))", {1, 0.5}, {-3, -4}},
+    {"indicator(orthant())", {0, 1}, {-1, 0}},
+    {"indicator(second_order_cone())", {1, 1}, {1, 0}},
+    {"indicator(polyhedron([[1, 1], [1, -1]], [2, 2]))", {2, 0}, {1, 0}},
+    {"indicator(simplex(2))", {1, 1}, {1, 1}},
+    {"support(halfspace([3, 4], 5))", {3, 4}, {4, -3}},
+    {"conjugate(linear([2, -1]))", {2, -1}, {1, 0}},
+    {"conjugate(quadratic([[1, 0], [0, 0]], [2, 1]))", {5, 1}, {0, 1}},
+    {"conjugate(total_variation(2))", {2, -2}, {1, 1}},
+    {"indicator(epigraph(squared_norm2(2)))", {2, 4}, {0, -1}},
+    {"negative_power(0.5)", {0, 1}, {-1, 0}},
+    {"plq([0], [[inf, 0, 0], [1, 0, 0]])", {0, 1}, {-1, 0}},
+    {"translate(indicator(orthant()), [3, -1])", {3, 1}, {-1, 0}},
+    {"precompose(indicator(orthant()), [[1, 2], [3, -1]], [0, 0])", {2, -1}, {-1, -2}},
+};
+
+}  // namespace
+
+TEST_CASE("a point that a set takes in by its tolerance alone is told with the doubt, one of a prox is not") {
+  for (const WayOut& edge : ways_out) {
+    CAPTURE(std::string(edge.f));
+    const Function f = samples::function(edge.f, 2);
+    const Vector at = Eigen::Map<const Vector>(edge.at.data(), 2);
+    const Vector out = Eigen::Map<const Vector>(edge.towards.data(), 2).normalized() * at.norm();
+    CHECK(f.evaluate(at).error <= 1e-12 * (1 + std::abs(f(at))));
+    const Value beside = f.evaluate(at + 1e-14 * out), doubtful = f.evaluate(at + 3e-11 * out);
+    CHECK(std::isfinite(beside.value));
+    CHECK(std::isfinite(beside.error));
+    CHECK((std::isinf(doubtful.error) || std::isinf(doubtful.value)));
+    const Value outside = f.evaluate(at + 1e-6 * out);
+    CHECK(outside.value == std::numeric_limits<double>::infinity());
+    CHECK(outside.error == 0);
+  }
+}
+
+TEST_CASE("a slope that is small beside slopes that cancel is not told to be in the domain of a conjugate") {
+  for (const char* f :
+       {"scale(tilt(linear([-2]), [2]), 1024)", "dilate(tilt(sum_largest(1), [-1]), 0.0009765625)"}) {
+    CAPTURE(std::string(f));  // the zero function
+    const Function g = samples::function(f, 1).conjugate();
+    const Value inside = g.evaluate(Vector::Zero(1)), beside = g.evaluate(Vector::Constant(1, 1e-6));
+    CHECK(inside.value == 0);
+    CHECK(inside.error == 0);
+    CHECK((std::isinf(beside.value) || std::isinf(beside.error)));
+  }
+}
+
+TEST_CASE("the distance of a point is told, however near 0 it is, to a set that ends at 0") {
+  for (const char* set : {"ball2(1, [1])", "box(0, 1)", "intersection(ball2(1, [1]), box(-inf, 0.5))"})
+    for (const double x : {-1e-8, -1e-10, -1e-13}) {
+      CAPTURE(std::string(set));
+      CAPTURE(x);
+      const Value found =
+          samples::function("distance(" + std::string(set) + ", 2)", 1).evaluate(Vector::Constant(1, x));
+      CHECK(std::abs(found.value - 2 * std::abs(x)) <= found.error);
+      CHECK(found.error <= 1e-11);
+    }
+}

@@ -1,0 +1,46 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "convex/composite/work_limit.hpp"
+#include "convex/gamma0/node.hpp"
+#include "tests/convex/operations/samples.hpp"
+
+using convex::Function;
+using convex::Value;
+using convex::Vector;
+using convex::WorkLimit;
+
+namespace {
+
+const char* const mean_of_two = "proximal_average(huber(2), power(3), 0.5, 0.5)";
+
+}  // namespace
+
+TEST_CASE("a value for which no work is left is open, however little has been found of it") {
+  const Function f = samples::function(mean_of_two, 1);
+  for (const double x : {-1.0, -0.1, 3.0}) {
+    const Vector at = Vector::Constant(1, x);
+    const double truth = f.evaluate(at).value;
+    const WorkLimit question;
+    while (!WorkLimit::passed()) WorkLimit::count(1000);
+    const Value found = f.node().evaluate(at);
+    CAPTURE(x);
+    CAPTURE(found.value);
+    CHECK(truth > 1e-3);
+    CHECK((std::isinf(found.error) || std::abs(found.value - truth) <= found.error + 1e-12 * truth));
+  }
+}
+
+TEST_CASE("the conjugate of a maximum at a slope that is almost 0 is no less than its lower bounds") {
+  const std::string text = "pointwise_max(" + std::string(mean_of_two) + ", tilt(constant(1), [3]))";
+  const Function f = samples::function(text, 1), g = f.conjugate();
+  for (const double v : {1e-12, -1e-12, 1e-11, 1e-9}) {
+    CAPTURE(v);
+    const Value found = g.evaluate(Vector::Constant(1, v));
+    CHECK(found.error <= 1e-9);
+    for (const double x : {-1.0, -0.5, -0.3236, -0.25, 0.0, 1.0})
+      CHECK(found.value >= v * x - f(Vector::Constant(1, x)) - 1e-9);
+  }
+}
