@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
@@ -58,16 +59,21 @@ double rounding_of_inner(const Metric& W, const Vector& u, const Vector& y) {
   return roundings * u.cwiseAbs().dot(image);
 }
 
-/// What moving x by a few roundings does to f by definition.
+/// What moving x by a few roundings does to f by definition. Where all that leaves the domain, by a few of
+/// those that the definition itself is summed with.
 Real sensitivity(const Call& f, const Vector& x, Real here) {
-  Real most = 0;
-  for (const double step : {1e-15, -1e-15}) {
-    Point moved = point(x);
-    for (Real& v : moved) v += step * static_cast<Real>(x.norm());
-    const auto there = call_value(f, moved, rounded);
-    if (there && std::isfinite(there->value)) most = std::max(most, std::abs(there->value - here));
+  for (const double size : {1e-15, 1e-17, 1e-19}) {
+    std::optional<Real> most;
+    for (const double step : {size, -size}) {
+      Point moved = point(x);
+      for (Real& v : moved) v += step * static_cast<Real>(x.norm());
+      const auto there = call_value(f, moved, rounded);
+      if (there && std::isfinite(there->value))
+        most = std::max(most.value_or(0), std::abs(there->value - here));
+    }
+    if (most) return 16 * *most;
   }
-  return 16 * most;
+  return 0;
 }
 
 std::string wrong_value(const Subject& subject, const Vector& x, double value) {

@@ -177,3 +177,17 @@ TEST_CASE("what lifts with 1 opens beside a coordinate that moves with 1e12") {
   CHECK(flung.touching.empty());
   CHECK(flung.hypothesis.negative == std::vector<Index>{0, 1});
 }
+
+TEST_CASE(
+    "a hypothesis whose only multipliers have a negative one is rejected, however close the accelerations") {
+  const NearestPointProblem problem{convex::Metric::dense(Matrix{{14, -7}, {-7, 6}}),
+                                    Vector{{4, -6}},
+                                    convex::ConstraintRows(RowMatrix{{2, -3}, {-3.9999999962747097, 6}}),
+                                    Vector::Zero(2),
+                                    {}};
+  const mechanics::GaussSolution found = mechanics::solve(problem);
+  REQUIRE(found.primal.status == convex::Status::solved);
+  CHECK(found.hypothesis.two_sided.unique);
+  CHECK(found.hypothesis.two_sided.multipliers[0] == doctest::Approx(-2));
+  CHECK_FALSE(found.hypothesis.accepted);
+}

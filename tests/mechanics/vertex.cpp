@@ -99,3 +99,17 @@ TEST_CASE("right answers pass where rows are almost opposite, or the vertex is f
     CHECK(split);
   }
 }
+
+TEST_CASE("multipliers of rows that are parallel but for 200 roundings balance, and the reaction with them") {
+  const NearestPointProblem scene{
+      Metric::dense(Matrix{{14, 5, 3}, {5, 18, -7}, {3, -7, 12}}),
+      Vector{{-2, -3, 7}},
+      ConstraintRows(RowMatrix{{0, 2, 2}, {0, 2.000000000000057, 2}, {0, 2.000000000000057, 2}}),
+      Vector::Ones(3),
+      {0, 1}};
+  const mechanics::GaussSolution solution = mechanics::solve(scene);
+  CHECK((solution.reaction - Vector{{0, -1.75, -1.75}}).norm() <=
+        1e-15);  // by fractions, lambda = (-7/8, 0, 0)
+  CHECK((solution.multipliers.least_norm - Vector{{-0.875, 0, 0}}).norm() <= 1e-15);
+  CHECK(mechanics::gauss_laws(scene, solution).all_passed());
+}
