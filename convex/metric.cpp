@@ -139,8 +139,6 @@ struct Metric::Data {
   /// In the room of the last small dense metric that the thread gave up: a solve after the other then takes
   /// none from the system, which merges and splits what it gets back of such a size.
   static std::shared_ptr<Data> dense();
-
- private:
   static constexpr Index small = 300;  // 1.5 MB
   struct Spare {
     Data* data = nullptr;
@@ -162,8 +160,7 @@ struct Metric::Data {
 thread_local Metric::Data::Spare Metric::Data::spare;
 
 std::shared_ptr<Metric::Data> Metric::Data::dense() {
-  Data* data = std::exchange(spare.data, nullptr);
-  if (!data) data = new Data;
+  Data* const data = spare.data ? std::exchange(spare.data, nullptr) : new Data;
   data->kind = MetricKind::dense;
   return {data, GiveBack()};
 }

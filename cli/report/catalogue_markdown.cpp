@@ -25,7 +25,8 @@ What may stand in `f` of a `[decomposition]` ([problem-files.md](problem-files.m
   in `conjugate`, `envelope`, `support` and `proximal_average` alone. Inside `separable` these take the diagonal block of the metric,
   inside `precompose` the identity.
 - A matrix as an argument of a set of matrices or a spectral function is stacked by columns.
-- A value is +inf outside the domain; a point within 1e-9 of the scale of itself and of the data belongs to it.
+- A value is +inf outside the domain; a point within 1e-9 of the scale of itself and of the data belongs to it. Of one that
+  is more than 1e-12 of that outside, farther than any prox leaves its point, the value is told with an error that may be infinite.
 
 Facts are those that hold whatever the arguments are; a call with particular ones can have more. `moreau functions NAME` tells
 more of one entry, with examples.
