@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "convex/dense/padded_triangle.hpp"
+#include "convex/dense/recycled.hpp"
 #include "convex/dense/triangular_solve.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
@@ -136,34 +137,8 @@ struct Metric::Data {
   std::optional<SparseGram> sparse;
   double factor_condition = 1;
 
-  /// In the room of the last small dense metric that the thread gave up: a solve after the other then takes
-  /// none from the system, which merges and splits what it gets back of such a size.
-  static std::shared_ptr<Data> dense();
-  static constexpr Index small = 300;  // 1.5 MB
-  struct Spare {
-    Data* data = nullptr;
-    bool is_over = false;  // with the thread; metrics that outlive it are not kept
-    ~Spare() {
-      delete data;
-      is_over = true;
-    }
-  };
-  static thread_local Spare spare;
-  struct GiveBack {
-    void operator()(Data* data) const {
-      if (!spare.is_over && data->W.rows() <= small) std::swap(spare.data, data);
-      delete data;
-    }
-  };
+  static bool is_small(const Data& data) { return data.W.rows() <= 300; }  // 1.5 MB
 };
-
-thread_local Metric::Data::Spare Metric::Data::spare;
-
-std::shared_ptr<Metric::Data> Metric::Data::dense() {
-  Data* const data = spare.data ? std::exchange(spare.data, nullptr) : new Data;
-  data->kind = MetricKind::dense;
-  return {data, GiveBack()};
-}
 
 Metric Metric::identity(Index n) {
   auto data = std::make_shared<Data>();
@@ -188,8 +163,9 @@ Metric Metric::dense(const Matrix& W) {
   if (W.rows() != W.cols())
     throw InvalidInput("A: " + std::to_string(W.rows()) + " rows of " + std::to_string(W.cols()) +
                        " entries; give a square matrix");
-  const std::shared_ptr<Data> data = Data::dense();
+  const std::shared_ptr<Data> data = Recycled<Data, Data::is_small>::one();
   const Index n = W.rows();
+  data->kind = MetricKind::dense;
   data->W = W;
   if (!data->triangle.take(W)) {
     if (!make_symmetric(data->W)) refuse_unequal(W);
