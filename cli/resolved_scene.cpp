@@ -62,8 +62,7 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
     }
   }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
-  if (scene.problem.radii)
-    mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
+  mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
   if (!found.as_written && !scene.written && !scene.exact.are_doubles)
     mechanics::count_rounding_of_data(found, scene.problem, options, scene.exact.make);
   return found;

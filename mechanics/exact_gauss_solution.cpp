@@ -54,9 +54,21 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
 
 namespace {
 
-/// Whether rows count as dependent on each other that may be independent within their radii.
-bool depends_within_radii(const convex::NearestPointProblem& problem, const convex::Multipliers& found) {
-  if (!problem.radii || found.least_norm.size() != problem.rows() || found.unique) return false;
+/// Whether the method had to ask fractions for the answer.
+bool is_decided_in_fractions(const convex::Solution& primal) {
+  const auto& islands = primal.model.islands;
+  return std::any_of(islands.begin(), islands.end(),
+                     [](const convex::Island& island) { return !island.in_fractions.empty(); });
+}
+
+/// Whether doubles may not know which rows depend on each other: where they count some as dependent that are
+/// independent as they stand, or may be within their radii, or could not tell the active ones.
+bool may_be_independent(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
+  const convex::Multipliers& found = solution.multipliers;
+  if (!problem.radii)
+    return found.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt ||
+           is_decided_in_fractions(solution.primal);
+  if (found.least_norm.size() != problem.rows() || found.unique) return false;
   const auto is_rounded = [&](Index row) { return problem.radii->row[row] > 0 || problem.radii->s[row] > 0; };
   if (!found.null_space) return true;
   for (const convex::NullVector& weights : *found.null_space)
@@ -90,12 +102,15 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   const convex::Solution& primal = found.primal;
   const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
   const bool is_default = options.method == &convex::methods().front();
-  const bool is_dependent = depends_within_radii(problem, found.multipliers);
-  if (ended && primal.undecided.empty() && !is_dependent) return;
-  const std::string_view open = is_dependent                ? convex::open_question::dependence
+  const bool is_doubtful = may_be_independent(problem, found);
+  // What rounding alone left open in numbers that are exact, the method has asked fractions already.
+  if (!is_doubtful && (!problem.radii || (ended && primal.undecided.empty()))) return;
+  const std::string_view open = is_doubtful                 ? convex::open_question::dependence
                                 : !primal.undecided.empty() ? primal.undecided
                                                             : convex::open_question::conditioning;
-  if (is_default && options.accuracy.limit > 0)
+  // Sizes alone may tell that it is too much, before any number is converted.
+  const double n = static_cast<double>(problem.dimension());
+  if (is_default && n * n * n <= options.accuracy.limit * convex::most_word_operations)
     if (const std::optional<convex::ExactProblem> exact = data())
       solve_on_exact_data(found, *exact, problem, options, open);
   if (!found.as_written) found.primal.undecided = open;

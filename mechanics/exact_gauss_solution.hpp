@@ -23,11 +23,11 @@ struct ExactGaussSolution {
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                                  const convex::NearestPointProblem& problem, const GaussOptions&);
 
-/// Decides what a solve of rounded data (`NearestPointProblem::radii`) left open, could not end, or may owe
-/// to the radii (rows that depend on each other), on the data as they are: the answer becomes the exact one,
-/// rounded. `data` is asked for them only then; none when they cannot be had. An answer that is given by a
-/// method that was named, or takes more than accuracy.limit times `convex::most_word_operations`, stays as it
-/// is, and says what is open (`Solution::undecided`).
+/// Decides what a solve in doubles left open, could not end, or may owe to rounding or to the radii of the
+/// data (rows that depend on each other), on the data as they are: the answer becomes the exact one, rounded.
+/// `data` is asked for them only then; none when they cannot be had. An answer that is given by a method that
+/// was named, or takes more than accuracy.limit times `convex::most_word_operations`, stays as it is, and
+/// says what is open (`Solution::undecided`).
 void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, const GaussOptions&,
                           const std::function<std::optional<convex::ExactProblem>()>& data);
 

@@ -94,7 +94,7 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
                         [&](Index a) { return opens[static_cast<std::size_t>(a)]; });
   };
   const convex::Multipliers set = convex::multipliers(classical, solution, tolerance, false);
-  found.two_sided = {true, solution.q, set.least_norm, set.unique};
+  found.two_sided = {true, solution.q, set.least_norm, set.unique, true, set.is_in_doubt};
   // Some two-sided multipliers are >= 0 if and only if the two-sided motion is the true one: (2), (7)-(9)
   // then hold.
   found.accepted = same(solution.q) && persist(all);

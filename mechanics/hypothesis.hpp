@@ -21,6 +21,7 @@ struct TwoSided {
   /// Whether it was found from its own equations; false: it is the true motion, read off the answer, which is
   /// the same where every contact persists and all rows are independent.
   bool independent = true;
+  bool is_in_doubt = false;  ///< only fractions know the multipliers (`convex::Multipliers::is_in_doubt`)
 };
 
 /// Its verdict, and that of the rule which Delassus (1917) showed to be wrong: drop exactly the contacts with

@@ -132,3 +132,15 @@ TEST_CASE("a mechanism of very heavy bodies is solved as it is written") {
     CHECK(q.at("y") == 0);
   }
 }
+
+TEST_CASE("multipliers of rows that are independent by a few roundings are unique, and told as they are") {
+  // The rods meet at (0, 2) alone, where the free motion is: both multipliers are 0.
+  const Json answer = Json::parse(
+      run_json_on("solve",
+                  "[projection]\nA = [[1, 0], [0, 1]]\nz = [0, 2]\nU = [[-1, -3], [1.0000000000000053, 3]]\n"
+                  "s = [-6, 6]\ntwo_sided = [0, 1]\n")
+          .out);
+  CHECK(answer.at("multipliers_unique") == true);
+  CHECK(answer.at("multipliers").at("c[0]") == 0);
+  CHECK(answer.at("model").at("islands").at(0).at("in_fractions") == "whether rows depend on each other");
+}

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/isotonic/peeling.hpp"
+#include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/row_system.hpp"
 #include "convex/nearest_point/sparse/sparse_active_set.hpp"
 
@@ -33,6 +35,22 @@ bool sparse_rows_are_independent(const NearestPointProblem& problem, const std::
   for (int k = 0; k < projections; ++k)
     kept -= weight_of_rows * (balanced.U * system.solve(balanced.U.transpose() * kept));
   return kept.norm() <= part_left * drawn;
+}
+
+bool can_open(const NearestPointProblem& problem, const std::vector<Index>& held,
+              const std::vector<Index>& opening) {
+  if (opening.empty()) return true;
+  std::vector<Index> rows = held, equations(held.size());
+  rows.insert(rows.end(), opening.begin(), opening.end());
+  std::iota(equations.begin(), equations.end(), Index{0});
+  Vector s = Vector::Zero(static_cast<Index>(rows.size()));
+  s.tail(static_cast<Index>(opening.size())) = dual_lengths(problem, opening)(opening);
+  std::optional<DataRadii> radii = select(problem.radii, rows);
+  if (radii) radii->s.setZero();
+  const Solution found = automatic({problem.A, Vector::Zero(problem.dimension()), problem.U.select(rows),
+                                    std::move(s), std::move(equations), std::move(radii)},
+                                   {});
+  return found.status == Status::solved || found.status == Status::inaccurate;
 }
 
 bool least_norm_multipliers(const NearestPointProblem& problem, const std::vector<Index>& tight,

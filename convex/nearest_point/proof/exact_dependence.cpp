@@ -98,6 +98,14 @@ bool are_equalities(const NearestPointProblem& problem, Index a, const std::vect
   return true;
 }
 
+bool have_rank_above(const NearestPointProblem& problem, const std::vector<Index>& rows, std::size_t rank,
+                     double most_words) {
+  const double k = static_cast<double>(rows.size()), n = static_cast<double>(problem.dimension());
+  if (k * n * std::min(k, n) > most_words) return false;
+  const ExactProblem exact = as_integers(touched_rows(problem, rows));
+  return independent_rows(exact.U, exact.z.size()).size() > rank;
+}
+
 bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>& rows,
                     const std::vector<Index>& held, double most_words) {
   std::vector<Index> all = held;

@@ -33,4 +33,9 @@ bool are_equalities(const NearestPointProblem&, Index a, const std::vector<Index
 bool follow_exactly(const NearestPointProblem&, const std::vector<Index>& rows,
                     const std::vector<Index>& held, double most_words);
 
+/// Whether more than `rank` of the rows are independent as they stand, as a prime shows. False, too, when
+/// that takes more than so many word operations.
+bool have_rank_above(const NearestPointProblem&, const std::vector<Index>& rows, std::size_t rank,
+                     double most_words);
+
 }  // namespace convex::inline proof

@@ -307,3 +307,23 @@ TEST_CASE("multipliers beyond doubles are told as they are where rows depend on 
   const Multipliers found = convex::multipliers(problem, solution, tolerance, false);
   CHECK(std::isinf(found.least_norm[0]));
 }
+
+TEST_CASE(
+    "rows independent by less than rounding, and short ones that others need, are known to be in doubt") {
+  const auto found = [](const RowMatrix& U, const Vector& s, std::vector<Index> two_sided, const Vector& z) {
+    return all_multipliers(
+        {convex::Metric::identity(2), z, convex::ConstraintRows(U), s, std::move(two_sided)});
+  };
+  RowMatrix nearly_opposite(2, 2), copies(2, 2), short_one(3, 2);
+  nearly_opposite << -1, -3, 1 + 24 * 0x1p-52, 3;
+  CHECK(found(nearly_opposite, Eigen::Vector2d(-6, 6), {0, 1}, Eigen::Vector2d(0, 2)).is_in_doubt);
+  copies << -1, -3, 1, 3;
+  const Multipliers dependent = found(copies, Eigen::Vector2d(-6, 6), {0, 1}, Eigen::Vector2d(0, 2));
+  CHECK_FALSE(dependent.is_in_doubt);
+  CHECK_FALSE(dependent.unique);
+  // u_0 = u_1 + u_2: the multipliers of u_0 and u_1 are anywhere in [0, 6], however short u_2 is.
+  short_one << -1, -1, -1 - 32 * 0x1p-52, -1, 32 * 0x1p-52, 0;
+  const Multipliers all =
+      found(short_one, Eigen::Vector3d(5, 5 + 96 * 0x1p-52, -96 * 0x1p-52), {}, Eigen::Vector2d(3, 4));
+  CHECK((all.is_in_doubt || !all.unique));
+}

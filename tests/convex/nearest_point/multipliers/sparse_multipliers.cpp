@@ -146,3 +146,42 @@ TEST_CASE("where a multiplier is beyond doubles, none of least norm is claimed")
   Vector lambda{{std::numeric_limits<double>::infinity(), 0}};
   CHECK_FALSE(convex::least_norm_multipliers(problem, {0, 1}, lambda));
 }
+
+TEST_CASE("rows that touch without a load make multipliers not unique where a positive sum of them is held") {
+  const auto can_open = [](std::initializer_list<double> last) {
+    RowMatrix U(3, 3);
+    U << 1, 0, 0, 0, 1, 0, 0, 0, 0;
+    std::copy(last.begin(), last.end(), U.row(2).begin());
+    return convex::can_open(
+        {convex::Metric::identity(3), Vector::Zero(3), convex::ConstraintRows(U), Vector::Zero(3), {}},
+        {0, 1}, {2});
+  };
+  CHECK(can_open({0, 0, 1}));
+  CHECK(can_open({1, 1, -1e-6}));
+  CHECK_FALSE(can_open({1, 1, 0}));
+  CHECK_FALSE(can_open({-1, 1, 0}));
+}
+
+TEST_CASE(
+    "a copy of every row makes multipliers not unique where there are too many for a dense factor too") {
+  constexpr Index n = 1300;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index row = 0; row < 2 * (n - 1); ++row) {
+    const Index i = row % (n - 1);
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(i), -1.0);
+    entries.emplace_back(static_cast<int>(row), static_cast<int>(i + 1), 1.0);
+  }
+  convex::SparseRows U(2 * (n - 1), n);
+  U.setFromTriplets(entries.begin(), entries.end());
+  const convex::NearestPointProblem problem{convex::Metric::identity(n),
+                                            -Vector::LinSpaced(n, 0, n - 1),
+                                            convex::ConstraintRows(U),
+                                            Vector::Zero(U.rows()),
+                                            {}};
+  convex::Solution solution = convex::automatic(problem);
+  solution.lambda.head(n - 1) += solution.lambda.tail(n - 1);  // a vertex of the dual optima
+  solution.lambda.tail(n - 1).setZero();
+  const convex::Multipliers found = convex::multipliers(problem, solution, 1e-9, false);
+  CHECK_FALSE(found.null_space);
+  CHECK_FALSE(found.unique);
+}
