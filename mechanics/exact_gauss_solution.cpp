@@ -61,13 +61,8 @@ bool is_decided_in_fractions(const convex::Solution& primal) {
                      [](const convex::Island& island) { return !island.in_fractions.empty(); });
 }
 
-/// Whether doubles may not know which rows depend on each other: where they count some as dependent that are
-/// independent as they stand, or may be within their radii, or could not tell the active ones.
-bool may_be_independent(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
-  const convex::Multipliers& found = solution.multipliers;
-  if (!problem.radii)
-    return found.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt ||
-           is_decided_in_fractions(solution.primal);
+/// Whether rows count as dependent on each other that may be independent within their radii.
+bool depend_within_radii(const convex::NearestPointProblem& problem, const convex::Multipliers& found) {
   if (found.least_norm.size() != problem.rows() || found.unique) return false;
   const auto is_rounded = [&](Index row) { return problem.radii->row[row] > 0 || problem.radii->s[row] > 0; };
   if (!found.null_space) return true;
@@ -77,20 +72,50 @@ bool may_be_independent(const convex::NearestPointProblem& problem, const GaussS
   return false;
 }
 
+/// Of all ranges: two linear programs a multiplier, each of a few pivots.
+double words_of_ranges(const convex::Multipliers& found) {
+  constexpr double words_of_fraction = 500;  // of a product and a sum, in lowest terms
+  if (!found.null_space) return 0;
+  const double all = static_cast<double>(found.tight.size()),
+               d = static_cast<double>(found.null_space->size());
+  return 2 * all * (all - d) * d * words_of_fraction;
+}
+
+/// What is asked of the data as they are; empty where nothing is.
+std::string_view question(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
+  const convex::Solution& primal = solution.primal;
+  const convex::Multipliers& multipliers = solution.multipliers;
+  if (problem.radii) {
+    if (depend_within_radii(problem, multipliers)) return convex::open_question::dependence;
+    if (!primal.undecided.empty()) return primal.undecided;
+    const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
+    return ended ? std::string_view() : convex::open_question::conditioning;
+  }
+  // What doubles left open of q, the method has asked fractions already.
+  const bool is_doubtful =
+      multipliers.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt || is_decided_in_fractions(primal);
+  return is_doubtful ? convex::open_question::dependence : std::string_view();
+}
+
 }  // namespace
 
 bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
   const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
-  if (convex::word_operations(exact, held) > options.accuracy.limit * convex::most_word_operations)
-    return false;
+  const double words = convex::word_operations(exact, held) + words_of_ranges(found.multipliers);
+  if (words > options.accuracy.limit * convex::most_word_operations) return false;
   ExactGaussSolution decided = solve_exactly(exact, problem, options);
   convex::Solution& answer = decided.rounded.primal;
   answer.method = "active-set";
+  answer.model = std::move(found.primal.model);
   const Index n = problem.dimension();
-  answer.model.islands = {{answer.method, n, problem.rows(), 0, decided.primal.word_operations,
-                           static_cast<double>(n * n) / 2, open}};
+  if (answer.model.islands.empty())
+    answer.model.islands = {{answer.method, n, problem.rows(), 0, decided.primal.word_operations,
+                             static_cast<double>(n * n) / 2, open}};
+  for (convex::Island& island : answer.model.islands)
+    if (island.in_fractions.empty()) island.in_fractions = open;
+  decided.rounded.reduced = std::move(found.reduced);
   found = std::move(decided.rounded);
   found.as_written = true;
   return true;
@@ -99,18 +124,12 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
 void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProblem& problem,
                           const GaussOptions& options,
                           const std::function<std::optional<convex::ExactProblem>()>& data) {
-  const convex::Solution& primal = found.primal;
-  const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
-  const bool is_default = options.method == &convex::methods().front();
-  const bool is_doubtful = may_be_independent(problem, found);
-  // What rounding alone left open in numbers that are exact, the method has asked fractions already.
-  if (!is_doubtful && (!problem.radii || (ended && primal.undecided.empty()))) return;
-  const std::string_view open = is_doubtful                 ? convex::open_question::dependence
-                                : !primal.undecided.empty() ? primal.undecided
-                                                            : convex::open_question::conditioning;
+  const std::string_view open = question(problem, found);
+  if (open.empty()) return;
+  const double most_words = options.accuracy.limit * convex::most_word_operations,
+               n = static_cast<double>(problem.dimension());
   // Sizes alone may tell that it is too much, before any number is converted.
-  const double n = static_cast<double>(problem.dimension());
-  if (is_default && n * n * n <= options.accuracy.limit * convex::most_word_operations)
+  if (options.method == &convex::methods().front() && n * n * n <= most_words)
     if (const std::optional<convex::ExactProblem> exact = data())
       solve_on_exact_data(found, *exact, problem, options, open);
   if (!found.as_written) found.primal.undecided = open;

@@ -42,6 +42,7 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
         expansion[k] = split.coefficients[k];
   }
   found.basic = set.rows();
+  found.inverse_norm = set.factor().inverse_norm();
   found.T = Matrix::Zero(set.size(), static_cast<Index>(found.dependent.size()));
   for (std::size_t p = 0; p < expansions.size(); ++p)
     found.T.col(static_cast<Index>(p)).head(expansions[p].size()) = expansions[p];
@@ -74,6 +75,7 @@ void split_by_ties(const Dependence& whole, std::vector<Dependence>& groups) {
     for (Index r : rows) group.basic.push_back(whole.basic[static_cast<std::size_t>(r)]);
     for (Index p : columns) group.dependent.push_back(whole.dependent[static_cast<std::size_t>(p)]);
     group.T = whole.T(rows, columns);
+    group.inverse_norm = whole.inverse_norm;
     groups.push_back(std::move(group));
   }
 }
@@ -124,6 +126,16 @@ std::optional<std::vector<Dependence>> dependences(const NearestPointProblem& pr
     split_by_ties(found, groups);
   }
   return groups;
+}
+
+double inverse_norm_of_rows(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  constexpr double quick_work = 1e7;
+  const double n = static_cast<double>(problem.dimension()), k = static_cast<double>(rows.size());
+  if (n * (n + k * k) > quick_work) return 1;
+  WorkingSet set(problem);
+  Matrix whitened = whitened_rows(problem, rows);
+  set.append_block(rows, whitened, 0);
+  return std::max(1.0, set.factor().inverse_norm());
 }
 
 std::vector<NullVector> null_space(const std::vector<Dependence>& groups) {

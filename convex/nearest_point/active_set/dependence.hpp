@@ -13,6 +13,8 @@ namespace convex::inline dual_active_set {
 struct Dependence {
   std::vector<Index> basic, dependent;
   Matrix T;
+  double inverse_norm =
+      1;  ///< an estimate of 1 / (smallest singular value) of the basic rows, each of length 1
 };
 
 /// The dependences among the tight rows, one for each group of rows that are tied to each other; rows that
@@ -21,6 +23,10 @@ struct Dependence {
 std::optional<std::vector<Dependence>> dependences(const NearestPointProblem&,
                                                    const std::vector<Index>& basis,
                                                    const std::vector<Index>& tight);
+
+/// An estimate of 1 / (smallest singular value) of independent rows, each of length 1; 1 where they are too
+/// many for a factor that nobody needs to solve the problem.
+double inverse_norm_of_rows(const NearestPointProblem&, const std::vector<Index>& rows);
 
 /// The coefficients of rows with Σ mu_a u_a = 0.
 using NullVector = std::vector<std::pair<Index, double>>;

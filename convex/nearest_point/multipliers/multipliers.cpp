@@ -151,14 +151,21 @@ Solution off_open_rows(Solution solution, const std::vector<Index>& tight) {
   return solution;
 }
 
-/// Whether rows that doubles find dependent are more independent than that as they stand. Those within radii
-/// are what they are counted as.
-bool hide_independence(const NearestPointProblem& problem, const std::vector<Index>& rows,
-                       const std::vector<NullVector>& null_space) {
+/// Whether doubles know T: its zeros are those of the rows as they stand, and roundings of lambda or T grow
+/// by no more than `most` in the multipliers.
+bool is_known(const NearestPointProblem& problem, const Dependence& rows, const Vector& length, double most) {
   // Beyond, fractions would take too long to make use of it.
   constexpr double most_words = 1e7;
-  return !problem.radii && !null_space.empty() &&
-         have_rank_above(problem, rows, rows.size() - null_space.size(), most_words);
+  double growth = rows.inverse_norm;
+  for (std::size_t p = 0; p < rows.dependent.size(); ++p)
+    for (std::size_t k = 0; k < rows.basic.size(); ++k) {
+      const double entry = std::abs(rows.T(static_cast<Index>(k), static_cast<Index>(p)));
+      if (entry == 0) continue;
+      const double of_unit_rows = entry * length[rows.basic[k]] / length[rows.dependent[p]];
+      growth = std::max({growth, entry, rows.inverse_norm * of_unit_rows, 1 / of_unit_rows});
+    }
+  return growth <= most &&
+         depend_as_told(problem, rows.basic, rows.dependent, rows.T, most_words).value_or(true);
 }
 
 /// The multipliers over the rows `tight`.
@@ -195,7 +202,8 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   }
 
   found.null_space = null_space(*groups);
-  found.is_in_doubt = hide_independence(problem, found.tight, *found.null_space);
+  if (groups->empty() && !problem.radii)
+    found.is_in_doubt = unit_roundoff * inverse_norm_of_rows(problem, found.tight) > tolerance;
   // They are unique when every dependent row keeps its multiplier 0.
   Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
   length = (length.array() > 0).select(length, 1);
@@ -206,18 +214,15 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   const double rounding = largest * (problem.radii ? tolerance : roundings_of_multipliers);
   const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
   for (const Dependence& rows : *groups) {
+    // Rows within radii are what they are counted as.
+    found.is_in_doubt |=
+        !problem.radii && !is_known(problem, rows, length, tolerance / roundings_of_multipliers);
     const auto start = std::chrono::steady_clock::now();
     MultiplierPolyhedron directions(rows, signs, length, is_free);
-    bool is_unique = true;
-    for (std::size_t p = 0; p < rows.dependent.size() && is_unique; ++p) {
-      const Index row = rows.dependent[p];
-      const Interval range = directions.range_of_multiplier(row);
-      const double width = std::max(range.high - range.low, roundings_of_multipliers);
-      is_unique = width <= tolerance;
-      // What is little for a short row may be much for those that it depends on.
-      const Vector part = rows.T.col(static_cast<Index>(p)).cwiseAbs().cwiseProduct(length(rows.basic));
-      if (is_unique && width * part.sum() > tolerance * length[row]) found.is_in_doubt |= !problem.radii;
-    }
+    const bool is_unique = std::none_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) {
+      const Interval range = directions.range_of_multiplier(p);
+      return !(range.high - range.low <= tolerance);
+    });
     if (is_unique) continue;
     found.unique = false;
     if (want_ranges) {
@@ -228,7 +233,10 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     least_norm(rows, is_free, found.least_norm);
   }
-  if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) found.least_norm = solution.lambda;
+  if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) {
+    found.least_norm = solution.lambda;
+    found.is_in_doubt = !problem.radii;
+  }
   const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {
     return std::isnan(range.low) || std::isnan(range.high);
   });

@@ -20,8 +20,8 @@ struct Multipliers {
   std::optional<std::vector<Interval>> ranges;
   /// A basis of {mu : Uᵀmu = 0} over the tight rows; none when they are too many for a dense factor.
   std::optional<std::vector<NullVector>> null_space;
-  /// Whether doubles count rows as dependent that are independent as they stand, by less than rounding can
-  /// tell: then only fractions know the multipliers (`exact_multipliers`).
+  /// Whether only fractions know the multipliers (`exact_multipliers`): where doubles count rows as dependent
+  /// that are independent as they stand, or those that others depend on are nearly dependent.
   bool is_in_doubt = false;
   double range_seconds = 0;  ///< what the ranges took, which nobody needs to solve a problem
   std::vector<Index> tight;  ///< rows with u_a·q = s_a within the tolerance, in order

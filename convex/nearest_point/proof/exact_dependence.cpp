@@ -98,12 +98,44 @@ bool are_equalities(const NearestPointProblem& problem, Index a, const std::vect
   return true;
 }
 
-bool have_rank_above(const NearestPointProblem& problem, const std::vector<Index>& rows, std::size_t rank,
-                     double most_words) {
-  const double k = static_cast<double>(rows.size()), n = static_cast<double>(problem.dimension());
-  if (k * n * std::min(k, n) > most_words) return false;
+std::optional<bool> depend_as_told(const NearestPointProblem& problem, const std::vector<Index>& basic,
+                                   const std::vector<Index>& dependent, const Matrix& T, double most_words) {
+  using Word = ModularField::Word;
+  const double K = static_cast<double>(basic.size()), d = static_cast<double>(dependent.size()),
+               n = static_cast<double>(problem.dimension());
+  if (K * (K * (n + 2 * K) + d * (n + K)) > most_words) return std::nullopt;
+  std::vector<Index> rows = basic;
+  rows.insert(rows.end(), dependent.begin(), dependent.end());
   const ExactProblem exact = as_integers(touched_rows(problem, rows));
-  return independent_rows(exact.U, exact.z.size()).size() > rank;
+  const std::size_t k = basic.size(), columns = exact.z.size();
+  IntegerRows of_basic(columns, IntegerVector(k));
+  for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t r = 0; r < k; ++r) of_basic[i][r] = exact.U[r][i];
+  const std::vector<std::size_t> chosen = independent_rows(of_basic, k);
+  const ModularField field(large_primes.front());
+  IntegerRows square;
+  for (std::size_t i : chosen) square.push_back(of_basic[i]);
+  const auto inverse = chosen.size() == k ? modular_inverse(square, field) : std::nullopt;
+  if (!inverse) return false;
+  std::vector<Word> basic_words(columns * k), coefficients(k), right(k);
+  for (std::size_t i = 0; i < columns; ++i)
+    for (std::size_t r = 0; r < k; ++r) basic_words[i * k + r] = field.from(of_basic[i][r]);
+  const auto dot = [&](const Word* x, const std::vector<Word>& y) {
+    ModularField::Wide sum = 0;
+    for (std::size_t r = 0; r < k; ++r) sum = field.accumulate(sum, x[r], y[r]);
+    return field.reduce(sum);
+  };
+  for (std::size_t p = 0; p < dependent.size(); ++p) {
+    const IntegerVector& u = exact.U[k + p];
+    for (std::size_t i = 0; i < k; ++i) right[i] = field.from(u[chosen[i]]);
+    for (std::size_t r = 0; r < k; ++r) {
+      coefficients[r] = dot(&(*inverse)[r * k], right);
+      if ((coefficients[r] == 0) != (T(static_cast<Index>(r), static_cast<Index>(p)) == 0)) return false;
+    }
+    for (std::size_t i = 0; i < columns; ++i)
+      if (dot(&basic_words[i * k], coefficients) != field.from(u[i])) return false;
+  }
+  return true;
 }
 
 bool follow_exactly(const NearestPointProblem& problem, const std::vector<Index>& rows,

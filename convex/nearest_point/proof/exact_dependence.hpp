@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "convex/nearest_point/problem.hpp"
 #include "convex/nearest_point/proof/exact_problem.hpp"
 
@@ -33,9 +35,10 @@ bool are_equalities(const NearestPointProblem&, Index a, const std::vector<Index
 bool follow_exactly(const NearestPointProblem&, const std::vector<Index>& rows,
                     const std::vector<Index>& held, double most_words);
 
-/// Whether more than `rank` of the rows are independent as they stand, as a prime shows. False, too, when
-/// that takes more than so many word operations.
-bool have_rank_above(const NearestPointProblem&, const std::vector<Index>& rows, std::size_t rank,
-                     double most_words);
+/// Whether u_p = Σ T(k, p) u_k, over the rows `basic`, are the dependences of the rows as they stand, up to
+/// the digits of T: modulo a prime, which may err to yes, entries are 0 where those of T are, and nothing is
+/// left. None when that takes more than so many word operations.
+std::optional<bool> depend_as_told(const NearestPointProblem&, const std::vector<Index>& basic,
+                                   const std::vector<Index>& dependent, const Matrix& T, double most_words);
 
 }  // namespace convex::inline proof
