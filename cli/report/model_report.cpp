@@ -150,7 +150,14 @@ std::string methods_that_ran(const SolvedScene& solved) {
 
 std::string left_open_text(const SolvedScene& solved) {
   const std::string_view open = solved.solution.primal.undecided;
-  if (open.empty() || !(solved.scene.written || solved.scene.problem.radii)) return "";
+  if (open.empty()) return "";
+  if (!solved.scene.written && !solved.scene.problem.radii) {
+    if (solved.solution.primal.status != convex::Status::solved) return "";
+    return fmt::format(
+        "Doubles leave open {}, so that multipliers and their ranges may be of rounding; {}.\n", open,
+        solved.asked_method ? "a method that was named is not helped by fractions"
+                            : "fractions would take too long, --limit lets them");
+  }
   return fmt::format(
       "The rounding of A, z, U, s leaves open {}, and {}; rows that depend on each other within their "
       "rounding "
