@@ -85,16 +85,16 @@ double words_of_ranges(const convex::Multipliers& found) {
 std::string_view question(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
   const convex::Solution& primal = solution.primal;
   const convex::Multipliers& multipliers = solution.multipliers;
-  if (problem.radii) {
-    if (depend_within_radii(problem, multipliers)) return convex::open_question::dependence;
-    if (!primal.undecided.empty()) return primal.undecided;
-    const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
-    return ended ? std::string_view() : convex::open_question::conditioning;
-  }
-  // What doubles left open of q, the method has asked fractions already.
-  const bool is_doubtful =
-      multipliers.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt || is_decided_in_fractions(primal);
-  return is_doubtful ? convex::open_question::dependence : std::string_view();
+  if (multipliers.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt)
+    return convex::open_question::dependence;
+  // What doubles left open of q in numbers that are exact, the method has asked fractions already; the rest
+  // then needs them too.
+  if (!problem.radii)
+    return is_decided_in_fractions(primal) ? convex::open_question::dependence : std::string_view();
+  if (depend_within_radii(problem, multipliers)) return convex::open_question::dependence;
+  if (!primal.undecided.empty()) return primal.undecided;
+  const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
+  return ended ? std::string_view() : convex::open_question::conditioning;
 }
 
 }  // namespace

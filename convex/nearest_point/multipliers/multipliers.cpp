@@ -202,7 +202,8 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   }
 
   found.null_space = null_space(*groups);
-  if (groups->empty() && !problem.radii)
+  const bool are_exact = !problem.radii || problem.radii->is_zero();
+  if (groups->empty() && are_exact)
     found.is_in_doubt = unit_roundoff * inverse_norm_of_rows(problem, found.tight) > tolerance;
   // They are unique when every dependent row keeps its multiplier 0.
   Vector length = problem.U.lengths(problem.A.diagonal().cwiseInverse());
@@ -215,8 +216,7 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   const Vector signs = signs_of(solution.lambda, length, rounding, is_free);
   for (const Dependence& rows : *groups) {
     // Rows within radii are what they are counted as.
-    found.is_in_doubt |=
-        !problem.radii && !is_known(problem, rows, length, tolerance / roundings_of_multipliers);
+    found.is_in_doubt |= are_exact && !is_known(problem, rows, length, tolerance / roundings_of_multipliers);
     const auto start = std::chrono::steady_clock::now();
     MultiplierPolyhedron directions(rows, signs, length, is_free);
     const bool is_unique = std::none_of(rows.dependent.begin(), rows.dependent.end(), [&](Index p) {
@@ -235,7 +235,7 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
   }
   if (!is_same_reaction(problem, solution, found.least_norm, tolerance)) {
     found.least_norm = solution.lambda;
-    found.is_in_doubt = !problem.radii;
+    found.is_in_doubt = are_exact;
   }
   const bool are_found = std::none_of(ranges.begin(), ranges.end(), [](const Interval& range) {
     return std::isnan(range.low) || std::isnan(range.high);
