@@ -46,12 +46,23 @@ std::optional<BallFunction> ball_function(Operation operation) {
   }
 }
 
-/// Larger exponents make numbers that nobody wants to wait for.
-constexpr std::int64_t largest_exponent = 64;
+/// Larger exponents, of fractions beyond so many bits, make numbers that nobody wants to wait for.
+constexpr std::int64_t largest_exponent = 64, most_bits = 8192;
+
+bool can_be_raised(const Number& base, std::int64_t exponent) {
+  const std::int64_t e = std::abs(exponent);
+  if (e <= largest_exponent || !base.is_exact() || e > most_bits) return e <= largest_exponent;
+  const Fraction& fraction = base.fraction();
+  return e * static_cast<std::int64_t>(std::max(fraction.numerator.bits(), fraction.denominator.bits())) <=
+         most_bits;
+}
 
 Number raised(const Number& base, std::int64_t exponent) {
-  Number result = one;
-  for (std::int64_t k = 0; k < std::abs(exponent); ++k) result = result * base;
+  Number result = one, square = base;
+  for (std::int64_t e = std::abs(exponent); e > 0; e /= 2) {
+    if (e % 2 != 0) result = result * square;
+    if (e > 1) square = square * square;
+  }
   return exponent < 0 ? one / result : result;
 }
 
@@ -82,7 +93,7 @@ std::optional<NumberPartials> power(const Number& a, const Number& b, bool b_is_
   const bool is_whole =
       b.is_exact() && b.fraction().denominator == 1 && b.fraction().numerator.fits_word() && b_is_constant;
   const std::int64_t e = is_whole ? b.fraction().numerator.word() : 0;
-  if (is_whole && std::abs(e) <= largest_exponent) {
+  if (is_whole && can_be_raised(a, e)) {
     if (a.is_zero() && e < 0) return std::nullopt;
     NumberPartials p{raised(a, e), zero, zero, zero, zero, zero};
     if (e != 0) p.a = Number(e) * raised(a, e - 1);

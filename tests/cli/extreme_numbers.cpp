@@ -144,3 +144,19 @@ TEST_CASE("multipliers of rows that are independent by a few roundings are uniqu
   CHECK(answer.at("multipliers").at("c[0]") == 0);
   CHECK(answer.at("model").at("islands").at(0).at("in_fractions") == "whether rows depend on each other");
 }
+
+TEST_CASE(
+    "powers of small numbers are fractions however large their exponents, so that fractions decide beside "
+    "them") {
+  for (const char* power : {"2^63", "2^95", "2^110"}) {
+    const Json answer = Json::parse(
+        run_json_on("solve", std::string("[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\n"
+                                         "forces = {x = \"-1\"}\nconstraints = {a = \"x/") +
+                                 power + " >= 0\", b = \"x >= 0\"}\n[state]\nposition = {x = 0}\n")
+            .out);
+    CAPTURE(power);
+    CHECK(answer.at("status") == "solved");
+    CHECK(answer.at("multipliers_unique") == false);
+    CHECK(answer.at("model").at("islands").at(0).at("in_fractions") == "whether rows depend on each other");
+  }
+}
