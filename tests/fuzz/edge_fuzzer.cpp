@@ -6,6 +6,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
+#include "convex/nearest_point/multipliers/multipliers.hpp"
 #include "convex/nearest_point/repeated_problem.hpp"
 #include "tests/fuzz/edge_families.hpp"
 #include "tests/oracles/rational_kkt.hpp"
@@ -78,6 +79,35 @@ double norm(const convex::Matrix& A, const RationalVector& x) {
   return std::sqrt(square.get_d());
 }
 
+bool are_independent(const NearestPointProblem& problem, const std::vector<Index>& rows) {
+  std::vector<RationalVector> M;
+  for (const Index a : rows) {
+    const convex::Vector u = problem.U.row(a);
+    M.emplace_back(u.begin(), u.end());
+  }
+  return oracles::row_reduce(M, static_cast<std::size_t>(problem.dimension())).size() == rows.size();
+}
+
+/// Whether what is told of the multipliers where doubles are said to know them is wrong: they are unique
+/// where all tight rows are independent, and not where two-sided ones depend on each other.
+bool is_uniqueness_wrong(const NearestPointProblem& problem, const Solution& found,
+                         const RationalPoint& truth) {
+  constexpr double tolerance = 1e-9;
+  const bool in_fractions = !found.model.islands.empty() && !found.model.islands[0].in_fractions.empty();
+  const convex::Multipliers told = convex::multipliers(problem, found, tolerance, true);
+  if (told.is_in_doubt || in_fractions) return false;
+  std::vector<Index> tight;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    Rational slack = -Rational(problem.s[a]);
+    const convex::Vector u = problem.U.row(a);
+    for (Index i = 0; i < u.size(); ++i) slack += Rational(u[i]) * truth.q[static_cast<std::size_t>(i)];
+    if (slack == 0) tight.push_back(a);
+  }
+  // Rows within the tolerance count as tight.
+  if (told.tight != tight) return false;
+  return told.unique ? !are_independent(problem, problem.two_sided) : are_independent(problem, tight);
+}
+
 enum class Outcome { right, refused, wrong };
 
 Outcome outcome(const NearestPointProblem& problem, const Solution& found, std::string& why) {
@@ -109,6 +139,10 @@ Outcome outcome(const NearestPointProblem& problem, const Solution& found, std::
   RationalVector off = truth.q;
   for (std::size_t i = 0; i < off.size(); ++i) off[i] -= Rational(found.q[static_cast<Index>(i)]);
   const double error = norm(A, off), size = norm(A, truth.q);
+  if (is_uniqueness_wrong(problem, found, truth)) {
+    why = "multipliers that are unique are told not to be, or the other way round";
+    return Outcome::wrong;
+  }
   const bool bounded = found.error_bound <= 1.01e-9 * std::max(1.0, size);
   why = "error " + std::to_string(error / size) + " of the size, bound " +
         std::to_string(found.error_bound / size);
