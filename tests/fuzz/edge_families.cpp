@@ -163,6 +163,24 @@ Draft weak(Random& random) {
   return draft;
 }
 
+/// Rows through one point that nearly depend on each other, in units of powers of two.
+Draft touched(Random& random) {
+  Draft draft = plain(random, 4, 6);
+  for (int k = random.between(1, 3); k > 0; --k)
+    near_sum(random, draft, random.sign() * random.between(1, 2));
+  for (auto row : draft.U.rowwise())
+    if (random.one_in(3)) row *= std::ldexp(1, random.between(-48, 24));
+  const Vector q = whole(random, draft.U.cols(), 2);
+  draft.s = draft.U * q;
+  const Vector lambda = whole(random, draft.U.rows(), 2)
+                            .cwiseMax(0)
+                            .cwiseQuotient(draft.U.rowwise().lpNorm<1>().cwiseMax(0x1p-60));
+  draft.z = draft.A * q - draft.U.transpose() * lambda;
+  for (Index a = 0; a < draft.U.rows(); ++a)
+    if (random.one_in(4)) draft.two_sided.push_back(a);
+  return draft;
+}
+
 struct Family {
   const char* name;
   Draft (*draw)(Random&);
@@ -177,7 +195,8 @@ constexpr std::array<Family, edge_family_count> families{
      {"units", units},
      {"masses", masses},
      {"ill-conditioned A", ill_conditioned},
-     {"weak rows", weak}}};
+     {"weak rows", weak},
+     {"touched rows", touched}}};
 
 }  // namespace
 

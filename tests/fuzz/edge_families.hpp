@@ -26,7 +26,7 @@ class Random {
   std::uint64_t state_;
 };
 
-inline constexpr int edge_family_count = 9;
+inline constexpr int edge_family_count = 10;
 const char* edge_family(int family);
 convex::NearestPointProblem draw_edge(int family, Random&);
 
