@@ -13,8 +13,8 @@ namespace convex::inline dual_active_set {
 struct Dependence {
   std::vector<Index> basic, dependent;
   Matrix T;
-  double inverse_norm =
-      1;  ///< an estimate of 1 / (smallest singular value) of the basic rows, each of length 1
+  /// An estimate of 1 / (smallest singular value) of the basic rows, each of length 1.
+  double inverse_norm = 1;
 };
 
 /// The dependences among the tight rows, one for each group of rows that are tied to each other; rows that
