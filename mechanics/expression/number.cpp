@@ -49,12 +49,10 @@ std::optional<BallFunction> ball_function(Operation operation) {
 /// Larger exponents, of fractions beyond so many bits, make numbers that nobody wants to wait for.
 constexpr std::int64_t largest_exponent = 64, most_bits = 8192;
 
-bool can_be_raised(const Number& base, std::int64_t exponent) {
-  const std::int64_t e = std::abs(exponent);
-  if (e <= largest_exponent || !base.is_exact() || e > most_bits) return e <= largest_exponent;
-  const Fraction& fraction = base.fraction();
-  return e * static_cast<std::int64_t>(std::max(fraction.numerator.bits(), fraction.denominator.bits())) <=
-         most_bits;
+bool can_be_raised(const Number& base, std::int64_t e) {
+  if (e <= largest_exponent || e > most_bits || !base.is_exact()) return e <= largest_exponent;
+  const auto& [above, below] = base.fraction();
+  return e * static_cast<std::int64_t>(std::max(above.bits(), below.bits())) <= most_bits;
 }
 
 Number raised(const Number& base, std::int64_t exponent) {
@@ -93,7 +91,7 @@ std::optional<NumberPartials> power(const Number& a, const Number& b, bool b_is_
   const bool is_whole =
       b.is_exact() && b.fraction().denominator == 1 && b.fraction().numerator.fits_word() && b_is_constant;
   const std::int64_t e = is_whole ? b.fraction().numerator.word() : 0;
-  if (is_whole && can_be_raised(a, e)) {
+  if (is_whole && can_be_raised(a, std::abs(e))) {
     if (a.is_zero() && e < 0) return std::nullopt;
     NumberPartials p{raised(a, e), zero, zero, zero, zero, zero};
     if (e != 0) p.a = Number(e) * raised(a, e - 1);
