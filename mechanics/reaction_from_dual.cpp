@@ -17,10 +17,9 @@ Matrix whitened_rows(const convex::NearestPointProblem& problem) {
   return V;
 }
 
-/// R from its whitened point, which keeps its digits where large multipliers cancel in Uᵀlambda.
-ReactionFromDual against_primal(const Vector& whitened, const convex::NearestPointProblem& problem,
+ReactionFromDual against_primal(Vector reaction, const convex::NearestPointProblem& problem,
                                 const convex::Solution& primal) {
-  ReactionFromDual found{problem.A.multiply(problem.A.unwhiten(whitened)), 0};
+  ReactionFromDual found{std::move(reaction), 0};
   const double scale = std::max(primal.acceleration_norm, primal.force_norm);
   const Vector from_primal = problem.A.multiply(primal.q) - problem.z;
   if (scale > 0) found.difference = problem.A.dual_norm(found.reaction - from_primal) / scale;
@@ -40,7 +39,7 @@ std::optional<ReactionFromDual> reaction_from_dual(const convex::NearestPointPro
   const Matrix V = whitened_rows(problem);
   const convex::ConeProjection projection = convex::cone_projection(V, b, problem.two_sided);
   if (!projection.finished) return std::nullopt;
-  ReactionFromDual found = against_primal(projection.point, problem, primal);
+  ReactionFromDual found = against_primal(problem.U.transpose_times(projection.lambda), problem, primal);
   found.apex_norm = problem.A.norm(q_0);
   const Vector below = problem.s - problem.U.times(q_0);
   for (Index a = 0; a < problem.rows(); ++a)
@@ -72,8 +71,9 @@ std::optional<ReactionFromDual> reaction_by_least_distance(const convex::Nearest
         convex::cone_projection(E, Vector::Unit(n + 1, n), problem.two_sided);
     const double left = 1 - projection.point[n];
     if (!projection.finished || !(left > 0)) return std::nullopt;
-    p = (unit / left) * projection.point.head(n);
-    if (pass == 1) return against_primal(p, problem, primal);
+    const Vector lambda = (unit / left) * projection.lambda;
+    p = V * lambda;
+    if (pass == 1) return against_primal(problem.U.transpose_times(lambda), problem, primal);
     unit = std::max(unit, p.norm());
   }
   return std::nullopt;
