@@ -149,17 +149,18 @@ std::optional<CallValue> atom_value(const Call& f, const Point& x) {
 /// min over w on the line of first(w) + second(w), for functions of one entry.
 template <class Both>
 std::optional<CallValue> searched(const Both& both, const std::vector<Real>& seeds) {
+  constexpr Real rounding_of_terms = 0x1p-60L;
   bool known = true;
-  Real size = 0;
   const auto at = [&](Real w) {
     const std::optional<CallValue> value = both(w);
     known = known && value;
-    return value ? value->value : infinity;
+    // Far out, large terms may leave less than the least value by their rounding.
+    return value ? value->value + rounding_of_terms * value->size : infinity;
   };
   const LineMinimum least = least_on_line(at, seeds);
-  if (const auto value = both(least.at)) size = value->size;
-  if (!known) return std::nullopt;
-  return CallValue{least.value, false, size};
+  const auto value = both(least.at);
+  if (!known || !value) return std::nullopt;
+  return CallValue{value->value, false, value->size};
 }
 
 std::optional<CallValue> plus(const std::optional<CallValue>& a, const std::optional<CallValue>& b) {
