@@ -42,9 +42,11 @@ class PerspectiveAtom final : public Atom {
     const double length = x.norm();
     if (length <= 0) return 0;
     const auto quotient = [&](double part) { return part * length * f_->value(x / (part * length)); };
-    const double limit = quotient(fine), before = quotient(coarse);
-    const bool settled = std::abs(limit - before) <= agreeing * (std::abs(limit) + length * agreeing);
-    return std::min(settled ? limit : infinity, f_->recession(x));
+    // The quotients rise to the limit, but for a part of f(0), and the other is an upper bound of it.
+    const double limit = quotient(fine), before = quotient(coarse), bound = f_->recession(x);
+    const double moved = std::abs(limit - before);
+    const bool settled = moved <= agreeing * (std::abs(limit) + length * agreeing);
+    return !settled || std::abs(bound - limit) <= moved ? bound : std::min(limit, bound);
   }
   Function conjugate() const override {
     return Function(epigraph_atom(conjugate_atom(f_, n_), n_, -1 / side_));

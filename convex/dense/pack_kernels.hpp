@@ -105,27 +105,30 @@ struct Kernels : TriangleKernels<W, Fused>, RowKernels<W, Fused> {
     const double *const end_of_A = A + n * n, *const end_of_U = U + m * n;
     const auto work = [&](Index i, auto together) __attribute__((always_inline)) {
       constexpr int packs = decltype(together)::value;
+      // The last alone may reach beyond a row, and so beyond all.
+      const auto load = [](const double* x, int r, const double* end) __attribute__((always_inline)) {
+        return r < packs - 1 ? P::load(x + 8 * r) : P::load_before(x + 8 * r, end);
+      };
       Pack applied[packs], product[packs];
-      P::clear(product);
 #pragma GCC unroll 4
       for (int r = 0; r < packs; ++r) applied[r] = P::load(z + i + 8 * r);
       for (Index k = 0; k < count; ++k)
 #pragma GCC unroll 4
         for (int r = 0; r < packs; ++r)
-          P::add_product(applied[r], P::load_before(U + rows[k] * n + i + 8 * r, end_of_U), lambda[k]);
+          P::add_product(applied[r], load(U + rows[k] * n + i, r, end_of_U), lambda[k]);
+      P::clear(product);
       for (Index j = 0; j < n; ++j)
 #pragma GCC unroll 4
-        for (int r = 0; r < packs; ++r)
-          P::add_product(product[r], P::load_before(A + j * n + i + 8 * r, end_of_A), q[j]);
+        for (int r = 0; r < packs; ++r) P::add_product(product[r], load(A + j * n + i, r, end_of_A), q[j]);
 #pragma GCC unroll 4
       for (int r = 0; r < packs; ++r)
         P::store(into + i + 8 * r, P::first(P::minus(applied[r], product[r]), n - i - 8 * r));
     };
     // Sums of several packs wait for themselves alone.
-    constexpr int together = W == 8 ? 4 : 1;
     Index i = 0;
-    for (; i + 8 * (together - 1) < n; i += 8 * together) work(i, std::integral_constant<int, together>());
-    for (; i < n; i += 8) work(i, std::integral_constant<int, 1>());
+    for (; i + 24 < n; i += 32) work(i, std::integral_constant<int, 4>());
+    for (; i + 8 < n; i += 16) work(i, std::integral_constant<int, 2>());
+    if (i < n) work(i, std::integral_constant<int, 1>());
   }
 
   MOREAU_INLINE void precise_slacks(Index n, const double* X, const double* q, const double* s,

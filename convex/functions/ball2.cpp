@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "convex/double_double.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sets.hpp"
@@ -41,8 +42,25 @@ class Ball2 : public ConvexSet {
     const Vector normal = from / distance;
     return radius_ / distance * (Matrix::Identity(n, n) - normal * normal.transpose());
   }
-  double support(const Vector& v) const override {
-    return radius_ * v.stableNorm() + (center_.size() > 0 ? center_.dot(v) : 0);
+  double support(const Vector& v) const override { return support_value(v).value; }
+  /// radius |v| + center·v, in twice the working precision where the two may cancel.
+  Value support_value(const Vector& v) const override {
+    const double length = v.stableNorm(), along = radius_ * length;
+    if (center_.size() == 0) return sum_of_terms(along, along);
+    const double plain = along + center_.dot(v), sizes = along + center_.cwiseAbs().dot(v.cwiseAbs());
+    const double roundings = static_cast<double>(v.size());
+    if (v.size() == 1 && length == 1) return sum_of_terms(plain, std::abs(plain));  // one sum, no product
+    if (!is_squared_in_range(length)) return sum_of_terms(plain, roundings * sizes);
+    RunningSum square, sum;
+    for (double e : v) square.add(two_product(e, e));
+    const DoubleDouble back = two_product(length, length);
+    square.add(-back.hi);
+    square.add(-back.lo);
+    sum.add(two_product(radius_, length));
+    if (length > 0) sum.add(radius_ * (square.value() / (2 * length)));
+    for (Index i = 0; i < v.size(); ++i) sum.add(two_product(center_[i], v[i]));
+    const double found = sum.value();
+    return sum_of_terms(found, std::abs(found) + roundings * unit_roundoff * sizes);
   }
   std::optional<Vector> maximiser(const Vector& v) const override {
     const double length = v.stableNorm();
@@ -58,6 +76,8 @@ class Ball2 : public ConvexSet {
   }
 
  private:
+  /// Squares of numbers of this size, with their rounding errors, neither overflow nor underflow.
+  static bool is_squared_in_range(double size) { return size == 0 || (size > 0x1p-400 && size < 0x1p400); }
   Vector from_center(const Vector& z) const { return center_.size() > 0 ? Vector(z - center_) : z; }
   Vector at_center(const Vector& x) const { return center_.size() > 0 ? Vector(x + center_) : x; }
   double radius_;

@@ -78,6 +78,7 @@ struct ExponentialConjugate : OnHalfLine, AnySize {
   Ends domain(Index) const { return {.low = 0}; }
   Ends slopes(Index) const { return {}; }
   double value(double x, Index) const { return x_log_x(x) - x; }
+  double terms(double x, Index) const { return std::abs(x_log_x(x)) + std::abs(x); }
   double slope(double x, Index) const { return x > 0 ? std::log(x) : -infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_exponential_conjugate(z, d);
@@ -99,6 +100,14 @@ struct KullbackLeibler : OnHalfLine {
     // Near r the three terms cancel; x log(x/r) - x + r = r ((1+t) log(1+t) - t) with t = (x - r)/r.
     const double t = (x - r) / r;
     return std::abs(t) < 0.5 ? r * one_plus_log(t) : x * (std::log(x) - std::log(r)) - x + r;
+  }
+  double terms(double x, Index i) const {
+    const double r = reference[i], found = value(x, i);
+    if (!(found < infinity) || x == 0) return std::abs(found);
+    const double t = (x - r) / r;
+    if (std::abs(t) <= 0x1p-10) return found;  // x - r has no rounding, nor does the series cancel
+    return std::abs(t) < 0.5 ? r * (std::abs((1 + t) * std::log1p(t)) + std::abs(t))
+                             : x * (std::abs(std::log(x)) + std::abs(std::log(r))) + x + r;
   }
   double slope(double x, Index i) const {
     const double r = reference[i];

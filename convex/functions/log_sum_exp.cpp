@@ -37,6 +37,13 @@ struct LogSumExp final : Atom {
   Call call() const override { return {"log_sum_exp"}; }
   Function conjugate() const override { return entropy_on_simplex(); }
   double value(const Vector& x) const override { return log_sum(x); }
+  /// The largest entry and the logarithm of a sum of as many terms as there are entries.
+  Value evaluate(const Vector& x) const override {
+    const double found = log_sum(x), top = x.maxCoeff(), count = static_cast<double>(x.size());
+    Value sum = sum_of_terms(found, std::abs(top) + std::abs(found - top));
+    sum.error += count * unit_roundoff * (std::isfinite(found) ? 1 : 0);
+    return sum;
+  }
   std::optional<Vector> subgradient(const Vector& x) const override { return softmax(x); }
   /// max d_i (Rockafellar 1970, section 8).
   double recession(const Vector& d) const override { return d.maxCoeff(); }

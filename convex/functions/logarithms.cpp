@@ -24,6 +24,7 @@ struct LogBarrier {
   Ends domain(Index) const { return {.low = 0}; }
   Ends slopes(Index) const { return {.high = 0}; }
   double value(double x, Index) const { return x > 0 ? offset - std::log(x) : infinity; }
+  double terms(double x, Index) const { return std::abs(offset) + std::abs(std::log(x)); }
   double slope(double x, Index) const { return x > 0 ? -1 / x : -infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_log_barrier(z, d);
@@ -42,6 +43,7 @@ struct LogBarrierConjugate {
   Ends domain(Index) const { return {.high = 0}; }
   Ends slopes(Index) const { return {.low = 0}; }
   double value(double x, Index) const { return x < 0 ? -1 - offset - std::log(-x) : infinity; }
+  double terms(double x, Index) const { return 1 + std::abs(offset) + std::abs(std::log(-x)); }
   double slope(double x, Index) const { return x < 0 ? -1 / x : infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_log_barrier_conjugate(z, d);

@@ -127,6 +127,11 @@ class CappedSimplex : public Polytope {
     return prox_formulas::proj_capped_simplex_jacobian(z, cap_, total_, d);
   }
   double support(const Vector& v) const override { return maximiser(v)->dot(v); }
+  Value support_value(const Vector& v) const override {
+    const Vector x = *maximiser(v);
+    const double roundings = static_cast<double>(v.size());
+    return sum_of_terms(x.dot(v), roundings * x.dot(v.cwiseAbs()));
+  }
   /// The largest entries filled up to cap, the last one with the rest.
   std::optional<Vector> maximiser(const Vector& v) const override {
     std::vector<Index> order(static_cast<std::size_t>(v.size()));

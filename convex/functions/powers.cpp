@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "convex/double_double.hpp"
 #include "convex/functions/piecewise_functions.hpp"
 #include "convex/functions/scalar_sum.hpp"
 #include "convex/functions/separable_functions.hpp"
@@ -9,6 +10,18 @@
 
 namespace convex::inline named_functions {
 namespace {
+
+/// (x / c)^(a / b), x, c, a > 0: what the rounding of both quotients is worth, which the power enlarges, is
+/// made up for to first order.
+double power_of_quotient(double x, double c, double a, DoubleDouble b) {
+  const double base = x / c, exponent = a / b.hi;
+  const double plain = std::pow(base, exponent);
+  const DoubleDouble x_of_base = two_product(base, c), a_of_exponent = two_product(exponent, b.hi);
+  const double of_base = ((x - x_of_base.hi) - x_of_base.lo) / x;
+  const double of_exponent = ((a - a_of_exponent.hi) - a_of_exponent.lo - exponent * b.lo) / b.hi;
+  const double more = exponent * of_base + of_exponent * std::log(base);
+  return std::isfinite(more) ? plain + plain * more : plain;
+}
 
 /// |x|^p, p > 1.
 struct Power : AnySize {
@@ -41,7 +54,9 @@ struct PowerConjugate : AnySize {
   Function conjugate() const { return power(p); }
   Ends domain(Index) const { return {}; }
   Ends slopes(Index) const { return {}; }
-  double value(double x, Index) const { return (p - 1) * std::pow(std::abs(x) / p, q()); }
+  double value(double x, Index) const {
+    return (p - 1) * power_of_quotient(std::abs(x), p, p, two_sum(p, -1));
+  }
   double slope(double x, Index) const { return std::copysign(std::pow(std::abs(x) / p, 1 / (p - 1)), x); }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_power_conjugate(z, d, p);
@@ -79,7 +94,9 @@ struct InversePowerConjugate : AnySize {
   Function conjugate() const { return inverse_power(q); }
   Ends domain(Index) const { return {.high = 0}; }
   Ends slopes(Index) const { return {.low = 0}; }
-  double value(double x, Index) const { return x > 0 ? infinity : -(1 + q) * std::pow(-x / q, r()); }
+  double value(double x, Index) const {
+    return x > 0 ? infinity : -(1 + q) * power_of_quotient(-x, q, q, two_sum(q, 1));
+  }
   double slope(double x, Index) const { return x < 0 ? std::pow(-x / q, -1 / (1 + q)) : infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     return prox_formulas::prox_inverse_power_conjugate(z, d, q);
@@ -123,7 +140,9 @@ struct NegativePowerConjugate : AnySize {
   Function conjugate() const { return negative_power(r); }
   Ends domain(Index) const { return {.high = 0}; }
   Ends slopes(Index) const { return {.low = 0}; }
-  double value(double x, Index) const { return x < 0 ? factor() * std::pow(-x, -q()) : infinity; }
+  double value(double x, Index) const {
+    return x < 0 ? (1 - r) * power_of_quotient(r, -x, r, two_sum(1, -r)) : infinity;
+  }
   double slope(double x, Index) const { return x < 0 ? factor() * q() * std::pow(-x, -q() - 1) : infinity; }
   prox_formulas::ScalarProx prox(double z, double d, Index) const {
     const prox_formulas::ScalarProx mirrored = prox_formulas::prox_inverse_power(-z, d / factor(), q());

@@ -139,10 +139,19 @@ class DualQuadratic : public Atom {
     const Vector from = v - c_;
     const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
     if (std::isinf(on_range.value)) return on_range;
-    const double half = 0.5 * (L_.transpose() * solve(from)).squaredNorm();
-    Value found = sum_of_terms(half - constant_, half + std::abs(constant_));
-    found.error += on_range.error;
-    return found;
+    // For any y it is at least y·(v - c) - ½ y·Qy - constant, and ½ r·Q⁺r more, r = v - c - Qy.
+    Vector y = solve(from);
+    y += solve(left_of(v, y, 1).value());
+    const DoubleDoubleVector half = left_of(v, y, 0.5);
+    RunningSum sum;
+    for (Index i = 0; i < y.size(); ++i) {
+      sum.add(two_product(half.hi[i], y[i]));
+      sum.add(half.lo[i] * y[i]);
+    }
+    sum.add(-constant_);
+    const Vector r = left_of(v, y, 1).value();
+    const double found = sum.value();
+    return {found, sum_of_terms(found, std::abs(found)).error + std::abs(r.dot(solve(r))) + on_range.error};
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
@@ -182,6 +191,14 @@ class DualQuadratic : public Atom {
   }
 
  private:
+  /// v - c - part Qy, to twice the precision.
+  DoubleDoubleVector left_of(const Vector& v, const Vector& y, double part) const {
+    DoubleDoubleVector sum(v);
+    sum.add(-c_);
+    for (Index j = 0; j < y.size(); ++j)
+      add_multiple(y.size(), Q_.col(j).data(), {-part * y[j], 0}, sum.hi.data(), sum.lo.data());
+    return sum;
+  }
   /// Q⁺ b.
   Vector solve(const Vector& b) const {
     return of_Q_.basis * (of_Q_.values.cwiseInverse().asDiagonal() * (of_Q_.basis.transpose() * b));

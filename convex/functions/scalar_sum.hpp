@@ -26,6 +26,7 @@ struct AnySize {
 ///   Call call() const; Function conjugate() const; Index dimension() const (0: any);
 ///   bool finite() const;                            f_i is finite everywhere
 ///   double value(double x, Index i) const;          +inf outside the domain
+///   double terms(double x, Index i) const;          where terms of f_i(x) may cancel: the sum of their sizes
 ///   double slope(double x, Index i) const;          f_i'(x); -inf left of the domain, +inf right of it
 ///   prox_formulas::ScalarProx prox(double z, double d, Index i) const;
 ///   Ends ends(Index i) const;                       the points that count as inside up to the tolerance
@@ -121,7 +122,10 @@ class ScalarSum : public Atom {
     for (Index i = 0; i < x.size(); ++i) {
       const double at = inside(x[i], allowance, i), part = law_.value(at, i);
       sum += part;
-      size += std::abs(part);
+      if constexpr (requires { law_.terms(at, i); })
+        size += law_.terms(at, i);
+      else
+        size += std::abs(part);
       doubt += indicated(std::abs(at - x[i]), allowance / membership_tolerance).error;
     }
     return {sum, doubt + (std::isfinite(sum) ? roundings_of_a_term * unit_roundoff * size : 0)};

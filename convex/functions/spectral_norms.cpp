@@ -137,6 +137,10 @@ class Spectraplex : public ConvexSet {
     if (0.5 * (V - V.transpose()).norm() > membership_tolerance * V.norm()) return infinity;
     return total_ * linear_algebra::eigenvalues(0.5 * (V + V.transpose())).maxCoeff();
   }
+  /// Eigenvalues are rounded as the largest of them is.
+  Value support_value(const Vector& v) const override {
+    return sum_of_terms(support(v), total_ * static_cast<double>(v.size()) * v.stableNorm());
+  }
   std::optional<Vector> maximiser(const Vector& v) const override {
     if (std::isinf(support(v))) return std::nullopt;
     const Matrix V = matrix(v);

@@ -10,6 +10,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
+#include "convex/operations/two_function_max.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -34,22 +35,16 @@ class ComputedConjugate : public Operation {
     if (!form) return std::nullopt;
     return linear_quadratic::conjugate(*form);
   }
-  /// In units of the slope v where heights are measured: a small v may be the sum of slopes that cancel, and
-  /// units far below theirs hide that a part is missed.
+  /// By a program; of a maximum by its dual too, where that leaves the value open.
   Value evaluate(const Vector& v) const override {
-    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
-    if (parts)
-      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
-        return settled_value(*found, {}, f_, v);
-    const double unit = parts && v.norm() > 0 ? unit_of_slope(parts->slope_of(v)) : 1;
-    const auto in_units = unit != 1 ? in_units_of(unit, *parts, v) : std::nullopt;
-    if (!in_units || unit > 1) {
-      const ByProgram found = in_units ? *in_units : by_program(v);
-      return settled_value(found.value, found.slope, f_, v);
-    }
-    const ByProgram plain = by_program(v), found = held_against(*in_units, plain);
-    const Value settled = settled_value(found.value, found.slope, f_, v);
-    return is_known(settled) || !is_known(plain.value) ? settled : plain.value;
+    const Value found = by_programs(v);
+    const std::vector<Function> maximum = parts_of_max(f_);
+    if (maximum.empty() || WorkLimit::passed() ||
+        found.error <= roundings * unit_roundoff * (1 + std::abs(found.value)))
+      return found;
+    const auto part = WorkLimit::half_of_the_rest();
+    const auto other = conjugate_of_max(maximum, v);
+    return other && other->error < found.error ? *other : found;
   }
   double recession(const Vector& d) const override { return f_.node().domain_support(d); }
   double domain_support(const Vector& v) const override { return f_.node().recession(v); }
@@ -67,6 +62,25 @@ class ComputedConjugate : public Operation {
   }
 
  private:
+  static constexpr double roundings = 64;
+
+  /// In units of the slope v where heights are measured: a small v may be the sum of slopes that cancel, and
+  /// units far below theirs hide that a part is missed.
+  Value by_programs(const Vector& v) const {
+    const auto* parts = dynamic_cast<const Operation*>(&f_.node());
+    if (parts)
+      if (const auto found = parts->conjugate_value(v); found && std::isfinite(found->value))
+        return settled_value(*found, {}, f_, v);
+    const double unit = parts && v.norm() > 0 ? unit_of_slope(parts->slope_of(v)) : 1;
+    const auto in_units = unit != 1 ? in_units_of(unit, *parts, v) : std::nullopt;
+    if (!in_units || unit > 1) {
+      const ByProgram found = in_units ? *in_units : by_program(v);
+      return settled_value(found.value, found.slope, f_, v);
+    }
+    const ByProgram plain = by_program(v), found = held_against(*in_units, plain);
+    const Value settled = settled_value(found.value, found.slope, f_, v);
+    return is_known(settled) || !is_known(plain.value) ? settled : plain.value;
+  }
   /// Leaves work for the other ways.
   std::optional<ByProgram> in_units_of(double unit, const Operation& parts, const Vector& v) const {
     if (facts().piecewise_quadratic) return std::nullopt;
@@ -80,7 +94,6 @@ class ComputedConjugate : public Operation {
     return std::isfinite(value.value) && std::isfinite(value.error);
   }
   static ByProgram held_against(ByProgram found, const ByProgram& plain) {
-    constexpr double roundings = 64;
     if (std::isfinite(plain.value.value) && !std::isfinite(found.value.value)) return plain;
     const double apart = std::abs(found.value.value - plain.value.value);
     const double size = 1 + std::abs(found.value.value) + std::abs(plain.value.value);

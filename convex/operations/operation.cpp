@@ -9,6 +9,7 @@
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/properness.hpp"
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
@@ -172,8 +173,14 @@ Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
   }();
   if (!best) refuse(*this, "prox in this metric");
   if (WorkLimit::passed()) return *std::move(best);
-  if (!is_settled(*best, z, W))
-    if (auto other = other_prox(z, W, look)) take_better(best, *std::move(other));
+  // Of a far z a program's x may lie outside by its rounding, where f rises without end, as 1/x at 0.
+  const bool is_outside = z.size() == 1 && best->x.size() == 1 && is_settled(*best, z, W) &&
+                          !facts().piecewise_quadratic && value(best->x) == infinity;
+  if (is_outside || !is_settled(*best, z, W))
+    if (auto other = other_prox(z, W, look)) {
+      if (is_outside) best.reset();
+      take_better(best, *std::move(other));
+    }
   const OneAtATime question(OneAtATime::Kind::conjugate_prox);
   if (is_settled(*best, z, W) || !question.first()) return *std::move(best);
   const Function g = conjugate();

@@ -129,18 +129,30 @@ Function proper_max(std::vector<Function> parts) {
   return Function(std::make_shared<PointwiseMax>(std::move(parts)));
 }
 
+namespace {
+
+Function all_but_first(std::span<const Function> parts) {
+  return parts.size() == 2 ? parts[1] : proper_max(std::vector<Function>(parts.begin() + 1, parts.end()));
+}
+
+}  // namespace
+
 std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W,
                                 const Look& look) {
   const OneAtATime outer(OneAtATime::Kind::maximum);
   const auto inner =
       outer.first() ? nullptr : std::make_unique<OneAtATime>(OneAtATime::Kind::maximum_in_maximum);
   if (inner && !inner->first()) return std::nullopt;
-  const Function rest =
-      parts.size() == 2 ? parts[1] : proper_max(std::vector<Function>(parts.begin() + 1, parts.end()));
-  auto found = prox_of_two_function_max(parts[0], rest, z, W, look);
+  auto found = prox_of_two_function_max(parts[0], all_but_first(parts), z, W, look);
   if (found && !(found->error_bound <= accuracy_of_prox * (W.norm(z) + W.norm(found->x))))
     found->status = Status::inaccurate;
   return found;
+}
+
+std::optional<Value> conjugate_of_max(std::span<const Function> parts, const Vector& v) {
+  const OneAtATime question(OneAtATime::Kind::maximum_conjugate);
+  if (!question.first()) return std::nullopt;
+  return conjugate_of_two_function_max(parts[0], all_but_first(parts), v);
 }
 
 Function pointwise_max(std::span<const Function> parts, Index n) {

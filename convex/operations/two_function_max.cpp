@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convex/composite/work_limit.hpp"
+#include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 
@@ -20,8 +21,10 @@ constexpr double nearly_nothing = 1e-3;
 
 /// A drop of g - f says how x follows it where it is so much more than noise.
 constexpr double above_noise = 1e3, safety = 4;
-/// A difference that moves x by less than this part of what a prox aims at has ended the search.
-constexpr double part_left = 0.25;
+/// A difference that moves x by less than this part of what a prox aims at has ended the search, if the
+/// maximum is above the mean by no more than that part of it: where one function is steep, a small move of x
+/// is a large one of its value.
+constexpr double part_left = 0.25, part_above = 1e-10;
 
 /// The prox at a weight, and g - f there.
 struct At {
@@ -31,6 +34,7 @@ struct At {
   double difference = 0;
   double noise = 0;  ///< of the difference
   Value above;       ///< of the maximum above the mean with these weights
+  double size = 0;   ///< of the larger value
 };
 
 /// A bracket of the root of a decreasing function on [0, 1]: the chord's root, the value of an end that stays
@@ -94,20 +98,30 @@ Function weighted(const Function& f, double weight) {
   return proper_max(std::move(parts));
 }
 
-std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W,
-                     const Look& look) {
+/// (1 - t) f + t g, and the weights.
+struct Mean {
+  double of_f, of_g;
+  Function sum;
+};
+Mean mean_of(const Function& f, const Function& g, double t) {
   const double of_f = f.facts().finite ? 1 - t : std::max(1 - t, least_weight);
   const double of_g = g.facts().finite ? t : std::max(t, least_weight);
   std::vector<Function> terms;
   if (of_f > 0) terms.push_back(weighted(f, of_f));
   if (of_g > 0) terms.push_back(weighted(g, of_g));
-  const Function mean = proper_sum(terms);
+  return {of_f, of_g, proper_sum(terms)};
+}
+
+std::optional<At> at(const Function& f, const Function& g, double t, const Vector& z, const Metric& W,
+                     const Look& look) {
+  const auto [of_f, of_g, mean] = mean_of(f, g, t);
   WorkLimit::count(WorkLimit::of_a_program);
-  At found{t, mean, mean.prox(z, W, look), 0, 0, {}};
+  At found{t, mean, mean.prox(z, W, look), 0, 0, {}, 0};
   if (found.prox.status != Status::solved || found.prox.x.size() != z.size()) return std::nullopt;
   const Value of_g_there = g.evaluate(found.prox.x), of_f_there = f.evaluate(found.prox.x);
   found.difference = of_g_there.value - of_f_there.value;
   found.noise = of_g_there.error + of_f_there.error;
+  found.size = std::max(std::abs(of_g_there.value), std::abs(of_f_there.value));
   if (std::isnan(found.difference)) return std::nullopt;
   const double missed = found.difference > 0 ? of_f : -of_g;
   found.above = {missed * found.difference, std::abs(missed) * found.noise};
@@ -155,7 +169,7 @@ std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Ve
     for (std::size_t j = 0; j < parts.size(); ++j)
       if (j != k && !parts[j].facts().finite) terms.push_back(weighted(parts[j], least_weight));
     const Function mean = terms.size() == 1 ? parts[k] : proper_sum(terms);
-    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}};
+    At alone{0, mean, mean.prox(z, W, look), 0, 0, {}, 0};
     if (alone.prox.status != Status::solved || alone.prox.x.size() != z.size()) continue;
     const Value own = parts[k].evaluate(alone.prox.x);
     const auto is_below = [&](const Function& other) {
@@ -197,9 +211,10 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
     }
     if (!middle && WorkLimit::passed()) break;
     if (!middle) return std::nullopt;
-    const bool is_near =
-        moved_per_difference > 0 && safety * moved_per_difference * left(*middle) <=
-                                        part_left * accuracy_of_prox * (W.norm(z) + W.norm(middle->prox.x));
+    const bool is_near = middle->above.value <= part_above * middle->size + middle->above.error &&
+                         moved_per_difference > 0 &&
+                         safety * moved_per_difference * left(*middle) <=
+                             part_left * accuracy_of_prox * (W.norm(z) + W.norm(middle->prox.x));
     if (middle->difference == 0 || is_near) {
       low = high = middle;
       break;
@@ -221,6 +236,67 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look) {
   return prox_of_two_function_max(f, g, z, W, look, Order::given);
+}
+
+namespace {
+
+/// The conjugate of the mean at v, and a point where its supremum is attained.
+struct Above {
+  double t = 0;
+  Value bound;
+  Vector x;
+  double difference = 0;  ///< g - f there
+};
+
+std::optional<Above> above(const Function& f, const Function& g, double t, const Vector& v) {
+  WorkLimit::count(WorkLimit::of_a_program);
+  const Function conjugate = mean_of(f, g, t).sum.conjugate();
+  const std::optional<Vector> x = conjugate.subgradient(v);
+  if (!x || x->size() != v.size() || !x->allFinite()) return std::nullopt;
+  const Above found{t, conjugate.evaluate(v), *x, g(*x) - f(*x)};
+  return std::isnan(found.difference) ? std::nullopt : std::optional(found);
+}
+
+}  // namespace
+
+std::optional<Value> conjugate_of_two_function_max(const Function& f, const Function& g, const Vector& v) {
+  constexpr double enough = 1e-13;
+  double least = infinity, most = -infinity, error = 0;
+  const auto take_point = [&](const Vector& x) {
+    const Value of_f = f.evaluate(x), of_g = g.evaluate(x);
+    const Value larger = of_f.value > of_g.value ? of_f : of_g;
+    const Value along = product(v, x);
+    const double below = along.value - larger.value - larger.error - along.error;
+    if (below > most) most = below;
+  };
+  const auto take = [&](const std::optional<Above>& found) {
+    if (!found) return;
+    if (const Value& bound = found->bound; bound.value + bound.error < least + error) {
+      least = bound.value;
+      error = bound.error;
+    }
+    take_point(found->x);
+  };
+  std::optional<Above> low = above(f, g, 0, v), high = above(f, g, 1, v);
+  take(low);
+  take(high);
+  if (!low || !high) return std::nullopt;
+  Bracket bracket{0, 1, low->difference, high->difference};
+  for (int step = 0; step < most_steps && !WorkLimit::passed(); ++step) {
+    const bool is_open = low->difference > 0 && high->difference < 0;
+    if (!is_open || !(least + error - most > enough * std::abs(least))) break;
+    if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
+    const std::optional<Above> middle = above(f, g, bracket.next(), v);
+    if (!middle) break;
+    take(middle);
+    bracket.narrow(middle->t, middle->difference);
+    (middle->difference > 0 ? low : high) = middle;
+    // Where the maximiser jumps both ends are ones of the mean between, and so are the points between them.
+    const double part = low->difference / (low->difference - high->difference);
+    if (part > 0 && part < 1) take_point(low->x + part * (high->x - low->x));
+  }
+  if (!std::isfinite(least) || !std::isfinite(most)) return std::nullopt;
+  return Value{least, std::max(error, least + error - most)};
 }
 
 }  // namespace convex::inline operations

@@ -20,6 +20,12 @@ namespace convex::inline operations {
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look = {});
 
+/// The conjugate of max(f, g) at v, the least over 0 <= t <= 1 of that of (1 - t) f + t g (Rockafellar 1970,
+/// Theorem 16.5): each is an upper bound, and v·x - max(f, g)(x) a lower one, for which g - f is to be 0
+/// where the supremum of the mean is attained, a root in t as above. The error is what lies between the best
+/// of both. None where a mean's conjugate tells no point.
+std::optional<Value> conjugate_of_two_function_max(const Function& f, const Function& g, const Vector& v);
+
 /// Where one of the functions, no maximum itself, is above all others at its own prox, that is the prox of
 /// their maximum: the weights end at a corner. Nothing where this is so of none.
 std::optional<Prox> prox_of_part_above(std::span<const Function> parts, const Vector& z, const Metric& W,
@@ -35,5 +41,7 @@ Function proper_max(std::vector<Function> parts);
 /// in a maximum is taken so once; none further inside.
 std::optional<Prox> prox_of_max(std::span<const Function> parts, const Vector& z, const Metric& W,
                                 const Look& look);
+/// And the conjugate's value.
+std::optional<Value> conjugate_of_max(std::span<const Function> parts, const Vector& v);
 
 }  // namespace convex::inline operations

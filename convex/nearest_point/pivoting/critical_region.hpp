@@ -21,7 +21,9 @@ struct CriticalRegion {
   Index rows[SmallTableau::most_coordinates];  ///< W, in order
   /// Powers of 2: an entry of (z, s_W) times its unit is about a part of ||z||_(A⁻¹). Columns are over them.
   alignas(64) double unit[most];
-  alignas(64) double leading[most * most], rest[most * most];
+  /// By eights of rows: of each column eight leading parts and eight rests side by side, so that memory is
+  /// read in order.
+  alignas(64) double split[2 * most * most];
   alignas(64) double balance[most * SmallTableau::most_coordinates];  ///< columns of A, then rows of U_W
   /// What an entry of (z, s_W), in its unit, may add to the error ||·||_A of q, by its size; and what
   /// rounding may in sums with the rest, by the size of the largest.
@@ -39,6 +41,9 @@ struct CriticalRegion {
   /// held, beyond `near_zero` of their level, over their lengths.
   double least = 0;
   bool has_all = false;  ///< the slacks of all rows outside are in `least`
+
+  double& leading(Index i, Index j) { return split[16 * (i / 8 * columns + j) + i % 8]; }
+  double& rest(Index i, Index j) { return split[16 * (i / 8 * columns + j) + 8 + i % 8]; }
 };
 
 }  // namespace convex::inline pivoting

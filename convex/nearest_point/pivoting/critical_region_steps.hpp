@@ -64,13 +64,13 @@ struct CriticalRegionSteps : SmallTableauRows<W, Fused, packs> {
     Pack sum[2][count], low[2][count], rest[2][count];
     for (int odd = 0; odd < 2; ++odd) P::clear(sum[odd]), P::clear(low[odd]), P::clear(rest[odd]);
     const auto add = [&](int odd, Index j) __attribute__((always_inline)) {
-      const Index at = j * region.stride + first;
 #pragma GCC unroll 4
       for (int r = 0; r < count; ++r) {
-        const Pack leading = P::load(region.leading + at + 8 * r);
+        const double* const entries = region.split + 16 * ((first / 8 + r) * region.columns + j);
+        const Pack leading = P::load(entries);
         P::add_product(sum[odd][r], leading, region.x_leading[j]);
         P::add_product(low[odd][r], leading, region.x_rest[j]);
-        P::add_product(rest[odd][r], P::load(region.rest + at + 8 * r), region.x[j]);
+        P::add_product(rest[odd][r], P::load(entries + 8), region.x[j]);
       }
     };
     Index j = 0;

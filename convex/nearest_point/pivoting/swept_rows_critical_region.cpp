@@ -19,14 +19,14 @@ bool split(CriticalRegion& region, Index n) {
   for (Index i = 0; i < region.stride; ++i) {
     double most = 0, sum = 0;
     for (Index j = 0; j < region.columns; ++j) {
-      const double size = std::abs(region.leading[j * region.stride + i]);
+      const double size = std::abs(region.leading(i, j));
       most = std::max(most, size);
       sum += size;
     }
     if (!std::isfinite(sum)) return false;
     const double shift = CriticalRegion::leaves_leading * most;
     for (Index j = 0; j < region.columns; ++j) {
-      double &leading = region.leading[j * region.stride + i], &rest = region.rest[j * region.stride + i];
+      double &leading = region.leading(i, j), &rest = region.rest(i, j);
       const double whole = leading;
       leading = (whole + shift) - shift;
       rest += whole - leading;
@@ -62,6 +62,7 @@ bool SweptRows::find_critical_region() {
   region.stride = padded(region.columns);
   for (double* x : {region.unit, region.error, region.length, region.pull, region.x})
     fill_packs(region.stride, 0, x);
+  fill_packs(2 * region.stride * region.columns, 0, region.split);
   std::copy_n(t.rows, t.size, region.rows);
   double largest_unit = 0;  // the largest ||·||_D of a coordinate
   const auto unit = [](double length) { return std::ldexp(1.0, -std::ilogb(length)); };
@@ -100,18 +101,15 @@ bool SweptRows::find_critical_region() {
       std::copy_n(t.lambda, t.size, before);
       is_known = pass < most_corrections && correct(pass == 0, 0) && known.note(t);
     }
-    double *const high = region.leading + j * region.stride, *const low = region.rest + j * region.stride;
-    fill_packs(region.stride, 0, high);
-    fill_packs(region.stride, 0, low);
     const double over = 1 / region.unit[j];
     for (Index i = 0; i < n; ++i) {
-      high[i] = over * t.q[i];
-      low[i] = over * t.q_low[i];
+      region.leading(i, j) = over * t.q[i];
+      region.rest(i, j) = over * t.q_low[i];
     }
     for (Index k = 0; k < t.size; ++k) {
       const DoubleDouble sum = two_sum(before[k], t.change[k]);
-      high[n + k] = over * sum.hi;
-      low[n + k] = over * sum.lo;
+      region.leading(n + k, j) = over * sum.hi;
+      region.rest(n + k, j) = over * sum.lo;
     }
     // And of what underflows.
     region.error[j] = over * known.remaining + root * largest_unit * std::numeric_limits<double>::min();
