@@ -21,10 +21,11 @@ constexpr double nearly_nothing = 1e-3;
 
 /// A drop of g - f says how x follows it where it is so much more than noise.
 constexpr double above_noise = 1e3, safety = 4;
-/// A difference that moves x by less than this part of what a prox aims at has ended the search, if the
-/// maximum is above the mean by no more than that part of it: where one function is steep, a small move of x
-/// is a large one of its value.
-constexpr double part_left = 0.25, part_above = 1e-10;
+/// A difference that moves x by less than this part of what a prox aims at has ended the search.
+constexpr double part_left = 0.25;
+/// So much of the larger value the maximum may be above the mean then: where one function is steep, a small
+/// move of x is a large one of its value.
+constexpr double part_above = 1e-10;
 
 /// The prox at a weight, and g - f there.
 struct At {
@@ -296,7 +297,8 @@ std::optional<Value> conjugate_of_two_function_max(const Function& f, const Func
     if (part > 0 && part < 1) take_point(low->x + part * (high->x - low->x));
   }
   if (!std::isfinite(least) || !std::isfinite(most)) return std::nullopt;
-  return Value{least, std::max(error, least + error - most)};
+  // A least weight that keeps a domain may put an upper bound below a lower one.
+  return Value{least, error + std::abs(least - most)};
 }
 
 }  // namespace convex::inline operations

@@ -145,6 +145,21 @@ TEST_CASE("multipliers of rows that are independent by a few roundings are uniqu
   CHECK(answer.at("model").at("islands").at(0).at("in_fractions") == "whether rows depend on each other");
 }
 
+TEST_CASE("multipliers of rows that nearly depend on each other are the same by every way of solving") {
+  // lambda_1 (1, 0) + lambda_2 (-1, 2^-49) = 0 for lambda = 0 alone.
+  for (const auto& way : ways_to_solve) {
+    CAPTURE(way.size());
+    const Json answer = Json::parse(
+        solved_by(
+            way,
+            "[projection]\nA = [[1, 0], [0, 1]]\nz = [0, 0]\nU = [[1, 0], [-1, \"1/562949953421312\"]]\n"
+            "s = [0, 0]\n")
+            .out);
+    CHECK(answer.at("multipliers_unique") == true);
+    CHECK(answer.at("multiplier_ranges").at("c[1]") == Json::array({0, 0}));
+  }
+}
+
 TEST_CASE(
     "powers of small numbers are fractions however large their exponents, so that fractions decide beside "
     "them") {

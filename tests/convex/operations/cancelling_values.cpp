@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include "convex/functions/norms.hpp"
 #include "convex/functions/piecewise_functions.hpp"
+#include "convex/functions/quadratic.hpp"
 #include "convex/functions/separable_functions.hpp"
+#include "convex/functions/sets.hpp"
 #include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
 
@@ -54,6 +57,28 @@ TEST_CASE("the error of a sum over entries is relative to the entries") {
     CHECK(std::abs(found.value - truth) <= found.error);
     CHECK(found.error <= 64 * unit_roundoff * std::abs(std::log(x)));
   }
+}
+
+TEST_CASE(
+    "values of catalogue functions are within their errors where terms inside a formula cancel or a power "
+    "enlarges rounding") {
+  // Truths by 400 digits.
+  const auto check_within = [](const Value& found, double truth) {
+    CHECK(std::abs(found.value - truth) <= found.error + unit_roundoff * std::abs(truth));
+    CHECK(found.error <= 1e-13 * std::abs(truth));
+  };
+  const auto one = [](double x) -> Vector { return Vector::Constant(1, x); };
+  check_within(ball2(1, Vector{{1, -1}}).indicator.conjugate().evaluate(Vector{{-3e8, 2}}),
+               -1.9999999933333334);
+  check_within(power(4).conjugate().evaluate(one(3e8)), 94886174846.446789819);
+  check_within(kullback_leibler(0x1p-10).evaluate(one(0.003)), 0.0013435489458562772706);
+  check_within(kullback_leibler(3).evaluate(one(2)), 0.18906978378367123604);
+  check_within(log_barrier(1).evaluate(one(3)), -0.098612288668109691395);
+  check_within(exponential().conjugate().evaluate(one(2.5372174771608393)), -0.17489547737008182894);
+  const Matrix Q{{20, 12, 14}, {12, 11, 6}, {14, 6, 15}};
+  check_within(
+      quadratic(Q, Vector{{193673961.87722474, 6, -3e8}}, -2).conjugate().evaluate(Vector{{-0.5, -3, -500}}),
+      37870461699140694.339);
 }
 
 TEST_CASE("a linear form whose terms cancel is known to roundings of its terms") {

@@ -6,11 +6,15 @@
 
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/decomposition.hpp"
+#include "convex/functions/piecewise_functions.hpp"
+#include "convex/functions/sets.hpp"
+#include "convex/operations/operations.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 using convex::Function;
 using convex::Metric;
 using convex::Prox;
+using convex::Value;
 using convex::Vector;
 
 TEST_CASE("the dual of a maximum in one number finds the prox that epigraphs find") {
@@ -108,4 +112,18 @@ TEST_CASE("where one of two functions is the maximum, its own conjugate tells th
   CHECK(split.status == convex::Status::solved);
   const double least = split.x.x[1], slope = 0.5 / (least * std::sqrt(least));
   CHECK(split.g_y == doctest::Approx(-1 / std::sqrt(least) - slope * least).epsilon(1e-6));
+}
+
+TEST_CASE("the conjugate of a maximum is known by its dual where slopes are far apart") {
+  // (max(l, indicator of B))* is the least of the support function of B at v - (1 - t) l, here at t = 0,
+  // where it is |w| + w_1 - w_2, w = v - l.
+  const Function parts[] = {convex::linear(Vector{{-3, -1}}), convex::ball2(1, Vector{{1, -1}}).indicator};
+  const Function g = pointwise_max(parts).conjugate();
+  for (const double far : {3e3, 3e5, 3e8}) {
+    const double a = far - 3, truth = 9 / (std::hypot(a, 3) + a) - 3;
+    const Value found = g.evaluate(Vector{{-far, 2}});
+    CAPTURE(far);
+    CHECK(std::abs(found.value - truth) <= found.error + convex::unit_roundoff * std::abs(truth));
+    CHECK(found.error <= 4 * convex::unit_roundoff * far);  // of v·x, which cancels
+  }
 }
