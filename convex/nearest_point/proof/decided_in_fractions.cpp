@@ -1,6 +1,7 @@
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -67,7 +68,11 @@ std::optional<Solution> in_fractions(const NearestPointProblem& problem, const S
   return solution;
 }
 
+/// A row that is a sum of those held but for rounding, and not kept, may take the point any distance: where
+/// that is open, nothing bounds the error.
 Solution left_open(Solution open) {
+  if (open.undecided != open_question::conditioning)
+    open.error_bound = std::numeric_limits<double>::infinity();
   if (open.status == Status::solved) open.status = Status::inaccurate;
   if (open.status == Status::infeasible) open.status = Status::gave_up;
   return open;
