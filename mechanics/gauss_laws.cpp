@@ -130,6 +130,16 @@ DualRoute dual_route(const Judged& j) {
   return {std::nullopt, ""};
 }
 
+/// What the error bound and rounding may leave between the two routes. The dual's cone stands at x_0: what
+/// x_0 misses of the contacts moves y.
+double apart_by_rounding(const Judged& j, const ReactionFromDual& dual) {
+  const double size = j.size + dual.apex_norm;
+  return j.error() + force_rounding(j) +
+         condition_of_basis(j) / dual.thinnest *
+             (std::sqrt(j.steps()) * dual.apex_missed +
+              roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size);
+}
+
 void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report) {
   if (!dual.found) {
     report.no_evidence.emplace_back(
@@ -137,12 +147,7 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
     return;
   }
   const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
-  // The dual's cone stands at x_0: what x_0 misses of the contacts moves y.
-  const double size = j.size + dual.found->apex_norm;
-  const double bound =
-      j.error() + force_rounding(j) +
-      condition_of_basis(j) * (std::sqrt(j.steps()) * dual.found->apex_missed +
-                               roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size);
+  const double bound = apart_by_rounding(j, *dual.found);
   report.checks.push_back(
       check_that(std::string("z = x + y, x = A q'' from the primal, y = -R from the dual by ") + dual.how,
                  j.problem.A.dual_norm(j.problem.z - x - y), bound));
@@ -258,6 +263,10 @@ LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const Ga
 }
 
 }  // namespace
+
+double apart_by_rounding(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
+  return solution.from_dual ? apart_by_rounding(judged(problem, solution), *solution.from_dual) : 0;
+}
 
 LawReport gauss_laws(const convex::NearestPointProblem& problem, const GaussSolution& solution,
                      const GaussOptions& options) {

@@ -40,6 +40,7 @@ std::optional<ReactionFromDual> reaction_from_dual(const convex::NearestPointPro
   const convex::ConeProjection projection = convex::cone_projection(V, b, problem.two_sided);
   if (!projection.finished) return std::nullopt;
   ReactionFromDual found = against_primal(problem.U.transpose_times(projection.lambda), problem, primal);
+  found.thinnest = projection.thinnest;
   found.apex_norm = problem.A.norm(q_0);
   const Vector below = problem.s - problem.U.times(q_0);
   for (Index a = 0; a < problem.rows(); ++a)
@@ -73,7 +74,11 @@ std::optional<ReactionFromDual> reaction_by_least_distance(const convex::Nearest
     if (!projection.finished || !(left > 0)) return std::nullopt;
     const Vector lambda = (unit / left) * projection.lambda;
     p = V * lambda;
-    if (pass == 1) return against_primal(problem.U.transpose_times(lambda), problem, primal);
+    if (pass == 1) {
+      ReactionFromDual found = against_primal(problem.U.transpose_times(lambda), problem, primal);
+      found.thinnest = projection.thinnest;
+      return found;
+    }
     unit = std::max(unit, p.norm());
   }
   return std::nullopt;

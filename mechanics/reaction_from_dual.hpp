@@ -17,6 +17,7 @@ struct ReactionFromDual {
   /// Of the q_0 that the cone stands at, 0 without one: ||q_0||_A, the rounding of which is R's; and the most
   /// that it misses a contact by, over that one's length.
   double apex_norm = 0, apex_missed = 0;
+  double thinnest = 1;  ///< of the projection on the cone (`ConeProjection`)
 };
 
 /// Finds q_0 itself where `TwoSided` was read off the primal. None where x_0 does not exist (the rows are

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "cli/report/model_report.hpp"
 #include "cli/report/readable_numbers.hpp"
@@ -11,7 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/double_double.hpp"
-#include "convex/nearest_point/optimality/residuals.hpp"
+#include "mechanics/gauss_laws.hpp"
 
 namespace cli::inline reports {
 namespace {
@@ -212,15 +211,6 @@ const char* proof_text(const std::optional<convex::Certificate>& certificate) {
   return "";
 }
 
-/// Σ |lambda_a| ||u_a||.
-double sum_of_loads(const SolvedScene& solved) {
-  const convex::NearestPointProblem& problem = solved.scene.problem;
-  const Vector& lambda = solved.solution.multipliers.least_norm;
-  std::vector<Index> rows(static_cast<std::size_t>(lambda.size()));
-  std::iota(rows.begin(), rows.end(), Index{0});
-  return lambda.cwiseAbs().dot(convex::dual_lengths(problem, rows));
-}
-
 /// The reaction by its second route, said when asked for or when it disagrees.
 std::string dual_text(const SolvedScene& solved) {
   if (!solved.solution.from_dual) return "";
@@ -232,14 +222,12 @@ std::string dual_text(const SolvedScene& solved) {
   if (difference * scale <= agreement * std::max(scale, solved.solution.from_dual->apex_norm))
     return solved.verbose ? fmt::format("{} agrees to {:.1e}.\n", route, difference) : "";
   // At rest both are roundings, and a part of them says nothing; so are forces of which large multipliers
-  // leave little.
-  constexpr double roundings = 64 * convex::unit_roundoff;
-  const double known = std::max(primal.error_bound, roundings * sum_of_loads(solved));
+  // leave little, and those that contacts nearly depending on each other share.
+  const double known = mechanics::apart_by_rounding(solved.scene.problem, solved.solution);
   if (difference * scale <= known && primal.status == convex::Status::solved)
     return solved.verbose
-               ? fmt::format(
-                     "{} is as near as the error bound and the multipliers let it: {:.1e} of {:.1e}.\n",
-                     route, difference * scale, known)
+               ? fmt::format("{} is as near as the error bound and the contacts let it: {:.1e} of {:.1e}.\n",
+                             route, difference * scale, known)
                : "";
   return fmt::format("{} DIFFERS by {:.1e}: one of the two routes is inaccurate here.\n", route, difference);
 }

@@ -11,7 +11,8 @@ namespace {
 /// is at right angles to it, to rounding.
 constexpr double right_angle = 64 * unit_roundoff;
 
-/// A generator this close to the span of those in use adds nothing.
+/// A generator this close to the span of those in use adds nothing: this part of its length, and of what its
+/// coefficients, where those in use nearly depend on each other, make of rounding.
 constexpr double dependent_part = 1e-14;
 
 class PassiveSet {
@@ -23,8 +24,8 @@ class PassiveSet {
   bool add(Index a) {
     if (factor_.size() == factor_.capacity()) return false;
     Vector d = V_.col(a);
-    const double length = d.norm(), rho = factor_.split(d, c_);
-    if (!(rho > dependent_part * length)) return false;
+    const double rho = factor_.split(d, c_);
+    if (!(rho > unseen_part(V_.col(a).norm()))) return false;
     factor_.append(c_, d, rho);
     members_.push_back(a);
     return true;
@@ -38,6 +39,20 @@ class PassiveSet {
     Vector y = factor_.Q().transpose() * b_;
     factor_.solve_upper(y);
     return y;
+  }
+  /// Up to which size what is left of the last generator that was split may be rounding.
+  double unseen_part(double length) const {
+    Vector coefficients = c_.head(factor_.size());
+    factor_.solve_upper(coefficients);
+    double terms = length;
+    for (Index k = 0; k < factor_.size(); ++k) terms += std::abs(coefficients[k]) * factor_.length(k);
+    return dependent_part * terms;
+  }
+  /// The part of a generator's length outside the span of the members, 1 where that may be rounding.
+  double part_outside(Index a) {
+    Vector d = V_.col(a);
+    const double length = d.norm(), rho = factor_.split(d, c_);
+    return rho > unseen_part(length) ? rho / length : 1;
   }
   /// b minus its projection on the span of the members.
   Vector rest() const {
@@ -59,6 +74,7 @@ class PassiveSet {
 ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vector<Index>& free_generators) {
   const Index m = V.cols();
   std::vector<bool> is_free(static_cast<std::size_t>(m), false), barred(static_cast<std::size_t>(m), false);
+  bool untold = false;
   PassiveSet passive(V, b);
   for (Index a : free_generators) {
     is_free[static_cast<std::size_t>(a)] = true;
@@ -86,11 +102,14 @@ ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vect
     if (entering < 0) {
       // A generator too close to the span of the others to take in, but not at right angles to what is left,
       // is one that this factor cannot tell from them: then the answer is not known.
-      found.finished = std::find(barred.begin(), barred.end(), true) == barred.end();
+      found.finished = !untold;
       break;
     }
     if (!passive.add(entering)) {
       barred[static_cast<std::size_t>(entering)] = true;
+      // What rounding may have left of it outside the span pulls no more than this.
+      const double of_rounding = passive.unseen_part(lengths[entering]) * rest.norm();
+      untold = untold || strongest * lengths[entering] > of_rounding;
       continue;
     }
     Vector previous(multipliers.size() + 1);
@@ -120,6 +139,7 @@ ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vect
       previous.conservativeResize(kept);
     }
     std::fill(barred.begin(), barred.end(), false);
+    untold = false;
   }
   for (std::size_t k = 0; k < passive.members().size(); ++k)
     found.lambda[passive.members()[k]] = multipliers[static_cast<Index>(k)];
@@ -127,8 +147,11 @@ ConeProjection cone_projection(const Matrix& V, const Vector& b, const std::vect
   const Vector pull = V.transpose() * (b - found.point);
   for (Index a = 0; a < m; ++a)
     if (lengths[a] > 0 && b.norm() > 0) {
+      const double size = lengths[a] * b.norm();
       const double wrong = is_free[static_cast<std::size_t>(a)] ? std::abs(pull[a]) : std::max(0.0, pull[a]);
-      found.slack = std::max(found.slack, wrong / (lengths[a] * b.norm()));
+      found.slack = std::max(found.slack, wrong / size);
+      if (found.lambda[a] == 0 && pull[a] >= -right_angle * size)
+        found.thinnest = std::min(found.thinnest, passive.part_outside(a));
     }
   return found;
 }

@@ -22,7 +22,9 @@ class Translate : public Operation {
   }
   Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
   Value evaluate(const Vector& x) const override {
-    return value_near(f_, difference(x, by_), x.norm() + by_.norm());
+    const DoubleDoubleVector y = difference(x, by_);
+    const Value near = value_near(f_, y, x.norm() + by_.norm());
+    return near.value == infinity && y.lo.isZero(0) ? f_.evaluate(y.hi) : near;  // y is x - b to the last digit
   }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }

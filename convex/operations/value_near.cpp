@@ -28,6 +28,21 @@ Vector beyond(const Vector& y, const Vector& lo) {
   return next;
 }
 
+/// How far f rises from a point inside its domain to y, where it is +inf: from how much it rises over the
+/// first half of the way and over half of the rest. Where it rises no less there, as -log x and 1/x do
+/// towards 0, without end.
+double rise_towards(const Function& f, const Vector& y, const Vector& inside, const Value& there) {
+  const auto at = [&](double part) { return f.evaluate(y + part * (inside - y)).value; };
+  const double first = at(0.5) - there.value;
+  if (!std::isfinite(first) || !(first > 0)) return 0;
+  const double next = at(0.25) - at(0.5);
+  if (!std::isfinite(next)) return 2 * first;
+  const double slower = first - std::max(next, 0.0);
+  return slower > roundings_of_a_term * (unit_roundoff * std::abs(there.value) + there.error)
+             ? first * std::max(2.0, first / slower)
+             : infinity;
+}
+
 }  // namespace
 
 Value value_near(const Function& f, const Vector& y, double size) {
@@ -47,13 +62,13 @@ Value value_near(const Function& f, const Vector& y, double size) {
     if (nearest.x.size() != y.size()) continue;
     const Value membership = indicated((nearest.x - y).norm(), size);
     if (membership.value > 0) continue;
-    const Value inside = f.evaluate(nearest.x), halfway = f.evaluate(0.5 * (nearest.x + y));
+    const Value inside = f.evaluate(nearest.x);
     if (!std::isfinite(inside.value)) continue;
-    // Where f rises on the way to y, without end as 1/x at 0, the value there is not this one.
-    const double rise = std::isfinite(halfway.value) ? std::max(0.0, halfway.value - inside.value) : 0;
+    const double rise = rise_towards(f, y, nearest.x, inside);
+    if (rise == infinity) return {infinity, infinity};
     const Value farther = f.evaluate(2 * nearest.x - y);
     const double fall = std::isfinite(farther.value) ? std::max(0.0, inside.value - farther.value) : 0;
-    const Value found{inside.value, inside.error + membership.error + 2 * rise};
+    const Value found{inside.value, inside.error + membership.error + rise};
     if (best.value == infinity || found.error + fall < least) best = found;
     least = std::min(least, found.error + fall);
     if (rise + fall == 0) break;
