@@ -35,12 +35,13 @@ class MultiplierTableau {
         fixed_(now_.nonbasic.size(), false) {
     if constexpr (is_rounded) {
       // Entries and values below these parts of the largest are rounding about zero.
-      constexpr double entry_noise = 1e-11, relative_value_noise = 1e-14;
+      constexpr double entry_noise = 1e-11, relative_value_noise = 1e-14, roundings = 4;
       double entry = 1, value_size = 0;
       for (const Numbers& column : now_.T)
         for (const double x : column) entry = std::max(entry, std::abs(x));
       for (const double x : now_.value) value_size = std::max(value_size, std::abs(x));
       noise_ = entry_noise * entry;
+      rounding_ = roundings * unit_roundoff * entry;
       value_noise_ = relative_value_noise * value_size;
     }
     settle_free_columns();
@@ -60,6 +61,10 @@ class MultiplierTableau {
     std::optional<Number> low = extreme(a, false);
     return {std::move(low), extreme(a, true)};
   }
+
+  /// Whether an entry that counted as 0 is more than the roundings of so many pivots, or one was divided by
+  /// that is next to nothing beside others: then fractions may tell another interval.
+  bool is_in_doubt() const { return is_in_doubt_; }
 
  private:
   static constexpr bool is_rounded = std::is_same_v<Number, double>;
@@ -84,10 +89,13 @@ class MultiplierTableau {
   }
   /// Whether x > 0 beyond rounding.
   bool is_positive(const Number& x) const {
-    if constexpr (is_rounded)
+    if constexpr (is_rounded) {
+      if (std::abs(x) <= noise_ && std::abs(x) > rounding_ * static_cast<double>(1 + pivots_))
+        is_in_doubt_ = true;
       return !(x <= noise_);
-    else
+    } else {
       return sign(x) > 0;
+    }
   }
 
   /// The row that blocks nonbasic column `column` when it grows, or shrinks, and how far it may go.
@@ -109,6 +117,13 @@ class MultiplierTableau {
 
   void pivot(std::size_t row, std::size_t column) {
     ++pivots_;
+    if constexpr (is_rounded) {
+      // A pivot that is a small part of its column makes so much more of what rounding left of the others.
+      constexpr double least_part = 1e-5;
+      double largest = 0;
+      for (const double entry : now_.T[column]) largest = std::max(largest, std::abs(entry));
+      if (std::abs(now_.T[column][row]) < least_part * largest) is_in_doubt_ = true;
+    }
     const Number element = now_.T[column][row], entering = now_.value[row] / element;
     Numbers& of_entering = now_.T[column];
     const auto subtract = [&](Numbers& from, const Number& factor) {
@@ -195,7 +210,8 @@ class MultiplierTableau {
 
   State now_, start_;
   std::vector<bool> free_, unbounded_, fixed_;
-  Number noise_{}, value_noise_{};
+  Number noise_{}, value_noise_{}, rounding_{};
+  mutable bool is_in_doubt_ = false;
   Index pivots_ = 0;  // since the tableau was as at the start
 };
 

@@ -36,6 +36,7 @@ class MultiplierPolyhedron {
     const Interval range = range_of_multiplier(a);
     return {range.low / length_[a], range.high / length_[a]};
   }
+  bool is_in_doubt() const { return tableau_.is_in_doubt(); }
 
  private:
   static MultiplierTableau<double> made(const Dependence& rows, const Vector& lambda, const Vector& length,
@@ -223,12 +224,14 @@ Multipliers multipliers_of(const NearestPointProblem& problem, const Solution& g
       const Interval range = directions.range_of_multiplier(p);
       return !(range.high - range.low <= tolerance);
     });
+    found.is_in_doubt |= are_exact && directions.is_in_doubt();
     if (is_unique) continue;
     found.unique = false;
     if (want_ranges) {
       MultiplierPolyhedron polyhedron(rows, solution.lambda, length, is_free);
       for (Index a : rows.dependent) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
       for (Index a : rows.basic) ranges[static_cast<std::size_t>(a)] = polyhedron.range(a);
+      found.is_in_doubt |= are_exact && polyhedron.is_in_doubt();
     }
     found.range_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     least_norm(rows, is_free, found.least_norm);
