@@ -99,6 +99,36 @@ std::string_view question(const convex::NearestPointProblem& problem, const Gaus
 
 }  // namespace
 
+namespace {
+
+/// What holds of the multipliers and the hypothesis, whichever method found q: from fractions, beside its own
+/// q.
+void judge_in_fractions(GaussSolution& found, const convex::ExactProblem& exact,
+                        const convex::NearestPointProblem& problem, const GaussOptions& options,
+                        std::string_view open) {
+  GaussSolution truth = found;
+  if (!solve_on_exact_data(truth, exact, problem, options, open)) {
+    found.primal.undecided = open;
+    return;
+  }
+  const convex::Solution& answer = truth.primal;
+  const double near = options.accuracy.tolerance * std::max(1.0, found.primal.acceleration_norm);
+  if (answer.status == convex::Status::infeasible || !(problem.A.norm(answer.q - found.primal.q) <= near)) {
+    found.primal.undecided = open;
+    return;
+  }
+  found.multipliers = std::move(truth.multipliers);
+  found.touching = std::move(truth.touching);
+  found.hypothesis = std::move(truth.hypothesis);
+  found.reaction = std::move(truth.reaction);
+  found.from_dual = std::move(truth.from_dual);
+  found.primal.model = std::move(truth.primal.model);
+  found.primal.undecided = {};
+  found.residuals = convex::residuals(problem, found.primal.q, found.multipliers.least_norm);
+}
+
+}  // namespace
+
 bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
@@ -128,10 +158,14 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
   if (open.empty()) return;
   const double most_words = options.accuracy.limit * convex::most_word_operations,
                n = static_cast<double>(problem.dimension());
+  const bool is_named = options.method != &convex::methods().front();
+  const bool is_solved = found.primal.status == convex::Status::solved;
   // Sizes alone may tell that it is too much, before any number is converted.
-  if (options.method == &convex::methods().front() && n * n * n <= most_words)
-    if (const std::optional<convex::ExactProblem> exact = data())
+  if ((!is_named || is_solved) && n * n * n <= most_words)
+    if (const std::optional<convex::ExactProblem> exact = data()) {
+      if (is_named) return judge_in_fractions(found, *exact, problem, options, open);
       solve_on_exact_data(found, *exact, problem, options, open);
+    }
   if (!found.as_written) found.primal.undecided = open;
 }
 

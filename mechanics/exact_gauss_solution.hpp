@@ -25,9 +25,11 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
 
 /// Decides what a solve in doubles left open, could not end, or may owe to rounding or to the radii of the
 /// data (rows that depend on each other), on the data as they are: the answer becomes the exact one, rounded.
-/// `data` is asked for them only then; none when they cannot be had. An answer that is given by a method that
-/// was named, or takes more than accuracy.limit times `convex::most_word_operations`, stays as it is, and
-/// says what is open (`Solution::undecided`).
+/// `data` is asked for them only then; none when they cannot be had. The q of a method that was named stays
+/// its own: where the numbers are exact and it solved, multipliers and hypothesis are those of the exact
+/// answer. What takes more than accuracy.limit times `convex::most_word_operations` stays as it is, and says
+/// what is open
+/// (`Solution::undecided`).
 void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, const GaussOptions&,
                           const std::function<std::optional<convex::ExactProblem>()>& data);
 
