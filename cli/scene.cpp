@@ -77,8 +77,6 @@ Scene projection_scene(ProjectionProblem numbers) {
   for (Index a = 0; a < m; ++a) constraints.push_back("c[" + std::to_string(a) + "]");
   std::vector<bool> two_sided(static_cast<std::size_t>(m), false);
   for (Index a : numbers.problem.two_sided) two_sided[static_cast<std::size_t>(a)] = true;
-  // Each number was rounded once.
-  if (!numbers.are_doubles) numbers.problem.radii = convex::rounding_radii(numbers.problem, 1);
   mechanics::ExactData exact{std::move(numbers.exact), numbers.are_doubles};
   std::vector<Index> contacts(static_cast<std::size_t>(m));
   std::iota(contacts.begin(), contacts.end(), Index{0});

@@ -71,6 +71,19 @@ bool is_made_of_doubles(const TomlValue& table) {
   return A == nullptr || is_symmetric(A->array);
 }
 
+convex::DataRadii rounded_rows(const TomlValue& table, const convex::NearestPointProblem& problem) {
+  convex::DataRadii radii = convex::rounding_radii(problem, 1);  // each number was rounded once
+  const auto clear = [&](const char* key, convex::Vector& of) {
+    const TomlValue* value = table.find(key);
+    const bool in_file = value == nullptr || value->kind == TomlValue::Kind::table;
+    for (Index a = 0; a < of.size(); ++a)
+      if (in_file || is_double(value->array[static_cast<std::size_t>(a)])) of[a] = 0;
+  };
+  clear("U", radii.row);
+  clear("s", radii.s);
+  return radii;
+}
+
 convex::ExactProblem read_exact_projection(const TomlValue& table,
                                            const convex::NearestPointProblem& rounded) {
   const TomlValue *A = table.find("A"), *U = table.find("U"), *s = table.find("s");

@@ -10,6 +10,9 @@ namespace cli::inline problem_files {
 /// Whether every number of a [projection] is the double that was read for it, and A is symmetric as written.
 bool is_made_of_doubles(const TomlValue& table);
 
+/// The radii of rows and right sides of a [projection] as doubles: 0 where what was written is the doubles.
+convex::DataRadii rounded_rows(const TomlValue& table, const convex::NearestPointProblem&);
+
 /// The numbers of a [projection] as written, where `rounded` has them as doubles; matrix files hold doubles.
 /// Throws InvalidInput with the place when A is not positive definite.
 convex::ExactProblem read_exact_projection(const TomlValue& table,

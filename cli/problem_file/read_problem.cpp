@@ -69,10 +69,12 @@ Problem read_problem(const TomlValue& given, const std::string& directory) {
   } else if (content.key == "projection") {
     ProjectionProblem projection = read_projection(content.value, directory);
     projection.are_doubles = is_made_of_doubles(content.value);
-    if (!projection.are_doubles)
+    if (!projection.are_doubles) {
       projection.exact = [kept, &table = content.value, rounded = projection.problem] {
         return read_exact_projection(table, rounded);
       };
+      projection.problem.radii = rounded_rows(content.value, projection.problem);
+    }
     problem.content = std::move(projection);
   } else if (content.key == "decomposition") {
     problem.content = read_decomposition(content.value, directory);
