@@ -5,6 +5,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 #include "mechanics/vertex.hpp"
@@ -67,7 +68,8 @@ std::optional<ReactionFromDual> from_dual(const convex::NearestPointProblem& pro
 convex::Solution nearest_point(const convex::NearestPointProblem& problem, const GaussOptions& options,
                                double norm) {
   const double tolerance = options.accuracy.tolerance;
-  convex::Solution found = options.method->solve(problem, options.accuracy);
+  convex::Solution found =
+      convex::bounded_where_decided(problem, options.method->solve(problem, options.accuracy));
   const auto is_close = [&] {
     return found.error_bound <= tolerance * std::max(1 / norm, found.acceleration_norm);
   };

@@ -12,6 +12,7 @@
 #include "convex/nearest_point/obstacle/obstacle.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/reductions/closed_form.hpp"
 #include "convex/nearest_point/reductions/islands.hpp"
 #include "convex/nearest_point/reductions/joined_islands.hpp"
@@ -205,12 +206,8 @@ bool has_contradiction(const NearestPointProblem& problem, const Islands& island
   return false;
 }
 
-}  // namespace
-
-Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
-                   const std::vector<Index>& guess) {
-  validate_guess(problem, guess);
-  validate(problem);
+Solution solve_valid(const NearestPointProblem& problem, const Accuracy& accuracy,
+                     const std::vector<Index>& guess) {
   if (!accuracy.reduce) return solve_connected(problem, accuracy, guess);
   if (problem.dimension() == 0 || plainly_connected(problem)) return solve_island(problem, accuracy, guess);
   if (std::optional<Solution> chain = solve_chain(problem, accuracy))
@@ -221,6 +218,17 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   const bool whole = islands.count == 1 && std::find(islands.of_row.begin(), islands.of_row.end(),
                                                      Index{-1}) == islands.of_row.end();
   return whole ? solve_island(problem, accuracy, guess) : solve_islands(problem, islands, accuracy, guess);
+}
+
+}  // namespace
+
+Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
+                   const std::vector<Index>& guess) {
+  validate_guess(problem, guess);
+  validate(problem);
+  Solution found = solve_valid(problem, accuracy, guess);
+  if (!found.undecided.empty()) found = bounded_where_decided(problem, std::move(found));
+  return found;
 }
 
 }  // namespace convex

@@ -68,11 +68,7 @@ std::optional<Solution> in_fractions(const NearestPointProblem& problem, const S
   return solution;
 }
 
-/// A row that is a sum of those held but for rounding, and not kept, may take the point any distance: where
-/// that is open, nothing bounds the error.
 Solution left_open(Solution open) {
-  if (open.undecided != open_question::conditioning)
-    open.error_bound = std::numeric_limits<double>::infinity();
   if (open.status == Status::solved) open.status = Status::inaccurate;
   if (open.status == Status::infeasible) open.status = Status::gave_up;
   return open;
@@ -90,6 +86,14 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
   std::optional<Solution> found =
       in_fractions(problem, open, accuracy, accuracy.limit * most_word_operations, open.undecided);
   return found ? *std::move(found) : left_open(std::move(open));
+}
+
+Solution bounded_where_decided(const NearestPointProblem& problem, Solution found) {
+  const bool is_open =
+      found.undecided == open_question::dependence || found.undecided == open_question::contradiction;
+  if (is_open && !problem.radii && found.status == Status::inaccurate)
+    found.error_bound = std::numeric_limits<double>::infinity();
+  return found;
 }
 
 bool has_open_zeros(const NearestPointProblem& problem, const Solution& solved) {

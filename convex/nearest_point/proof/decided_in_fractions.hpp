@@ -21,6 +21,11 @@ inline constexpr std::string_view conditioning = "the digits of a nearly singula
 /// accuracy.limit times `most_word_operations`, the answer is given back as it is, not solved.
 Solution decided_in_fractions(const NearestPointProblem&, Solution open, const Accuracy&);
 
+/// The answer for a user. A row that is a sum of those held but for rounding, and not kept, may take the
+/// point any distance: where that is open, nothing bounds the error. Programs that make rows of their own,
+/// and count them as consistent, look at the bound as if they were.
+Solution bounded_where_decided(const NearestPointProblem&, Solution);
+
 /// Whether an answer that is solved leaves the signs of zeros open: of multipliers of rows held that doubles
 /// cannot tell from 0. A row whose multiplier is below 0 by less than that is not held, and has a slack.
 bool has_open_zeros(const NearestPointProblem&, const Solution& solved);

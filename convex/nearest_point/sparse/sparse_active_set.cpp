@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "convex/nearest_point/isotonic/peeling.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
@@ -255,9 +254,6 @@ class SparseActiveSet {
     if (!solution.undecided.empty()) {
       solution.status = Status::inaccurate;
       solution.basis = rows_;
-      // As long as a row that is nearly a sum of others may not be kept, nothing bounds the error.
-      if (!problem_.radii && solution.undecided != open_question::conditioning)
-        solution.error_bound = std::numeric_limits<double>::infinity();
     }
     solution.slack = slack_;
     solution.model.islands = {{method, problem_.dimension(), problem_.rows(), 0,

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "convex/functions/norms.hpp"
 #include "convex/functions/piecewise_functions.hpp"
@@ -99,4 +100,13 @@ TEST_CASE("a supremum that is approached far out is not taken from the rounding 
   CHECK(found.value - found.error <= 4);
   CHECK(found.value + found.error >= 4 - 1e-12);
   CHECK(found.value <= 4 + 1e-6);
+}
+
+TEST_CASE("the conjugate of t (x - log x) is +inf at t, where it is -t - t log 0, and not a large number") {
+  const Function f = tilt(log_barrier(), Vector::Ones(1));
+  for (const double t : {1.0, 0.5}) {
+    const Value found = scale(f, t).conjugate().evaluate(Vector::Constant(1, t));
+    CHECK(found.value == std::numeric_limits<double>::infinity());
+    CHECK(found.error == 0);
+  }
 }
