@@ -165,10 +165,11 @@ GraphValue evaluate(const GraphForm& given, const Vector& x) {
   found.v = slope.head(f.n);
   const SaddleError error = saddle_error(problem, point);
   // Where a term bends sharply, as the root of u at 0, the first-order cost of the miss may be all of it.
-  constexpr double of_misses = 4;
+  constexpr double of_misses = 4, of_estimate = 2;
   const double missed = of_misses * point.y.cwiseAbs().dot(point.r.cwiseAbs());
-  found.error_bound =
-      std::isfinite(error.bound) ? error.of_value + missed + 8 * unit_roundoff * size : infinity;
+  found.error_bound = std::isfinite(error.bound)
+                          ? of_estimate * error.of_value + missed + 8 * unit_roundoff * size
+                          : infinity;
   // The estimate is held against the dual at the same point, where its multipliers are in the domains.
   // What rho leaves of it is rounding only where it is nothing beside the value; and multipliers outside of
   // the domains may be no more than the rounding of D(t - u).

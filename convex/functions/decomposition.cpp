@@ -131,6 +131,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     }
   });
   attempt(part_of_a_way, [&] { consider_covector(along_slopes(of.f, x, z, W)); });
+  attempt(part_of_a_way, [&] { consider_covector(at_kink(of.f, x, z, W, look)); });
   attempt(part_of_a_way, [&] {
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
@@ -171,6 +172,8 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   });
   attempt(part_of_a_move,
           [&] { consider_covector(turned(along_slopes(of.plain, dual, covector, V), z, W)); });
+  attempt(part_of_a_move,
+          [&] { consider_covector(turned(at_kink(of.plain, dual, covector, V, look), z, W)); });
   attempt(part_of_a_way, [&] {
     for (const Prox& pair : balanced(of.plain, dual, covector, V, look))
       if (!ended()) consider_all(turned(pair, z, W));
