@@ -228,7 +228,8 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
   Prox made = named(take_low ? *low : *high);
   const double open = low->t == high->t ? left(*low) : std::max(low->noise, high->noise);
   made.error_bound = std::max(low->prox.error_bound, high->prox.error_bound) +
-                     2 * W.norm(low->prox.x - high->prox.x) + safety * moved_per_difference * open;
+                     2 * W.norm(low->prox.x - high->prox.x) +
+                     (moved_per_difference > 0 ? safety * moved_per_difference * open : 0);
   return made;
 }
 

@@ -110,10 +110,12 @@ TEST_CASE("a point that rounding left outside the domain is moved into it, and t
   }
 }
 
-TEST_CASE("a point outside the domain by more than rounding stays there and is not solved") {
+TEST_CASE(
+    "a point outside the domain by more than rounding is not taken: another is found, or it is not solved") {
   const Decomposition found = split({.outside = 1e-3}, z);
-  CHECK(found.status == Status::inaccurate);
-  CHECK(found.error_bound >= (found.y.x - y).norm());
+  const double error = (found.y.x - y).norm();
+  CHECK(found.error_bound >= error);
+  CHECK((found.status == Status::inaccurate || error <= 1e-12));
 }
 
 TEST_CASE(
