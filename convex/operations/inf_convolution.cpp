@@ -10,6 +10,7 @@
 #include "convex/operations/pinned_slopes.hpp"
 #include "convex/operations/quadratic_term.hpp"
 #include "convex/operations/supremum.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -38,7 +39,12 @@ class InfConvolution : public Operation {
   Value evaluate(const Vector& x) const override {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
     if (const auto sum = value_by_entries(*this, x)) return *sum;
-    const ByProgram found = by_program(x);
+    ByProgram found = by_program(x);
+    if (found.least.size() >= x.size() && !is_of_rounding(found.value)) {
+      const Vector w = found.least.head(x.size());
+      const Value at_w = sum_of(value_near(f_, difference(x, w), x.norm() + w.norm()), g_.evaluate(w));
+      found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
+    }
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {

@@ -142,7 +142,7 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
       if (other.status == Status::solved || value_of(other).error < value_of(found).error)
         found = std::move(other);
     }
-    return {multiple_of(size, value_of(found)), found.v};
+    return {multiple_of(size, value_of(found)), found.v, size * found.w};
   }
   refuse(*this, "value");
 }

@@ -41,6 +41,7 @@ class Operation : public FunctionNode {
   struct ByProgram {
     Value value;
     std::optional<Vector> slope;
+    Vector least = {};  ///< the variables over which it is a minimum, where that is
   };
   ByProgram by_program(const Vector& x) const;
   /// The prox by formula or program, without the conjugate's help.

@@ -10,6 +10,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -51,7 +52,10 @@ class ProximalAverage : public Operation {
     return {"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
   }
   Value evaluate(const Vector& x) const override {
-    const ByProgram found = by_program(x);
+    ByProgram found = by_program(x);
+    if (found.least.size() >= x.size() && !is_of_rounding(found.value))
+      found.value =
+          between_points(found.value, at_second(found.least.head(x.size()), x), found.slope, conjugate(), x);
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -106,6 +110,22 @@ class ProximalAverage : public Operation {
   /// The metrics W and M/gamma are one when they differ by the rounding of 1/gamma.
   static constexpr double equal_steps = 4 * unit_roundoff;
   Metric product(Index n) const { return M_ ? *M_ : Metric::identity(n); }
+
+  /// f at p with t p + (1-t) q = x, g at q and the square: no less than the average at x.
+  Value at_second(const Vector& q, const Vector& x) const {
+    DoubleDoubleVector p(x.size());
+    for (Index i = 0; i < x.size(); ++i) {
+      const DoubleDouble part = two_product(1 - t_, q[i]), left = two_sum(x[i], -part.hi);
+      p.hi[i] = left.hi / t_;
+      const DoubleDouble back = two_product(t_, p.hi[i]);
+      p.lo[i] = (((left.hi - back.hi) - back.lo) + (left.lo - part.lo)) / t_;
+    }
+    const Vector apart = p.hi - q;
+    const double square = t_ * (1 - t_) / (2 * gamma_), size = x.norm() + p.hi.norm() + q.norm();
+    const Value of_f = multiple_of(t_, value_near(f_, p, size)), of_g = multiple_of(1 - t_, g_.evaluate(q));
+    return sum_of(sum_of(of_f, of_g),
+                  multiple_of(square, convex::product(apart, product(x.size()).multiply(apart))));
+  }
 
   /// t f(p) + (1-t) g(q) + t(1-t)/(2 gamma) ||p - q||², and the same of the conjugates at the two covectors.
   std::optional<PairOfValues> values(const Prox& p, const Prox& q) const {

@@ -8,6 +8,7 @@
 #include "convex/infinity.hpp"
 #include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"
+#include "convex/operations/operation.hpp"
 #include "convex/operations/sum.hpp"
 
 namespace convex::inline operations {
@@ -233,6 +234,23 @@ Value between_bounds(const Value& found, const std::optional<Vector>& x, const F
 }
 
 }  // namespace
+
+bool is_of_rounding(const Value& value) {
+  constexpr double few = 64;
+  return value.error <= few * unit_roundoff * std::abs(value.value);
+}
+
+Value between_points(const Value& by_program, const Value& above, const std::optional<Vector>& x,
+                     const Function& f, const Vector& v) {
+  if (!std::isfinite(by_program.value) || !std::isfinite(above.value)) return by_program;
+  const OneAtATime question(OneAtATime::Kind::lower_bound);
+  if (!question.first() || !x || x->size() != v.size() || !x->allFinite()) return by_program;
+  const Value at = f.evaluate(*x), along = product(v, *x);
+  const double below = along.value - at.value, error = above.error + at.error + along.error;
+  const double apart = std::abs(above.value - below);
+  // What the program says of its error is an estimate: bounds that are not much farther apart are better.
+  return apart + error < 2 * by_program.error ? Value{above.value, apart + error} : by_program;
+}
 
 Value settled_value(const Value& by_program, const std::optional<Vector>& x, const Function& f,
                     const Vector& v) {

@@ -12,8 +12,8 @@ namespace convex::inline operations {
 ///
 /// Of one entry it is found by the chords around it, where there are points on both sides with lower values:
 /// see `line_supremum`. Elsewhere the value is a lower bound; the error is what the last step shows to be
-/// left, t_k |x_(k+1) - x_k| |x_k|, with its increase and the rounding of f(x_k); infinite where a prox stands
-/// still beside more.
+/// left, t_k |x_(k+1) - x_k| |x_k|, with its increase and the rounding of f(x_k); infinite where a prox
+/// stands still beside more.
 ///
 /// +inf is returned where it is proved: f∞(d) < v·d for a direction d, the axes, v, or where x_k and its last
 /// step went (Rockafellar 1970, Theorem 8.5). Otherwise the error is infinite where the lower bounds do not
@@ -29,6 +29,14 @@ std::optional<Vector> maximiser(const Function& f, const Vector& v);
 /// Is f*(v) proved to be +inf, or do the lower bounds grow by more at each of eight steps in a row, and x_k
 /// to 1e12 times its first length? No proof: a reason to refuse a function, not a value.
 bool grows_without_end(const Function& f, const Vector& v);
+
+/// Is a value right to roundings of itself?
+bool is_of_rounding(const Value&);
+
+/// The value of f* at v by a program that minimises, told closer where it may be: it is no more than `above`,
+/// that of a point where its minimum is nearly attained, and no less than v·x - f(x).
+Value between_points(const Value& by_program, const Value& above, const std::optional<Vector>& x,
+                     const Function& f, const Vector& v);
 
 /// `found`, the value of f* at v by a program, where it is settled; else the better of it and `supremum`. The
 /// program minimises, so that its value is no less than f*(v); v·x - f(x) at its own maximiser x, where it

@@ -24,7 +24,8 @@ class Translate : public Operation {
   Value evaluate(const Vector& x) const override {
     const DoubleDoubleVector y = difference(x, by_);
     const Value near = value_near(f_, y, x.norm() + by_.norm());
-    return near.value == infinity && y.lo.isZero(0) ? f_.evaluate(y.hi) : near;  // y is x - b to the last digit
+    return near.value == infinity && y.lo.isZero(0) ? f_.evaluate(y.hi)
+                                                    : near;  // y is x - b to the last digit
   }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
