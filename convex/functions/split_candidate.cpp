@@ -6,6 +6,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/functions/interior.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/other_pairs.hpp"
 
@@ -201,17 +202,9 @@ std::optional<std::pair<double, double>> spectrum(const Metric& W) {
   return std::pair(values.minCoeff(), values.maxCoeff());
 }
 
-/// Is x inside the domain, by far more than `membership_tolerance` leaves open? Where a domain made larger by
-/// that holds a larger ball about x, it holds x itself.
 bool is_inside(const Function& f, const Vector& x) {
-  constexpr double far_more = 1e3 * membership_tolerance;
-  constexpr Index most_entries = 64;  // two values each
-  if (x.size() > most_entries) return false;
-  const double step = far_more * std::sqrt(static_cast<double>(x.size())) * x.norm();
-  for (Index i = 0; i < x.size(); ++i)
-    for (const double side : {-step, step})
-      if (!std::isfinite(split_value_of(f, x + side * Vector::Unit(x.size(), i)).value)) return false;
-  return true;
+  const WorkLimit part(part_of_a_value);
+  return is_well_inside(f, x, x.norm());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/functions/interior.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -24,6 +25,7 @@ class Distance : public Operation {
   Call call() const override { return {"distance", {argument(set_.call), argument("weight", weight_)}}; }
   Value evaluate(const Vector& x) const override {
     const Prox part = nearest(x);
+    if (part.x == x && is_well_inside(set_.indicator, x, x.norm() + size_of_set(x.size()))) return {0, 0};
     return {weight_ * (x - part.x).norm(), weight_ * (part.error_bound + 4 * unit_roundoff * x.norm())};
   }
   std::optional<Vector> subgradient(const Vector& x) const override { return slope(x - nearest(x).x, x); }

@@ -110,3 +110,14 @@ TEST_CASE("the conjugate of t (x - log x) is +inf at t, where it is -t - t log 0
     CHECK(found.error == 0);
   }
 }
+
+TEST_CASE("an inf-convolution attained at 5e5 is told within its error, and right to twelve digits") {
+  // -sqrt(u_1) - sqrt(u_2 - 3) + 2^-10 |x - u - (0, -3)| is least at u = (524288.3, 524290.7).
+  const Function f = samples::function(
+      "inf_convolution(translate(negative_power(0.5), [0,3]), "
+      "pointwise_max(sum_largest(2), distance(ball1(3), 0.0009765625)))",
+      2);
+  const Value found = f.evaluate(Vector{{0.035482444684021175, -0.93878487980691716}});
+  CHECK(std::abs(found.value - -724.0767201739074586) <= found.error);
+  CHECK(found.error <= 1e-12 * 724);
+}
