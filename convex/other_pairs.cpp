@@ -279,7 +279,7 @@ struct Cuts {
 }  // namespace
 
 std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                            const Metric& W, const Look& look) {
+                            const Metric& W, double stiffness, const Look& look) {
   constexpr Index most_entries = 16, most_cuts = 24;
   constexpr double part_moved = 1e-8;  // farther away parts of f are no lines
   if (!near || near->x.size() != z.size() || z.size() > most_entries || f.facts().smooth) return std::nullopt;
@@ -287,7 +287,8 @@ std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, 
   const Value f_0 = f.evaluate(x_0);
   if (!std::isfinite(f_0.value) || !std::isfinite(f_0.error)) return std::nullopt;
   const Vector pull = -metric_difference(W, x_0, z);  // of z on x_0
-  const Vector aim = refined_solve(W, pull);
+  const Metric stiff = W.scaled(stiffness);
+  const Vector aim = refined_solve(stiff, pull);
   const double farthest = part_moved * (W.norm(z) + W.norm(x_0));
   Cuts cuts{Matrix(most_cuts, z.size()), Vector(most_cuts)};
   Prox made = *near;
@@ -306,7 +307,7 @@ std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, 
       return made;
     }
     cuts.add(*v, here.value - f_0.value - v->dot(moved));
-    const Prox step = cuts.model().prox(aim, W, look);
+    const Prox step = cuts.model().prox(aim, stiff, look);
     if (step.x.size() != z.size() || !step.x.allFinite()) return std::nullopt;
     // Of one part alone the least point is far away: the next part is met on the way.
     const double length = W.norm(step.x);

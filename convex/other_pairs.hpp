@@ -41,10 +41,11 @@ std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at,
 std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& near, const Vector& z,
                                  const Metric& W);
 
-/// The point where f + ½||. - z||² is least by cutting planes (Kelley 1960) from one so near it that the
-/// parts of a maximum are lines: where they meet is known to roundings of x, not to those of slopes and z.
-/// The bound is that of `near`, with the move.
+/// Where the parts of a maximum meet beside a point: the least f + ½||. - z||² + ½(stiffness - 1)||. -
+/// near||² by cutting planes (Kelley 1960), so near that the parts are lines. Where they meet is known to
+/// roundings of x, not to those of slopes and z; a stiffness far above the curvature of the parts keeps the
+/// point where it is along the kink. The bound is that of `near`, with the move.
 std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                            const Metric& W, const Look& look);
+                            const Metric& W, double stiffness, const Look& look);
 
 }  // namespace convex

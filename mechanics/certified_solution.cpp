@@ -70,8 +70,7 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
   const double wanted =
       is_quick(problem) ? few_ulps * norm : options.accuracy.tolerance * std::max(1.0, norm);
   // What doubles leave open of the multipliers is told by fractions.
-  const bool is_open =
-      found.solution.multipliers.is_in_doubt || found.solution.hypothesis.two_sided.is_in_doubt;
+  const bool is_open = !open_question_of(problem, found.solution).empty();
   if (bound && *bound <= wanted && !(is_open && small_enough(problem))) return enclosed();
   if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
     if (auto proof = convex::infeasibility_proof(problem, found.solution.primal.farkas)) {

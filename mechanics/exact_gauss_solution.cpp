@@ -81,26 +81,6 @@ double words_of_ranges(const convex::Multipliers& found) {
   return 2 * all * (all - d) * d * words_of_fraction;
 }
 
-/// What is asked of the data as they are; empty where nothing is.
-std::string_view question(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
-  const convex::Solution& primal = solution.primal;
-  const convex::Multipliers& multipliers = solution.multipliers;
-  if (multipliers.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt)
-    return convex::open_question::dependence;
-  // What doubles left open of q in numbers that are exact, the method has asked fractions already; the rest
-  // then needs them too.
-  if (!problem.radii)
-    return is_decided_in_fractions(primal) ? convex::open_question::dependence : std::string_view();
-  if (depend_within_radii(problem, multipliers)) return convex::open_question::dependence;
-  if (!primal.undecided.empty()) return primal.undecided;
-  const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
-  return ended ? std::string_view() : convex::open_question::conditioning;
-}
-
-}  // namespace
-
-namespace {
-
 /// What holds of the multipliers and the hypothesis, whichever method found q: from fractions, beside its own
 /// q.
 void judge_in_fractions(GaussSolution& found, const convex::ExactProblem& exact,
@@ -129,6 +109,21 @@ void judge_in_fractions(GaussSolution& found, const convex::ExactProblem& exact,
 
 }  // namespace
 
+std::string_view open_question_of(const convex::NearestPointProblem& problem, const GaussSolution& solution) {
+  const convex::Solution& primal = solution.primal;
+  const convex::Multipliers& multipliers = solution.multipliers;
+  if (multipliers.is_in_doubt || solution.hypothesis.two_sided.is_in_doubt)
+    return convex::open_question::dependence;
+  // What doubles left open of q in numbers that are exact, the method has asked fractions already; the rest
+  // then needs them too.
+  if (!problem.radii)
+    return is_decided_in_fractions(primal) ? convex::open_question::dependence : std::string_view();
+  if (depend_within_radii(problem, multipliers)) return convex::open_question::dependence;
+  if (!primal.undecided.empty()) return primal.undecided;
+  const bool ended = primal.status == convex::Status::solved || primal.status == convex::Status::infeasible;
+  return ended ? std::string_view() : convex::open_question::conditioning;
+}
+
 bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
@@ -154,7 +149,7 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
 void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProblem& problem,
                           const GaussOptions& options,
                           const std::function<std::optional<convex::ExactProblem>()>& data) {
-  const std::string_view open = question(problem, found);
+  const std::string_view open = open_question_of(problem, found);
   if (open.empty()) return;
   const double most_words = options.accuracy.limit * convex::most_word_operations,
                n = static_cast<double>(problem.dimension());

@@ -23,6 +23,10 @@ struct ExactGaussSolution {
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
                                  const convex::NearestPointProblem& problem, const GaussOptions&);
 
+/// What a solve in doubles left open of the data as they are (`convex::open_question`), of q or of the
+/// multipliers; empty where nothing is.
+std::string_view open_question_of(const convex::NearestPointProblem&, const GaussSolution&);
+
 /// Decides what a solve in doubles left open, could not end, or may owe to rounding or to the radii of the
 /// data (rows that depend on each other), on the data as they are: the answer becomes the exact one, rounded.
 /// `data` is asked for them only then; none when they cannot be had. The q of a method that was named stays

@@ -26,6 +26,9 @@ constexpr double roundings = 16 * unit_roundoff;
 /// The dual is not asked for beyond so many numbers in the whitened rows: it takes dense algebra on them.
 constexpr Index most_dual_numbers = 1'000'000;
 
+/// A bound that is more than this part of the sizes judges nothing.
+constexpr double widest_bound = 1e-3;
+
 /// A solution with the scales that its laws are judged by.
 struct Judged {
   const convex::NearestPointProblem& problem;
@@ -148,6 +151,11 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
   }
   const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
   const double bound = apart_by_rounding(j, *dual.found);
+  if (!(bound <= widest_bound * j.size)) {
+    report.no_evidence.emplace_back(
+        "z = x + y: the cone of the contacts is so thin that rounding leaves the dual's y open");
+    return;
+  }
   report.checks.push_back(
       check_that(std::string("z = x + y, x = A q'' from the primal, y = -R from the dual by ") + dual.how,
                  j.problem.A.dual_norm(j.problem.z - x - y), bound));

@@ -19,8 +19,8 @@ namespace mechanics {
 convex::LawReport gauss_laws(const convex::NearestPointProblem&, const GaussSolution&,
                              const GaussOptions& = {});
 
-/// What the error bound and rounding may leave between the reaction of the primal and `from_dual`, in the kinetic
-/// norm; 0 without it.
+/// What the error bound and rounding may leave between the reaction of the primal and `from_dual`, in the
+/// kinetic norm; 0 without it.
 double apart_by_rounding(const convex::NearestPointProblem&, const GaussSolution&);
 
 }  // namespace mechanics

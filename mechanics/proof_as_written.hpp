@@ -13,10 +13,11 @@ namespace mechanics {
 /// and the bound is the largest distance of the answer printed from any of these solutions; the level is
 /// `none` when one of them is beyond the tolerance or not proved, and when a one-sided constraint does not
 /// hold as written. Solutions are proved in fractions or balls up to `most_exact_coordinates`, else in
-/// doubles with the radii of A, z, U, s. Two-sided constraints, and contacts that the state declares, hold by declaration: where f or df/dt is not 0
-/// as written, the bound covers the states about the one written at which it is. An answer that rounding
-/// alone made feasible, or infeasible, is replaced by that of the text; so is one that is off, where the
-/// method was left to the program. Where nothing is proved, the answer stays what it was.
+/// doubles with the radii of A, z, U, s. Two-sided constraints, and contacts that the state declares, hold by
+/// declaration: where f or df/dt is not 0 as written, the bound covers the states about the one written at
+/// which it is. An answer that rounding alone made feasible, or infeasible, is replaced by that of the text;
+/// so is one that is off, where the method was left to the program. Where nothing is proved, the answer stays
+/// what it was.
 void prove_as_written(CertifiedSolution&, const convex::NearestPointProblem&, const WrittenMechanism&,
                       const std::vector<Index>& contacts, const GaussOptions&);
 

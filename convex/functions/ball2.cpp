@@ -60,6 +60,7 @@ class Ball2 : public ConvexSet {
     if (length > 0) sum.add(radius_ * (square.value() / (2 * length)));
     for (Index i = 0; i < v.size(); ++i) sum.add(two_product(center_[i], v[i]));
     const double found = sum.value();
+    if (!std::isfinite(found)) return sum_of_terms(plain, roundings * sizes);  // products beyond doubles
     return sum_of_terms(found, std::abs(found) + roundings * unit_roundoff * sizes);
   }
   std::optional<Vector> maximiser(const Vector& v) const override {

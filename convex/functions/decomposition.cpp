@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
@@ -25,6 +26,9 @@ double size_of_slope(const Function& f, const Vector& x) {
 /// What each prox, each move into a domain and each other way to a pair may take of the work that a question
 /// may.
 constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3;
+
+/// Of cuts beside a kink: above the curvature of most functions, of many, and none.
+constexpr double stiffnesses[] = {1e6, 1e3, 1};
 
 /// How a question is looked at until an answer is borne out, and what each look may take of the work.
 struct LookWithWork {
@@ -131,7 +135,14 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
     }
   });
   attempt(part_of_a_way, [&] { consider_covector(along_slopes(of.f, x, z, W)); });
-  attempt(part_of_a_way, [&] { consider_covector(at_kink(of.f, x, z, W, look)); });
+  // Another way may come nearer where f has no kink.
+  std::optional<SplitCandidate> kink;
+  attempt(part_of_a_way, [&] {
+    SplitCandidate before = best;
+    for (const double stiffness : stiffnesses)
+      if (!ended()) consider_covector(at_kink(of.f, x, z, W, stiffness, look));
+    if (is_found()) kink = std::exchange(best, std::move(before));
+  });
   attempt(part_of_a_way, [&] {
     const auto x_inside = into(of.f, x), y_inside = into(of.g, y);
     consider(x, y_inside);
@@ -172,12 +183,15 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   });
   attempt(part_of_a_move,
           [&] { consider_covector(turned(along_slopes(of.plain, dual, covector, V), z, W)); });
-  attempt(part_of_a_move,
-          [&] { consider_covector(turned(at_kink(of.plain, dual, covector, V, look), z, W)); });
+  attempt(part_of_a_move, [&] {
+    for (const double stiffness : stiffnesses)
+      if (!ended()) consider_covector(turned(at_kink(of.plain, dual, covector, V, stiffness, look), z, W));
+  });
   attempt(part_of_a_way, [&] {
     for (const Prox& pair : balanced(of.plain, dual, covector, V, look))
       if (!ended()) consider_all(turned(pair, z, W));
   });
+  if (kink && !(is_found() && best.split.error_bound <= kink->split.error_bound)) best = *std::move(kink);
   if (wrong && !is_found()) throw InvalidInput(*wrong);
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <string>
 
+#include "convex/double_double.hpp"
 #include "convex/functions/convex_set.hpp"
 #include "convex/functions/norms.hpp"
 #include "convex/functions/sets.hpp"
@@ -130,16 +131,25 @@ class CappedSimplex : public Polytope {
   Value support_value(const Vector& v) const override {
     const Vector x = *maximiser(v);
     const double roundings = static_cast<double>(v.size());
-    return sum_of_terms(x.dot(v), roundings * x.dot(v.cwiseAbs()));
+    // What rounding took from the total, or added, is that of the last entry filled or of the next one.
+    const std::vector<Index> filled = order(v);
+    double rest = total_, lost = 0, at_rest = 0;
+    for (std::size_t k = 0; k < filled.size() && at_rest == 0; ++k) {
+      const DoubleDouble left = two_sum(rest, -x[filled[k]]);
+      rest = left.hi;
+      lost += std::abs(left.lo);
+      if (x[filled[k]] < cap_)
+        at_rest = std::max(std::abs(v[filled[k]]), std::abs(v[filled[std::min(k + 1, filled.size() - 1)]]));
+    }
+    Value found = sum_of_terms(x.dot(v), roundings * x.dot(v.cwiseAbs()));
+    found.error += lost * at_rest;
+    return found;
   }
   /// The largest entries filled up to cap, the last one with the rest.
   std::optional<Vector> maximiser(const Vector& v) const override {
-    std::vector<Index> order(static_cast<std::size_t>(v.size()));
-    std::iota(order.begin(), order.end(), Index{0});
-    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return v[i] > v[j]; });
     Vector x = Vector::Zero(v.size());
     double rest = total_;
-    for (Index i : order) {
+    for (Index i : order(v)) {
       x[i] = std::min(cap_, rest);
       rest -= x[i];
     }
@@ -169,6 +179,13 @@ class CappedSimplex : public Polytope {
   }
 
  private:
+  /// The entries from the largest on.
+  static std::vector<Index> order(const Vector& v) {
+    std::vector<Index> order(static_cast<std::size_t>(v.size()));
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index i, Index j) { return v[i] > v[j]; });
+    return order;
+  }
   bool named_sum() const { return cap_ == 1 && total_ >= 1 && total_ == std::floor(total_); }
   double total_, cap_;
 };

@@ -19,8 +19,8 @@ double power_of_quotient(double x, double c, double a, DoubleDouble b) {
   const DoubleDouble x_of_base = two_product(base, c), a_of_exponent = two_product(exponent, b.hi);
   const double of_base = ((x - x_of_base.hi) - x_of_base.lo) / x;
   const double of_exponent = ((a - a_of_exponent.hi) - a_of_exponent.lo - exponent * b.lo) / b.hi;
-  const double more = exponent * of_base + of_exponent * std::log(base);
-  return std::isfinite(more) ? plain + plain * more : plain;
+  const double more = exponent * std::log1p(of_base) + of_exponent * std::log(base);
+  return std::isfinite(plain) && std::isfinite(more) ? plain * std::exp(more) : plain;
 }
 
 /// |x|^p, p > 1.

@@ -27,7 +27,24 @@ struct Spectrum {
 /// Eigenvalues below this part of the largest, times n, are rounding.
 constexpr double rank_tolerance = 8 * unit_roundoff;
 
+/// Of which nothing is rounded.
+Spectrum spectrum_of_diagonal(const Vector& values) {
+  const Index n = values.size(), rank = (values.array() > 0).count();
+  Spectrum found{Matrix::Zero(n, rank), Matrix::Zero(n, n - rank), Vector(rank)};
+  Index range = 0, null = 0;
+  for (Index i = 0; i < n; ++i) {
+    if (values[i] > 0) {
+      found.basis(i, range) = 1;
+      found.values[range++] = values[i];
+    } else {
+      found.null(i, null++) = 1;
+    }
+  }
+  return found;
+}
+
 Spectrum spectrum(const Matrix& Q) {
+  if (Q.isDiagonal(0) && (Q.diagonal().array() >= 0).all()) return spectrum_of_diagonal(Q.diagonal());
   const linear_algebra::SymmetricEigen eigen(Q);
   const Vector& values = eigen.values;
   const Index n = Q.rows();
@@ -151,7 +168,11 @@ class DualQuadratic : public Atom {
     sum.add(-constant_);
     const Vector r = left_of(v, y, 1).value();
     const double found = sum.value();
-    return {found, sum_of_terms(found, std::abs(found)).error + std::abs(r.dot(solve(r))) + on_range.error};
+    if (!std::isfinite(found)) return beyond_products(from);
+    const Vector terms = v.cwiseAbs() + c_.cwiseAbs() + Q_.cwiseAbs() * y.cwiseAbs();
+    const double of_pairs = roundings_of_pairs * static_cast<double>(y.size() + 1) * unit_roundoff *
+                            unit_roundoff * (terms.dot(y.cwiseAbs()) + std::abs(constant_));
+    return {found, sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error};
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
@@ -191,6 +212,26 @@ class DualQuadratic : public Atom {
   }
 
  private:
+  static constexpr double roundings_of_pairs = 16;
+
+  /// Where products are beyond doubles: ½ from·Q⁺from - constant as it comes.
+  Value beyond_products(const Vector& from) const {
+    const double found = 0.5 * from.dot(solve(from)) - constant_;
+    if (!std::isfinite(found)) return {infinity, infinity};
+    constexpr double roundings = 64;
+    const double condition = of_Q_.values.size() > 0 ? of_Q_.values.maxCoeff() / of_Q_.values.minCoeff() : 1;
+    return {found, roundings * unit_roundoff * condition * (std::abs(found) + 2 * std::abs(constant_))};
+  }
+  /// ½ r·Q⁺r, with eigenvalues as small as rounding may have made them.
+  double left_by(const Vector& r) const {
+    if (of_Q_.values.size() == 0) return 0;
+    constexpr double least_part = 0.125;
+    const double off =
+        Q_.isDiagonal(0) ? 0 : rank_tolerance * static_cast<double>(r.size()) * of_Q_.values.maxCoeff();
+    const Vector least = (of_Q_.values.array() - off).max(least_part * of_Q_.values.array());
+    return (of_Q_.basis.transpose() * r).cwiseAbs2().cwiseQuotient(least).sum();
+  }
+
   /// v - c - part Qy, to twice the precision.
   DoubleDoubleVector left_of(const Vector& v, const Vector& y, double part) const {
     DoubleDoubleVector sum(v);

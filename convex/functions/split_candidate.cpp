@@ -19,6 +19,9 @@ constexpr double smallest_term = 1e-3;
 /// A value whose error is more than this part of what is told is not told.
 constexpr double largest_open_part = 1e-3;
 
+/// A value that sums cancelling terms may be off by so many roundings of itself, where its own error says so.
+constexpr double roundings_of_a_value = 64;
+
 /// What each value may take of the work that a decomposition may.
 constexpr double part_of_a_value = 0.1;
 
@@ -81,7 +84,9 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
   made.error = f_x.error + g_y.error;
   const Vector &x = split.x.x, &y = split.y.x;
   made.squares = std::max({W.inner(z, z), W.inner(x, x), W.inner(y, y)});
-  made.rounding = roundings_of_a_term * unit_roundoff * (std::abs(split.f_x) + std::abs(split.g_y) + size);
+  const double values = std::abs(split.f_x) + std::abs(split.g_y);
+  made.rounding = roundings_of_a_term * unit_roundoff * (values + size) +
+                  std::min(made.error, roundings_of_a_value * unit_roundoff * values);
   // f and g are those at points that the bounds leave open, to first order, where these are rounding.
   const double X = W.norm(x), Y = W.norm(y), least = roundings_of_a_term * unit_roundoff * (W.norm(z) + X);
   made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;

@@ -22,9 +22,9 @@ class PassiveSet {
 
   const std::vector<Index>& members() const { return members_; }
   bool add(Index a) {
-    if (factor_.size() == factor_.capacity()) return false;
     Vector d = V_.col(a);
     const double rho = factor_.split(d, c_);
+    if (factor_.size() == factor_.capacity()) return false;
     if (!(rho > unseen_part(V_.col(a).norm()))) return false;
     factor_.append(c_, d, rho);
     members_.push_back(a);

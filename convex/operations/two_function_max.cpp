@@ -299,7 +299,7 @@ std::optional<Value> conjugate_of_two_function_max(const Function& f, const Func
   }
   if (!std::isfinite(least) || !std::isfinite(most)) return std::nullopt;
   // A least weight that keeps a domain may put an upper bound below a lower one.
-  return Value{least, error + std::abs(least - most)};
+  return Value{least, error + std::abs(least - most) + unit_roundoff * (std::abs(least) + std::abs(most))};
 }
 
 }  // namespace convex::inline operations
