@@ -128,8 +128,8 @@ mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {
   return found;
 }
 
-/// Contacts of which second derivatives do not tell all, and that the answer would violate: then nothing is
-/// known of the acceleration.
+}  // namespace
+
 std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
                                                            mechanics::GaussSolution& answer) {
   convex::Solution& solution = answer.primal;
@@ -144,8 +144,6 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
   }
   return warning;
 }
-
-}  // namespace
 
 ProvedScene resolve_and_prove(Scene& scene, bool certify) {
   ProvedScene resolved;

@@ -20,6 +20,10 @@ mechanics::CertifiedSolution solve_by_fractions(const Scene&);
 std::vector<mechanics::Warning> resolve_scene(
     Scene& scene, const std::function<const mechanics::GaussSolution&(const Scene&)>& solve);
 
+/// Contacts of which second derivatives do not tell all, and that the answer would violate: then nothing is
+/// known of its acceleration, and it is `inaccurate`.
+std::optional<mechanics::Warning> violated_at_higher_order(const Scene&, mechanics::GaussSolution&);
+
 /// A scene with its answer, and what is proved of that.
 struct ProvedScene {
   mechanics::CertifiedSolution found;

@@ -89,10 +89,12 @@ std::vector<Weights> cancelling(const TightRows& tight) {
     }
   const auto count = static_cast<Index>(free.size());
   RowMatrix unit_rows = tight.U;
-  unit_rows.rowwise().normalize();
   std::optional<convex::DataRadii> radii = convex::DataRadii{tight.radius, Vector::Zero(count)};
   for (Index k = 0; k < count; ++k)
-    if (const double length = tight.U.row(k).norm(); length > 0) radii->row[k] /= length;
+    if (const double length = tight.U.row(k).norm(); length > 0) {
+      unit_rows.row(k) /= length;
+      radii->row[k] /= length;
+    }
   while (std::find(free.begin(), free.end(), true) != free.end()) {
     convex::NearestPointProblem problem{convex::Metric::identity(tight.U.cols()),
                                         Vector::Zero(tight.U.cols()),
@@ -147,13 +149,22 @@ class Motions {
     return series_.along(q_, t_, expression::most_derivatives);
   }
 
-  std::vector<TimeSeries> with_others(std::mt19937_64& random) const {
+  /// Other derivatives of q from the one of this order on.
+  std::vector<TimeSeries> with_others(std::mt19937_64& random, std::size_t from) const {
     std::uniform_real_distribution<double> part(-1, 1);
     std::vector<TimeSeries> q = q_;
     for (const Index i : series_.coordinates())
-      for (std::size_t k = 3; k < q[static_cast<std::size_t>(i)].c.size(); ++k)
+      for (std::size_t k = from; k < q[static_cast<std::size_t>(i)].c.size(); ++k)
         q[static_cast<std::size_t>(i)].c[k] = part(random) * unit_[i] * (size_ > 0 ? size_ : 1);
     return series_.along(q, t_, expression::most_derivatives);
+  }
+  /// Whether a coordinate of theirs has a velocity or an acceleration.
+  bool moves() const {
+    const auto& of = series_.coordinates();
+    return std::any_of(of.begin(), of.end(), [&](Index i) {
+      const auto& c = q_[static_cast<std::size_t>(i)].c;
+      return !c[1].may_be_zero() || !c[2].may_be_zero();
+    });
   }
 
  private:
@@ -168,13 +179,14 @@ class Motions {
 struct Leading {
   std::size_t order = 0;  // none of those followed, or one does not exist
   Rounded coefficient;
+  bool exists = true;  ///< the derivatives up to that order
 };
 
 Leading leading(const Weights& weights, const std::vector<TimeSeries>& f) {
   for (std::size_t order = 2; order < f.front().c.size(); ++order) {
     Rounded sum;
     for (const auto& [k, weight] : weights) sum += weight * f[k].c[order];
-    if (!std::isfinite(sum.value + sum.radius)) return {};
+    if (!std::isfinite(sum.value + sum.radius)) return {0, {}, false};
     if (!sum.may_be_zero()) return {order, sum};
   }
   return {};
@@ -211,14 +223,37 @@ std::optional<Warning> violated_at_higher_order(const WrittenMechanism& written,
   const expression::ConstraintSeries series(written.system->model(), constraints);
   const Motions motions(written, problem, answer, series);
   std::mt19937_64 random(1966);
-  const std::vector<TimeSeries> f = motions.with_no_more_derivatives(), other = motions.with_others(random);
+  constexpr std::size_t draws = 3, third = 3, velocity = 1;
+  const std::vector<TimeSeries> f = motions.with_no_more_derivatives();
+  std::vector<std::vector<TimeSeries>> others, beside;
+  for (std::size_t draw = 0; draw < draws; ++draw) {
+    others.push_back(motions.with_others(random, third));
+    beside.push_back(motions.with_others(random, velocity));
+  }
+  const auto is_negative = [](const Leading& found) {
+    return found.order > 0 && found.coefficient.value < 0;
+  };
+  const auto count_negative = [&](const Weights& weights, const std::vector<std::vector<TimeSeries>>& along) {
+    return std::count_if(along.begin(), along.end(), [&](const std::vector<TimeSeries>& series_of_f) {
+      return is_negative(leading(weights, series_of_f));
+    });
+  };
   Warning warning{Warning::Kind::undecided, {}, ""};
   bool by_itself = true;
   for (const Weights& weights : sums) {
-    const Leading found = leading(weights, f), changed = leading(weights, other);
-    if (found.order <= 2 || found.coefficient.value > 0 || changed.order != found.order ||
-        !(changed.coefficient - found.coefficient).may_be_zero())
-      continue;
+    const Leading found = leading(weights, f);
+    // Of one constraint by itself: higher derivatives of q that could keep it were not among those drawn; of
+    // what is 0 to the last order followed, motions beside this one tell that it is not never below 0.
+    const bool is_alone = weights.size() == 1;
+    const Leading changed = leading(weights, others.front());
+    const bool is_unchanged =
+        changed.order == found.order && (changed.coefficient - found.coefficient).may_be_zero();
+    const bool is_violated =
+        found.order > 2 && is_negative(found) &&
+        (is_unchanged || (is_alone && count_negative(weights, others) == static_cast<std::ptrdiff_t>(draws)));
+    const bool is_open = is_alone && found.order == 0 && motions.moves() &&
+                         (!found.exists || count_negative(weights, beside) > 0);
+    if (!is_violated && !is_open) continue;
     std::string names;
     for (const auto& [k, weight] : weights) {
       warning.constraints.push_back(constraints[k]);
@@ -229,12 +264,14 @@ std::optional<Warning> violated_at_higher_order(const WrittenMechanism& written,
     warning.message +=
         (warning.message.empty() ? "" : "; ") + names +
         (weights.size() == 1 ? ": the gradient is 0 here, second derivatives do not tell what it "
-                               "asks for, and with this acceleration it would be violated, "
+                               "asks for, and with this acceleration it would or may be violated, "
                              : ": the gradients cancel here, second derivatives do not tell what "
-                               "they ask for together, and with this acceleration one would be "
-                               "violated, ") +
-        sum_text(written, rows, contacts, weights) + " = " + number_text(found.coefficient.value) + " τ^" +
-        std::to_string(found.order);
+                               "they ask for together, and with this acceleration one would or may "
+                               "be violated, ") +
+        sum_text(written, rows, contacts, weights) +
+        (is_violated    ? " = " + number_text(found.coefficient.value) + " τ^" + std::to_string(found.order)
+         : found.exists ? " = 0 up to τ^" + std::to_string(expression::most_derivatives)
+                        : " has no derivatives that tell");
   }
   if (warning.constraints.empty()) return std::nullopt;
   warning.message += by_itself ? "; write it so that its gradient does not vanish, as y >= 0 for y^3 >= 0"

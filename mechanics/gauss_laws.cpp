@@ -151,7 +151,7 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
   }
   const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
   const double bound = apart_by_rounding(j, *dual.found);
-  if (!(bound <= widest_bound * j.size)) {
+  if (dual.found->thinnest < 1 && !(bound <= widest_bound * j.size)) {
     report.no_evidence.emplace_back(
         "z = x + y: the cone of the contacts is so thin that rounding leaves the dual's y open");
     return;
@@ -278,6 +278,11 @@ double apart_by_rounding(const convex::NearestPointProblem& problem, const Gauss
 
 LawReport gauss_laws(const convex::NearestPointProblem& problem, const GaussSolution& solution,
                      const GaussOptions& options) {
+  if (solution.primal.status != convex::Status::infeasible && !std::isfinite(solution.primal.error_bound)) {
+    LawReport nothing;
+    nothing.no_evidence.emplace_back("of this acceleration: nothing is known of its error");
+    return nothing;
+  }
   const Units units = fit_units(problem);
   if (units.ordinary() || solution.primal.status == convex::Status::infeasible)
     return laws_as_it_stands(problem, solution, options);

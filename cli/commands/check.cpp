@@ -66,6 +66,7 @@ Answer check_scene(Scene scene, const CheckOptions& options) {
       resolve_scene(scene, [&](const Scene& attempt) -> const mechanics::GaussSolution& {
         return solution = solve_plainly(attempt, attempt.solve);
       });
+  if (auto violated = violated_at_higher_order(scene, solution)) warnings.push_back(*std::move(violated));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const convex::LawReport report = mechanics::gauss_laws(scene.problem, solution, scene.solve);
   const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);

@@ -24,13 +24,16 @@ void write_checks(JsonWriter& json, const convex::LawReport& report) {
 std::string checks_text(const convex::LawReport& report) {
   const auto failed = std::count_if(report.checks.begin(), report.checks.end(),
                                     [](const convex::Check& check) { return !check.passed; });
+  if (report.checks.empty()) return report.text() + "\nNo law was put to the test.\n";
   return report.text() +
          (failed > 0 ? fmt::format("\n{} of {} laws FAILED.\n", failed, report.checks.size())
                      : fmt::format("\nAll {} laws hold within their bounds.\n", report.checks.size()));
 }
 
 Exit exit_code(const convex::LawReport& report, convex::Status status) {
-  return report.all_passed() ? exit_code(status) : Exit::no_solution;
+  // What is not solved may leave nothing to put to a law.
+  const bool nothing_failed = report.checks.empty() && status != convex::Status::solved;
+  return report.all_passed() || nothing_failed ? exit_code(status) : Exit::no_solution;
 }
 
 }  // namespace cli::inline reports

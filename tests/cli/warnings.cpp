@@ -298,3 +298,24 @@ TEST_CASE("on an edge between branches the answer is told to be that of the bran
   const std::string edge = particle("floor = \"y >= if(x > 0, -x, 0)\"", "x = 1", "y");
   CHECK(run_on("solve", edge).out.find("on the branch that is taken") != std::string::npos);
 }
+
+TEST_CASE(
+    "a contact whose gradient vanishes is not taken as kept because higher derivatives may decide, or none "
+    "does") {
+  for (const std::string floor : {"y^3 >= x^2", "y^5 >= x^2", "y^7 >= 0", "y^3 >= x^2 + x^2*y"}) {
+    CAPTURE(floor);
+    const Outcome falls = run_json_on("solve", particle("floor = \"" + floor + "\"", "x = 0"));
+    CHECK(falls.code == 3);
+    CHECK(Json::parse(falls.out).at("warnings").size() == 1);
+    CHECK(run_json_on("check", particle("floor = \"" + floor + "\"", "x = 0")).code == 3);
+  }
+  for (const std::string nothing : {"0 >= 0", "x^2 >= 0", "x^4 + y^6 >= 0"}) {
+    CAPTURE(nothing);
+    CHECK(run_json_on("solve", particle("floor = \"" + nothing + "\"", "x = 0")).code == 0);
+  }
+}
+
+TEST_CASE("a contact without a gradient stands beside others") {
+  const Json object = solved(particle("nothing = \"0 >= 0\", wall = \"x <= 0\"", "x = 0"));
+  CHECK(object.at("acceleration").at("x") == 0);
+}
