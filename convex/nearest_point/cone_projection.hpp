@@ -13,8 +13,9 @@ struct ConeProjection {
   Vector lambda;
   Vector point;  ///< V lambda
   double slack = 0;
-  /// Of the generators that are not in use, but at right angles to b - V lambda to rounding: the smallest part of
-  /// one's length that is outside the span of those in use. A rounding of b moves the point by so much more.
+  /// Of the generators that are not in use, but at right angles to b - V lambda to rounding: the smallest
+  /// part of one's length that is outside the span of those in use. A rounding of b moves the point by so
+  /// much more.
   double thinnest = 1;
   bool finished = false;
 };
