@@ -35,12 +35,11 @@ double rise_towards(const Function& f, const Vector& y, const Vector& inside, co
   const auto at = [&](double part) { return f.evaluate(y + part * (inside - y)).value; };
   const double first = at(0.5) - there.value;
   if (!std::isfinite(first) || !(first > 0)) return 0;
+  const double rounding = roundings_of_a_term * (unit_roundoff * std::abs(there.value) + there.error);
   const double next = at(0.25) - at(0.5);
-  if (!std::isfinite(next)) return 2 * first;
+  if (!std::isfinite(next) || first <= 2 * rounding) return 2 * first;
   const double slower = first - std::max(next, 0.0);
-  return slower > roundings_of_a_term * (unit_roundoff * std::abs(there.value) + there.error)
-             ? first * std::max(2.0, first / slower)
-             : infinity;
+  return slower > rounding ? first * std::max(2.0, first / slower) : infinity;
 }
 
 }  // namespace
