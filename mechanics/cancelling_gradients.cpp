@@ -260,14 +260,15 @@ std::optional<Warning> violated_at_higher_order(const WrittenMechanism& written,
       names += (names.empty() ? "" : ", ") +
                written.system->constraints()[static_cast<std::size_t>(constraints[k])].name;
     }
-    by_itself = by_itself && weights.size() == 1;
+    by_itself = by_itself && is_alone;
     warning.message +=
         (warning.message.empty() ? "" : "; ") + names +
-        (weights.size() == 1 ? ": the gradient is 0 here, second derivatives do not tell what it "
-                               "asks for, and with this acceleration it would or may be violated, "
-                             : ": the gradients cancel here, second derivatives do not tell what "
-                               "they ask for together, and with this acceleration one would or may "
-                               "be violated, ") +
+        (is_alone
+             ? ": the gradient is 0 here, second derivatives do not tell what it asks for, and with this "
+               "acceleration it "
+             : ": the gradients cancel here, second derivatives do not tell what they ask for together, and "
+               "with this acceleration one ") +
+        (is_violated ? "would be violated, " : "may be violated, ") +
         sum_text(written, rows, contacts, weights) +
         (is_violated    ? " = " + number_text(found.coefficient.value) + " τ^" + std::to_string(found.order)
          : found.exists ? " = 0 up to τ^" + std::to_string(expression::most_derivatives)
