@@ -146,7 +146,7 @@ class Motions {
   }
 
   std::vector<TimeSeries> with_no_more_derivatives() const {
-    return series_.along(q_, t_, expression::most_derivatives);
+    return series_.along(q_, t_, expression::most_derivatives, expression::Instant::after);
   }
 
   /// Other derivatives of q from the one of this order on.
@@ -156,7 +156,7 @@ class Motions {
     for (const Index i : series_.coordinates())
       for (std::size_t k = from; k < q[static_cast<std::size_t>(i)].c.size(); ++k)
         q[static_cast<std::size_t>(i)].c[k] = part(random) * unit_[i] * (size_ > 0 ? size_ : 1);
-    return series_.along(q, t_, expression::most_derivatives);
+    return series_.along(q, t_, expression::most_derivatives, expression::Instant::after);
   }
   /// Whether a coordinate of theirs has a velocity or an acceleration.
   bool moves() const {

@@ -81,7 +81,7 @@ ConstraintSeries::ConstraintSeries(const LagrangianModel& model, const std::vect
 }
 
 std::vector<TimeSeries> ConstraintSeries::along(const std::vector<TimeSeries>& q, const TimeSeries& t,
-                                                int order) const {
+                                                int order, Instant instant) const {
   const Program& program = *program_;
   std::vector<TimeSeries> x(program.size());
   for (const Index i : coordinates_) x[static_cast<std::size_t>(i)] = q[static_cast<std::size_t>(i)];
@@ -89,7 +89,7 @@ std::vector<TimeSeries> ConstraintSeries::along(const std::vector<TimeSeries>& q
   for (const auto& [slot, constant] : constants_) x[slot] = TimeSeries(constant);
   for (const Slot slot : order_) {
     const auto& i = program[slot];
-    x[slot] = applied(i.operation, x[i.a], x[i.b], !i.active.b, order);
+    x[slot] = applied(i.operation, x[i.a], x[i.b], !i.active.b, order, instant);
   }
   std::vector<TimeSeries> found;
   for (const Slot root : roots_) found.push_back(x[root]);

@@ -11,8 +11,9 @@ class ConstraintSeries {
   ConstraintSeries(const LagrangianModel& model, const std::vector<Index>& constraints);
 
   /// f_a along q(t), in the order of the constraints; coefficients 0 to `order`. q: n; t: the time itself, at
-  /// the rate 0 where it stands still.
-  std::vector<TimeSeries> along(const std::vector<TimeSeries>& q, const TimeSeries& t, int order) const;
+  /// the rate 0 where it stands still; `instant`: of its branches.
+  std::vector<TimeSeries> along(const std::vector<TimeSeries>& q, const TimeSeries& t, int order,
+                                Instant instant = Instant::now) const;
 
   /// The coordinates that these constraints depend on, in increasing order.
   const std::vector<Index>& coordinates() const { return coordinates_; }

@@ -163,6 +163,14 @@ class Arithmetic {
   std::size_t last_;
 };
 
+/// What decides a branch: the value, or of one that is exactly 0 what it is first from there on.
+Rounded deciding(const TimeSeries& a, int order, Instant instant) {
+  std::size_t k = 0;
+  if (instant == Instant::after)
+    while (k < static_cast<std::size_t>(order) && a.c[k].is_exact() && a.c[k].value == 0) ++k;
+  return a.c[k];
+}
+
 }  // namespace
 
 Rounded TimeSeries::derivative(int k) const {
@@ -171,9 +179,10 @@ Rounded TimeSeries::derivative(int k) const {
   return Rounded(factorial) * c[static_cast<std::size_t>(k)];
 }
 
-TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b, bool constant_b,
-                   int order) {
+TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b, bool constant_b, int order,
+                   Instant instant) {
   const Arithmetic by(order);
+  const auto sign_of = [&](const TimeSeries& f) { return deciding(f, order, instant); };
   switch (operation) {
     case Operation::parameter:
       return a;
@@ -218,21 +227,26 @@ TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b
       return by.logarithm(a);
     case Operation::sqrt:
       return by.root(a);
-    case Operation::abs:
-      return a.c[0].value > 0 ? a : a.c[0].value < 0 ? by.negative(a) : undefined_series();
-    case Operation::sign:
-      return a.c[0].value > 0   ? TimeSeries(Rounded(1))
-             : a.c[0].value < 0 ? TimeSeries(Rounded(-1))
-                                : undefined_series();
+    case Operation::abs: {
+      const Rounded first = sign_of(a);
+      return first > 0 ? a : first < 0 ? by.negative(a) : undefined_series();
+    }
+    case Operation::sign: {
+      const Rounded first = sign_of(a);
+      return first > 0 ? TimeSeries(Rounded(1)) : first < 0 ? TimeSeries(Rounded(-1)) : undefined_series();
+    }
     case Operation::min:
     case Operation::max: {
-      const Rounded first = operation == Operation::max ? a.c[0] - b.c[0] : b.c[0] - a.c[0];
+      const TimeSeries difference = by.sum(a, by.negative(b));
+      const Rounded first = sign_of(operation == Operation::max ? difference : by.negative(difference));
       return first.is_undecided() ? undefined_series() : first < 0 ? b : a;
     }
     case Operation::where_not_negative:
-    case Operation::where_negative:
-      if (a.c[0].is_undecided()) return undefined_series();
-      return (a.c[0] < 0) == (operation == Operation::where_negative) ? b : TimeSeries(Rounded(0));
+    case Operation::where_negative: {
+      const Rounded first = sign_of(a);
+      if (first.is_undecided()) return undefined_series();
+      return (first < 0) == (operation == Operation::where_negative) ? b : TimeSeries(Rounded(0));
+    }
     default:
       return undefined_series();
   }

@@ -21,9 +21,14 @@ struct TimeSeries {
   Rounded derivative(int k) const;
 };
 
+/// Where branches are told apart: min, max, abs, sign and if. At the instant, as all that is evaluated does;
+/// or just after it, by the first coefficient that is not exactly 0, for derivatives from the right.
+enum class Instant { now, after };
+
 /// The operation on functions of time, coefficients 0 to `order` (Griewank and Walther 2008, section 13.2:
 /// each function solves a linear differential equation in its operand). A unary operation ignores b;
 /// `constant_b`: b does not vary, whatever its operand.
-TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b, bool constant_b, int order);
+TimeSeries applied(Operation operation, const TimeSeries& a, const TimeSeries& b, bool constant_b, int order,
+                   Instant instant = Instant::now);
 
 }  // namespace mechanics::expression

@@ -302,14 +302,15 @@ TEST_CASE("on an edge between branches the answer is told to be that of the bran
 TEST_CASE(
     "a contact whose gradient vanishes is not taken as kept because higher derivatives may decide, or none "
     "does") {
-  for (const std::string floor : {"y^3 >= x^2", "y^5 >= x^2", "y^7 >= 0", "y^3 >= x^2 + x^2*y"}) {
+  for (const std::string floor : {"y^3 >= x^2", "y^5 >= x^2", "y^7 >= 0", "y^3 >= x^2 + x^2*y",
+                                  "y*abs(y)^3 >= 0", "x^2*y^2 <= y*abs(y)^3"}) {
     CAPTURE(floor);
     const Outcome falls = run_json_on("solve", particle("floor = \"" + floor + "\"", "x = 0"));
     CHECK(falls.code == 3);
     CHECK(Json::parse(falls.out).at("warnings").size() == 1);
     CHECK(run_json_on("check", particle("floor = \"" + floor + "\"", "x = 0")).code == 3);
   }
-  for (const std::string nothing : {"0 >= 0", "x^2 >= 0", "x^4 + y^6 >= 0"}) {
+  for (const std::string nothing : {"0 >= 0", "x^2 >= 0", "x^4 + y^6 >= 0", "abs(y)^3 >= y^3"}) {
     CAPTURE(nothing);
     CHECK(run_json_on("solve", particle("floor = \"" + nothing + "\"", "x = 0")).code == 0);
   }

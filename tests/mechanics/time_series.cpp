@@ -7,6 +7,7 @@
 
 using namespace mechanics;
 using expression::ConstraintSeries;
+using expression::Rounded;
 using expression::TimeSeries;
 
 namespace {
@@ -50,6 +51,25 @@ double remainder(const LagrangianSystem& system, const TimeSeries& f, double tim
 }
 
 }  // namespace
+
+TEST_CASE("where branches meet, derivatives from the right are those of the branch that a motion enters") {
+  const auto derivative = [](const char* f, Rounded rate) {
+    const auto system = with(f);
+    std::vector<TimeSeries> q(2);
+    q[0].c[1] = rate;
+    q[1].c[2] = 1;
+    return ConstraintSeries(system->model(), {0})
+        .along(q, TimeSeries(0), 4, expression::Instant::after)[0]
+        .c[3];
+  };
+  CHECK(derivative("abs(x)^3 + y^2", -1).value == 1);
+  CHECK(derivative("max(x, 2*x)*y", -1).value == -1);
+  CHECK(derivative("min(x, 2*x)*y", -1).value == -2);
+  CHECK(derivative("if(x >= 0, x, 3*x)*y", -1).value == -3);
+  CHECK(derivative("sign(x)*x*y", 1).value == 1);
+  // A rate that may be 0 enters none.
+  CHECK_FALSE(std::isfinite(derivative("max(x, 2*x)*y", {-1e-20, 1e-19}).value));
+}
 
 TEST_CASE("a constraint along a motion is its polynomial of degree four, but for the fifth power of time") {
   for (const char* f : {"x*y - x/y + 2^x - t*x", "sin(x*y) + cos(t + y)", "tan(x) + asin(x) - acos(x*y/2)",
