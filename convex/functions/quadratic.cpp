@@ -6,6 +6,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/functions/inverse_form.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/parameter.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
@@ -20,7 +21,8 @@ namespace {
 /// orthonormal basis spans the null space.
 struct Spectrum {
   Matrix basis, null;
-  Vector values;  ///< the positive eigenvalues: r
+  Vector values;        ///< the positive eigenvalues: r
+  bool is_sure = true;  ///< of r
   Matrix factor() const { return basis * values.cwiseSqrt().asDiagonal(); }
 };
 
@@ -53,7 +55,8 @@ Spectrum spectrum(const Matrix& Q) {
     throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " +
                        std::to_string(values.minCoeff()) + "; the function would not be convex");
   const Index rank = (values.array() > negligible).count();
-  return {eigen.vectors.rightCols(rank), eigen.vectors.leftCols(n - rank), values.tail(rank)};
+  return {eigen.vectors.rightCols(rank), eigen.vectors.leftCols(n - rank), values.tail(rank),
+          values.minCoeff() > 2 * negligible};
 }
 
 LinearQuadratic form(const Matrix& Q, const Vector& c, double constant) {
@@ -132,20 +135,24 @@ class Quadratic : public Atom {
 class DualQuadratic : public Atom {
  public:
   DualQuadratic(Matrix Q, Vector c, double constant)
-      : Q_(std::move(Q)), c_(std::move(c)), constant_(constant), of_Q_(spectrum(Q_)), L_(of_Q_.factor()) {}
+      : Q_(std::move(Q)), c_(std::move(c)), constant_(constant), of_Q_(spectrum(Q_)), L_(of_Q_.factor()) {
+    if (!of_Q_.is_sure) exact_ = InverseForm::of(Q_);
+  }
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
-    const bool finite = of_Q_.null.cols() == 0;
+    const bool finite = is_finite();
     return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = finite, .finite = finite};
   }
   /// ½ (v - c)·Q⁺(v - c) - constant, with Nᵀv = Nᵀc.
   Call call() const override {
-    const Matrix inverse = of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
+    const Matrix inverse =
+        exact_ ? exact_->inverse()
+               : of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
     const Vector slope = -(inverse * c_);
     const Call on_range{"quadratic",
                         {argument("Q", Matrix(0.5 * (inverse + inverse.transpose()))), argument("c", slope),
                          argument("constant", -0.5 * c_.dot(slope) - constant_)}};
-    if (of_Q_.null.cols() == 0) return on_range;
+    if (is_finite()) return on_range;
     const Call range{
         "affine",
         {argument("A", Matrix(of_Q_.null.transpose())), argument("b", Vector(of_Q_.null.transpose() * c_))}};
@@ -153,6 +160,10 @@ class DualQuadratic : public Atom {
   }
   double value(const Vector& v) const override { return evaluate(v).value; }
   Value evaluate(const Vector& v) const override {
+    if (exact_ && v.allFinite()) {
+      const double found = exact_->value(v, c_, constant_);
+      return {found, unit_roundoff * std::abs(found)};
+    }
     const Vector from = v - c_;
     const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
     if (std::isinf(on_range.value)) return on_range;
@@ -179,6 +190,7 @@ class DualQuadratic : public Atom {
     return linear_quadratic::conjugate(form(Q_, c_, constant_));
   }
   std::optional<Vector> subgradient(const Vector& v) const override {
+    if (exact_) return exact_->solve(v, c_);
     if (std::isinf(value(v))) return std::nullopt;
     return solve(v - c_);
   }
@@ -214,6 +226,7 @@ class DualQuadratic : public Atom {
  private:
   static constexpr double roundings_of_pairs = 16;
 
+  bool is_finite() const { return exact_ || of_Q_.null.cols() == 0; }
   /// Where products are beyond doubles: ½ from·Q⁺from - constant as it comes.
   Value beyond_products(const Vector& from) const {
     const double found = 0.5 * from.dot(solve(from)) - constant_;
@@ -248,6 +261,7 @@ class DualQuadratic : public Atom {
   Vector c_;
   double constant_;
   Spectrum of_Q_;
+  std::optional<InverseForm> exact_;  // where the rank in doubles is not sure and is n
   Matrix L_;
 };
 

@@ -46,3 +46,24 @@ TEST_CASE(
     CHECK((at - found.x.x - found.y.x).norm() <= 1e-15 * at.norm());
   }
 }
+
+TEST_CASE("the conjugate of a quadratic that doubles do not tell from a singular one is finite everywhere") {
+  // Q⁻¹ = 2⁵² [[1 + 2⁻⁵², -1], [-1, 1]]
+  const Function f = make_function(
+      cli::parse_call("quadratic([[1,1],[1,1.0000000000000002220446049250313]],[0,0],0.5)", "f"),
+      {Metric::identity(2)});
+  const Function g = f.conjugate();
+  CHECK(g.facts().finite);
+  for (const auto& [v, half_square] :
+       {std::pair{Vector{{0, 1}}, 0x1p51}, std::pair{Vector{{1, 0}}, 0x1p51 + 0.5},
+        std::pair{Vector{{1, 1}}, 0.5}}) {
+    const Value found = g.evaluate(v);
+    CHECK(std::abs(found.value - (half_square - 0.5)) <= found.error);
+  }
+  CHECK(*g.subgradient(Vector{{0, 1}}) == Vector{{-0x1p52, 0x1p52}});
+  // Singular as written.
+  const Function flat =
+      make_function(cli::parse_call("quadratic([[1,1],[1,1]])", "f"), {Metric::identity(2)}).conjugate();
+  CHECK_FALSE(flat.facts().finite);
+  CHECK(std::isinf(flat(Vector{{0, 1}})));
+}
