@@ -188,7 +188,8 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
   }
   // Where f is steep its value is that of the x told, and (x|y), of larger terms, goes with it.
   // So it is where x is outside by the rounding of a far z, which leaves a doubt about x and not about f.
-  const bool agrees = std::abs(at_x.value - made.split.f_x) <= tolerance * size_of_values(made.split);
+  const double agreement = std::max(f_x.error, tolerance * size_of_values(made.split));
+  const bool agrees = std::abs(at_x.value - made.split.f_x) <= agreement;
   const bool in_doubt = std::isinf(at_x.error) && agrees;
   if (std::isfinite(at_x.value) && (in_doubt || at_x.error <= tolerance * std::abs(at_x.value))) {
     made.split.inner += at_x.value - made.split.f_x;

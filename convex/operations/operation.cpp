@@ -126,6 +126,7 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
   const double size = homogeneous ? std::exp2(std::floor(std::log2(length))) : 1;
   const Vector at = x / size;
   if (const auto form = linear_quadratic(x.size())) {
+    WorkLimit::count(WorkLimit::of_a_program_value);
     const Evaluation found = convex::evaluate(*form, at);
     if (found.status == Status::solved && std::isinf(found.value)) return {{found.value, 0}, {}};
     if (found.status == Status::solved && !std::isnan(found.value)) {

@@ -32,15 +32,19 @@ std::optional<Fractions> on_simplex(Fractions v) {
 
 }  // namespace
 
-MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v) {
-  std::vector<MaybePair> candidates;
+MaybePair log_sum_exp_at_point(const Fractions& x) {
   const Fraction most = *std::max_element(x.begin(), x.end());
   // e^x_i over their sum; what is nothing beside it counts as 0, any point of the simplex will do.
   const Fraction far{-1000};
   Fractions gradient;
   for (const Fraction& entry : x)
     gradient.push_back(entry - most < far ? Fraction{} : near(exp(ball(entry - most))).value_or(Fraction{}));
-  if (const auto at_x = on_simplex(std::move(gradient))) candidates.push_back(simplex_pair(x, *at_x));
+  const auto on = on_simplex(std::move(gradient));
+  return on ? simplex_pair(x, *on) : std::nullopt;
+}
+
+MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v) {
+  std::vector<MaybePair> candidates{log_sum_exp_at_point(x)};
   if (const auto at_v = on_simplex(v)) {
     candidates.push_back(simplex_pair(x, *at_v));
     // log v + c, c the mean of x - log v.

@@ -8,6 +8,7 @@
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
 #include "convex/proved_prox/entry_formulas.hpp"
+#include "convex/proved_prox/joined_pairs.hpp"
 #include "convex/proved_prox/pair_search.hpp"
 #include "convex/proved_prox/proved_metric.hpp"
 
@@ -29,49 +30,6 @@ std::optional<Fractions> solved(const ExactGram& W, const Fractions& c) {
   std::vector<ExactEquation> equations;
   for (std::size_t i = 0; i < c.size(); ++i) equations.push_back({W.rows[i], c[i]});
   return solve_near(std::move(equations), Fractions(c.size()));
-}
-
-Fractions part_of(const Fractions& x, std::size_t first, std::size_t n) {
-  const auto begin = x.begin() + static_cast<std::ptrdiff_t>(first);
-  return {begin, begin + static_cast<std::ptrdiff_t>(n)};
-}
-
-struct Block {
-  const Call* f;
-  std::size_t n;
-};
-
-std::vector<Block> blocks_of(const Call& f) {
-  std::vector<Block> blocks;
-  for (std::size_t k = 0; k + 1 < f.arguments.size(); k += 2)
-    blocks.push_back({std::get<std::shared_ptr<const Call>>(f.arguments[k].value).get(),
-                      static_cast<std::size_t>(std::get<double>(f.arguments[k + 1].value))});
-  return blocks;
-}
-
-/// Puts the pairs of blocks behind each other; `search` finds that of entries first … first + n - 1.
-template <class Search>
-PairSearch joined(const std::vector<std::size_t>& sizes, const Search& search) {
-  ProofPair whole;
-  whole.is_rational = true;
-  std::size_t first = 0;
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    PairSearch part = search(k, first, sizes[k]);
-    if (!part.pair) return part;
-    whole.x.insert(whole.x.end(), part.pair->x.begin(), part.pair->x.end());
-    whole.v.insert(whole.v.end(), part.pair->v.begin(), part.pair->v.end());
-    whole.f_x = whole.f_x + part.pair->f_x;
-    whole.f_v = whole.f_v + part.pair->f_v;
-    whole.is_rational = whole.is_rational && part.pair->is_rational;
-    first += sizes[k];
-  }
-  return {std::move(whole), {}};
-}
-
-std::vector<std::size_t> sizes_of(const std::vector<Block>& blocks) {
-  std::vector<std::size_t> sizes;
-  for (const Block& block : blocks) sizes.push_back(block.n);
-  return sizes;
 }
 
 /// The balls that a call is the indicator of, or the support function of: of the whole, of groups, and of one
@@ -167,14 +125,20 @@ PairSearch pair_of_envelope(const Call& part, const ExactGram& inner, const Frac
 }
 
 /// h(y) = f*(Wy): f at W⁻¹v and the covector Wy.
-PairSearch pair_of_conjugate(const Call& part, const ExactGram& W, const Fractions& y, const Fractions& v) {
+PairSearch pair_of_conjugate(const Call& part, const ExactGram& W, const Fractions& y, const Fractions& v,
+                             const PairOfPart& pair_of) {
   const auto x = solved(W, v);
   if (!x) return {{}, "conjugate: the metric is too large to be solved with in fractions"};
-  PairSearch found = pair_of_call(part, W, *x, multiply(W, y));
+  PairSearch found = pair_of(part, W, *x, multiply(W, y));
   if (!found.pair) return found;
   const ProofPair& pair = *found.pair;
   return {ProofPair{solved(W, pair.v).value(), multiply(W, pair.x), pair.f_v, pair.f_x, pair.is_rational},
           {}};
+}
+
+/// The call that f is the conjugate of.
+const Call* conjugate_of(const Call& f, const ExactArguments& a) {
+  return f.name == "conjugate" ? &a.call("f") : f.name == "support" ? &a.call("set") : nullptr;
 }
 
 /// weight times the plain distance to C: at most weight |x - p| for p in C, and σ_C on |v| <= weight.
@@ -209,48 +173,13 @@ PairSearch pair_of_distance(const Call& f, const ExactGram& W, const Fractions& 
 PairSearch pair_of_operation(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   const ExactArguments a(f, W.dimension());
   const std::string& name = f.name;
-  if (name == "indicator") return pair_of_call(a.call("set"), W, x, v);
-  if (name == "conjugate") return pair_of_conjugate(a.call("f"), W, x, v);
-  if (name == "support") return pair_of_conjugate(a.call("set"), W, x, v);
+  if (auto changed = pair_by_change_of_variables(f, W, x, v, pair_of_call)) return *std::move(changed);
+  if (const Call* part = conjugate_of(f, a)) return pair_of_conjugate(*part, W, x, v, pair_of_call);
   if (name == "envelope") return pair_of_envelope(a.call("f"), W, a.number("gamma"), W, x, v);
   if (name == "distance") return pair_of_distance(f, W, x, v);
   if (name == "squared_distance" && sign(a.number("weight")) > 0)
     return pair_of_envelope(a.call("set"), W, Fraction{1} / a.number("weight"), identity_gram(x.size()), x,
                             v);
-  if (name == "translate") {
-    const Fractions by = a.vector("by");
-    PairSearch found = pair_of_call(a.call("f"), W, difference(x, by), v);
-    if (!found.pair) return found;
-    found.pair->x = pairs::sum_of(found.pair->x, by);
-    found.pair->f_v = found.pair->f_v + only(dot(by, found.pair->v));
-    return found;
-  }
-  if (name == "tilt") {
-    const Fractions c = a.vector("c");
-    PairSearch found = pair_of_call(a.call("f"), W, x, difference(v, c));
-    if (!found.pair) return found;
-    found.pair->v = pairs::sum_of(found.pair->v, c);
-    found.pair->f_x = found.pair->f_x + only(dot(c, found.pair->x));
-    return found;
-  }
-  if (name == "scale") {
-    const Fraction alpha = a.number("alpha");
-    PairSearch found = pair_of_call(a.call("f"), W, x, pairs::multiple_of(Fraction{1} / alpha, v));
-    if (!found.pair) return found;
-    found.pair->v = pairs::multiple_of(alpha, found.pair->v);
-    found.pair->f_x = times(alpha, found.pair->f_x);
-    found.pair->f_v = times(alpha, found.pair->f_v);
-    return found;
-  }
-  if (name == "dilate") {
-    const Fraction rho = a.number("rho"), inverse = Fraction{1} / rho;
-    PairSearch found =
-        pair_of_call(a.call("f"), W, pairs::multiple_of(inverse, x), pairs::multiple_of(rho, v));
-    if (!found.pair) return found;
-    found.pair->x = pairs::multiple_of(rho, found.pair->x);
-    found.pair->v = pairs::multiple_of(inverse, found.pair->v);
-    return found;
-  }
   return pair_of_combination(f, W, x, v);
 }
 
@@ -276,12 +205,6 @@ PairSearch pair_of_call(const Call& f, const ExactGram& W, const Fractions& x, c
   if (f.name == "neg_log_det" || find_entry(f.name)->kind == EntryKind::set)
     if (MaybePair found = of_cone(f, x, v)) return {std::move(found), {}};
   if (f.name == "log_sum_exp") return found_or(pairs::of_log_sum_exp(x, v), f);
-  if (f.name == "separable") {
-    const std::vector<Block> blocks = blocks_of(f);
-    return joined(sizes_of(blocks), [&](std::size_t k, std::size_t first, std::size_t n) {
-      return pair_of_call(*blocks[k].f, block(W, first, n), part_of(x, first, n), part_of(v, first, n));
-    });
-  }
   return pair_of_operation(f, W, x, v);
 }
 
@@ -290,18 +213,19 @@ PairSearch pair_at_point(const Call& f, const ExactGram& W, const Fractions& x) 
   if (const auto entries = entry_formulas(f, x.size()); !entries.empty())
     return found_or(entries_at_point(entries, x), f);
   if (const auto balls = balls_of(f, x.size())) return pair_of_balls(*balls, f, x, x, Wanted::at_point);
-  if (f.name == "scale" || f.name == "indicator") {
-    const ExactArguments a(f, x.size());
-    if (f.name == "indicator") return pair_at_point(a.call("set"), W, x);
-    const Fraction alpha = a.number("alpha");
-    PairSearch found = pair_at_point(a.call("f"), W, x);
-    if (!found.pair) return found;
-    found.pair->v = pairs::multiple_of(alpha, found.pair->v);
-    found.pair->f_x = times(alpha, found.pair->f_x);
-    found.pair->f_v = times(alpha, found.pair->f_v);
-    return found;
-  }
-  return {{}, f.name + ": no pair at a point that another part chooses"};
+  const auto of_part = [](const Call& part, const ExactGram& metric, const Fractions& point,
+                          const Fractions&) { return pair_at_point(part, metric, point); };
+  const Fractions any(x.size());
+  if (auto changed = pair_by_change_of_variables(f, W, x, any, of_part)) return *std::move(changed);
+  if (f.name == "log_sum_exp") return found_or(pairs::log_sum_exp_at_point(x), f);
+  const ExactArguments a(f, x.size());
+  if (const Call* part = conjugate_of(f, a))
+    return pair_of_conjugate(
+        *part, W, x, any,
+        [](const Call& of, const ExactGram& metric, const Fractions&, const Fractions& covector) {
+          return pair_at_covector(of, metric, covector);
+        });
+  return combination_at_point(f, W, x);
 }
 
 PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& v) {
@@ -313,7 +237,16 @@ PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& 
   if (const auto entries = entry_formulas(f, v.size()); !entries.empty())
     return found_or(entries_at_covector(entries, v), f);
   if (const auto balls = balls_of(f, v.size())) return pair_of_balls(*balls, f, v, v, Wanted::at_covector);
-  return {{}, f.name + ": no pair at a covector that another part chooses"};
+  const auto of_part = [](const Call& part, const ExactGram& metric, const Fractions&,
+                          const Fractions& covector) { return pair_at_covector(part, metric, covector); };
+  const Fractions any(v.size());
+  if (auto changed = pair_by_change_of_variables(f, W, any, v, of_part)) return *std::move(changed);
+  const ExactArguments a(f, v.size());
+  if (const Call* part = conjugate_of(f, a))
+    return pair_of_conjugate(*part, W, any, v,
+                             [](const Call& of, const ExactGram& metric, const Fractions& point,
+                                const Fractions&) { return pair_at_point(of, metric, point); });
+  return combination_at_covector(f, W, v);
 }
 
 }  // namespace convex::inline proved_prox

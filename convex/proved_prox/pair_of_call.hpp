@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "convex/proved_prox/proof_pair.hpp"
@@ -21,8 +22,20 @@ PairSearch pair_at_point(const Call& f, const ExactGram& W, const Fractions& x);
 /// A pair with this v exactly.
 PairSearch pair_at_covector(const Call& f, const ExactGram& W, const Fractions& v);
 
+/// How a pair of a part is found: near x and v, or with one of them exactly, whatever the other is.
+using PairOfPart =
+    std::function<PairSearch(const Call& part, const ExactGram& W, const Fractions& x, const Fractions& v)>;
+
+/// Of separable, indicator, translate, tilt, scale and dilate, by the pairs of their parts; none of others.
+std::optional<PairSearch> pair_by_change_of_variables(const Call& f, const ExactGram& W, const Fractions& x,
+                                                      const Fractions& v, const PairOfPart& pair_of);
+
 /// Of sum, intersection, inf_convolution, pointwise_max and precompose, whose parts must share a point or a
 /// covector without rounding.
 PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v);
+/// Of sum, intersection, pointwise_max and precompose with this x exactly.
+PairSearch combination_at_point(const Call& f, const ExactGram& W, const Fractions& x);
+/// Of inf_convolution with this v exactly.
+PairSearch combination_at_covector(const Call& f, const ExactGram& W, const Fractions& v);
 
 }  // namespace convex::inline proved_prox

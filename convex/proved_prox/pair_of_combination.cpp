@@ -63,6 +63,14 @@ PairSearch program_pair_towards(const Call& f, const ExactGram& W, const Fractio
   return {proof_pair(std::move(*at)), {}};
 }
 
+/// Of two functions at one x the pair of their sum: (f + g)*(v + w) <= f*(v) + g*(w).
+void add_covector(ProofPair& sum, const ProofPair& part) {
+  sum.v = pairs::sum_of(sum.v, part.v);
+  sum.f_x = sum.f_x + part.f_x;
+  sum.f_v = sum.f_v + part.f_v;
+  sum.is_rational = sum.is_rational && part.is_rational;
+}
+
 /// f_1 + f_2 + …: one part takes what the gradients of the others leave of v, at a point that they share.
 PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   const std::vector<Call> parts = parts_of_sum(f, W);
@@ -78,10 +86,7 @@ PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, co
           PairSearch towards = program_pair_towards(parts[k], W, point, v);
           if (towards.pair) at = std::move(towards);
         }
-        sum.v = pairs::sum_of(sum.v, at.pair->v);
-        sum.f_x = sum.f_x + at.pair->f_x;
-        sum.f_v = sum.f_v + at.pair->f_v;
-        sum.is_rational = sum.is_rational && at.pair->is_rational;
+        add_covector(sum, *at.pair);
       }
       return sum;
     };
@@ -92,10 +97,7 @@ PairSearch pair_of_sum(const Call& f, const ExactGram& W, const Fractions& x, co
     if (!own.pair) continue;
     pairs::MaybePair whole = others_at(own.pair->x);
     if (!whole) continue;
-    whole->v = pairs::sum_of(whole->v, own.pair->v);
-    whole->f_x = whole->f_x + own.pair->f_x;
-    whole->f_v = whole->f_v + own.pair->f_v;
-    whole->is_rational = whole->is_rational && own.pair->is_rational;
+    add_covector(*whole, *own.pair);
     candidates.push_back(std::move(whole));
   }
   if (const auto both = program_and_ball(parts, false, W))
@@ -166,7 +168,55 @@ PairSearch pair_of_precompose(const Call& f, const ExactGram& W, const Fractions
   return {ProofPair{x, std::move(v), inner.pair->f_x, f_v, inner.pair->is_rational}, {}};
 }
 
+/// Of the parts at x: of each gradient, so that the covectors add up.
+PairSearch sum_at_point(const Call& f, const ExactGram& W, const Fractions& x) {
+  ProofPair sum{x, Fractions(x.size()), only(Fraction{}), only(Fraction{}), true};
+  for (const Call& part : parts_of_sum(f, W)) {
+    const PairSearch at = pair_at_point(part, W, x);
+    if (!at.pair) return at;
+    add_covector(sum, *at.pair);
+  }
+  return {std::move(sum), {}};
+}
+
+/// The part that is largest at x.
+PairSearch max_at_point(const Call& f, const ExactGram& W, const Fractions& x) {
+  const ExactArguments a(f, W.dimension());
+  PairSearch largest;
+  Fraction high;
+  for (const Call* part : a.calls()) {
+    PairSearch at = pair_at_point(*part, W, x);
+    if (!at.pair) return at;
+    if (!largest.pair || high < at.pair->f_x.high) high = at.pair->f_x.high;
+    if (!largest.pair || largest.pair->f_x.low < at.pair->f_x.low) largest = std::move(at);
+  }
+  if (largest.pair) largest.pair->f_x.high = high;
+  return largest;
+}
+
 }  // namespace
+
+PairSearch combination_at_point(const Call& f, const ExactGram& W, const Fractions& x) {
+  if (f.name == "sum" || f.name == "intersection") return sum_at_point(f, W, x);
+  if (f.name == "pointwise_max") return max_at_point(f, W, x);
+  if (f.name == "precompose") return pair_of_precompose(f, W, x);
+  return {{}, f.name + ": no pair at a point that another part chooses"};
+}
+
+PairSearch combination_at_covector(const Call& f, const ExactGram& W, const Fractions& v) {
+  if (f.name != "inf_convolution") return {{}, f.name + ": no pair at a covector that another part chooses"};
+  const ExactArguments a(f, W.dimension());
+  PairSearch first = pair_at_covector(a.call("f"), W, v);
+  if (!first.pair) return first;
+  const PairSearch second = pair_at_covector(a.call("g"), W, v);
+  if (!second.pair) return second;
+  ProofPair& sum = *first.pair;
+  sum.x = pairs::sum_of(sum.x, second.pair->x);
+  sum.f_x = sum.f_x + second.pair->f_x;
+  sum.f_v = sum.f_v + second.pair->f_v;
+  sum.is_rational = sum.is_rational && second.pair->is_rational;
+  return first;
+}
 
 PairSearch pair_of_combination(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   if (f.name == "sum" || f.name == "intersection") return pair_of_sum(f, W, x, v);

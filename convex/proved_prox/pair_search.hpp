@@ -23,6 +23,7 @@ MaybePair of_program_and_ball(const ExactProgram& P, const Fraction& radius, con
 
 /// log Σ e^x_i and Σ v_i log v_i on the simplex.
 MaybePair of_log_sum_exp(const Fractions& x, const Fractions& v);
+MaybePair log_sum_exp_at_point(const Fractions& x);
 
 /// Of the closed cones K of three and more entries and their polars: f and f* are their indicators.
 MaybePair of_second_order_cone(const Fractions& x, const Fractions& v);
