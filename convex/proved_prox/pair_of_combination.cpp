@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
@@ -130,23 +132,67 @@ PairSearch pair_of_inf_convolution(const Call& f, const ExactGram& W, const Frac
   return {{}, f.name + ": the conjugates of both parts have a corner at the covector"};
 }
 
-/// The part that is largest at x, where it is so alone.
+/// A pair of the part at x, of several covectors one towards v.
+pairs::MaybePair at_point_towards(const Call& part, const ExactGram& W, const Fractions& x,
+                                  const Fractions& v) {
+  if (auto towards = program_pair_towards(part, W, x, v).pair) return towards;
+  return pair_at_point(part, W, x).pair;
+}
+
+/// Where two parts are equal, the largest: x moved by what rounding leaves between their values, and t of one
+/// covector with 1 - t of the other, for max(f, g)*(t v + (1 - t) w) <= t f*(v) + (1 - t) g*(w).
+pairs::MaybePair pair_of_equal_parts(const Call& first, const Call& second, const ExactGram& W, Fractions x,
+                                     const Fractions& v) {
+  constexpr int most_steps = 3;
+  Fraction t{1, 2};
+  Fractions towards_first = v, towards_second = v;
+  for (int step = 0;; ++step) {
+    const auto p = at_point_towards(first, W, x, towards_first),
+               q = at_point_towards(second, W, x, towards_second);
+    if (!p || !q) return std::nullopt;
+    const Fractions apart = difference(p->v, q->v);
+    const Fraction square = pairs::square_of(apart);
+    if (sign(square) == 0) return std::nullopt;
+    t = fraction(std::clamp(nearest_double(dot(apart, difference(v, q->v)) / square), 0.0, 1.0));
+    const Fraction rest = Fraction{1} - t;
+    if (step == most_steps) {
+      FractionInterval f_x = p->f_x;
+      if (f_x.low < q->f_x.low) f_x.low = q->f_x.low;
+      if (f_x.high < q->f_x.high) f_x.high = q->f_x.high;
+      return ProofPair{std::move(x), pairs::sum_of(q->v, pairs::multiple_of(t, apart)), f_x,
+                       times(t, p->f_v) + times(rest, q->f_v), p->is_rational && q->is_rational};
+    }
+    if (sign(t) > 0)
+      towards_first = pairs::multiple_of(Fraction{1} / t, difference(v, pairs::multiple_of(rest, q->v)));
+    if (sign(rest) > 0)
+      towards_second = pairs::multiple_of(Fraction{1} / rest, difference(v, pairs::multiple_of(t, p->v)));
+    const Fraction above = p->f_x.high - q->f_x.high;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = x[i] - fraction(nearest_double(above * apart[i] / square));
+  }
+}
+
+/// The part that is largest at x, where it is so alone, or two that are.
 PairSearch pair_of_max(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   const ExactArguments a(f, W.dimension());
+  const std::vector<const Call*> parts = a.calls();
   std::vector<pairs::MaybePair> candidates;
-  for (const Call* active : a.calls()) {
-    PairSearch own = pair_of_call(*active, W, x, v);
-    if (!own.pair) continue;
-    bool is_valued = true;
-    for (const Call* other : a.calls()) {
-      if (other == active) continue;
-      const PairSearch at = pair_at_point(*other, W, own.pair->x);
-      if (!at.pair)
-        is_valued = false;
-      else if (own.pair->f_x.high < at.pair->f_x.high)
-        own.pair->f_x.high = at.pair->f_x.high;
+  const auto consider = [&](pairs::MaybePair own) {
+    if (!own) return;
+    for (const Call* other : parts) {
+      const PairSearch at = pair_at_point(*other, W, own->x);
+      if (!at.pair) return;
+      if (own->f_x.high < at.pair->f_x.high) own->f_x.high = at.pair->f_x.high;
     }
-    if (is_valued) candidates.push_back(std::move(own.pair));
+    candidates.push_back(std::move(own));
+  };
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    consider(pair_of_call(*parts[k], W, x, v).pair);
+    for (std::size_t j = 0; j < k; ++j) consider(pair_of_equal_parts(*parts[j], *parts[k], W, x, v));
+    // Of an indicator and f_k it is at least their sum.
+    for (const Call* other : parts)
+      if (other != parts[k] && other->name == "indicator")
+        consider(pair_of_sum({"sum", {argument(*parts[k]), argument(*other)}}, W, x, v).pair);
   }
   if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
   return {{}, f.name + ": a part cannot be valued at the point of another"};
