@@ -61,8 +61,9 @@ TEST_CASE("a decomposition file is proved too: strings are exact, floats are dou
 }
 
 TEST_CASE("without a proof the level is none, the reason is said and the exit code is 3") {
-  const Outcome outcome = run(
-      {"prox", "precompose(log_sum_exp(), [[1,2,3],[0,1,1]])", "--at", "[1,2,-1]", "--certify", "--json"});
+  // A sphere and the surface of a cone.
+  const Outcome outcome = run({"prox", "indicator(intersection(ball2(1), second_order_cone()))", "--at",
+                               "[3,1,2]", "--certify", "--json"});
   CHECK(outcome.code == 3);
   const Json answer = Json::parse(outcome.out);
   CHECK(answer["certificate"]["level"] == "none");
