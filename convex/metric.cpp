@@ -11,6 +11,7 @@
 #include "convex/dense/triangular_solve.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
+#include "convex/processor.hpp"
 #include "convex/sparse_gram.hpp"
 
 namespace convex {
@@ -116,6 +117,15 @@ bool make_symmetric(Matrix& W) {
   return wrong == 0;
 }
 
+/// How many of the numbers are positive and finite, without a branch.
+MOREAU_CLONES
+Index count_positive(Index n, const double* x) {
+  Index count = 0;
+  for (Index i = 0; i < n; ++i)
+    count += (x[i] > 0 ? 1 : 0) & (x[i] <= std::numeric_limits<double>::max() ? 1 : 0);
+  return count;
+}
+
 [[noreturn]] void refuse_unequal(const Matrix& W) {
   const Index n = W.rows();
   for (Index j = 0; j < n; ++j)
@@ -150,8 +160,7 @@ Metric Metric::diagonal(const Vector& d) {
   auto data = std::make_shared<Data>();
   data->kind = MetricKind::diagonal;
   data->diagonal = d;
-  Index right = 0;  // counted without a branch
-  for (const double x : d) right += (x > 0 ? 1 : 0) & (x <= std::numeric_limits<double>::max() ? 1 : 0);
+  const Index right = count_positive(d.size(), d.data());
   for (Index i = 0; i < d.size() && right < d.size(); ++i) {
     require_finite(d[i], i, i);
     if (!(d[i] > 0)) refuse_indefinite(d);

@@ -28,8 +28,6 @@ void solve_factored(Count count, const double* M, const double* inverse, double*
 template <std::size_t n>
 using Fixed = std::integral_constant<std::size_t, n>;
 
-#pragma GCC push_options
-#pragma GCC optimize("no-math-errno")
 /// Squares may be too large for doubles, so that the largest entry is divided by first. Eight at a time.
 MOREAU_CLONES void norms_by(const double* M, const double* root, std::size_t n, const double* const* x,
                             double* of, std::size_t count) {
@@ -60,7 +58,6 @@ MOREAU_CLONES void norms_by(const double* M, const double* root, std::size_t n, 
     std::memcpy(of + first, &most, sizeof most);
   }
 }
-#pragma GCC pop_options
 
 }  // namespace
 

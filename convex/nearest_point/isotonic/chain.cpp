@@ -32,13 +32,9 @@ void add_links(const NearestPointProblem& problem, Index floor, double scale, do
   Links block;
   for (Index k = 0; k < links; k += width) {
     const Index count = std::min(width, links - k);
-    const auto of = [&](Numbers& x) { return Eigen::Map<Vector>(x.data(), count); };
     measure_links(count, mass + k, found.q.data() + k, s + k, lambda + k, largest > 0 ? largest : 1, block);
-    of(block.square) = of(block.square).cwiseSqrt();
-    divide_links(count, s + k, block.square.data(), found.acceleration_norm, scale, block);
-    all.feasibility = std::max(all.feasibility, of(block.violation).maxCoeff());
-    all.complementarity = std::max(all.complementarity, of(block.complementarity).maxCoeff());
-    gap += of(block.slack).dot(Eigen::Map<const Vector>(lambda + k, count));
+    divide_links(count, s + k, found.acceleration_norm, scale, block, all.feasibility, all.complementarity);
+    gap += block.gap;
   }
   if (scale > 0) all.duality_gap = std::sqrt(std::max(0.0, gap)) / scale;
 }

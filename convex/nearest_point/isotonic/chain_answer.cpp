@@ -148,7 +148,7 @@ class Placement {
       mean_lo_[p] = mean.lo;
     }
     bool rising = true;
-    std::fill_n(block_.goes_on.begin(), block_.count, 1.0);
+    Eigen::Map<Vector>(block_.goes_on.data(), block_.count).setOnes();
     std::size_t p = 0;
     begun_ = known;
     for (Index k = first; k < end;) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/dense/compiled.hpp"
 #include "convex/double_double.hpp"
 #include "convex/processor.hpp"
 #include "convex/zero_tolerances.hpp"
@@ -20,6 +21,16 @@ Index count_links(Index count, const double* values, Index& ones) {
   }
   ones += units;
   return fit;
+}
+
+MOREAU_CLONES
+void make_tidy(Index count, double* hi, double* lo) {
+#pragma GCC ivdep
+  for (Index k = 0; k < count; ++k) {
+    const DoubleDouble sum = two_sum(hi[k], lo[k]);
+    hi[k] = sum.hi;
+    lo[k] = sum.lo;
+  }
 }
 
 MOREAU_CLONES
@@ -95,7 +106,7 @@ void copy(Block& block) {
 namespace {
 
 /// The sum of n terms, in lanes that are kept apart.
-void add_by_lanes(Index count, const Numbers& term, std::array<double, lanes>& sum) {
+MOREAU_INLINE void add_by_lanes(Index count, const Numbers& term, std::array<double, lanes>& sum) {
   Index j = 0;
   for (; j + lanes <= count; j += lanes)
     for (Index lane = 0; lane < lanes; ++lane)
@@ -128,37 +139,68 @@ void judge(Block& block, Squares& squares) {
   add_by_lanes(block.count, lost, squares.lost);
 }
 
+namespace {
+
+/// The largest of n numbers, and of `least`.
+MOREAU_INLINE double largest_of(Index count, const Numbers& x, double least) {
+  std::array<double, 2 * lanes> most;
+  most.fill(least);
+  Index j = 0;
+  for (; j + 2 * lanes <= count; j += 2 * lanes)
+    for (std::size_t lane = 0; lane < 2 * lanes; ++lane) {
+      const double y = x[static_cast<std::size_t>(j) + lane];
+      most[lane] = y > most[lane] ? y : most[lane];
+    }
+  for (; j < count; ++j) most[0] = std::max(most[0], x[static_cast<std::size_t>(j)]);
+  return *std::max_element(most.begin(), most.end());
+}
+
+}  // namespace
+
 MOREAU_CLONES
 void measure_links(Index count, const double* mass, const double* q, const double* s, const double* lambda,
                    double largest, Links& links) {
   const double part = 1 / std::max(largest, std::numeric_limits<double>::min());
   Shifted light;  // divisions take longest
+  Numbers product;
 #pragma GCC ivdep
   for (std::size_t k = 0; k <= static_cast<std::size_t>(count); ++k) light[k] = 1 / mass[k];
 #pragma GCC ivdep
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     const DoubleDouble rise = two_sum(q[k + 1], -q[k]), rest = two_sum(rise.hi, -s[k]);
     const double slack = rest.hi + (rise.lo + rest.lo);
-    links.slack[k] = slack;
+    product[k] = lambda[k] * slack;
     links.square[k] = light[k] + light[k + 1];
     links.violation[k] = slack < 0 ? -slack : 0;
     links.complementarity[k] = std::abs(lambda[k] * part * slack);
   }
+  std::array<double, lanes> sum{};
+  add_by_lanes(count, product, sum);
+  links.gap = (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 MOREAU_CLONES
-void divide_links(Index count, const double* s, const double* length, double q_norm, double scale,
-                  Links& links) {
+void divide_links(Index count, const double* s, double q_norm, double scale, Links& links, double& violation,
+                  double& complementarity) {
+  Numbers over, excess;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-    const double size = std::abs(s[k]) + length[k] * q_norm, other = length[k] * scale;
-    const double some = other > 0 ? other : 1, over = size > 0 ? size : some;
-    // One division for two numbers; 1 over a subnormal number may be infinite.
-    const double scale_up = over < std::numeric_limits<double>::min() ? 0x1p60 : 1,
-                 part = 1 / (over * scale_up);
-    links.violation[k] = links.violation[k] * scale_up * part;
-    links.complementarity[k] = links.complementarity[k] * scale_up * part;
+    const double length = std::sqrt(links.square[k]);
+    const double size = std::abs(s[k]) + length * q_norm, other = length * scale;
+    const double some = other > 0 ? other : 1;
+    over[k] = size > 0 ? size : some;
+    const double violated = links.violation[k] - violation * over[k],
+                 open = links.complementarity[k] - complementarity * over[k];
+    excess[k] = violated > open ? violated : open;
   }
+  if (!(largest_of(count, excess, 0) > 0)) return;  // divisions take longest
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
+    links.violation[k] = links.violation[k] / over[k];
+    links.complementarity[k] = links.complementarity[k] / over[k];
+  }
+  violation = largest_of(count, links.violation, violation);
+  complementarity = largest_of(count, links.complementarity, complementarity);
 }
 
 }  // namespace convex::inline isotonic::chain_kernels

@@ -30,6 +30,8 @@ struct Squares {
 
 /// How many of the pairs of values are -c, c with c > 0; adds to `ones` those with c = 1.
 Index count_links(Index count, const double* values, Index& ones);
+/// hi + lo as pairs with |lo| <= u |hi|.
+void make_tidy(Index count, double* hi, double* lo);
 /// x += offset, of pairs.
 void lift(Block&, const double* offset_hi, const double* offset_lo);
 /// force - mass offset, as a pair.
@@ -46,14 +48,17 @@ void copy(Block&);
 /// What is out of balance as the numbers are printed, and the norms.
 void judge(Block&, Squares&);
 
-/// Of rows q_(k+1) - q_k >= s_k: the slack in twice the working precision, ||u_k||² in the metric A⁻¹, what
-/// is violated and |lambda/largest slack|.
+/// Of rows q_(k+1) - q_k >= s_k: ||u_k||² in the metric A⁻¹, what is violated and |lambda/largest slack|;
+/// and Σ lambda_k slack_k. Slacks are in twice the working precision.
 struct Links {
-  Numbers slack, square, violation, complementarity;
+  Numbers square, violation, complementarity;
+  double gap;
 };
 void measure_links(Index count, const double* mass, const double* q, const double* s, const double* lambda,
                    double largest, Links&);
-/// The last two over |s_k| + ||u_k|| q_norm, or over ||u_k|| scale where that is 0.
-void divide_links(Index count, const double* s, const double* length, double q_norm, double scale, Links&);
+/// The largest of the last two over |s_k| + ||u_k|| q_norm, or over ||u_k|| scale where that is 0, as far as
+/// they are more than those given.
+void divide_links(Index count, const double* s, double q_norm, double scale, Links&, double& violation,
+                  double& complementarity);
 
 }  // namespace convex::inline isotonic::chain_kernels

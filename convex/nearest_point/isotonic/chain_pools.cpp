@@ -117,18 +117,21 @@ Chain<Order>::Chain(const NearestPointProblem& problem, const Order& the_order, 
   offset_lo = arena.take<double>(n);
   constexpr Index at_once = 64;  // terms that do not wait for a sum to be tidy
   RunningSum sum;
+  offset_hi[0] = offset_lo[0] = 0;
   for (Index first = 0; first < n; first += at_once) {
     const Index end = std::min(first + at_once, n);
-    for (Index k = first; k < end; ++k) {
-      if (k > 0) sum.add(order.plain ? DoubleDouble{s[order.row(k)], 0} : bound(k));
-      offset_hi[k] = sum.hi;
-      offset_lo[k] = sum.lo;
-    }
-    for (Index k = first; k < end; ++k) {
-      const DoubleDouble offset = two_sum(offset_hi[k], offset_lo[k]);
-      offset_hi[k] = offset.hi;
-      offset_lo[k] = offset.lo;
-    }
+    const auto add_up = [&](const auto bound_below) {
+      for (Index k = std::max(first, Index{1}); k < end; ++k) {
+        sum.add(bound_below(k));
+        offset_hi[k] = sum.hi;
+        offset_lo[k] = sum.lo;
+      }
+    };
+    if (order.plain)
+      add_up([bounds = s, row = order](Index k) { return bounds[row.row(k)]; });
+    else
+      add_up([this](Index k) { return bound(k); });
+    chain_kernels::make_tidy(end - first, offset_hi + first, offset_lo + first);
     farthest_offset = std::max(farthest_offset, dense_kernels().largest_size(end - first, offset_hi + first));
     const DoubleDouble tidy = sum.tidy();
     sum = {tidy.hi, tidy.lo};
