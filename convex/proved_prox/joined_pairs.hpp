@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "convex/proved_prox/ball_numbers.hpp"
 #include "convex/proved_prox/pair_of_call.hpp"
 
 namespace convex::inline proved_prox {
