@@ -41,22 +41,4 @@ double InverseForm::value(const Vector& v, const Vector& c, double constant) con
   return nearest_double(half - fraction(constant));
 }
 
-Vector InverseForm::solve(const Vector& v, const Vector& c) const {
-  const ExactVector from = exact_difference(v, c);
-  IntegerVector image = times(from.numerators, inverse_.adjugate);
-  for (Integer& x : image) x *= scale_;
-  return nearest(ExactVector{std::move(image), inverse_.determinant * from.denominator});
-}
-
-Matrix InverseForm::inverse() const {
-  const auto n = static_cast<Index>(inverse_.adjugate.size());
-  Matrix found(n, n);
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const Integer& entry = inverse_.adjugate[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-      found(i, j) = nearest_quotient(entry * scale_, inverse_.determinant);
-    }
-  return found;
-}
-
 }  // namespace convex::inline named_functions

@@ -15,10 +15,6 @@ class InverseForm {
 
   /// ½ (v - c)·Q⁻¹(v - c) - constant, rounded once.
   double value(const Vector& v, const Vector& c, double constant) const;
-  /// Q⁻¹(v - c), rounded once.
-  Vector solve(const Vector& v, const Vector& c) const;
-  /// Q⁻¹, rounded once.
-  Matrix inverse() const;
 
  private:
   InverseForm(ExactInverse inverse, Integer scale) : inverse_(std::move(inverse)), scale_(std::move(scale)) {}

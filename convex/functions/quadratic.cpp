@@ -136,23 +136,21 @@ class DualQuadratic : public Atom {
  public:
   DualQuadratic(Matrix Q, Vector c, double constant)
       : Q_(std::move(Q)), c_(std::move(c)), constant_(constant), of_Q_(spectrum(Q_)), L_(of_Q_.factor()) {
-    if (!of_Q_.is_sure) exact_ = InverseForm::of(Q_);
+    if (!of_Q_.is_sure) inverse_ = InverseForm::of(Q_);
   }
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
-    const bool finite = is_finite();
+    const bool finite = of_Q_.null.cols() == 0;
     return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = finite, .finite = finite};
   }
   /// ½ (v - c)·Q⁺(v - c) - constant, with Nᵀv = Nᵀc.
   Call call() const override {
-    const Matrix inverse =
-        exact_ ? exact_->inverse()
-               : of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
+    const Matrix inverse = of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
     const Vector slope = -(inverse * c_);
     const Call on_range{"quadratic",
                         {argument("Q", Matrix(0.5 * (inverse + inverse.transpose()))), argument("c", slope),
                          argument("constant", -0.5 * c_.dot(slope) - constant_)}};
-    if (is_finite()) return on_range;
+    if (of_Q_.null.cols() == 0) return on_range;
     const Call range{
         "affine",
         {argument("A", Matrix(of_Q_.null.transpose())), argument("b", Vector(of_Q_.null.transpose() * c_))}};
@@ -160,13 +158,10 @@ class DualQuadratic : public Atom {
   }
   double value(const Vector& v) const override { return evaluate(v).value; }
   Value evaluate(const Vector& v) const override {
-    if (exact_ && v.allFinite()) {
-      const double found = exact_->value(v, c_, constant_);
-      return {found, unit_roundoff * std::abs(found)};
-    }
     const Vector from = v - c_;
     const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
-    if (std::isinf(on_range.value)) return on_range;
+    // Whether it is +inf there, or large, rests on the rounding of Q.
+    if (std::isinf(on_range.value)) return {infinity, inverse_ ? infinity : 0};
     // For any y it is at least y·(v - c) - ½ y·Qy - constant, and ½ r·Q⁺r more, r = v - c - Qy.
     Vector y = solve(from);
     y += solve(left_of(v, y, 1).value());
@@ -183,14 +178,16 @@ class DualQuadratic : public Atom {
     const Vector terms = v.cwiseAbs() + c_.cwiseAbs() + Q_.cwiseAbs() * y.cwiseAbs();
     const double of_pairs = roundings_of_pairs * static_cast<double>(y.size() + 1) * unit_roundoff *
                             unit_roundoff * (terms.dot(y.cwiseAbs()) + std::abs(constant_));
-    return {found, sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error};
+    const double of_rank =
+        inverse_ && v.allFinite() ? std::abs(inverse_->value(v, c_, constant_) - found) : 0;
+    return {found,
+            sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error + of_rank};
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     return linear_quadratic::conjugate(form(Q_, c_, constant_));
   }
   std::optional<Vector> subgradient(const Vector& v) const override {
-    if (exact_) return exact_->solve(v, c_);
     if (std::isinf(value(v))) return std::nullopt;
     return solve(v - c_);
   }
@@ -226,7 +223,6 @@ class DualQuadratic : public Atom {
  private:
   static constexpr double roundings_of_pairs = 16;
 
-  bool is_finite() const { return exact_ || of_Q_.null.cols() == 0; }
   /// Where products are beyond doubles: ½ from·Q⁺from - constant as it comes.
   Value beyond_products(const Vector& from) const {
     const double found = 0.5 * from.dot(solve(from)) - constant_;
@@ -261,7 +257,7 @@ class DualQuadratic : public Atom {
   Vector c_;
   double constant_;
   Spectrum of_Q_;
-  std::optional<InverseForm> exact_;  // where the rank in doubles is not sure and is n
+  std::optional<InverseForm> inverse_;  // where the rank is not sure, and n for Q as it stands
   Matrix L_;
 };
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "convex/catalogue/catalogue.hpp"
 #include "convex/exact_program/exact_arguments.hpp"
 #include "convex/exact_program/program_of_call.hpp"
 #include "convex/exact_program/program_operations.hpp"
@@ -172,6 +173,10 @@ pairs::MaybePair pair_of_equal_parts(const Call& first, const Call& second, cons
   }
 }
 
+bool is_indicator(const Call& f) {
+  return f.name == "indicator" || find_entry(f.name)->kind == EntryKind::set;
+}
+
 /// The part that is largest at x, where it is so alone, or two that are.
 PairSearch pair_of_max(const Call& f, const ExactGram& W, const Fractions& x, const Fractions& v) {
   const ExactArguments a(f, W.dimension());
@@ -189,10 +194,12 @@ PairSearch pair_of_max(const Call& f, const ExactGram& W, const Fractions& x, co
   for (std::size_t k = 0; k < parts.size(); ++k) {
     consider(pair_of_call(*parts[k], W, x, v).pair);
     for (std::size_t j = 0; j < k; ++j) consider(pair_of_equal_parts(*parts[j], *parts[k], W, x, v));
-    // Of an indicator and f_k it is at least their sum.
+    // Beside indicators it is at least the sum of these and of f_k.
+    if (is_indicator(*parts[k])) continue;
+    Call sum{"sum", {argument(*parts[k])}, {}};
     for (const Call* other : parts)
-      if (other != parts[k] && other->name == "indicator")
-        consider(pair_of_sum({"sum", {argument(*parts[k]), argument(*other)}}, W, x, v).pair);
+      if (is_indicator(*other)) sum.arguments.push_back(argument(*other));
+    if (sum.arguments.size() > 1) consider(pair_of_sum(sum, W, x, v).pair);
   }
   if (auto best = pairs::best_of(std::move(candidates), x, v)) return {std::move(best), {}};
   return {{}, f.name + ": a part cannot be valued at the point of another"};

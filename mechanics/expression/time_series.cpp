@@ -163,12 +163,14 @@ class Arithmetic {
   std::size_t last_;
 };
 
-/// What decides a branch: the value, or of one that is exactly 0 what it is first from there on.
+/// What decides a branch: the value, or of one that is exactly 0 what it is first from there on; then no
+/// number where rounding leaves its sign open.
 Rounded deciding(const TimeSeries& a, int order, Instant instant) {
+  if (instant == Instant::now) return a.c[0];
   std::size_t k = 0;
-  if (instant == Instant::after)
-    while (k < static_cast<std::size_t>(order) && a.c[k].is_exact() && a.c[k].value == 0) ++k;
-  return a.c[k];
+  while (k < static_cast<std::size_t>(order) && a.c[k].is_exact() && a.c[k].value == 0) ++k;
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  return a.c[k].is_undecided() ? Rounded(nothing, nothing) : a.c[k];
 }
 
 }  // namespace

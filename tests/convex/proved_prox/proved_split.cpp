@@ -68,7 +68,7 @@ const std::vector<std::string> proved_calls = {
     "inf_convolution(translate(power(3), [1,0,0]), norm2(2))",
     "pointwise_max(log_sum_exp(), hinge())",
     "pointwise_max(power(3), logistic(), max())",
-    "pointwise_max(logistic(), indicator(ball2(1)))"};
+    "pointwise_max(logistic(), indicator(ball2(1)), box(-1,3))"};
 
 std::vector<Metric> some_metrics() {
   Matrix full(3, 3);
