@@ -24,10 +24,10 @@ class WorkLimit {
   /// And a search for the nearest point of a domain, whose program is made and solved, often by others
   /// within.
   static constexpr long of_a_nearest_point = 1000;
-  /// A value by one, of a few variables.
-  static constexpr long of_a_program_value = 16;
   /// A prox by linear and quadratic programs, however it comes out.
   static constexpr long of_a_program = 100;
+  /// A value by a program of a few variables.
+  static constexpr long of_a_program_value = 16;
   static void count(long evaluations = 1);
   static bool passed();
 
