@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/double_double.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/linear_quadratic/operations.hpp"
@@ -25,10 +26,14 @@ class ProgramNode : public FunctionNode {
     return facts;
   }
   Call call() const override { return swapped_ ? parts_->conjugate_call : parts_->call; }
-  double value(const Vector& x) const override { return convex::value(form(), x); }
+  double value(const Vector& x) const override { return evaluate(x).value; }
   Value evaluate(const Vector& x) const override {
+    if (const auto formula = by_formula(x)) return formula->value;
     const Evaluation found = convex::evaluate(form(), x);
-    if (found.status != Status::solved) return {std::numeric_limits<double>::quiet_NaN(), 0};
+    if (found.status != Status::solved) {
+      constexpr double infinite = std::numeric_limits<double>::infinity();
+      return {infinite, infinite};
+    }
     Value value = sum_of_terms(found.value, std::abs(found.value));
     if (std::isinf(found.error)) value.error = found.error;
     return value;
@@ -37,7 +42,10 @@ class ProgramNode : public FunctionNode {
     return without_rounding_at_zero(convex::prox(form(), z, W), facts(), z, W);
   }
   Function conjugate() const override { return Function(std::make_shared<ProgramNode>(parts_, !swapped_)); }
-  std::optional<Vector> subgradient(const Vector& x) const override { return convex::evaluate(form(), x).v; }
+  std::optional<Vector> subgradient(const Vector& x) const override {
+    if (const auto formula = by_formula(x); formula && formula->v) return formula->v;
+    return convex::evaluate(form(), x).v;
+  }
   double recession(const Vector& d) const override { return known_or_infinite(form(), d); }
   double domain_support(const Vector& v) const override {
     return known_or_infinite(swapped_ ? parts_->form : parts_->conjugate_form, v);
@@ -48,6 +56,33 @@ class ProgramNode : public FunctionNode {
   }
 
  private:
+  struct ValueAndSlope {
+    Value value;
+    std::optional<Vector> v;
+  };
+  /// f finite everywhere and of the form f_1(Mx + b), f_1 with a formula, Mx + b summed in twice the
+  /// precision.
+  std::optional<ValueAndSlope> by_formula(const Vector& x) const {
+    const GraphForm& graph = parts_->graph;
+    if (swapped_ || !parts_->facts.finite || graph.k != 0 || graph.terms.size() != 1 || graph.constant != 0)
+      return std::nullopt;
+    const GraphTerm& term = graph.terms[0];
+    DoubleDoubleVector sum(term.b);
+    for (Index j = 0; j < term.M.outerSize(); ++j)
+      for (SparseMatrix::InnerIterator it(term.M, j); it; ++it) {
+        const DoubleDouble more = add({sum.hi[it.row()], sum.lo[it.row()]}, two_product(it.value(), x[j]));
+        sum.hi[it.row()] = more.hi;
+        sum.lo[it.row()] = more.lo;
+      }
+    const Vector at = sum.value();
+    const Value of_term = term.f->evaluate(at);
+    const std::optional<Vector> slope = term.f->subgradient(at);
+    if (!std::isfinite(of_term.value) || !slope || !at.allFinite()) return std::nullopt;
+    Value found = multiple_of(term.scale, of_term);
+    found.error += unit_roundoff * term.scale * slope->cwiseAbs().dot(at.cwiseAbs());
+    return ValueAndSlope{found, Vector(term.scale * (term.M.transpose() * *slope))};
+  }
+
   /// A recession function's value.
   static double known_or_infinite(const LinearQuadratic& f, const Vector& d) {
     const double found = convex::value(convex::linear_quadratic::recession(f), d);

@@ -131,14 +131,15 @@ bool slopes_miss(const Function& f, const Function& g) {
   return proved(of_f) || proved(of_g);
 }
 
-/// f □ (c·x + d) = c·x + d - f*(c), when g is affine.
+/// f □ (c·x + d) = c·x + d - f*(c), when g is affine and f*(c) is known.
 std::optional<Function> with_affine(const Function& f, const Function& g, Index n) {
   const auto q = quadratic_term(g, n);
   const std::optional<double> mu = q ? multiple_of_identity(q->Q) : std::nullopt;
   if (!mu || *mu != 0) return std::nullopt;
-  const double conjugate = f.conjugate()(q->c);
-  if (!std::isfinite(conjugate)) refuse_improper();
-  return function_of({q->Q, q->c, q->constant - conjugate});
+  const Value conjugate = f.conjugate().evaluate(q->c);
+  if (std::isinf(conjugate.value) && conjugate.error == 0) refuse_improper();
+  if (!(conjugate.error <= accuracy_of_prox * std::max(1.0, std::abs(conjugate.value)))) return std::nullopt;
+  return function_of({q->Q, q->c, q->constant - conjugate.value});
 }
 
 }  // namespace
