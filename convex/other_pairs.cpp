@@ -5,7 +5,6 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
-#include "convex/functions/norms.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
 
 namespace convex {
@@ -22,17 +21,23 @@ constexpr double roundings_of_a_move = 16;
 
 std::optional<Prox> moved_into_domain(const Function& f, const Prox& found, double scale, const Metric& W,
                                       const Look& look) {
-  const double weight = f.facts().indicator ? 1 : nearest_point_weight / (scale * scale);
-  if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
-  const Prox nearest = f.prox(found.x, W.scaled(weight), look);
-  if (nearest.x.size() != found.x.size()) return std::nullopt;
-  const double move = W.norm(nearest.x - found.x);
-  if (!(move <= membership_tolerance * scale)) return std::nullopt;
-  Prox moved = found;
-  moved.x = nearest.x;
-  moved.values.reset();
-  moved.error_bound += move;
-  return moved;
+  // In units of what is far from the point f may outweigh it.
+  for (const double unit : {scale, 1.0}) {
+    const double weight = f.facts().indicator ? 1 : nearest_point_weight / (unit * unit);
+    if (!(weight > 0) || !std::isfinite(weight)) return std::nullopt;
+    const Prox nearest = f.prox(found.x, W.scaled(weight), look);
+    if (nearest.x.size() != found.x.size()) return std::nullopt;
+    const double move = W.norm(nearest.x - found.x);
+    if (move <= membership_tolerance * scale) {
+      Prox moved = found;
+      moved.x = nearest.x;
+      moved.values.reset();
+      moved.error_bound += move;
+      return moved;
+    }
+    if (scale <= 1 || f.facts().indicator) break;
+  }
+  return std::nullopt;
 }
 
 std::optional<Prox> moreau_partner(const Prox& of_f, const Vector& z, const Metric& W) {
@@ -258,65 +263,6 @@ std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& n
   made.values = {f_x, f_v, 0};
   made.error_bound = best->size + rounding() + std::sqrt(open);
   return made;
-}
-
-namespace {
-
-/// Lines f(x_i) - f(x_0) + v_i·(d - d_i) below f(x_0 + d) - f(x_0).
-struct Cuts {
-  Matrix slopes;
-  Vector heights;
-  Index count = 0;
-
-  void add(const Vector& v, double height) {
-    slopes.row(count) = v.transpose();
-    heights[count++] = height;
-  }
-  double at(const Vector& d) const { return (slopes.topRows(count) * d + heights.head(count)).maxCoeff(); }
-  Function model() const { return max_affine(slopes.topRows(count), heights.head(count)); }
-};
-
-}  // namespace
-
-std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                            const Metric& W, double stiffness, const Look& look) {
-  constexpr Index most_entries = 16, most_cuts = 24;
-  constexpr double part_moved = 1e-8;  // farther away parts of f are no lines
-  if (!near || near->x.size() != z.size() || z.size() > most_entries || f.facts().smooth) return std::nullopt;
-  const Vector& x_0 = near->x;
-  const Value f_0 = f.evaluate(x_0);
-  if (!std::isfinite(f_0.value) || !std::isfinite(f_0.error)) return std::nullopt;
-  const Vector pull = -metric_difference(W, x_0, z);  // of z on x_0
-  const Metric stiff = W.scaled(stiffness);
-  const Vector aim = refined_solve(stiff, pull);
-  const double farthest = part_moved * (W.norm(z) + W.norm(x_0));
-  Cuts cuts{Matrix(most_cuts, z.size()), Vector(most_cuts)};
-  Prox made = *near;
-  for (bool is_least = false; cuts.count < most_cuts && !WorkLimit::passed();) {
-    const std::optional<Vector> v = f.subgradient(made.x);
-    const Value here = f.evaluate(made.x);
-    if (!v || v->size() != z.size() || !v->allFinite() || !std::isfinite(here.value)) return std::nullopt;
-    const Vector moved = made.x - x_0;
-    // x itself is rounded, where f is steep.
-    const double rounding =
-        here.error + f_0.error +
-        roundings_of_a_move * unit_roundoff * (std::abs(here.value) + v->cwiseAbs().dot(made.x.cwiseAbs()));
-    if (is_least && here.value - f_0.value - cuts.at(moved) <= rounding) {
-      made.error_bound += W.norm(moved) + W.dual_norm(metric_difference(W, made.x, z) + made.v);
-      made.values.reset();
-      return made;
-    }
-    cuts.add(*v, here.value - f_0.value - v->dot(moved));
-    const Prox step = cuts.model().prox(aim, stiff, look);
-    if (step.x.size() != z.size() || !step.x.allFinite()) return std::nullopt;
-    // Of one part alone the least point is far away: the next part is met on the way.
-    const double length = W.norm(step.x);
-    is_least = length <= farthest;
-    const Vector within = is_least ? step.x : Vector(farthest / length * step.x);
-    made.x = x_0 + within;
-    made.v = pull - W.multiply(within);
-  }
-  return std::nullopt;
 }
 
 }  // namespace convex

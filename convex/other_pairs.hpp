@@ -41,11 +41,4 @@ std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at,
 std::optional<Prox> along_slopes(const Function& f, const std::optional<Prox>& near, const Vector& z,
                                  const Metric& W);
 
-/// Where the parts of a maximum meet beside a point: the least f + ½||. - z||² + ½(stiffness - 1)||. -
-/// near||² by cutting planes (Kelley 1960), so near that the parts are lines. Where they meet is known to
-/// roundings of x, not to those of slopes and z; a stiffness far above the curvature of the parts keeps the
-/// point where it is along the kink. The bound is that of `near`, with the move.
-std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, const Vector& z,
-                            const Metric& W, double stiffness, const Look& look);
-
 }  // namespace convex

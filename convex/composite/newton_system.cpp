@@ -1,7 +1,23 @@
 #include "convex/composite/newton_system.hpp"
 
+#include <cmath>
+
+#include "convex/composite/work_limit.hpp"
+
 namespace convex::inline composite {
 namespace {
+
+/// So many multiplications take as long as an evaluation of a function of one variable.
+constexpr double multiplications_of_an_evaluation = 1000;
+
+/// What the dense factors count as.
+long work_of(const SaddleProblem& problem, Index unknowns) {
+  const auto cube = [](Index size) { return std::pow(static_cast<double>(size), 3); };
+  double sum = cube(unknowns);
+  for (const SaddleTerm& term : problem.terms)
+    if (!term.separable) sum += cube(term.rows);
+  return static_cast<long>(sum / multiplications_of_an_evaluation);
+}
 
 /// A matrix that is not definite after its diagonal grew by this part is not so by rounding.
 constexpr double largest_lift = 1e-9;
@@ -43,6 +59,7 @@ NewtonSystem::NewtonSystem(const SaddleProblem& problem, const Vector& t, const 
                            const Vector& ridge)
     : problem_(&problem) {
   Matrix system = problem.G;
+  WorkLimit::count(work_of(problem, system.rows()));
   system.diagonal().tail(problem.k) += ridge;
   for (const SaddleTerm& term : problem.terms) {
     curvature_.push_back(curvature_of(term, t.segment(term.first, term.rows),

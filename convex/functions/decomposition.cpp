@@ -7,6 +7,7 @@
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/cutting_planes.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/split_candidate.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -25,7 +26,7 @@ double size_of_slope(const Function& f, const Vector& x) {
 
 /// What each prox, each move into a domain and each other way to a pair may take of the work that a question
 /// may.
-constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3;
+constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3, part_of_cuts = 0.5;
 
 /// Of cuts beside a kink: above the curvature of most functions, of many, and none.
 constexpr double stiffnesses[] = {1e6, 1e3, 1};
@@ -61,6 +62,10 @@ std::optional<Prox> without_small_entries(const Prox& found, const Metric& W) {
   return moved;
 }
 
+bool is_borne_out(const SplitCandidate& made, double enough, double tolerance) {
+  return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
+}
+
 /// What the two proxes gave, held against the values. Where these do not bear it out, other pairs are tried:
 /// the points moved into their domains, one of the two by Moreau's identity from the other, the covectors in
 /// place of y, and x and v balanced.
@@ -86,7 +91,7 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
   SplitCandidate best = at_points(of, x, y, z, W);
   const double size = W.norm(z) + W.norm(x.x), enough = tolerance * std::max({1.0, W.norm(z), W.norm(x.x)});
   const auto is_borne_out = [&](const SplitCandidate& made) {
-    return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
+    return named_functions::is_borne_out(made, enough, tolerance);
   };
   const auto is_found = [&] { return is_borne_out(best); };
   const auto ended = [&] { return is_found() || WorkLimit::passed(); };
@@ -127,6 +132,10 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
       return;
     }
   };
+  attempt(part_of_a_way, [&] {
+    consider_covector(x);
+    if (!is_found()) consider_covector(moreau_partner(y, z, W));
+  });
   attempt(part_of_a_move, [&] {
     for (const Vector& point : {Vector(Vector::Zero(z.size())), z}) {
       if (ended()) return;
@@ -192,6 +201,18 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
       if (!ended()) consider_all(turned(pair, z, W));
   });
   if (kink && !(is_found() && best.split.error_bound <= kink->split.error_bound)) best = *std::move(kink);
+  // Rounding of a far z may have left x outside: a point of the domain that the values bear out is told.
+  if (is_found() && best.x_is_outside) {
+    const WorkLimit part(part_of_a_move);
+    if (const auto x_inside = into(of.f, best.split.x))
+      for (SplitCandidate other : {at_points(of, *x_inside, best.split.y, z, W),
+                                   at_covector(of, *x_inside, best.split.y, z, W, tolerance)}) {
+        if (!is_borne_out(other) || other.x_is_outside) continue;
+        if (!is_inner_of_points(other.split, tolerance, W)) continue;
+        best = std::move(other);
+        break;
+      }
+  }
   if (wrong && !is_found()) throw InvalidInput(*wrong);
   Decomposition& split = best.split;
   if (best.excess() > 0 && std::isfinite(best.excess()))
@@ -244,6 +265,28 @@ std::optional<Decomposition> in_fractions(const Function& f, const Vector& z, co
   return split;
 }
 
+/// What programs leave open of f or of its conjugate, seen through the values of one of them alone: where one
+/// is a maximum or a sum of cheap parts the other may need a program for each.
+std::optional<Decomposition> by_cuts(const SplitFunctions& of, const Decomposition& near, const Vector& z,
+                                     const Metric& W, double tolerance) {
+  const double enough = tolerance * std::max(1.0, W.norm(z));
+  for (const bool of_dual : {false, true}) {
+    const WorkLimit question(part_of_cuts);
+    const auto x =
+        of_dual
+            ? turned(prox_by_cuts(of.plain, W.multiply(near.y.x), W.multiply(z), inverse(W), enough, Look{}),
+                     z, W)
+            : prox_by_cuts(of.f, near.x.x, z, W, enough, Look{});
+    const auto y = x ? moreau_partner(*x, z, W) : std::nullopt;
+    if (!y) continue;
+    SplitCandidate made = at_covector(of, *x, *y, z, W, tolerance);
+    if (!is_borne_out(made, enough, tolerance) || !is_inner_of_points(made.split, tolerance, W)) continue;
+    made.split.status = Status::solved;
+    return std::move(made.split);
+  }
+  return std::nullopt;
+}
+
 /// Looks at f until one bears an answer out.
 Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric& W, double tolerance) {
   const SplitFunctions of{f, f.conjugate(W), f.conjugate()};
@@ -256,6 +299,7 @@ Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
   }
   if (auto exact = in_fractions(f, z, W, tolerance)) return *std::move(exact);
+  if (auto seen = by_cuts(of, *best, z, W, tolerance)) return *std::move(seen);
   return *std::move(best);
 }
 

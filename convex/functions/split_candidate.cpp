@@ -90,7 +90,11 @@ SplitCandidate finished(Decomposition split, const Value& f_x, const Value& g_y,
   // f and g are those at points that the bounds leave open, to first order, where these are rounding.
   const double X = W.norm(x), Y = W.norm(y), least = roundings_of_a_term * unit_roundoff * (W.norm(z) + X);
   made.rounding += std::min(split.x.error_bound, least) * Y + std::min(split.y.error_bound, least) * X;
-  made.open = made.error > largest_open_part * size_of_values(split);
+  const auto is_open = [&](const Value& value) {
+    const double told = std::max(std::abs(value.value), smallest_term);
+    return value.error > std::max(largest_open_part * told, made.rounding);
+  };
+  made.open = is_open(f_x) || is_open(g_y);
   made.split = std::move(split);
   return made;
 }
@@ -173,24 +177,28 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
       if (std::abs(values - moved) < std::abs(values - split.inner)) split.inner = moved;
     }
   SplitCandidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
-  // x·v and f(x) + f*(v) are one number: where its terms cancel, x·v is the less accurate of the two.
   const double gap = std::abs(made.split.fenchel_gap);
-  if (gap <= roundings_of_a_term * unit_roundoff * size) {
-    made.split.inner = f_x.value + g_y.value;
-    made.split.fenchel_gap = 0;
-  } else if (gap <= made.error && made.error <= largest_open_part * largest_value(made.split)) {
+  const bool is_left_open = gap <= made.error && made.error <= largest_open_part * largest_value(made.split);
+  if (is_left_open && gap > roundings_of_a_term * unit_roundoff * size) {
     // Where a program leaves a value open, by a small part of it, the others say it.
     if (f_x.error > g_y.error)
       made.split.f_x = made.split.inner - g_y.value;
     else
       made.split.g_y = made.split.inner - f_x.value;
     made.split.fenchel_gap = 0;
+  } else if (gap <= std::max(roundings_of_a_term * unit_roundoff * size, made.rounding)) {
+    // x·v and f(x) + f*(v) are one number: where its terms cancel, or x and v are roundings beside a far z,
+    // x·v is the less accurate of the two.
+    made.split.inner = f_x.value + g_y.value;
+    made.split.fenchel_gap = 0;
   }
   // Where f is steep its value is that of the x told, and (x|y), of larger terms, goes with it.
   // So it is where x is outside by the rounding of a far z, which leaves a doubt about x and not about f.
   const double agreement = std::max(f_x.error, tolerance * size_of_values(made.split));
   const bool agrees = std::abs(at_x.value - made.split.f_x) <= agreement;
+  made.x_is_outside = !std::isfinite(at_x.value) || !std::isfinite(at_x.error);
   const bool in_doubt = std::isinf(at_x.error) && agrees;
+  made.open = made.open || (std::isfinite(at_x.value) && std::isinf(at_x.error) && !agrees);
   if (std::isfinite(at_x.value) && (in_doubt || at_x.error <= tolerance * std::abs(at_x.value))) {
     made.split.inner += at_x.value - made.split.f_x;
     made.split.f_x = at_x.value;

@@ -13,11 +13,12 @@ inline constexpr double roundings_of_a_term = 16;
 /// x and y with what follows from them.
 struct SplitCandidate {
   Decomposition split;
-  double right = 0;     ///< the right side
-  double error = 0;     ///< of f(x) and g(y)
-  double squares = 0;   ///< ||z||², ||x||², ||y||², the largest
-  double rounding = 0;  ///< of the terms
-  bool open = false;    ///< the values are known together, and not each by itself
+  double right = 0;           ///< the right side
+  double error = 0;           ///< of f(x) and g(y)
+  double squares = 0;         ///< ||z||², ||x||², ||y||², the largest
+  double rounding = 0;        ///< of the terms
+  bool open = false;          ///< the values are known together, and not each by itself
+  bool x_is_outside = false;  ///< f(x) is that of a point beside x: x itself is outside, or may be
 
   /// By how much the right side leaves what the bound and rounding allow, the values taken as exact: their
   /// errors would hide that of a point, which the right side has squared. +inf where a value is not finite.

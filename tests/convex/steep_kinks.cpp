@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "convex/cutting_planes.hpp"
 #include "convex/functions/decomposition.hpp"
-#include "convex/other_pairs.hpp"
 #include "tests/convex/operations/samples.hpp"
 
 /// Where two parts of a maximum meet that are steep beside the covector, an x that is right to 1e-13 leaves
