@@ -30,6 +30,8 @@ constexpr double growing =
 /// One that rises by more than this part of itself over the last tenfold has not been reached.
 constexpr double rising = 1e-2;
 
+constexpr Real rounding_of_terms = 1e-18L;  ///< that searches leave to sums in long doubles
+
 /// A supremum that is approached at infinity rises by less beyond 1e16 than from 1e8 to there: by 1e-4 of it
 /// where it is approached as by the root.
 constexpr double part_beyond = 2e-4;
@@ -156,8 +158,8 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
   return "";
 }
 
-/// sup over |u| <= reach of u·v - f(u), for one entry.
-double searched_supremum(const Call& f, double v, double reach, bool& exact) {
+/// sup over |u| <= reach of u·v - f(u), for one entry, less so many of its terms.
+double searched_supremum(const Call& f, double v, double reach, Real rounding, bool& exact) {
   const auto minus = [&](Real u) -> Real {
     if (std::abs(u) > reach) return std::numeric_limits<Real>::infinity();
     const auto at = call_value(f, {u}, strict);
@@ -166,7 +168,6 @@ double searched_supremum(const Call& f, double v, double reach, bool& exact) {
       return std::numeric_limits<Real>::infinity();
     }
     exact = exact && at->exact;
-    constexpr Real rounding = 1e-18L;
     return at->value + rounding * at->size - u * v;
   };
   return -static_cast<double>(
@@ -183,7 +184,9 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
     bool exact = true;
     // A slope that is nothing beside the function's data counts as 0.
     const bool tiny = v != 0 && std::abs(v) < 1e-9;
-    const auto within = [&](double reach) { return searched_supremum(subject.call, v, reach, exact); };
+    const auto within = [&](double reach, Real rounding = rounding_of_terms) {
+      return searched_supremum(subject.call, v, reach, rounding, exact);
+    };
     const convex::Value known = g.evaluate(Vector::Constant(1, v));
     const double value = known.value;
     if (!(known.error <= allowed * (std::isfinite(value) ? std::max(1.0, std::abs(value)) : 1))) {
@@ -195,7 +198,8 @@ std::string wrong_conjugate(const Subject& subject, bool& open) {
     if (!(value >= near - slack)) return text("conjugate, and a searched lower bound", value, near);
     // The search ends where the function does not; what is missing there is no error of the value.
     if (tiny || !(value > near + 100 * slack)) continue;
-    const double far = within(1e16);
+    // Terms that cancel everywhere would end the search where their rounding begins to count.
+    const double far = std::max(within(1e16), within(1e16, 0));
     if (!(far > -INFINITY) || !exact || far >= growing * std::max(1.0, std::abs(near))) continue;
     // What still rises at the end of the search has its supremum beyond.
     if (std::isfinite(value) && far - within(1e15) > rising * std::abs(far)) continue;
