@@ -26,7 +26,7 @@ double size_of_slope(const Function& f, const Vector& x) {
 
 /// What each prox, each move into a domain and each other way to a pair may take of the work that a question
 /// may.
-constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3, part_of_cuts = 0.5;
+constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3, part_of_cuts = 0.4;
 
 /// Of cuts beside a kink: above the curvature of most functions, of many, and none.
 constexpr double stiffnesses[] = {1e6, 1e3, 1};

@@ -77,6 +77,8 @@ class Distance : public Operation {
   /// one knows less.
   Prox nearest(const Vector& x) const {
     Prox found = set_.indicator.prox(x, Metric::identity(x.size()));
+    // The set's size may take programs.
+    if (found.error_bound <= accuracy_of_prox * x.norm()) return found;
     const double membership = accuracy_of_prox * (x.norm() + size_of_set(x.size()));
     if (found.error_bound <= membership) return found;
     const Value inside = set_.indicator.evaluate(x);

@@ -5,6 +5,7 @@
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
+#include "convex/operations/line_supremum.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/pinned_slopes.hpp"
@@ -44,6 +45,16 @@ class InfConvolution : public Operation {
       const Vector w = found.least.head(x.size());
       const Value at_w = sum_of(value_near(f_, difference(x, w), x.norm() + w.norm()), g_.evaluate(w));
       found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
+    }
+    if (x.size() == 1 && !is_of_rounding(found.value)) {
+      // The least over w is found from values of f and g alone.
+      const double start = found.least.size() > 0 ? found.least[0] : x[0] / 2;
+      const auto at = [&](double w) {
+        const Vector part = Vector::Constant(1, w);
+        return sum_of(value_near(f_, difference(x, part), x.norm() + std::abs(w)), g_.evaluate(part));
+      };
+      const Value least = least_on_line(at, start);
+      if (least.error < found.value.error) found.value = least;
     }
     return settled_value(found.value, found.slope, conjugate(), x);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "convex/composite/work_limit.hpp"
@@ -37,8 +38,7 @@ struct Sample {
 
 class Line {
  public:
-  Line(const Function& f, double v) : f_(f), v_(v) {
-    const auto domain = domain_of_one(f);
+  Line(const LineValues& f, const std::optional<Interval>& domain, double v) : f_(f), v_(v) {
     if (!domain) return;
     // A set takes in points that miss it by its tolerance: they are not looked at.
     if (domain->low >= -farthest) end_of_domain_[0] = rank_of(domain->low);
@@ -62,7 +62,7 @@ class Line {
   /// False where φ is not known there.
   bool look_at(Rank rank) {
     const double x = double_of(rank);
-    const Value f_x = f_.evaluate(Vector::Constant(1, x));
+    const Value f_x = f_(x);
     WorkLimit::count();
     Sample made{rank, x, v_ * x - f_x.value, 0};
     made.error = f_x.error + roundings_of_terms * unit_roundoff * (std::abs(v_ * x) + std::abs(f_x.value));
@@ -144,7 +144,7 @@ class Line {
     return end_of_domain_[right].value_or(right ? far : -far);
   }
 
-  const Function& f_;
+  const LineValues& f_;
   double v_;
   std::optional<Rank> end_of_domain_[2];  ///< on the left, on the right
   std::vector<Sample> samples_;           ///< by rank
@@ -153,8 +153,11 @@ class Line {
 
 }  // namespace
 
-std::optional<LineSupremum> line_supremum(const Function& f, double v, double start) {
-  Line line(f, v);
+namespace {
+
+std::optional<LineSupremum> supremum_of(const LineValues& f, const std::optional<Interval>& domain, double v,
+                                        double start) {
+  Line line(f, domain, v);
   if (!(std::abs(start) <= farthest)) return std::nullopt;
   if (!line.look_at(rank_of(line.into_domain(start))) || line.best().value == -infinity) return std::nullopt;
   const auto lower_bound = [&] {
@@ -168,14 +171,27 @@ std::optional<LineSupremum> line_supremum(const Function& f, double v, double st
     }
   // A chord through values within rounding of each other rises by both errors, and more where drawn on.
   const double rounding = 8;
+  constexpr double smallest = std::numeric_limits<double>::min();  // below, doubles lose their digits
   Line::Open open = line.open();
   for (int k = 0; k < most_sections && open.look && !WorkLimit::passed(); ++k) {
-    if (open.excess <= rounding * line.best().error) break;
+    if (open.excess <= std::max(rounding * line.best().error, smallest)) break;
     if (!line.look_at(*open.look)) return lower_bound();
     open = line.open();
   }
   if (!std::isfinite(open.excess)) return lower_bound();
   return LineSupremum{line.best().x, {line.best().value, open.excess}};
+}
+
+}  // namespace
+
+std::optional<LineSupremum> line_supremum(const Function& f, double v, double start) {
+  return supremum_of([&](double x) { return f.evaluate(Vector::Constant(1, x)); }, domain_of_one(f), v,
+                     start);
+}
+
+Value least_on_line(const LineValues& f, double start) {
+  const auto found = supremum_of(f, std::nullopt, 0, start);
+  return found ? Value{-found->value.value, found->value.error} : Value{infinity, infinity};
 }
 
 }  // namespace convex::inline operations

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "convex/functions/function.hpp"
 
 namespace convex::inline operations {
@@ -21,5 +23,11 @@ struct LineSupremum {
 /// lower φ, as of a supremum that is not attained or is farther away than doubles go, and where a value is
 /// not known. None where φ is not known at the start.
 std::optional<LineSupremum> line_supremum(const Function& f, double v, double start);
+
+/// A convex function of one variable.
+using LineValues = std::function<Value(double)>;
+
+/// Its least value, from `start` in the same way; the error is infinite where none is found between doubles.
+Value least_on_line(const LineValues& f, double start);
 
 }  // namespace convex::inline operations

@@ -6,6 +6,8 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/composed_prox.hpp"
+#include "convex/operations/line_supremum.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -52,10 +54,18 @@ class ProximalAverage : public Operation {
     return {"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
   }
   Value evaluate(const Vector& x) const override {
+    if (const auto sum = value_by_entries(*this, x)) return *sum;
     ByProgram found = by_program(x);
     if (found.least.size() >= x.size() && !is_of_rounding(found.value))
       found.value =
           between_points(found.value, at_second(found.least.head(x.size()), x), found.slope, conjugate(), x);
+    if (x.size() == 1 && !is_of_rounding(found.value)) {
+      // The least over q is found from values of f and g alone.
+      const double start = found.least.size() > 0 ? found.least[0] : x[0];
+      const Value least =
+          least_on_line([&](double q) { return at_second(Vector::Constant(1, q), x); }, start);
+      if (least.error < found.value.error) found.value = least;
+    }
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -72,6 +82,16 @@ class ProximalAverage : public Operation {
   }
   double domain_support(const Vector& v) const override {
     return t_ * f_.node().domain_support(v) + (1 - t_) * g_.node().domain_support(v);
+  }
+  std::optional<Function> entry(Index i) const override {
+    const auto f = M_ ? std::nullopt : f_.node().entry(i), g = M_ ? std::nullopt : g_.node().entry(i);
+    if (!f || !g) return std::nullopt;
+    return convex::proximal_average(*f, *g, t_, gamma_);
+  }
+  std::optional<Value> constant_beside_entries() const override {
+    const auto f = f_.node().constant_beside_entries(), g = g_.node().constant_beside_entries();
+    if (M_ || !f || !g) return std::nullopt;
+    return sum_of(multiple_of(t_, *f), multiple_of(1 - t_, *g));
   }
   std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
     const auto forms = programs(std::vector{f_, g_}, n);

@@ -134,3 +134,23 @@ TEST_CASE("an inf-convolution with a line is a line only where the conjugate's v
   const Value found = f.conjugate().evaluate(Vector::Ones(1));
   CHECK(std::abs(found.value) <= found.error);
 }
+
+TEST_CASE("values of proximal averages and inf-convolutions of one entry come from values of the parts") {
+  // The least over q, searched here on a grid in long doubles.
+  const Function average = samples::function(
+      "proximal_average(power(3), scale(pointwise_max(linear([1]), quadratic([[2]],[-3])), 3), 0.5, 3)", 1);
+  const auto f = [](long double p) { return std::abs(p * p * p); };
+  const auto g = [](long double q) { return 3 * std::max(q, q * q - 3 * q); };
+  for (const double x : {0.0, 1e-31, 1e-3, -0.75, 2.0}) {
+    CAPTURE(x);
+    long double least = INFINITY;
+    for (int k = -4'000'000; k <= 4'000'000; ++k) {
+      const long double q = 1e-6L * k, p = 2 * static_cast<long double>(x) - q;
+      least = std::min(least, (f(p) + g(q)) / 2 + (p - q) * (p - q) / 24);
+    }
+    const Value found = average.evaluate(Vector::Constant(1, x));
+    CHECK(found.error <= 1e-12);
+    CHECK(found.value <= static_cast<double>(least) + found.error);
+    CHECK(found.value >= static_cast<double>(least) - 1e-10);
+  }
+}
