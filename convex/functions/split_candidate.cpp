@@ -178,10 +178,14 @@ SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, c
     }
   SplitCandidate made = finished(std::move(split), f_x, g_y, size, residual, W, z);
   const double gap = std::abs(made.split.fenchel_gap);
-  const bool is_left_open = gap <= made.error && made.error <= largest_open_part * largest_value(made.split);
+  // An indicator's value is 0 or +inf, and so is that of a support function's conjugate.
+  const Facts facts = of.f.facts();
+  const bool is_of_f = f_x.error > g_y.error, is_zero = is_of_f ? facts.indicator : facts.support;
+  const bool is_left_open =
+      !is_zero && gap <= made.error && made.error <= largest_open_part * largest_value(made.split);
   if (is_left_open && gap > roundings_of_a_term * unit_roundoff * size) {
     // Where a program leaves a value open, by a small part of it, the others say it.
-    if (f_x.error > g_y.error)
+    if (is_of_f)
       made.split.f_x = made.split.inner - g_y.value;
     else
       made.split.g_y = made.split.inner - f_x.value;

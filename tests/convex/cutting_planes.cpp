@@ -154,3 +154,15 @@ TEST_CASE("values of proximal averages and inf-convolutions of one entry come fr
     CHECK(found.value >= static_cast<double>(least) - 1e-10);
   }
 }
+
+TEST_CASE(
+    "the conjugate of a support function is told as 0 however far z is, where x is rounding beside it") {
+  const Metric W = Metric::diagonal(Vector{{2, 1, 0.03125}});
+  const Function f = samples::function(
+      "perspective(separable(inf_convolution(plq([-1,1],[[0,-1,0],[1,0,0.5],[0,1,0]]), log_barrier()), 1, "
+      "elastic_net(1, 0.5), 1))",
+      W);
+  const Decomposition split = decompose(f, Vector{{2e8, -2, 3e8}}, W);
+  CHECK(split.status == Status::solved);
+  CHECK(split.g_y == 0);
+}
