@@ -122,7 +122,7 @@ class PerspectiveAtom final : public Atom {
     if (square * f_->conjugate().node().value(q) <= -s) return 0;
     const double size = d * z.norm(), least = smallest(size);
     const auto excess = [&](double at_mu) -> ValueAndSlope {
-      WorkLimit::count((n_ + 1) / 2);
+      WorkLimit::count();
       const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Matrix J = f_->prox_jacobian(q / mu, step);

@@ -128,7 +128,8 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
   if (const auto form = linear_quadratic(x.size())) {
     WorkLimit::count(WorkLimit::of_a_program_value);
     const Evaluation found = convex::evaluate(*form, at);
-    if (found.status == Status::solved && std::isinf(found.value)) return {{found.value, 0}, {}};
+    if (found.status == Status::solved && std::isinf(found.value) && !facts().finite)
+      return {{found.value, 0}, {}};
     if (found.status == Status::solved && !std::isnan(found.value)) {
       const double rounding = accuracy_of_a_program * std::abs(found.value);
       return {multiple_of(size, {found.value, found.error + rounding}), found.v};
@@ -143,7 +144,10 @@ Operation::ByProgram Operation::by_program(const Vector& x) const {
       if (other.status == Status::solved || value_of(other).error < value_of(found).error)
         found = std::move(other);
     }
-    return {multiple_of(size, value_of(found)), found.v, size * found.w};
+    Value value = multiple_of(size, value_of(found));
+    // Tiny numbers may look apart to a program.
+    if (std::isinf(value.value) && facts().finite) value = {infinity, infinity};
+    return {value, found.v, size * found.w};
   }
   refuse(*this, "value");
 }

@@ -237,8 +237,7 @@ Value between_bounds(const Value& found, const std::optional<Vector>& x, const F
 
 bool is_of_rounding(const Value& value) {
   constexpr double few = 64;
-  if (!std::isfinite(value.value)) return value.error == 0;
-  return value.error <= few * unit_roundoff * std::abs(value.value);
+  return std::isfinite(value.value) && value.error <= few * unit_roundoff * std::abs(value.value);
 }
 
 Value between_points(const Value& by_program, const Value& above, const std::optional<Vector>& x,

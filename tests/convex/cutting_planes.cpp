@@ -166,3 +166,19 @@ TEST_CASE(
   CHECK(split.status == Status::solved);
   CHECK(split.g_y == 0);
 }
+
+TEST_CASE("a function that is finite everywhere is told as +inf at no tiny number") {
+  const Function average = samples::function("proximal_average(norm2(1024), norm1(0.5), 0.5, 1)", 1);
+  for (const double x : {1e-21, -1e-40, -7.25e-60, 1e-100}) {
+    CAPTURE(x);
+    const Value found = average.evaluate(Vector::Constant(1, x));
+    CHECK(std::abs(found.value - std::abs(x) / 2) <= found.error + std::abs(x) * std::abs(x));
+    CHECK(found.error <= 1e-12);
+  }
+  const Function larger = samples::function(
+      "pointwise_max(proximal_average(exponential(), log_barrier(), 0.5, 1), proximal_average(norm2(1024), "
+      "norm1(0.5), 0.5, 1))",
+      1);
+  const Value found = larger.conjugate().evaluate(Vector::Constant(1, -1e-12));
+  CHECK(std::abs(found.value + 0.5585132767005535) <= found.error + 1e-14);
+}
