@@ -37,7 +37,7 @@ How a prox is found, in the identity metric, a diagonal one, and any other:
 | --- | --- |
 | closed form | a formula or a finite algorithm for this function, right to rounding |
 | exact by active set | a nearest-point problem, solved exactly but for rounding ([methods.md](methods.md)) |
-| iterative to 1e-12 | Newton's method with a returned bound on the error, which says when 1e-12 of the scale was not reached |
+| iterative to 1e-12 | Newton's method with a returned bound on the error, which says when 1e-12 of the scale was not reached; what it leaves open of a split is looked at by cutting planes |
 | as its parts, as its set, … | the best of what the arguments have |
 )";
 
