@@ -6,6 +6,7 @@
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
 #include "convex/operations/line_supremum.hpp"
+#include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/pinned_slopes.hpp"
@@ -46,7 +47,8 @@ class InfConvolution : public Operation {
       const Value at_w = sum_of(value_near(f_, difference(x, w), x.norm() + w.norm()), g_.evaluate(w));
       found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
     }
-    if (x.size() == 1 && !is_of_rounding(found.value)) {
+    const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
+    if (x.size() == 1 && question.first() && !is_of_rounding(found.value)) {
       // The least over w is found from values of f and g alone.
       const double start = found.least.size() > 0 ? found.least[0] : x[0] / 2;
       const auto at = [&](double w) {

@@ -7,7 +7,15 @@ namespace convex::inline operations {
 /// over it, would come back to where it began and not end.
 class OneAtATime {
  public:
-  enum class Kind { conjugate_prox, supremum, lower_bound, maximum, maximum_in_maximum, maximum_conjugate };
+  enum class Kind {
+    conjugate_prox,
+    supremum,
+    lower_bound,
+    maximum,
+    maximum_in_maximum,
+    maximum_conjugate,
+    least_on_line
+  };
   explicit OneAtATime(Kind kind) : standing_(of(kind)), first_(!standing_) { standing_ = true; }
   ~OneAtATime() {
     if (first_) standing_ = false;
@@ -19,7 +27,7 @@ class OneAtATime {
 
  private:
   static bool& of(Kind kind) {
-    thread_local bool standing[6] = {};
+    thread_local bool standing[7] = {};
     return standing[static_cast<int>(kind)];
   }
   bool& standing_;

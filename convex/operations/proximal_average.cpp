@@ -9,6 +9,7 @@
 #include "convex/operations/composed_prox.hpp"
 #include "convex/operations/line_supremum.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
@@ -59,7 +60,8 @@ class ProximalAverage : public Operation {
     if (found.least.size() >= x.size() && !is_of_rounding(found.value))
       found.value =
           between_points(found.value, at_second(found.least.head(x.size()), x), found.slope, conjugate(), x);
-    if (x.size() == 1 && !is_of_rounding(found.value)) {
+    const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
+    if (x.size() == 1 && question.first() && !is_of_rounding(found.value)) {
       // The least over q is found from values of f and g alone.
       const double start = found.least.size() > 0 ? found.least[0] : x[0];
       const Value least =
