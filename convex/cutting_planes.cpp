@@ -184,15 +184,16 @@ class SearchByCuts {
 
   double objective(const Seen& at) const { return at.height - pull_.dot(at.d) + 0.5 * W_.inner(at.d, at.d); }
 
-  /// The nearest point of the domain; beyond it a half-space holds all of it.
+  /// The nearest point of a set; beyond it a half-space holds all of it. The prox of another function,
+  /// however stiff, is no projection: points of its domain lie beyond, where it is larger.
   std::optional<Vector> into_domain(const Vector& d) {
+    if (!f_.facts().indicator) return std::nullopt;
     const Vector u = x_0_ + d;
-    const double weight = f_.facts().indicator ? 1 : stiffest / std::min(1.0, size_ * size_);
-    const Prox nearest = f_.prox(u, W_.scaled(weight), look_);
+    const Prox nearest = f_.prox(u, W_, look_);
     if (nearest.x.size() != u.size() || !nearest.x.allFinite()) return std::nullopt;
     const Vector normal = metric_difference(W_, u, nearest.x);
     const double length = W_.dual_norm(normal);
-    const double off = nearest.error_bound / std::sqrt(weight);
+    const double off = nearest.error_bound;
     if (!(length > off)) return std::nullopt;
     const Vector inside = nearest.x - x_0_, unit = normal / length;
     cuts_.add_half_space(unit, unit.dot(inside) + off);
@@ -232,8 +233,6 @@ class SearchByCuts {
     best_ = std::move(made);
     return true;
   }
-
-  static constexpr double stiffest = 1e12;  ///< so much weighs more than any function
 
   const Function& f_;
   const Vector& x_0_;

@@ -15,10 +15,11 @@ std::optional<Prox> at_kink(const Function& f, const std::optional<Prox>& near, 
                             const Metric& W, double stiffness, const Look& look);
 
 /// The prox of f from values and subgradients alone, however f is made: the least ½||. - z||² above lines
-/// below f, and in half-spaces that hold its domain, until f is less than about `enough`² above the lines
-/// there. ||x - x*||² is at most what f(x) is above them, and so is what is missing of f(x) + f*(v) = x·v, v
-/// = W(z - x). Lines that values elsewhere contradict, as a subgradient of a program may be off, widen the
-/// bound by as much. Of few entries.
+/// below f, and in half-spaces that hold it where it is the indicator of a set, until f is less than about
+/// `enough`² above the lines there. The bound is an estimate, and so are the values of f at x and of f* at v:
+/// they take subgradients at their word but for what values seen elsewhere contradict, and points that a set
+/// takes in by its tolerance for points of it. Who tells the point holds it against values of f and f*. Of
+/// few entries.
 std::optional<Prox> prox_by_cuts(const Function& f, const Vector& x_0, const Vector& z, const Metric& W,
                                  double enough, const Look& look);
 

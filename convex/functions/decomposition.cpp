@@ -272,12 +272,15 @@ std::optional<Decomposition> by_cuts(const SplitFunctions& of, const Decompositi
   const double enough = tolerance * std::max(1.0, W.norm(z));
   for (const bool of_dual : {false, true}) {
     const WorkLimit question(part_of_cuts);
-    const auto x =
+    auto x =
         of_dual
             ? turned(prox_by_cuts(of.plain, W.multiply(near.y.x), W.multiply(z), inverse(W), enough, Look{}),
                      z, W)
             : prox_by_cuts(of.f, near.x.x, z, W, enough, Look{});
-    const auto y = x ? moreau_partner(*x, z, W) : std::nullopt;
+    if (!x) continue;
+    // Values elsewhere bear the cuts out, or nothing does: their own would compare a number with itself.
+    x->values.reset();
+    const auto y = moreau_partner(*x, z, W);
     if (!y) continue;
     SplitCandidate made = at_covector(of, *x, *y, z, W, tolerance);
     if (!is_borne_out(made, enough, tolerance) || !is_inner_of_points(made.split, tolerance, W)) continue;

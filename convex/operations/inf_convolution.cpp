@@ -151,6 +151,7 @@ std::optional<Function> with_affine(const Function& f, const Function& g, Index 
   if (!mu || *mu != 0) return std::nullopt;
   const Value conjugate = f.conjugate().evaluate(q->c);
   if (std::isinf(conjugate.value) && conjugate.error == 0) refuse_improper();
+  if (!std::isfinite(conjugate.value)) return std::nullopt;
   if (!(conjugate.error <= accuracy_of_prox * std::max(1.0, std::abs(conjugate.value)))) return std::nullopt;
   return function_of({q->Q, q->c, q->constant - conjugate.value});
 }
