@@ -32,7 +32,8 @@ class Ball2 : public ConvexSet {
     const Vector from = from_center(z);
     const double distance = from.stableNorm();
     if (distance <= radius_) return z;
-    return at_center(from * (radius_ / distance));
+    const Vector x = at_center(from * (radius_ / distance));
+    return cancels(x) && is_squared_in_range(distance) ? on_sphere(z, center_) : x;
   }
   Matrix project_jacobian(const Vector& z, const Vector&) const override {
     const Index n = z.size();
@@ -65,7 +66,8 @@ class Ball2 : public ConvexSet {
   }
   std::optional<Vector> maximiser(const Vector& v) const override {
     const double length = v.stableNorm();
-    return at_center(length > 0 ? Vector(v / length * radius_) : Vector::Zero(v.size()));
+    const Vector x = at_center(length > 0 ? Vector(v / length * radius_) : Vector::Zero(v.size()));
+    return cancels(x) && length > 0 && is_squared_in_range(length) ? on_sphere(v, Vector::Zero(v.size())) : x;
   }
   /// Block soft thresholding (Combettes and Wajs 2005, example 2.16).
   Vector support_prox(const Vector& z, const Vector& d) const override {
@@ -79,6 +81,33 @@ class Ball2 : public ConvexSet {
  private:
   /// Squares of numbers of this size, with their rounding errors, neither overflow nor underflow.
   static bool is_squared_in_range(double size) { return size == 0 || (size > 0x1p-400 && size < 0x1p400); }
+  /// Is an entry of x lost beside that of the center?
+  bool cancels(const Vector& x) const {
+    constexpr double few = 0x1p-4;
+    return center_.size() > 0 && (x.cwiseAbs().array() < few * center_.cwiseAbs().array()).any();
+  }
+  /// center + radius (z - c)/|z - c| in twice the working precision, rounded once.
+  Vector on_sphere(const Vector& z, const Vector& c) const {
+    const Index n = z.size();
+    DoubleDoubleVector from(n);
+    RunningSum square;
+    for (Index i = 0; i < n; ++i) {
+      const DoubleDouble e = two_sum(z[i], -c[i]);
+      from.hi[i] = e.hi;
+      from.lo[i] = e.lo;
+      square.add(two_product(e.hi, e.hi));
+      square.add(2 * e.hi * e.lo);
+    }
+    const double length = std::sqrt(square.value());
+    square.add(negative(two_product(length, length)));
+    const DoubleDouble ratio = quotient({radius_, 0}, two_sum(length, square.value() / (2 * length)));
+    Vector x(n);
+    for (Index i = 0; i < n; ++i) {
+      const DoubleDouble step = convex::add(product(ratio, from.hi[i]), two_product(ratio.hi, from.lo[i]));
+      x[i] = convex::add({center_[i], 0}, step).value();
+    }
+    return x;
+  }
   Vector from_center(const Vector& z) const { return center_.size() > 0 ? Vector(z - center_) : z; }
   Vector at_center(const Vector& x) const { return center_.size() > 0 ? Vector(x + center_) : x; }
   double radius_;

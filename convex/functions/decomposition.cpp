@@ -26,7 +26,7 @@ double size_of_slope(const Function& f, const Vector& x) {
 
 /// What each prox, each move into a domain and each other way to a pair may take of the work that a question
 /// may.
-constexpr double part_of_a_prox = 0.4, part_of_a_move = 0.1, part_of_a_way = 0.3, part_of_cuts = 0.4;
+constexpr double part_of_a_prox = 0.8, part_of_a_move = 0.1, part_of_a_way = 0.3, part_of_cuts = 0.4;
 
 /// Of cuts beside a kink: above the curvature of most functions, of many, and none.
 constexpr double stiffnesses[] = {1e6, 1e3, 1};
@@ -37,7 +37,7 @@ struct LookWithWork {
   double work;
 };
 constexpr LookWithWork looks[] = {
-    {{}, 1}, {{.at_other_scales = true}, 0.5}, {{.at_other_scales = true, .by_steep_terms = true}, 0.25}};
+    {{}, 2}, {{.at_other_scales = true}, 0.5}, {{.at_other_scales = true, .by_steep_terms = true}, 0.25}};
 
 /// `found`, or a point of which nothing is known.
 Prox made_up(const std::optional<Prox>& found, const Vector& point) {
@@ -212,6 +212,20 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
         best = std::move(other);
         break;
       }
+  }
+  // So it may have left y: W⁻¹v may be inside, or a point beside y.
+  const bool y_is_rounded = unit_roundoff * W.norm(z) > accuracy_of_prox * W.norm(best.split.y.x);
+  if (is_found() && y_is_rounded && !std::isfinite(of.g(best.split.y.x))) {
+    const WorkLimit part(part_of_a_move);
+    best.open = true;
+    for (const std::optional<Prox>& y_inside :
+         {moreau_partner(best.split.x, z, W), into(of.g, best.split.y)}) {
+      if (!y_inside || !std::isfinite(of.g(y_inside->x))) continue;
+      SplitCandidate other = at_covector(of, best.split.x, *y_inside, z, W, tolerance);
+      if (!is_borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
+      best = std::move(other);
+      break;
+    }
   }
   if (wrong && !is_found()) throw InvalidInput(*wrong);
   Decomposition& split = best.split;

@@ -9,13 +9,16 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
-#include "convex/operations/order_of_doubles.hpp"
+#include "convex/operations/root_bracket.hpp"
 
 namespace convex::inline operations {
 namespace {
 
 /// Products with larger numbers may leave the range of doubles.
 constexpr double far_end = 0x1p500;
+
+/// From a point to twice as far from 0, and the growth of such steps.
+constexpr Rank first_reach = Rank{1} << 52, growth_of_reach = 4;
 
 /// A point on one side of the prox, with a subgradient: none at an end of the domain, where it may be
 /// infinite, and where it overflows beside one.
@@ -48,6 +51,88 @@ std::optional<PairOfValues> values_of(const Function& f, double x, double v, con
   return PairOfValues{f_x, f_v, 0};
 }
 
+/// The points on both sides of the prox, where w (x - z) + v changes its sign.
+class Sides {
+ public:
+  Sides(double z, double w, const Interval& domain)
+      : z_(z),
+        w_(w),
+        low_(rank_of(std::max(domain.low, -far_end))),
+        high_(rank_of(std::min(domain.high, far_end))),
+        left_{low_, {}},
+        right_{high_, {}} {}
+
+  const Side& left() const { return left_; }
+  const Side& right() const { return right_; }
+  const Side& nearest() const {
+    const bool at_left = !right_.v || (left_.v && std::abs(residual(left_)) <= std::abs(residual(right_)));
+    return at_left ? left_ : right_;
+  }
+  bool is_end(const Side& side) const { return side.rank == low_ || side.rank == high_; }
+  bool meet() const { return right_.rank <= left_.rank + 1; }
+  /// Where slopes are not known beside an end of the domain the prox may be anywhere from there.
+  double width() const {
+    return (right_.v ? right_.x() : double_of(high_)) - (left_.v ? left_.x() : double_of(low_));
+  }
+
+  /// From any point, the prox is no farther than the residual there over w: of the point of the domain next
+  /// to z, and where that is an end without a slope, of one inside.
+  template <class Slope>
+  void start(const Slope& slope) {
+    const double next_to_z = std::clamp(z_, left_.x(), right_.x()), unit = std::max(1.0, std::abs(next_to_z));
+    const double inwards = next_to_z == left_.x() ? unit : next_to_z == right_.x() ? -unit : 0;
+    for (const double part : {0.0, 1.0, 0x1p-10, 0x1p10, 0x1p-30}) {
+      const double x = std::clamp(next_to_z + part * inwards, left_.x(), right_.x());
+      const auto v = slope(x);
+      if (!v && inwards == 0) break;
+      if (!v) continue;
+      const Side at{rank_of(x), v};
+      const double other = x - 2 * residual(at) / w_;
+      if (residual(at) >= 0) right_ = at;
+      if (residual(at) <= 0) left_ = at;
+      if (residual(at) > 0) left_.rank = std::max(low_, rank_of(other));
+      if (residual(at) < 0) right_.rank = std::min(high_, rank_of(other));
+      break;
+    }
+    left_is_end_ = left_.rank == low_;
+    right_is_end_ = right_.rank == high_;
+  }
+
+  /// Where a slope tells most: towards an end without one in growing steps, for near it slopes cost more and
+  /// may not be known.
+  double next() {
+    if (between_) return between_->next();
+    const Rank middle = std::midpoint(left_.rank, right_.rank), reach = reach_;
+    if (!left_.v && !right_.v) return double_of(middle);
+    reach_ = std::min(growth_of_reach * reach_, Rank{1} << 60);
+    return double_of(right_.v ? std::max(middle, right_.rank - reach) : std::min(middle, left_.rank + reach));
+  }
+
+  /// False where the slope is not known and this is not passed over.
+  bool take(double x, const std::optional<double>& v) {
+    const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
+    if (!v && by_left == by_right) return false;
+    const Side at{rank_of(x), v};
+    const bool is_left = v ? residual(at) <= 0 : by_left;
+    (is_left ? left_ : right_) = at;
+    if (between_)
+      between_->take(x, residual(at));
+    else if (left_.v && right_.v)
+      between_.emplace(left_.x(), residual(left_), right_.x(), residual(right_));
+    return true;
+  }
+
+ private:
+  double residual(const Side& at) const { return w_ * (at.x() - z_) + *at.v; }
+
+  double z_, w_;
+  Rank low_, high_;
+  Side left_, right_;
+  bool left_is_end_ = true, right_is_end_ = true;
+  std::optional<RootBracket> between_;  ///< where both have slopes
+  Rank reach_ = first_reach;
+};
+
 }  // namespace
 
 std::optional<Prox> line_prox(const Function& f, double z, double w) {
@@ -58,40 +143,23 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
     WorkLimit::count();
     return v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt;
   };
-  const Rank low = rank_of(std::max(domain->low, -far_end)), high = rank_of(std::min(domain->high, far_end));
-  Side left{low, {}}, right{high, {}};
-  // Of the point of the domain next to z the prox is no farther than the residual there over w.
-  const double start = std::clamp(z, left.x(), right.x());
-  if (const auto v = slope(start)) {
-    const double residual = w * (start - z) + *v, other = start - 2 * residual / w;
-    if (residual >= 0) right = {rank_of(start), v};
-    if (residual <= 0) left = {rank_of(start), v};
-    if (residual > 0) left.rank = std::max(low, rank_of(other));
-    if (residual < 0) right.rank = std::min(high, rank_of(other));
-  }
-  while (right.rank > left.rank + 1) {
+  Sides sides(z, w, *domain);
+  sides.start(slope);
+  while (!sides.meet()) {
     if (WorkLimit::passed()) return std::nullopt;
-    const Rank middle = std::midpoint(left.rank, right.rank);
-    const double x = double_of(middle);
-    const auto v = slope(x);
-    // Beside an end of the domain slopes may overflow; what is not known elsewhere is not passed over.
-    const bool by_left = !left.v && left.rank == low, by_right = !right.v && right.rank == high;
-    if (!v && by_left == by_right) return std::nullopt;
-    const bool is_left = v ? w * (x - z) + *v <= 0 : by_left;
-    (is_left ? left : right) = {middle, v};
+    const double x = sides.next();
+    if (!sides.take(x, slope(x))) return std::nullopt;
   }
-  const bool at_left = !right.v || (left.v && std::abs(w * (left.x() - z) + *left.v) <=
-                                                  std::abs(w * (right.x() - z) + *right.v));
-  const Side& nearest = at_left ? left : right;
-  const bool is_end = nearest.rank == low || nearest.rank == high;
-  if (!nearest.v && !is_end) return std::nullopt;
+  const Side& nearest = sides.nearest();
+  if (!nearest.v && !sides.is_end(nearest)) return std::nullopt;
   const double x = nearest.x();
-  const double v = std::clamp(w * (z - x), left.v.value_or(-infinity), right.v.value_or(infinity));
-  const auto values = values_of(f, x, v, left, right);
+  const double v =
+      std::clamp(w * (z - x), sides.left().v.value_or(-infinity), sides.right().v.value_or(infinity));
+  const auto values = values_of(f, x, v, sides.left(), sides.right());
   if (!values) return std::nullopt;
   const auto one = [](double e) -> Vector { return Vector::Constant(1, e); };
   Prox found = closed_form(one(z), Metric::diagonal(one(w)), one(x), one(v));
-  found.error_bound += std::sqrt(w) * (right.x() - left.x());
+  found.error_bound += std::sqrt(w) * sides.width();
   found.route = ProxRoute::iterative;
   found.method = "bisection";
   if (std::isfinite(values->f_v.error)) found.values = values;

@@ -62,11 +62,20 @@ class PointwiseMax : public Operation {
     return {largest, std::isfinite(most) ? std::max(most - largest, largest - least) : infinity};
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    const double largest = value(x);
-    if (!std::isfinite(largest)) return std::nullopt;
-    for (const Function& f : parts_)
-      if (f(x) == largest)
-        if (std::optional<Vector> v = f.subgradient(x)) return v;
+    // A part whose error hides whether it is the largest may have the slope.
+    constexpr double open_part = 1e-3;
+    std::vector<Value> values;
+    double largest = -infinity, most = -infinity;
+    for (const Function& f : parts_) {
+      values.push_back(f.evaluate(x));
+      largest = std::max(largest, values.back().value);
+      most = std::max(most, values.back().value + values.back().error);
+    }
+    if (!std::isfinite(largest) || !(most - largest <= open_part * std::max(1.0, std::abs(largest))))
+      return std::nullopt;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (values[k].value == largest)
+        if (std::optional<Vector> v = parts_[k].subgradient(x)) return v;
     return std::nullopt;
   }
   double recession(const Vector& d) const override {

@@ -6,14 +6,12 @@
 #include "convex/linear_algebra/cholesky.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/linear_quadratic/value.hpp"
+#include "convex/operations/average_by_proxes.hpp"
 #include "convex/operations/composed_prox.hpp"
-#include "convex/operations/line_supremum.hpp"
 #include "convex/operations/metric_algebra.hpp"
-#include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
-#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -56,21 +54,22 @@ class ProximalAverage : public Operation {
   }
   Value evaluate(const Vector& x) const override {
     if (const auto sum = value_by_entries(*this, x)) return *sum;
+    const AverageOf average = at_metric(x.size());
+    if (const auto at_end = average_at_end_of_domain(average, x)) return *at_end;
+    const auto by_proxes = facts().piecewise_quadratic ? std::nullopt : average_by_proxes(average, x);
+    if (by_proxes && is_of_rounding(by_proxes->value)) return by_proxes->value;
     ByProgram found = by_program(x);
     if (found.least.size() >= x.size() && !is_of_rounding(found.value))
-      found.value =
-          between_points(found.value, at_second(found.least.head(x.size()), x), found.slope, conjugate(), x);
-    const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
-    if (x.size() == 1 && question.first() && !is_of_rounding(found.value)) {
-      // The least over q is found from values of f and g alone.
-      const double start = found.least.size() > 0 ? found.least[0] : x[0];
-      const Value least =
-          least_on_line([&](double q) { return at_second(Vector::Constant(1, q), x); }, start);
-      if (least.error < found.value.error) found.value = least;
-    }
+      found.value = between_points(found.value, average_with_second(average, found.least.head(x.size()), x),
+                                   found.slope, conjugate(), x);
+    if (by_proxes && by_proxes->value.error < found.value.error) found = {by_proxes->value, by_proxes->v};
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
+    if (!facts().piecewise_quadratic)
+      if (const auto by_proxes = average_by_proxes(at_metric(x.size()), x);
+          by_proxes && is_of_rounding(by_proxes->value))
+        return by_proxes->v;
     if (auto slope = maximiser(conjugate(), x)) return slope;
     return Operation::subgradient(x);
   }
@@ -132,22 +131,7 @@ class ProximalAverage : public Operation {
   /// The metrics W and M/gamma are one when they differ by the rounding of 1/gamma.
   static constexpr double equal_steps = 4 * unit_roundoff;
   Metric product(Index n) const { return M_ ? *M_ : Metric::identity(n); }
-
-  /// f at p with t p + (1-t) q = x, g at q and the square: no less than the average at x.
-  Value at_second(const Vector& q, const Vector& x) const {
-    DoubleDoubleVector p(x.size());
-    for (Index i = 0; i < x.size(); ++i) {
-      const DoubleDouble part = two_product(1 - t_, q[i]), left = two_sum(x[i], -part.hi);
-      p.hi[i] = left.hi / t_;
-      const DoubleDouble back = two_product(t_, p.hi[i]);
-      p.lo[i] = (((left.hi - back.hi) - back.lo) + (left.lo - part.lo)) / t_;
-    }
-    const Vector apart = p.hi - q;
-    const double square = t_ * (1 - t_) / (2 * gamma_), size = x.norm() + p.hi.norm() + q.norm();
-    const Value of_f = multiple_of(t_, value_near(f_, p, size)), of_g = multiple_of(1 - t_, g_.evaluate(q));
-    return sum_of(sum_of(of_f, of_g),
-                  multiple_of(square, convex::product(apart, product(x.size()).multiply(apart))));
-  }
+  AverageOf at_metric(Index n) const { return {f_, g_, t_, gamma_, product(n)}; }
 
   /// t f(p) + (1-t) g(q) + t(1-t)/(2 gamma) ||p - q||², and the same of the conjugates at the two covectors.
   std::optional<PairOfValues> values(const Prox& p, const Prox& q) const {

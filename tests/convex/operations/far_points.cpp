@@ -107,6 +107,16 @@ const Question questions[] = {
      {3e8, 3e8, -1e8},
      {}},
     {"precompose(sum(elastic_net(3, 2), inverse_power(1)), [[-3,-2],[3,2]], [1,3])", {-2, 3e8}, {}},
+    {"tilt(indicator(ball2(1, [0,-1])), [-2,-1])", {-1, 3e8}, {}},
+    // Their proxes take more than half of what a look may.
+    {"pointwise_max(perspective(quadratic([[9,9,9],[9,9,9],[9,9,9]], [1,2,2])), proximal_average(entropy(), "
+     "total_variation(2), 0.5, 1))",
+     {-3e8, -3e8, -3e8, -3e8},
+     {}},
+    {"pointwise_max(conjugate(perspective(power(3))), proximal_average(precompose(zero(), [[-1,-3,-2,0]], "
+     "[-3]), proximal_average(distance(affine([[-2,2,2,-1]], 0), 1), zero(), 0.5, 1), 0.5, 0.125))",
+     {-3e8, 3e8, 0, 0},
+     {9, -6, 6, -3, -6, 5, -7, -1, 6, -7, 17, 9, -3, -1, 9, 20}},
 };
 
 }  // namespace
@@ -204,4 +214,31 @@ TEST_CASE("where the rounding of a far point leaves x outside its domain, f(x) i
   CHECK(split.status == Status::solved);
   // x = (0, 1, 1): 2 + 2 (log(1/2) - 1 + 2)
   CHECK(std::abs(split.f_x - (4 - 2 * std::log(2.0))) <= 1e-9);
+}
+
+TEST_CASE("where the rounding of a far point leaves y outside the conjugate's domain, one inside is told") {
+  const Question far[] = {
+      {"indicator(epigraph(inverse_power(0.5)))", {1e8, 1e8, 0}, {1, 2, -8, 2, 5, -18, -8, -18, 77}},
+      {"pointwise_max(pointwise_max(sum_largest(2), huber(2)), dilate(zero(), -2))",
+       {-3e8, -2},
+       {9, 9, 9, 13}}};
+  for (const Question& question : far) {
+    CAPTURE(std::string(question.f));
+    const auto n = static_cast<convex::Index>(question.z.size());
+    const Vector z = Eigen::Map<const Vector>(question.z.data(), n);
+    const Metric W = Metric::dense(Eigen::Map<const Matrix>(question.gram.data(), n, n));
+    const auto f = samples::function(question.f, W);
+    const Decomposition split = convex::decompose(f, z, W);
+    CHECK(split.status == Status::solved);
+    CHECK(std::isfinite(f.conjugate(W)(split.y.x)));
+    CHECK(split.residual <= 1e-14 * W.norm(z));
+  }
+}
+
+TEST_CASE("the point of a ball nearest to one far away keeps its digits where the center cancels") {
+  // center + r d/|d| with d = (1, 3e8 + 2) from the center (0, -1): x_2 = -x_1²/2 to first order.
+  const auto ball = samples::function("indicator(ball2(1, [0,-1]))", 2);
+  const Vector x = ball.prox(Vector{{1, 3e8 + 1}}, Metric::identity(2)).x;
+  CHECK(x[0] == doctest::Approx(1 / (3e8 + 2)).epsilon(1e-15));
+  CHECK(x[1] == doctest::Approx(-x[0] * x[0] / 2).epsilon(1e-15));
 }
