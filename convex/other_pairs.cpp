@@ -164,6 +164,18 @@ std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, c
   return found;
 }
 
+std::optional<Prox> without_small_entries(const Prox& found, const Metric& W) {
+  const Vector small =
+      (found.x.cwiseAbs().cwiseProduct(W.diagonal().cwiseSqrt()).array() <= found.error_bound)
+          .select(found.x, Vector::Zero(found.x.size()));
+  if (small.isZero(0) || !std::isfinite(found.error_bound)) return std::nullopt;
+  Prox moved = found;
+  moved.x -= small;
+  moved.error_bound += W.norm(small);
+  moved.values.reset();
+  return moved;
+}
+
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
                                const Metric& W) {
   if (!at || !f.facts().smooth) return std::nullopt;

@@ -31,6 +31,10 @@ std::optional<Prox> turned(const std::optional<Prox>& dual, const Vector& z, con
 std::vector<Prox> balanced(const Function& f, const std::optional<Prox>& near, const Vector& z,
                            const Metric& W, const Look& look);
 
+/// The point with 0 for entries that are nothing beside its bound, which counts them. None
+/// where there are none.
+std::optional<Prox> without_small_entries(const Prox& found, const Metric& W);
+
 /// The same point with the covector that the function itself has there, where it has only one.
 std::optional<Prox> with_slope(const Function& f, const std::optional<Prox>& at, const Vector& z,
                                const Metric& W);

@@ -49,19 +49,6 @@ Prox made_up(const std::optional<Prox>& found, const Vector& point) {
   return made;
 }
 
-/// The point with 0 for entries that are nothing beside its bound, which counts them.
-std::optional<Prox> without_small_entries(const Prox& found, const Metric& W) {
-  const Vector small =
-      (found.x.cwiseAbs().cwiseProduct(W.diagonal().cwiseSqrt()).array() <= found.error_bound)
-          .select(found.x, Vector::Zero(found.x.size()));
-  if (small.isZero(0) || !std::isfinite(found.error_bound)) return std::nullopt;
-  Prox moved = found;
-  moved.x -= small;
-  moved.error_bound += W.norm(small);
-  moved.values.reset();
-  return moved;
-}
-
 bool is_borne_out(const SplitCandidate& made, double enough, double tolerance) {
   return made.excess() <= 0 && made.known(tolerance) && made.split.error_bound <= enough;
 }
@@ -213,19 +200,26 @@ Decomposition guarded(const SplitFunctions& of, const Vector& z, const Metric& W
         break;
       }
   }
-  // So it may have left y: W⁻¹v may be inside, or a point beside y.
+  // So it may have left y: W⁻¹v may be inside, or a point beside y; else one is told where g is known.
+  const auto tells_g = [&](const SplitCandidate& made) { return std::isfinite(of.g(made.split.y.x)); };
   const bool y_is_rounded = unit_roundoff * W.norm(z) > accuracy_of_prox * W.norm(best.split.y.x);
-  if (is_found() && y_is_rounded && !std::isfinite(of.g(best.split.y.x))) {
+  if (is_found() && y_is_rounded && !tells_g(best)) {
     const WorkLimit part(part_of_a_move);
+    const std::optional<Prox> of_x = best.split.x, of_y = best.split.y;
+    const std::pair<std::optional<Prox>, std::optional<Prox>> others[] = {
+        {of_x, moreau_partner(*of_x, z, W)}, {of_x, into(of.g, of_y)}, {moreau_partner(y, z, W), y}};
+    std::optional<SplitCandidate> known = best.knows_g() ? std::optional(best) : std::nullopt;
     best.open = true;
-    for (const std::optional<Prox>& y_inside :
-         {moreau_partner(best.split.x, z, W), into(of.g, best.split.y)}) {
-      if (!y_inside || !std::isfinite(of.g(y_inside->x))) continue;
-      SplitCandidate other = at_covector(of, best.split.x, *y_inside, z, W, tolerance);
+    for (const auto& [x_told, y_told] : others) {
+      if (is_found() || !x_told || !y_told) continue;
+      SplitCandidate other = at_covector(of, *x_told, *y_told, z, W, tolerance);
       if (!is_borne_out(other) || !is_inner_of_points(other.split, tolerance, W)) continue;
-      best = std::move(other);
-      break;
+      if (tells_g(other))
+        best = std::move(other);
+      else if (!known && other.knows_g())
+        known = std::move(other);
     }
+    if (!is_found() && known) best = *std::move(known);
   }
   if (wrong && !is_found()) throw InvalidInput(*wrong);
   Decomposition& split = best.split;

@@ -151,6 +151,10 @@ bool SplitCandidate::known(double tolerance) const {
          error <= tolerance * std::max(size, squares);
 }
 
+bool SplitCandidate::knows_g() const {
+  return error <= largest_open_part * std::max(std::abs(split.g_y), smallest_term);
+}
+
 SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                          const Metric& W) {
   Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);

@@ -28,6 +28,8 @@ struct SplitCandidate {
   double proved() const;
   /// Are f(x) + g(y) and (x|y) one, and known, to the tolerance?
   bool known(double tolerance) const;
+  /// Is g(y) known to a part of itself, and not only as far as the rounding of a far z leaves it?
+  bool knows_g() const;
 };
 
 /// f, its conjugate g in the metric's product, and the plain one.
