@@ -1,12 +1,12 @@
 #include "convex/operations/average_by_proxes.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "convex/composite/work_limit.hpp"
 #include "convex/double_double.hpp"
+#include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/root_bracket.hpp"
@@ -111,7 +111,7 @@ class MeanRoot {
       J.col(i) = (from.missing - beside->missing) / side;
     }
     J.diagonal().array() += least_slope;
-    return J.partialPivLu().solve(from.missing);
+    return linear_algebra::least_squares(J, from.missing);
   }
 
   const AverageOf& of_;
