@@ -31,8 +31,8 @@ std::optional<Value> average_at_end_of_domain(const AverageOf&, const Vector& x)
 /// Wang 2008, Theorem 6.1). A u whose mean p, q is x gives the subgradient (M/gamma)(u - x), and the two
 /// points give the value. Envelopes go with the proxes, t e_f + (1-t) e_g at u less ½||u - x||² is no more
 /// than the average at x, whatever u is; the error is the difference and the rounding of the terms. u is the
-/// root of a nonexpansive, monotone map: Newton's steps by differences, of one entry those of a bracket, and
-/// at an end of the domain p and q are at theirs. None where they do not get there.
+/// root of a nonexpansive, monotone map: Newton's steps by differences, of one entry those of a bracket.
+/// None where they do not get there, as at an end of the domain.
 std::optional<AverageAt> average_by_proxes(const AverageOf&, const Vector& x);
 
 }  // namespace convex::inline operations

@@ -120,7 +120,7 @@ Function indicator_of_point(const Vector& p) {
 Value Operation::evaluate(const Vector& x) const { return by_program(x).value; }
 
 Operation::ByProgram Operation::by_program(const Vector& x) const {
-  const double length = x.norm();
+  const double length = x.stableNorm();           // whose square may be no double
   if (facts().support && length == 0) return {};  // of whatever set, 0
   // Positively homogeneous: the solvers see the point at the size of 1, and the slopes are the same there.
   const bool homogeneous = facts().support && length > 0;

@@ -289,3 +289,15 @@ TEST_CASE("a point of a flat side of an epigraph is at the distance 0") {
   CHECK(f.evaluate(z).value <= 1e-9);
   CHECK(convex::decompose(f, z, Metric::identity(4)).status == Status::solved);
 }
+
+TEST_CASE("a support function is 0 at 0 and keeps the size of the smallest slopes") {
+  const auto section = samples::function("conjugate(indicator(intersection(ball2(1), box(-1, 2))))", 2);
+  const auto epigraph = samples::function(
+      "conjugate(indicator(epigraph(distance(polyhedron([[2,-3],[1,0]], [4,3]), 0.125))))", 3);
+  for (const Value& at_zero : {section.evaluate(Vector::Zero(2)), epigraph.evaluate(Vector::Zero(3))}) {
+    CHECK(at_zero.value == 0);
+    CHECK(at_zero.error == 0);
+  }
+  for (const double size : {1e-200, 1e-5, 1e200})
+    CHECK(section(Vector{{0.6 * size, 0.8 * size}}) == doctest::Approx(size).epsilon(1e-10));
+}
