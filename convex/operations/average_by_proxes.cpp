@@ -55,16 +55,21 @@ class MeanRoot {
     const double sizes = found.u.norm() + found.p.norm() + found.q.norm() + x_.norm();
     return found.missing.norm() <= roundings_of_a_mean * unit_roundoff * sizes;
   }
+  /// Of one entry the slope is to be right to roundings of x, as a bracket can tell.
+  bool is_met(const MeanAt& found) const {
+    const double sizes = std::abs(found.p[0]) + std::abs(found.q[0]) + std::abs(x_[0]);
+    return std::abs(found.missing[0]) <= unit_roundoff / 2 * sizes;
+  }
 
   std::optional<MeanAt> in_bracket() const {
     std::optional<MeanAt> low = at(x_), high = low;
-    if (!low || is_root(*low)) return low;
+    if (!low || is_met(*low)) return low;
     const bool to_right = low->missing[0] > 0;
     constexpr double growth = 16;
     // The mean moves by no more than u: the root is no nearer than what is missing.
     for (double step = 2 * low->missing[0]; low->missing[0] < 0 || high->missing[0] > 0; step *= growth) {
       auto next = at(x_ + Vector::Constant(1, step));
-      if (!next || is_root(*next)) return next;
+      if (!next || is_met(*next)) return next;
       if (to_right)
         low = std::exchange(high, std::move(next));
       else
@@ -73,7 +78,7 @@ class MeanRoot {
     RootBracket bracket(low->u[0], -low->missing[0], high->u[0], -high->missing[0]);
     while (!bracket.is_closed()) {
       auto next = at(Vector::Constant(1, bracket.next()));
-      if (!next || is_root(*next)) return next;
+      if (!next || is_met(*next)) return next;
       bracket.take(next->u[0], -next->missing[0]);
       (next->missing[0] > 0 ? low : high) = std::move(next);
     }
