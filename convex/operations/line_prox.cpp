@@ -17,6 +17,9 @@ namespace {
 /// Products with larger numbers may leave the range of doubles.
 constexpr double far_end = 0x1p500;
 
+/// A slope made of others, as that of an average, is right to so many roundings of itself.
+constexpr double roundings_of_a_slope = 64;
+
 /// From a point to twice as far from 0, and the growth of such steps.
 constexpr Rank first_reach = Rank{1} << 52, growth_of_reach = 4;
 
@@ -159,7 +162,8 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
   if (!values) return std::nullopt;
   const auto one = [](double e) -> Vector { return Vector::Constant(1, e); };
   Prox found = closed_form(one(z), Metric::diagonal(one(w)), one(x), one(v));
-  found.error_bound += std::sqrt(w) * sides.width();
+  found.error_bound +=
+      std::sqrt(w) * sides.width() + roundings_of_a_slope * unit_roundoff * std::abs(v) / std::sqrt(w);
   found.route = ProxRoute::iterative;
   found.method = "bisection";
   if (std::isfinite(values->f_v.error)) found.values = values;
