@@ -9,7 +9,7 @@
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
-#include "convex/operations/root_bracket.hpp"
+#include "convex/operations/order_of_doubles.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -104,9 +104,8 @@ class Sides {
   /// Where a slope tells most: towards an end without one in growing steps, for near it slopes cost more and
   /// may not be known.
   double next() {
-    if (between_) return between_->next();
     const Rank middle = std::midpoint(left_.rank, right_.rank), reach = reach_;
-    if (!left_.v && !right_.v) return double_of(middle);
+    if (!left_.v == !right_.v) return double_of(middle);
     reach_ = std::min(growth_of_reach * reach_, Rank{1} << 60);
     return double_of(right_.v ? std::max(middle, right_.rank - reach) : std::min(middle, left_.rank + reach));
   }
@@ -118,10 +117,6 @@ class Sides {
     const Side at{rank_of(x), v};
     const bool is_left = v ? residual(at) <= 0 : by_left;
     (is_left ? left_ : right_) = at;
-    if (between_)
-      between_->take(x, residual(at));
-    else if (left_.v && right_.v)
-      between_.emplace(left_.x(), residual(left_), right_.x(), residual(right_));
     return true;
   }
 
@@ -132,7 +127,6 @@ class Sides {
   Rank low_, high_;
   Side left_, right_;
   bool left_is_end_ = true, right_is_end_ = true;
-  std::optional<RootBracket> between_;  ///< where both have slopes
   Rank reach_ = first_reach;
 };
 
