@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
+#include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
@@ -61,6 +63,22 @@ bool is_decided_in_fractions(const convex::Solution& primal) {
                      [](const convex::Island& island) { return !island.in_fractions.empty(); });
 }
 
+/// Nothing is known of the error of an answer that is another one than that of fractions, or none is.
+void refute(convex::Solution& primal, std::string_view open) {
+  primal.undecided = open;
+  primal.error_bound = convex::infinity;
+  if (primal.status == convex::Status::solved) primal.status = convex::Status::inaccurate;
+}
+
+/// What is open of numbers that are exact may be of the acceleration too: it is solved where that is proved.
+void judge_open_answer(convex::Solution& primal, const convex::NearestPointProblem& problem,
+                       const convex::Accuracy& accuracy) {
+  if (problem.radii || primal.status != convex::Status::solved || is_decided_in_fractions(primal)) return;
+  const std::optional<double> bound = convex::enclosed_error(problem, primal);
+  primal.error_bound = bound ? std::max(primal.error_bound, *bound) : convex::infinity;
+  if (!primal.is_within(accuracy)) primal.status = convex::Status::inaccurate;
+}
+
 /// Whether rows count as dependent on each other that may be independent within their radii.
 bool depend_within_radii(const convex::NearestPointProblem& problem, const convex::Multipliers& found) {
   if (found.least_norm.size() != problem.rows() || found.unique) return false;
@@ -89,12 +107,13 @@ void judge_in_fractions(GaussSolution& found, const convex::ExactProblem& exact,
   GaussSolution truth = found;
   if (!solve_on_exact_data(truth, exact, problem, options, open)) {
     found.primal.undecided = open;
+    judge_open_answer(found.primal, problem, options.accuracy);
     return;
   }
   const convex::Solution& answer = truth.primal;
   const double near = options.accuracy.tolerance * std::max(1.0, found.primal.acceleration_norm);
   if (answer.status == convex::Status::infeasible || !(problem.A.norm(answer.q - found.primal.q) <= near)) {
-    found.primal.undecided = open;
+    refute(found.primal, open);
     return;
   }
   found.multipliers = std::move(truth.multipliers);
@@ -161,7 +180,9 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
       if (is_named) return judge_in_fractions(found, *exact, problem, options, open);
       solve_on_exact_data(found, *exact, problem, options, open);
     }
-  if (!found.as_written) found.primal.undecided = open;
+  if (found.as_written) return;
+  found.primal.undecided = open;
+  judge_open_answer(found.primal, problem, options.accuracy);
 }
 
 }  // namespace mechanics

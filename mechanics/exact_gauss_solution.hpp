@@ -32,8 +32,8 @@ std::string_view open_question_of(const convex::NearestPointProblem&, const Gaus
 /// `data` is asked for them only then; none when they cannot be had. The q of a method that was named stays
 /// its own: where the numbers are exact and it solved, multipliers and hypothesis are those of the exact
 /// answer. What takes more than accuracy.limit times `convex::most_word_operations` stays as it is, and says
-/// what is open
-/// (`Solution::undecided`).
+/// what is open (`Solution::undecided`): in numbers that are exact it is solved only where a bound is proved
+/// in doubles.
 void decide_on_exact_data(GaussSolution&, const convex::NearestPointProblem&, const GaussOptions&,
                           const std::function<std::optional<convex::ExactProblem>()>& data);
 

@@ -88,3 +88,18 @@ TEST_CASE("rows that are written as doubles keep their angle of 2^-49 beside a z
   CHECK(answer.at("multipliers").at("c[0]") == 1);
   CHECK(answer.at("multipliers").at("c[1]") == 1);
 }
+
+TEST_CASE("a method that was named does not solve rows that fractions find to contradict each other") {
+  // Along the rows q1 >= q0, q2 >= q1, q3 >= q2 + 1e-27 and q0 >= q3.
+  const char* const ring =
+      "[projection]\nA = { diagonal = [1.0, 3.0, 1e-08, 0.1] }\nz = [-1.0, 1e-17, 0.1, -1.0]\n"
+      "U = [[-1e10, 1e10, 0, 0], [0, -0.1, 0.1, 0], [0, 0, -1e10, 1e10], [1, 0, 0, -1]]\n"
+      "s = [0, 0, 1e-17, 0]\n";
+  CHECK(run_on("solve", {"--json"}, ring).code == 1);
+  for (const char* method : {"active-set", "nnls", "lemke", "block-pivoting", "enumerate", "proximal-point",
+                             "interior-point", "admm"}) {
+    CAPTURE(method);
+    CHECK(run_on("solve", {"--json", "--method", method}, ring).code != 0);
+    CHECK(run_on("solve", {"--json", "--limit", "0", "--method", method}, ring).code != 0);
+  }
+}

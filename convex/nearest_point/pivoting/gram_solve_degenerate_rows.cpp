@@ -224,9 +224,17 @@ bool GramSolve::find_way_up(Index count) {
   if (!(norm > 0)) return false;
   constexpr double zero = 0;
   double t = 0, up = 0, length = 0;  // ||e||_D, D the diagonal of A
+  // Rounding lets e leave the rows held; the motion that brings it back is to leave what it raises raised. A
+  // row that depends on those held has no other rise than that.
+  double missed = 0;
+  for (Index k = 0; k < p_.size; ++k) {
+    dense_kernels().slacks(1, p_.n, p_.U + p_.rows[k] * p_.n, p_.dq, &zero, &up);
+    missed += up * up;
+  }
+  const double back = 2 * p_.factor_condition * p_.inverse_norm * std::sqrt(missed);
   for (Index a : close(0, count)) {
     dense_kernels().slacks(1, p_.n, p_.U + a * p_.n, p_.dq, &zero, &up);
-    if (!(up > least_rise * p_.row_scale[a])) return false;
+    if (!(up > (least_rise + back) * p_.row_scale[a])) return false;
     t = std::max(t, slack_noise(a) / up);
   }
   for (Index i = 0; i < p_.n; ++i) length += p_.dq[i] * p_.dq[i] * p_.diagonal[i];

@@ -136,6 +136,19 @@ TEST_CASE("rows that are sums of others but for an angle below rounding are judg
     }
 }
 
+TEST_CASE("no motion of rounding is a way up for a row that depends on those held, whatever the masses are") {
+  // Along the rows q1 >= q0, q2 >= q1, q3 >= q2 + 1e-27 and q0 >= q3.
+  Vector masses(4), z(4), s(4);
+  masses << 1, 3, 1e-8, 0.1;
+  z << -1, 1e-17, 0.1, -1;
+  s << 0, 0, 1e-17, 0;
+  convex::RowMatrix U(4, 4);
+  U << -1e10, 1e10, 0, 0, 0, -0.1, 0.1, 0, 0, 0, -1e10, 1e10, 1, 0, 0, -1;
+  const NearestPointProblem ring{Metric::diagonal(masses), z, ConstraintRows(U), s, {}};
+  CHECK(convex::active_set(ring).status == Status::infeasible);
+  CHECK(convex::active_set(ring, {.limit = 0}).status != Status::solved);
+}
+
 TEST_CASE("repeated rows, sums of rows and many rows to a coordinate are settled by the Gram matrix") {
   struct Kind {
     const char* family;
