@@ -5,6 +5,7 @@
 
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "mechanics/cancelling_gradients.hpp"
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/rounded_data.hpp"
@@ -35,7 +36,7 @@ std::string_view why_not_in_doubles(const Scene& scene) {
   const bool extreme = (dense && some_extreme(problem.A.dense_gram())) ||
                        some_extreme(problem.A.diagonal()) || some_extreme(problem.U.dense()) ||
                        some_extreme(problem.z) || some_extreme(problem.s);
-  return extreme ? "numbers whose squares are beyond them" : std::string_view();
+  return extreme ? convex::open_question::range : std::string_view();
 }
 
 /// A, z, U and s without rounding; none where the text of a mechanism is not rational.

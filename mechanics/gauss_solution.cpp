@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/automatic.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -103,6 +104,14 @@ GaussSolution solve_in_units(const convex::NearestPointProblem& problem, const G
   return found;
 }
 
+/// Of an answer to numbers of which some became 0.
+void leave_open(convex::Solution& primal) {
+  if (primal.status == convex::Status::solved) primal.status = convex::Status::inaccurate;
+  if (primal.status == convex::Status::infeasible) primal.status = convex::Status::gave_up;
+  primal.error_bound = convex::infinity;
+  primal.undecided = convex::open_question::range;
+}
+
 }  // namespace
 
 GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptions& options) {
@@ -110,8 +119,12 @@ GaussSolution solve(const convex::NearestPointProblem& problem, const GaussOptio
     throw convex::InvalidInput("method \"" + std::string(options.method->name) + "\": " + reason);
   const Units units = fit_units(problem);
   if (units.ordinary()) return solve_in_units(problem, options, 1);
-  GaussSolution found = solve_in_units(in_units(problem, units), options, units.norm());
+  const convex::NearestPointProblem scaled = in_units(problem, units);
+  GaussSolution found = solve_in_units(scaled, options, units.norm());
   restore_units(found, units, options.accuracy.tolerance);
+  // With the default method fractions may be asked for what is lost; with others nothing is.
+  const bool is_helped = options.method == &convex::methods().front() && options.accuracy.limit > 0;
+  if (!is_helped && !problem.radii && !are_exact(problem, units, scaled)) leave_open(found.primal);
   return found;
 }
 

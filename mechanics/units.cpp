@@ -34,6 +34,13 @@ double largest(const convex::ConstraintRows& U) {
   return found;
 }
 
+/// The largest of what rows ask for: a one-sided row asks for nothing where s is negative.
+double largest_asked(const convex::NearestPointProblem& problem) {
+  double found = problem.s.size() > 0 ? std::max(0.0, problem.s.maxCoeff()) : 0;
+  for (convex::Index a : problem.two_sided) found = std::max(found, std::abs(problem.s[a]));
+  return found;
+}
+
 convex::ConstraintRows divided(const convex::ConstraintRows& U, double unit) {
   if (U.is_sparse()) return convex::ConstraintRows(convex::SparseRows(U.sparse() / unit));
   return convex::ConstraintRows(convex::RowMatrix(U.dense() / unit));
@@ -46,7 +53,10 @@ Units fit_units(const convex::NearestPointProblem& problem) {
   const double force = largest(problem.z), bound = largest(problem.s);
   if (is_ordinary(mass) && is_ordinary(gradient) && is_ordinary(force) && is_ordinary(bound)) return {};
   Units units{power_near(mass), 1, power_near(gradient)};
-  units.acceleration = power_near(std::max(force / units.mass, bound / units.gradient));
+  // A bound that is none need not be near 1: it is to stay a double.
+  constexpr double far = 0x1p-900;
+  const double asked = std::max(force / units.mass, largest_asked(problem) / units.gradient);
+  units.acceleration = power_near(std::max(asked, (asked > 0 ? far : 1) * (bound / units.gradient)));
   return units;
 }
 
@@ -62,6 +72,15 @@ convex::NearestPointProblem in_units(const convex::NearestPointProblem& problem,
     scaled.radii->s /= units.gradient * units.acceleration;
   }
   return scaled;
+}
+
+bool are_exact(const convex::NearestPointProblem& problem, const Units& units,
+               const convex::NearestPointProblem& scaled) {
+  const auto same = [](const auto& x, const auto& y) {
+    return x.size() == 0 || (x.array() == y.array()).all();
+  };
+  const convex::NearestPointProblem back = in_units(scaled, units.inverse());
+  return same(problem.s, back.s) && (problem.U.is_sparse() || same(problem.U.dense(), back.U.dense()));
 }
 
 void restore_units(GaussSolution& solution, const Units& units, double tolerance) {

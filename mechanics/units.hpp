@@ -26,6 +26,9 @@ Units fit_units(const convex::NearestPointProblem&);
 /// The problem in those units, exact but where an entry leaves the range of doubles.
 convex::NearestPointProblem in_units(const convex::NearestPointProblem&, const Units&);
 
+/// Whether no entry of s and of a dense U left the range.
+bool are_exact(const convex::NearestPointProblem&, const Units&, const convex::NearestPointProblem& scaled);
+
 /// Brings the solution of the problem in those units back to its own; the status is judged anew.
 void restore_units(GaussSolution&, const Units&, double tolerance);
 

@@ -181,8 +181,9 @@ std::string model_text(const SolvedScene& solved) {
   const std::string_view open = solved.solution.primal.undecided;
   if (!open.empty() && left_open_text(solved).empty() &&
       solved.solution.primal.status != convex::Status::solved)
-    text +=
-        fmt::format("Doubles left open {}, and fractions would take too long; --limit lets them.\n", open);
+    text += fmt::format("Doubles left open {}, and {}.\n", open,
+                        solved.asked_method ? "a method that was named is not helped by fractions"
+                                            : "fractions would take too long; --limit lets them");
   if (solved.solution.reduced) {
     const convex::Model& reduced = solved.solution.reduced->model;
     text += fmt::format(

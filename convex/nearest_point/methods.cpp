@@ -7,6 +7,7 @@
 #include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/methods/every_method.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
+#include "convex/nearest_point/reductions/common_size.hpp"
 
 namespace convex {
 namespace {
@@ -33,12 +34,23 @@ std::string when_few_rows(const NearestPointProblem& problem) {
          "); take another method";
 }
 
-Solution solve_by_active_set(const NearestPointProblem& problem, const Accuracy& accuracy) {
+Solution active_set_from_nothing(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return active_set(problem, accuracy);
 }
 
-Solution solve_automatically(const NearestPointProblem& problem, const Accuracy& accuracy) {
+Solution automatic_from_nothing(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return automatic(problem, accuracy);
+}
+
+/// Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
+Solution solve_automatically(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return accuracy.limit > 0 ? automatic(problem, accuracy)
+                            : in_common_size(problem, accuracy, automatic_from_nothing);
+}
+
+template <Solution (*method)(const NearestPointProblem&, const Accuracy&)>
+Solution of_any_size(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return in_common_size(problem, accuracy, method);
 }
 
 using enum MethodKind;
@@ -47,28 +59,30 @@ constexpr std::array table{
     Method{"auto", "no more than the problem needs: islands, structure, dense or sparse (the default)",
            direct, always, solve_automatically},
     Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
-           direct, always, solve_by_active_set},
+           direct, always, of_any_size<active_set_from_nothing>},
     Method{"nnls", "nonnegative least squares of Lawson and Hanson, on the cone or homogenised", direct,
-           when_dense, nnls},
-    Method{"lemke", "complementary pivoting of Lemke, lexicographic", direct, when_dense, lemke},
+           when_dense, of_any_size<nnls>},
+    Method{"lemke", "complementary pivoting of Lemke, lexicographic", direct, when_dense, of_any_size<lemke>},
     Method{"block-pivoting", "principal pivoting by blocks, one row at a time where blocks fail", direct,
-           when_dense, block_pivoting},
-    Method{"enumerate", "all sets of active rows, for up to 20 rows", direct, when_few_rows, enumerate},
+           when_dense, of_any_size<block_pivoting>},
+    Method{"enumerate", "all sets of active rows, for up to 20 rows", direct, when_few_rows,
+           of_any_size<enumerate>},
     Method{"semismooth-newton", "primal-dual active set on regularised equations, dense or sparse", iterative,
-           always, semismooth_newton},
+           always, of_any_size<semismooth_newton>},
     Method{"proximal-point", "augmented Lagrangians minimised by Newton steps, dense or sparse", iterative,
-           always, proximal_point},
+           always, of_any_size<proximal_point>},
     Method{"interior-point", "Mehrotra's predictor and corrector, regularised, dense or sparse", iterative,
-           always, interior_point},
-    Method{"admm", "alternating directions with over-relaxation, dense or sparse", iterative, always, admm},
+           always, of_any_size<interior_point>},
+    Method{"admm", "alternating directions with over-relaxation, dense or sparse", iterative, always,
+           of_any_size<admm>},
     Method{"accelerated-gradient", "projected gradient of the dual, accelerated and restarted", iterative,
-           always, accelerated_gradient},
+           always, of_any_size<accelerated_gradient>},
     Method{"projected-gauss-seidel", "one multiplier after the other, over-relaxed", iterative, when_dense,
-           projected_gauss_seidel},
+           of_any_size<projected_gauss_seidel>},
     Method{"ceres", "proximal least squares by the trust-region method of Ceres", iterative,
-           when_ceres_is_there, ceres_method},
+           when_ceres_is_there, of_any_size<ceres_method>},
     Method{"drop-negative", "rejected rule, for comparison: holds all rows, drops negative multipliers once",
-           for_comparison, when_dense, drop_negative},
+           for_comparison, when_dense, of_any_size<drop_negative>},
     Method{"exact", "the exact solution in fractions, by proof of the active set found in doubles", direct,
            exact_applies, exact_method},
 };

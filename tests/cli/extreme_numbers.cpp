@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/cli/program.hpp"
 
@@ -174,4 +176,40 @@ TEST_CASE(
     CHECK(answer.at("multipliers_unique") == false);
     CHECK(answer.at("model").at("islands").at(0).at("in_fractions") == "whether rows depend on each other");
   }
+}
+
+TEST_CASE("a method that was named solves rightly, or says that it does not, where squares are no doubles") {
+  struct Case {
+    const char* problem;
+    std::vector<double> q;  ///< empty: no motion keeps the rows
+  };
+  // By hand: -1e200 is no bound (lambda = 438/65 of the other row), the row of 1e-300 is that of 1, and 0 >=
+  // 5e-324 is wrong.
+  const std::vector<Case> cases{
+      {"A = [[6, 2], [2, 11]]\nz = [-2.4, -1]\nU = [[1, 1], [-1, 2]]\ns = [1, -1e200]\n",
+       {38 / 65.0, 27 / 65.0}},
+      {"A = [[1, 0], [0, 1]]\nz = [3, -1]\nU = [[1e-300, 1e-300], [1, 0]]\ns = [4e-300, -1e308]\n", {4, 0}},
+      {"A = [[1, 0], [0, 1]]\nz = [3, -1]\nU = [[1, 0], [0, 0]]\ns = [-1e308, 5e-324]\n", {}},
+      {"A = [[4]]\nz = [5]\nU = [[2], [-1]]\ns = [0, 5e-324]\n", {}}};
+  for (const Case& one : cases)
+    for (const char* method : {"auto", "active-set", "nnls", "lemke", "block-pivoting", "enumerate", "admm",
+                               "interior-point", "drop-negative"}) {
+      CAPTURE(one.problem);
+      CAPTURE(method);
+      const Folder folder;
+      const std::string file = folder.write("p.toml", std::string("[projection]\n") + one.problem);
+      const Outcome outcome = run({"solve", "--json", "--limit", "0", "--method", method, file});
+      if (outcome.code == 3) continue;  // it says so
+      REQUIRE(outcome.code == (one.q.empty() ? 1 : 0));
+      if (one.q.empty()) continue;
+      const Json answer = Json::parse(outcome.out);
+      double square = 0;
+      for (std::size_t i = 0; i < one.q.size(); ++i) {
+        const double off = number(answer.at("acceleration").at("q[" + std::to_string(i) + "]")) - one.q[i];
+        square += off * off;
+      }
+      const double bound = number(answer.at("certificate").at("error_bound"));
+      CHECK(std::sqrt(square) <= bound + 1e-15);
+      CHECK(number(answer.at("residuals").at("feasibility")) <= 1e-9);
+    }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
@@ -75,6 +76,8 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
       2 * refined.remaining() + refined.silenced + taken_for_zero + solution.rounding +
       farthest_beyond(set, slack) * set.factor().inverse_norm() +
       (left_outside > 0 ? left_outside * std::max(multipliers, std::numeric_limits<double>::min()) : 0);
+  if (!problem.radii && !problem.U.is_sparse() && violates_beyond_bound(solution))
+    solution.error_bound = infinity;
   solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
   return solution;
 }

@@ -174,7 +174,9 @@ class Judge {
   }
 
   Solution with_status(Solution solution) const {
-    if (!std::isfinite(solution.error_bound)) solution.error_bound = infinity;
+    // The lengths of sparse rows may be lower bounds.
+    const bool contradicts = !problem_.radii && !problem_.U.is_sparse() && violates_beyond_bound(solution);
+    if (!std::isfinite(solution.error_bound) || contradicts) solution.error_bound = infinity;
     solution.status = solution.is_within(accuracy_) ? Status::solved
                       : candidate_.finished         ? Status::inaccurate
                                                     : Status::gave_up;

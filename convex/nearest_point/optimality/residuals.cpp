@@ -48,6 +48,14 @@ Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>
   return length;
 }
 
+bool violates_beyond_bound(const Solution& found) {
+  constexpr double roundings = 1e-12;  // of residuals and norms, of whatever they are made of
+  const double scale = std::max(found.acceleration_norm, found.force_norm);
+  // A violation is at most the row's length times the error.
+  return !(found.residuals.feasibility * found.acceleration_norm <=
+           2 * found.error_bound + roundings * scale);
+}
+
 double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
   return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
 }

@@ -21,6 +21,10 @@ struct KnownParts {
 /// again.
 Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts known = {});
 
+/// Whether a row is violated by more than the error bound allows: then one of the two is wrong, and nothing
+/// is known of the error.
+bool violates_beyond_bound(const Solution&);
+
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
 Vector dual_lengths(const NearestPointProblem&, const std::vector<Index>& rows);
 

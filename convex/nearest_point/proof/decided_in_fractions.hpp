@@ -13,6 +13,7 @@ inline constexpr std::string_view dependence = "whether rows depend on each othe
 inline constexpr std::string_view touched = "whether rows that the point touches are kept";
 inline constexpr std::string_view contradiction = "whether rows contradict each other";
 inline constexpr std::string_view conditioning = "the digits of a nearly singular system";
+inline constexpr std::string_view range = "numbers whose squares are beyond them";
 }  // namespace open_question
 
 /// The answer of a method that left a question open (`Solution::undecided`), decided in fractions on the

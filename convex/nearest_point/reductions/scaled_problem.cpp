@@ -1,7 +1,6 @@
 #include "convex/nearest_point/reductions/scaled_problem.hpp"
 
 namespace convex::inline reductions {
-namespace {
 
 ConstraintRows divided(const ConstraintRows& U, const std::vector<Index>& rows, const Vector& length) {
   ConstraintRows chosen = U.select(rows);
@@ -9,8 +8,6 @@ ConstraintRows divided(const ConstraintRows& U, const std::vector<Index>& rows, 
   if (chosen.is_sparse()) return ConstraintRows(SparseRows(factor.asDiagonal() * chosen.sparse()));
   return ConstraintRows(RowMatrix(factor.asDiagonal() * chosen.dense()));
 }
-
-}  // namespace
 
 ScaledProblem::ScaledProblem(const NearestPointProblem& original)
     : problem{original.A, original.z, {}, {}, {}}, original_rows(original.rows()) {

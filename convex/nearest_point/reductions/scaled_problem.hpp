@@ -4,6 +4,9 @@
 
 namespace convex::inline reductions {
 
+/// The rows chosen, each divided by its length.
+ConstraintRows divided(const ConstraintRows&, const std::vector<Index>& rows, const Vector& length);
+
 /// A problem with rows divided by ||u_a||_(D⁻¹), D the diagonal of A, and all motions by one unit, so that
 /// they are of size 1: for methods that measure steps and residuals without knowing the scale. Rows that are
 /// 0 are left out.
