@@ -123,9 +123,16 @@ namespace {
 mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {
   if (scene.solve.method->name == "exact") return solve_by_fractions(scene);
   // The numbers of a mechanism as evaluated prove nothing of it.
-  if (certify && !scene.written) return mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
   mechanics::CertifiedSolution found;
+  if (certify && !scene.written) {
+    found = mechanics::solve_certified(scene.problem, scene.exact, scene.solve);
+    if (found.certificate.level != convex::ProofLevel::none) return found;
+    // No proof of its own: the answer is the plain one, which fractions may have decided.
+    found = {};
+  }
   found.solution = solve_plainly(scene, scene.solve);
+  if (certify && !scene.written)
+    found.certificate = mechanics::plain_certificate(found.solution, scene.exact, scene.solve);
   return found;
 }
 

@@ -42,6 +42,17 @@ void judge_by_certificate(CertifiedSolution& found, const GaussOptions& options)
   primal.status = close && std::isfinite(primal.error_bound) ? Status::solved : Status::inaccurate;
 }
 
+Certificate plain_certificate(const GaussSolution& solution, const ExactData& data,
+                              const GaussOptions& options) {
+  const convex::Solution& primal = solution.primal;
+  const convex::Model& model = primal.model;
+  const bool is_whole = is_default(options) && model.islands.size() == 1 && model.left_out.empty() &&
+                        !model.islands.front().in_fractions.empty();
+  const bool is_exact = solution.as_written || (data.are_doubles && is_whole);
+  const bool is_ended = primal.status == Status::solved || primal.status == Status::infeasible;
+  return {is_exact && is_ended ? ProofLevel::exact : ProofLevel::none, primal.error_bound};
+}
+
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem, const ExactData& data,
                                      const GaussOptions& options) {
   if (const std::string reason = options.method->applies(problem); !reason.empty())

@@ -34,6 +34,11 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem&, const Exac
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem&, const ExactData&,
                                      const GaussOptions&);
 
+/// What is proved of an answer that came without a proof: fractions gave it, to the data themselves or, where
+/// these are doubles, to all of one problem in doubles, with the method left to the program. Else nothing,
+/// and the bound is the answer's own.
+convex::Certificate plain_certificate(const GaussSolution&, const ExactData&, const GaussOptions&);
+
 /// A bound on doubles cannot be expected to be better than this part of ||q||_A.
 inline constexpr double few_ulps = 4 * 0x1p-52;
 

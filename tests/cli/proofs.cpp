@@ -170,3 +170,26 @@ TEST_CASE(
     CHECK(answer["from_text"]["vanishing"] == Json::array({"c"}));
   }
 }
+
+TEST_CASE("what fractions decide in a plain answer, they prove in a certified one of the same size") {
+  constexpr int n = 300;  // n (n + m) beyond what is tried in fractions for a proof alone
+  std::string A, z = "\"1/3\"", U = "1";
+  for (int i = 0; i < n; ++i) A += i == 0 ? "1" : ", 1";
+  for (int i = 1; i < n; ++i) {
+    z += ", -1";
+    U += i == 1 ? ", -1" : ", 0";
+  }
+  const Folder folder;
+  const std::string file = folder.write("p.toml", "[projection]\nA = { diagonal = [" + A + "] }\nz = [" + z +
+                                                      "]\nU = [[" + U + "]]\ns = [2]\n");
+  CHECK(run({"solve", file}).code == 0);
+  const Json proved = Json::parse(run({"solve", "--certify", "--json", file}).out);
+  CHECK(proved.at("status") == "solved");
+  CHECK(proved.at("certificate").at("level") == "exact");
+  CHECK(run({"solve", "--certify", file}).out.find("proved in fractions") != std::string::npos);
+  // Without fractions nothing is proved, and no more is claimed than without --certify.
+  const Json plain = Json::parse(run({"solve", "--limit", "0", "--json", file}).out),
+             tried = Json::parse(run({"solve", "--limit", "0", "--certify", "--json", file}).out);
+  CHECK(tried.at("status") == plain.at("status"));
+  CHECK(tried.at("certificate").at("error_bound") == plain.at("certificate").at("error_bound"));
+}
