@@ -26,10 +26,13 @@ std::vector<Index> guess(const convex::NearestPointProblem& problem) {
 }  // namespace
 
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
-                                 const convex::NearestPointProblem& problem, const GaussOptions& options) {
+                                 const convex::NearestPointProblem& problem, const GaussOptions& options,
+                                 const std::vector<Index>& rows, double most_words) {
   ExactGaussSolution found;
-  found.primal = convex::exact_active_set(exact, guess(problem));
+  found.primal = convex::exact_active_set(exact, rows.empty() ? guess(problem) : rows, most_words);
   GaussSolution& rounded = found.rounded;
+  rounded.primal.status = found.primal.status;
+  if (found.primal.status == convex::Status::gave_up) return found;
   rounded.primal = convex::rounded(exact, found.primal, options.accuracy);
   if (found.primal.status == convex::Status::infeasible) return found;
 
@@ -61,6 +64,15 @@ bool is_decided_in_fractions(const convex::Solution& primal) {
   const auto& islands = primal.model.islands;
   return std::any_of(islands.begin(), islands.end(),
                      [](const convex::Island& island) { return !island.in_fractions.empty(); });
+}
+
+/// The rows of an answer that fractions gave: of the doubles of the data, if not of the data themselves.
+std::vector<Index> rows_decided(const convex::Solution& primal) {
+  if (!is_decided_in_fractions(primal)) return {};
+  std::vector<Index> rows = primal.basis;
+  for (Index a = 0; a < primal.farkas.size(); ++a)
+    if (primal.farkas[a] != 0) rows.push_back(a);
+  return rows;
 }
 
 /// Nothing is known of the error of an answer that is another one than that of fractions, or none is.
@@ -147,9 +159,11 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
   const auto held = static_cast<std::size_t>(std::min(problem.rows(), problem.dimension()));
-  const double words = convex::word_operations(exact, held) + words_of_ranges(found.multipliers);
-  if (words > options.accuracy.limit * convex::most_word_operations) return false;
-  ExactGaussSolution decided = solve_exactly(exact, problem, options);
+  const double of_ranges = words_of_ranges(found.multipliers),
+               most = options.accuracy.limit * convex::most_word_operations - of_ranges;
+  if (convex::word_operations(exact, held) > most) return false;
+  ExactGaussSolution decided = solve_exactly(exact, problem, options, rows_decided(found.primal), most);
+  if (decided.primal.status == convex::Status::gave_up) return false;
   convex::Solution& answer = decided.rounded.primal;
   answer.method = "active-set";
   answer.model = std::move(found.primal.model);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -18,10 +19,13 @@ struct ExactGaussSolution {
   GaussSolution rounded;  ///< all of it as the nearest doubles
 };
 
-/// `problem`: the same in doubles, which guess the active rows. Throws InvalidInput as
+/// `problem`: the same in doubles, which guess the active rows where `rows` does not. The status is
+/// `gave_up`, and the rest empty, where the acceleration takes more word operations. Throws InvalidInput as
 /// `convex::exact_problem` does.
 ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
-                                 const convex::NearestPointProblem& problem, const GaussOptions&);
+                                 const convex::NearestPointProblem& problem, const GaussOptions&,
+                                 const std::vector<Index>& rows = {},
+                                 double most_words = std::numeric_limits<double>::infinity());
 
 /// What a solve in doubles left open of the data as they are (`convex::open_question`), of q or of the
 /// multipliers; empty where nothing is.

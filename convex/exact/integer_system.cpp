@@ -102,6 +102,56 @@ struct IntegerSystem::Data {
   std::vector<SparseRow> rows;
 };
 
+namespace {
+
+/// The entry at that column of the last row of a system, or of a row that becomes it.
+void append_entry(SparseRow& row, std::size_t column, const Integer& value) {
+  if (!value.is_zero()) row.push_back({column, Big(value)});
+}
+
+std::vector<Word> modulo(const IntegerVector& numbers, const ModularField& field) {
+  std::vector<Word> held;
+  for (const Integer& number : numbers) held.push_back(field.from(number));
+  return held;
+}
+
+}  // namespace
+
+IntegerSystem::Data& IntegerSystem::own() {
+  if (data_.use_count() > 1) data_ = std::make_shared<Data>(*data_);
+  return *data_;
+}
+
+bool IntegerSystem::append(const IntegerVector& row, const IntegerVector& column) {
+  const ModularField& field = data_->field;
+  auto inverse = bordered_inverse(data_->inverse, modulo(column, field), modulo(row, field), 0, field);
+  if (!inverse) return false;
+  Data& data = own();
+  data.inverse = std::move(*inverse);
+  SparseRow last;
+  for (std::size_t i = 0; i < data.n; ++i) {
+    append_entry(data.rows[i], data.n, column[i]);
+    append_entry(last, i, row[i]);
+  }
+  data.rows.push_back(std::move(last));
+  ++data.n;
+  return true;
+}
+
+bool IntegerSystem::remove(std::size_t k) {
+  auto inverse = inverse_without(data_->inverse, data_->n, k, data_->field);
+  if (!inverse) return false;
+  Data& data = own();
+  data.inverse = std::move(*inverse);
+  data.rows.erase(data.rows.begin() + static_cast<std::ptrdiff_t>(k));
+  for (SparseRow& row : data.rows) {
+    std::erase_if(row, [&](const Entry& entry) { return entry.column == k; });
+    for (Entry& entry : row) entry.column -= entry.column > k;
+  }
+  --data.n;
+  return true;
+}
+
 std::optional<IntegerSystem> IntegerSystem::prepared(const IntegerRows& M) {
   for (const Word prime : large_primes) {
     const ModularField field(prime);
@@ -110,8 +160,7 @@ std::optional<IntegerSystem> IntegerSystem::prepared(const IntegerRows& M) {
     auto data = std::make_shared<Data>(Data{M.size(), field, std::move(*inverse), {}});
     for (const IntegerVector& row : M) {
       SparseRow entries;
-      for (std::size_t j = 0; j < row.size(); ++j)
-        if (!row[j].is_zero()) entries.push_back({j, Big(row[j])});
+      for (std::size_t j = 0; j < row.size(); ++j) append_entry(entries, j, row[j]);
       data->rows.push_back(std::move(entries));
     }
     return IntegerSystem(std::move(data));

@@ -56,4 +56,17 @@ std::vector<std::size_t> independent_rows(const IntegerRows& rows, std::size_t c
 /// M⁻¹ modulo a prime, row by row, entries as the field holds them; none when M is singular there.
 std::optional<std::vector<std::uint64_t>> modular_inverse(const IntegerRows& M, const ModularField& field);
 
+/// The inverse of M with one more row and column, [M column; row corner], from M⁻¹ (n×n); none where that is
+/// singular modulo the prime. Entries as the field holds them.
+std::optional<std::vector<std::uint64_t>> bordered_inverse(const std::vector<std::uint64_t>& inverse,
+                                                           const std::vector<std::uint64_t>& column,
+                                                           const std::vector<std::uint64_t>& row,
+                                                           std::uint64_t corner, const ModularField& field);
+
+/// The inverse of M without its row and column k, from M⁻¹ (n×n); none where that is singular modulo the
+/// prime.
+std::optional<std::vector<std::uint64_t>> inverse_without(const std::vector<std::uint64_t>& inverse,
+                                                          std::size_t n, std::size_t k,
+                                                          const ModularField& field);
+
 }  // namespace convex::inline exact_arithmetic

@@ -1,55 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "convex/exact/elimination.hpp"
-#include "convex/exact/integer_system.hpp"
 #include "convex/exact/modular.hpp"
 #include "convex/invariant.hpp"
+#include "convex/nearest_point/proof/exact_held_rows.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
 
 namespace convex::inline proof {
 namespace {
-
-/// The problem with rows W held: its KKT system, and its point, q before the multipliers of W, all over one
-/// denominator.
-class HeldRows {
- public:
-  HeldRows(const ExactProblem& problem, const std::vector<Index>& rows)
-      : problem_(problem), rows_(rows), system_(prepared()) {}
-
-  ExactVector point() const {
-    IntegerVector right = problem_.z;
-    for (Index a : rows_) right.push_back(problem_.s[at(a)]);
-    return system_.solve(right);
-  }
-
-  /// How the point moves with the multiplier of one more row p, and with it the multipliers of W.
-  ExactVector direction(const IntegerVector& row) const {
-    IntegerVector right = row;
-    right.resize(row.size() + rows_.size(), 0);
-    return system_.solve(right);
-  }
-
- private:
-  IntegerSystem prepared() const {
-    const std::size_t n = problem_.z.size(), k = rows_.size();
-    IntegerRows M(n + k, IntegerVector(n + k, 0));
-    for (std::size_t i = 0; i < n; ++i) std::copy(problem_.A[i].begin(), problem_.A[i].end(), M[i].begin());
-    for (std::size_t r = 0; r < k; ++r)
-      for (std::size_t i = 0; i < n; ++i) {
-        M[n + r][i] = problem_.U[at(rows_[r])][i];
-        M[i][n + r] = -M[n + r][i];
-      }
-    auto system = IntegerSystem::prepared(M);
-    invariant(system.has_value(), "the KKT system of independent rows is regular modulo some large prime");
-    return *std::move(system);
-  }
-
-  const ExactProblem& problem_;
-  const std::vector<Index>& rows_;
-  IntegerSystem system_;
-};
 
 /// Bits of the longest number of each row of [A z] and [U s].
 std::vector<double> row_bits(const ExactProblem& problem) {
@@ -68,14 +29,24 @@ double longest(const std::vector<double>& bits) {
   return bits.empty() ? 1 : *std::max_element(bits.begin(), bits.end());
 }
 
-/// One linear system with `held` rows whose numbers have so many bits, those of its fractions together.
+/// Each step of the inverse modulo a prime is some word operations, as measured beside those of lifting.
+constexpr double of_inverse = 2;
+
+/// Word operations of the inverse of a system with `held` rows, from nothing.
+double operations_of_inverse(const ExactProblem& problem, std::size_t held) {
+  const double N = static_cast<double>(problem.z.size() + held);
+  return of_inverse * N * N * N;
+}
+
+/// One linear system with `held` rows whose numbers have so many bits, those of its fractions together; its
+/// inverse that of another one, with a row more or less.
 double operations(const ExactProblem& problem, std::size_t held, double bits, double of_fractions) {
   constexpr double word = 64, digit = 62;  // bits; of a number, and that a step of lifting gives
   const double n = static_cast<double>(problem.z.size()), N = n + static_cast<double>(held),
                m = static_cast<double>(problem.s.size());
   const double words = 1 + bits / word, digits = 1 + of_fractions / digit;
-  // The inverse modulo a prime; lifting; reading off the fractions; slacks.
-  return N * N * N + digits * N * N * (1 + words) + N * digits * digits + m * n * digits * words;
+  // The change of the inverse; lifting; reading off the fractions; slacks.
+  return of_inverse * N * N + digits * N * N * (1 + words) + N * digits * digits + m * n * digits * words;
 }
 
 double operations_to_find(const ExactProblem& problem, const ExactVector& x, std::size_t held) {
@@ -95,6 +66,7 @@ class ExactActiveSet {
     IntegerRows candidates;
     for (Index a : guess) candidates.push_back(problem.U[at(a)]);
     for (std::size_t k : independent_rows(candidates, n_)) rows_.push_back(guess[k]);
+    solution_.word_operations = of_inverse * static_cast<double>(candidates.size() * rows_.size() * n_);
     lengths_.resize(static_cast<Index>(problem.s.size()));
     for (std::size_t a = 0; a < problem.s.size(); ++a)
       lengths_[static_cast<Index>(a)] = std::sqrt(nearest_quotient(dot(problem.U[a], problem.U[a]), 1));
@@ -113,7 +85,8 @@ class ExactActiveSet {
  private:
   /// Whether one more linear system is affordable; if not, the method gives up.
   bool afford() {
-    const double next = word_operations(problem_, rows_.size());
+    double next = word_operations(problem_, rows_.size());
+    if (held_) next -= operations_of_inverse(problem_, rows_.size());
     if (solution_.word_operations + next > most_words_) {
       solution_.status = Status::gave_up;
       return false;
@@ -127,25 +100,36 @@ class ExactActiveSet {
     solution_.word_operations += std::min(estimate_, operations_to_find(problem_, found, rows_.size()));
   }
 
+  /// Affordable; the first time from nothing.
+  const ExactHeldRows& held() {
+    if (held_) return *held_;
+    solution_.word_operations += operations_of_inverse(problem_, rows_.size());
+    return held_.emplace(problem_, rows_);
+  }
+
   bool find_point() {
     if (!afford()) return false;
-    point_ = HeldRows(problem_, rows_).point();
+    point_ = held().point();
     count(point_);
     return true;
   }
 
   const Integer& multiplier(std::size_t k) const { return point_.numerators[n_ + k]; }
 
+  void drop(std::size_t k) {
+    rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(k));
+    held_->remove(k);
+  }
+
   /// Drops one-sided rows until the others have multipliers >= 0: the dual method can start there. False when
   /// it gives up.
   bool drop_negative() {
     while (find_point()) {
-      std::vector<Index> kept;
-      for (std::size_t k = 0; k < rows_.size(); ++k)
-        if (two_sided_[at(rows_[k])] || multiplier(k).sign() >= 0) kept.push_back(rows_[k]);
-      if (kept.size() == rows_.size()) return true;
-      solution_.steps += static_cast<Index>(rows_.size() - kept.size());
-      rows_ = std::move(kept);
+      const std::size_t before = rows_.size();
+      for (std::size_t k = before; k-- > 0;)
+        if (!two_sided_[at(rows_[k])] && multiplier(k).sign() < 0) drop(k);
+      if (rows_.size() == before) return true;
+      solution_.steps += static_cast<Index>(before - rows_.size());
     }
     return false;
   }
@@ -184,9 +168,8 @@ class ExactActiveSet {
       for (Integer& entry : row) entry = -entry;
     while (true) {
       if (!afford()) return false;
-      const HeldRows held(problem_, rows_);
-      point_ = held.point();
-      const ExactVector direction = held.direction(row);
+      point_ = held().point();
+      const ExactVector direction = held().direction(row);
       count(point_);
       count(direction);
       ++solution_.steps;
@@ -213,10 +196,11 @@ class ExactActiveSet {
         return false;
       }
       if (rise.is_zero() || (blocking >= 0 && first < Fraction{gap, rise})) {
-        rows_.erase(rows_.begin() + blocking);
+        drop(static_cast<std::size_t>(blocking));
         continue;
       }
       rows_.push_back(p);
+      held_->append(p);
       return true;
     }
   }
@@ -254,6 +238,7 @@ class ExactActiveSet {
   Vector lengths_;
   double estimate_ = 0;
   std::vector<Index> rows_;
+  std::optional<ExactHeldRows> held_;  ///< the same rows, once a point was asked for
   ExactVector point_;
   IntegerVector slack_;
   ExactSolution solution_;
@@ -284,7 +269,7 @@ double word_operations(const ExactProblem& problem, std::size_t held) {
   std::vector<double> rows(bits.begin() + static_cast<std::ptrdiff_t>(problem.z.size()), bits.end());
   std::sort(rows.begin(), rows.end(), std::greater<>());
   for (std::size_t k = 0; k < std::min(held, rows.size()); ++k) of_all += rows[k];
-  return operations(problem, held, longest(bits), 2 * of_all);
+  return operations_of_inverse(problem, held) + operations(problem, held, longest(bits), 2 * of_all);
 }
 
 ExactSolution exact_active_set(const ExactProblem& problem, const std::vector<Index>& guess,
@@ -296,7 +281,7 @@ std::vector<ExactVector> exact_expansions(const ExactProblem& problem, const std
                                           const std::vector<Index>& rows) {
   std::vector<ExactVector> all;
   if (rows.empty()) return all;
-  const HeldRows held(problem, basis);
+  const ExactHeldRows held(problem, basis);
   const std::size_t n = problem.z.size();
   for (Index p : rows) {
     const ExactVector direction = held.direction(problem.U[at(p)]);

@@ -191,3 +191,34 @@ TEST_CASE("integer systems are solved exactly, short answers and long ones, or f
   // A multiple of the first prime looks singular there, and is not.
   CHECK(convex::IntegerSystem::prepared({{(std::int64_t{1} << 62) - 57}}));
 }
+
+TEST_CASE("a system that rows and columns were added to and taken from solves as one made anew") {
+  std::mt19937_64 generator(7);
+  const auto number = [&] { return convex::Integer(static_cast<std::int64_t>(generator() % 2001) - 1000); };
+  constexpr std::size_t n = 40;  // beyond one block of the elimination
+  convex::IntegerRows M(n);
+  for (convex::IntegerVector& row : M)
+    for (std::size_t j = 0; j < n; ++j) row.push_back(number());
+  auto system = convex::IntegerSystem::prepared(M);
+  REQUIRE(system);
+  const convex::IntegerSystem first = *system;
+  convex::IntegerVector row, column, b;
+  for (std::size_t j = 0; j < n; ++j) {
+    row.push_back(number());
+    column.push_back(number());
+    b.push_back(number());
+  }
+  REQUIRE(system->append(row, column));
+  REQUIRE(system->remove(3));
+  for (std::size_t i = 0; i < n; ++i) M[i].push_back(column[i]);
+  row.emplace_back(0);
+  M.push_back(row);
+  M.erase(M.begin() + 3);
+  for (convex::IntegerVector& kept : M) kept.erase(kept.begin() + 3);
+  const auto anew = convex::IntegerSystem::prepared(M);
+  REQUIRE(anew);
+  const convex::ExactVector x = system->solve(b), y = anew->solve(b);
+  for (std::size_t i = 0; i < n; ++i) CHECK((convex::entry(x, i) == convex::entry(y, i)));
+  CHECK(first.solve(b).numerators.size() == n);
+  CHECK_FALSE(system->append(convex::IntegerVector(n, 0), convex::IntegerVector(n, 0)));
+}
