@@ -52,8 +52,13 @@ class Motion::EventDriven final : public Motion::Course {
   static constexpr long many_at_once = 10;
   void release_event(const std::vector<Index>& held_before, const Vector& velocity_before);
   std::vector<Index> find_branches();
-  std::vector<Index> branches_after_jump(const std::vector<double>& arguments_before,
-                                         const std::vector<Index>& at_zero_before);
+  /// Of the switches, before a jump of the velocity.
+  struct Switches {
+    std::vector<double> arguments, branches;
+    std::vector<Index> at_zero;
+  };
+  Switches switches_before_jump(const std::vector<Index>& at_zero) const;
+  std::vector<Index> branches_after_jump(const Switches& before);
   /// A new arc from here. In question: contacts that may persist, and switches at 0.
   void begin_arc(const std::vector<Index>& contacts, const std::vector<Index>& switches);
   std::optional<ContactAnswer> answer_on_branches(const std::vector<Index>& contacts,
@@ -112,7 +117,7 @@ class Motion::EventDriven final : public Motion::Course {
   double step_ahead_ = 0;
   long events_at_once_ = 0, kinks_at_once_ = 0;
   double until_ = std::numeric_limits<double>::infinity();  // not asked for yet
-  /// At an event, on the branches before it.
+  /// At an event, on the branches before it, with the velocity after it.
   struct Behind {
     double lagrangian;
     Vector momentum, f, rate;

@@ -11,17 +11,6 @@ namespace {
 /// Events within so many roundings of the time follow each other at one instant.
 constexpr double roundings_of_instant = 64;
 
-/// Ahead is where time, or a coordinate, has gone by this part of what it is: far beyond rounding, and short
-/// of what comes later.
-constexpr double part_ahead = 0x1p-32;
-
-double time_ahead(const State& at) {
-  double scale = at.t != 0 ? std::abs(at.t) : std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < at.q.size(); ++i)
-    if (const double time = std::abs(at.q[i] / at.v[i]); time > 0) scale = std::min(scale, time);
-  return part_ahead * (std::isfinite(scale) ? scale : 1);  // from 0 any step leads away
-}
-
 /// T - V and p are sums whose digits may cancel; as long as half of them are left, a difference of more is a
 /// jump.
 constexpr double half_the_digits = 0x1p-26;
@@ -32,17 +21,27 @@ bool is_among(const std::vector<Index>& all, Index a) {
 
 }  // namespace
 
+Motion::EventDriven::Switches Motion::EventDriven::switches_before_jump(
+    const std::vector<Index>& at_zero) const {
+  Switches before{{}, {}, at_zero};
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) {
+    before.arguments.push_back(expansion_.switch_argument(k)[0]);
+    before.branches.push_back(expansion_.branch(k));
+  }
+  return before;
+}
+
 /// After a jump of the velocity: the branches by the signs of their arguments now. Returns those that are at
 /// 0: of what the impact did not move those that were, of what it did those that it left at 0.
-std::vector<Index> Motion::EventDriven::branches_after_jump(const std::vector<double>& arguments_before,
-                                                            const std::vector<Index>& at_zero_before) {
+std::vector<Index> Motion::EventDriven::branches_after_jump(const Switches& before) {
   constexpr double left_by_rounding = 64 * std::numeric_limits<double>::epsilon();
+  for (std::size_t k = 0; k < expansion_.switches(); ++k) expansion_.branch(k) = before.branches[k];
   expansion_.set(state);
-  if (!behind_) note_behind();
+  note_behind();
   std::vector<Index> at_zero = find_branches();
   for (std::size_t k = 0; k < expansion_.switches(); ++k) {
-    const double now = expansion_.switch_argument(k)[0], then = arguments_before[k];
-    const bool stays = now == then && is_among(at_zero_before, static_cast<Index>(k));
+    const double now = expansion_.switch_argument(k)[0], then = before.arguments[k];
+    const bool stays = now == then && is_among(before.at_zero, static_cast<Index>(k));
     const bool comes = now != then && std::abs(now) <= left_by_rounding * std::abs(then);
     if (now != 0 && (stays || comes)) at_zero.push_back(static_cast<Index>(k));
   }
@@ -193,23 +192,28 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   for (Index a = 0; a < expansion_.constraints(); ++a) {
     const bool is_contact = is_among(contacts, a);
     if (is_two_sided(a) && !behind) continue;
-    const double f = expansion_.f(a), rate = expansion_.rate(a), tolerance = options.contact_tolerance[a];
+    // What is held, or has just come to rest, is at f = df/dt = 0 on the branches behind, whatever rounding
+    // makes of it.
+    const bool was_at_0 = behind && (is_contact || is_two_sided(a));
+    const double f = expansion_.f(a) - (was_at_0 ? behind->f[a] : 0),
+                 rate = expansion_.rate(a) - (was_at_0 ? behind->rate[a] : 0);
+    const double tolerance = options.contact_tolerance[a];
     const double rate_scale = expansion_.rate_scale(a);
     double& f_left = left_of_f_[a];
     f_left =
         std::max(f_left, tolerance * std::max({least, expansion_.position_scale(a), rate_scale * length}));
     if (is_two_sided(a)) {  // holds on the branches behind
       const double rate_left = tolerance * rate_scale + expansion_.rounding_of_rate(a);
-      if (std::abs(f - behind->f[a]) > f_left) {
+      if (std::abs(f) > f_left) {
         stop("at t = " + number_text(state.t) + ": " + constraint_name(a) + " jumps from 0 to " +
-             number_text(f) +
+             number_text(expansion_.f(a)) +
              " where one of its expressions changes its branch; no motion with finite velocities follows it");
         return true;
       }
-      if (std::abs(rate - behind->rate[a]) > rate_left) closing.push_back(a);
+      if (std::abs(rate) > rate_left) closing.push_back(a);
       continue;
     }
-    if (f < -f_left) {
+    if (f < -f_left && !(behind && expansion_.f(a) >= behind->f[a] - f_left)) {
       stop("at t = " + number_text(state.t) + ": " + constraint_name(a) +
            " jumps below 0 where one of its expressions changes its branch; a step is written as a wall, a "
            "contact of its own");
@@ -234,6 +238,7 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
   }
   if (closing.empty()) {
     if (record.steps > 0) event(EventKind::release, opening, state.v);
+    behind_ = behind;
     begin_arc(others, switches);
     return true;
   }
@@ -241,11 +246,6 @@ bool Motion::EventDriven::meet_kinks(const std::vector<Index>& contacts, const s
     if (zeros_of_f_[static_cast<std::size_t>(a)] > 0) others.push_back(a);
   collide(closing, others, switches);
   return true;
-}
-
-std::string Motion::EventDriven::advice_on_kinks() const {
-  if (expansion_.switches() == 0 || expansion_.constraints() == 0) return "";
-  return "; a contact with a kink is written as two, y >= x and y >= -x for y >= abs(x)";
 }
 
 /// Whether gradients of contacts change with these branches.
@@ -271,26 +271,6 @@ bool Motion::EventDriven::has_kink_at(const std::vector<Index>& contacts,
     }
   }
   return false;
-}
-
-std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contacts,
-                                                const std::vector<Index>& switches) {
-  if (has_kink_at(contacts, switches)) return "neither side of a kink of f goes on alone" + advice_on_kinks();
-  State ahead = state;
-  const double step = time_ahead(state);
-  ahead.t += step;
-  ahead.q += step * state.v;
-  try {
-    system.inertia(ahead);
-    system.constraint_rates(ahead);
-  } catch (const convex::InvalidInput& error) {
-    return error.what();
-  }
-  if (!undefined_beyond_.empty())
-    return "an expression changes its branch, and of those beyond it none goes on: " + undefined_beyond_;
-  return "no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along the "
-         "place where it changes, as with dry friction" +
-         advice_on_kinks();
 }
 
 /// Multipliers that have come to 0 at the end of an arc are as far from it as the rounding of time leaves

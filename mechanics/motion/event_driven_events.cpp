@@ -126,9 +126,7 @@ void Motion::EventDriven::release_event(const std::vector<Index>& held_before,
 
 void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::vector<Index>& touching,
                                   const std::vector<Index>& switches) {
-  std::vector<double> arguments;
-  for (std::size_t k = 0; k < expansion_.switches(); ++k)
-    arguments.push_back(expansion_.switch_argument(k)[0]);
+  const Switches before_jump = switches_before_jump(switches);
   std::vector<Index> present = united(closing, touching);
   for (Index a = 0; a < expansion_.constraints(); ++a)
     if (is_two_sided(a) && !contains(present, a)) present.push_back(a);
@@ -151,7 +149,6 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
                   "\"moreau\"");
   }
   const convex::Metric& A = expansion_.inertia();
-  behind_.reset();
   Vector before = state.v;
   if (!record.first_impact)
     record.first_impact = ImpactScene{
@@ -211,7 +208,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
         zeros_of_f_[static_cast<std::size_t>(present[k])] = 1;
   };
   take_note_of_leaving();
-  std::vector<Index> after = branches_after_jump(arguments, switches);
+  std::vector<Index> after = branches_after_jump(before_jump);
   const std::vector<Index> ending = accumulating(closing);
   if (!ending.empty()) {
     const Vector bouncing = state.v;
@@ -221,7 +218,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
       rates[static_cast<Index>(k)] = -expansion_.rate(stopping[k]);
     const ImpactHistory last = history_[static_cast<std::size_t>(ending.front())];
     state.v += expansion_.held_rows(stopping).least_change(rates);
-    begin_arc(stopping, branches_after_jump(arguments, switches));
+    begin_arc(stopping, branches_after_jump(before_jump));
     const bool rest = status == MotionStatus::done && std::all_of(ending.begin(), ending.end(), [&](Index a) {
                         return contains(persist_, a);
                       });
@@ -248,7 +245,7 @@ void Motion::EventDriven::collide(const std::vector<Index>& closing, const std::
     state.v = bouncing;
     std::fill(zeros_of_f_.begin(), zeros_of_f_.end(), 0);  // what was tried tells nothing of what opens
     take_note_of_leaving();
-    after = branches_after_jump(arguments, switches);
+    after = branches_after_jump(before_jump);
   }
   begin_arc(resting, after);
   if (status == MotionStatus::done) release_event(held, state.v);

@@ -9,12 +9,23 @@
 #include "mechanics/motion/terms.hpp"
 #include "mechanics/number_text.hpp"
 
-/// What is said of impacts whose times rounding leaves open.
+/// What is said of impacts whose times rounding leaves open, and of what keeps a motion from going on.
 namespace mechanics::inline motions {
 namespace {
 
 /// A product of gradients that do not move each other is left by so many roundings of their lengths.
 constexpr double roundings_of_product = 64;
+
+/// Ahead is where time, or a coordinate, has gone by this part of what it is: far beyond rounding, and short
+/// of what comes later.
+constexpr double part_ahead = 0x1p-32;
+
+double time_ahead(const State& at) {
+  double scale = at.t != 0 ? std::abs(at.t) : std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < at.q.size(); ++i)
+    if (const double time = std::abs(at.q[i] / at.v[i]); time > 0) scale = std::min(scale, time);
+  return part_ahead * (std::isfinite(scale) ? scale : 1);  // from 0 any step leads away
+}
 
 double polynomial_at(std::span<const double> c, double at) {
   double sum = 0;
@@ -153,6 +164,31 @@ void Motion::EventDriven::tell_order(const std::vector<Zero>& zeros, const std::
                         " close at times that rounding hardly tells apart and are one impact: one after the "
                         "other may leave other velocities");
     }
+}
+
+std::string Motion::EventDriven::advice_on_kinks() const {
+  if (expansion_.switches() == 0 || expansion_.constraints() == 0) return "";
+  return "; a contact with a kink is written as two, y >= x and y >= -x for y >= abs(x)";
+}
+
+std::string Motion::EventDriven::obstacle_ahead(const std::vector<Index>& contacts,
+                                                const std::vector<Index>& switches) {
+  if (has_kink_at(contacts, switches)) return "neither side of a kink of f goes on alone" + advice_on_kinks();
+  State ahead = state;
+  const double step = time_ahead(state);
+  ahead.t += step;
+  ahead.q += step * state.v;
+  try {
+    system.inertia(ahead);
+    system.constraint_rates(ahead);
+  } catch (const convex::InvalidInput& error) {
+    return error.what();
+  }
+  if (!undefined_beyond_.empty())
+    return "an expression changes its branch, and of those beyond it none goes on: " + undefined_beyond_;
+  return "no branch of an expression such as |x| or sign(x) at x = 0 goes on; the motion slides along the "
+         "place where it changes, as with dry friction" +
+         advice_on_kinks();
 }
 
 }  // namespace mechanics::inline motions

@@ -104,6 +104,52 @@ TEST_CASE("a momentum that jumps with T ends the motion, though T itself does no
   CHECK(followed(resting, state({0, 0}, {1, 0}), 2).motion.status() == MotionStatus::done);
 }
 
+TEST_CASE("a force that jumps releases no curved contact that stays pressed") {
+  struct Held {
+    const char *potential, *force, *contact;
+    mechanics::State start;
+  };
+  // In a bowl, under a string and over a bump: what is held is 0 but for rounding, of whichever sign.
+  const Held scenes[] = {{"9.81*y", "-0.3*sign(x)", "y >= x^2/2", state({1, 0.5}, {-0.5, -0.5})},
+                         {"9.81*y", "-0.3*sign(x')", "y >= x^2/2", state({1, 0.5}, {-0.5, -0.5})},
+                         {"9.81*y", "if(x > 0, -0.3, 0.2)", "y >= x^2/2", state({1, 0.5}, {-0.5, -0.5})},
+                         {"9.81*y + 0.3*abs(x)", "0", "y >= x^2/2", state({1, 0.5}, {-0.5, -0.5})},
+                         {"9.81*y", "-0.2*sign(x')", "x^2+y^2 <= 25", state({3, -4}, {0, 0})},
+                         {"9.81*y", "-3*sign(x)", "y >= -x^2/20", state({-1, -0.05}, {2, 0.2})}};
+  for (const Held& scene : scenes) {
+    CAPTURE(std::string(scene.potential) + ", " + scene.force + ", " + scene.contact);
+    SystemText text{{"x", "y"}, "(x'^2+y'^2)/2",      scene.potential,       {},
+                    {},         {{"x", scene.force}}, {{"c", scene.contact}}};
+    const Followed motion = followed(text, scene.start, 5);
+    CHECK(motion.motion.status() == MotionStatus::done);
+    CHECK(motion.of(EventKind::branch).size() == motion.events.size());
+    CHECK(!motion.events.empty());
+    CHECK(motion.motion.record().remarks.empty());
+    std::string& relation = text.constraints.front().second;
+    relation.erase(relation.find_first_of("<>"), 1);  // held with equality
+    const Followed held = followed(text, scene.start, 5);
+    CHECK((motion.end().q - held.end().q).norm() <= 1e-9);
+    CHECK(motion.events.size() == held.events.size());
+  }
+}
+
+TEST_CASE("a contact that a jump of the force pulls off is released there, and no other") {
+  // Beyond x = 1 a lift of 20 takes the particle off the first floor; the second, of its own y, stays
+  // pressed.
+  const SystemText text{{"x", "y", "z"},
+                        "(x'^2+y'^2+z'^2)/2",
+                        "9.81*(y + z)",
+                        {},
+                        {},
+                        {{"y", "if(x > 1, 20, 0)"}},
+                        {{"left", "y >= x^2/2"}, {"kept", "z >= x^2/4"}}};
+  const Followed motion = followed(text, state({0, 0, 0}, {5, 0, 0}), 0.5);
+  const auto released = motion.of(EventKind::release);
+  REQUIRE(released.size() == 1);
+  CHECK(released.front().constraints == std::vector<mechanics::Index>{0});
+  CHECK(motion.of(EventKind::impact).empty());
+}
+
 TEST_CASE("in a steep groove of one constraint a particle strikes one side after the other") {
   // Sides of slope 3 at one point: each impact turns the velocity about one of them, until it leads away.
   const SystemText text = particle_on("y >= 3*abs(x)", "1");
