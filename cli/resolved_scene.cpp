@@ -118,6 +118,19 @@ std::vector<mechanics::Warning> resolve_scene(
   return std::move(found.warnings);
 }
 
+std::vector<mechanics::Warning> resolve_for_every_force(Scene& scene) {
+  if (!scene.system || scene.problem.two_sided.empty()) return {};
+  mechanics::Resolution found = mechanics::resolve_for_every_force(
+      *scene.system, scene.state, scene.written->radii, {scene.problem, {scene.contacts, *scene.rates}});
+  if (!found.added.empty()) {
+    scene.exact.make = [problem = found.problem] { return convex::exact_problem(problem); };
+    scene.problem = std::move(found.problem);
+    scene.added = std::move(found.added);
+    scene.is_settled = found.is_settled;
+  }
+  return std::move(found.warnings);
+}
+
 namespace {
 
 mechanics::CertifiedSolution solve_once(const Scene& scene, bool certify) {

@@ -20,6 +20,10 @@ mechanics::CertifiedSolution solve_by_fractions(const Scene&);
 std::vector<mechanics::Warning> resolve_scene(
     Scene& scene, const std::function<const mechanics::GaussSolution&(const Scene&)>& solve);
 
+/// Gives the scene the equations that any force at a singular state of a mechanism needs, as rows of its
+/// problem. Returns what is left undecided. Throws InvalidInput where higher derivatives refuse the state.
+std::vector<mechanics::Warning> resolve_for_every_force(Scene&);
+
 /// Contacts of which second derivatives do not tell all, and that the answer would violate: then nothing is
 /// known of its acceleration, and it is `inaccurate`.
 std::optional<mechanics::Warning> violated_at_higher_order(const Scene&, mechanics::GaussSolution&);

@@ -121,6 +121,12 @@ std::vector<std::string> Scene::contact_names() const {
   return chosen;
 }
 
+std::vector<std::string> Scene::row_names() const {
+  std::vector<std::string> names;
+  for (Index row = 0; row < problem.rows(); ++row) names.push_back(contact_name(row));
+  return names;
+}
+
 Vector Scene::over_constraints(const Vector& over_contacts) const {
   Vector all = Vector::Zero(static_cast<Index>(constraints.size()));
   for (std::size_t k = 0; k < contacts.size(); ++k) all[contacts[k]] = over_contacts[static_cast<Index>(k)];

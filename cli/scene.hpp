@@ -41,6 +41,8 @@ struct Scene {
   /// The constraint of a row, or "added row 1" and so on.
   std::string contact_name(convex::Index row) const;
   std::vector<std::string> contact_names() const;
+  /// Of all rows of the problem, those of `added` included.
+  std::vector<std::string> row_names() const;
   /// Numbers over K spread over all constraints, 0 elsewhere.
   convex::Vector over_constraints(const convex::Vector& over_contacts) const;
 };

@@ -13,6 +13,8 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/atlas_report.hpp"
+#include "cli/report/singular_report.hpp"
+#include "cli/resolved_scene.hpp"
 #include "cli/scene.hpp"
 #include "convex/atlas/cell_probability.hpp"
 #include "convex/exact/elimination.hpp"
@@ -88,6 +90,7 @@ struct ExactScene {
 
 ExactScene exact_scene(const Scene& scene) {
   if (scene.written) {
+    if (!scene.added.empty()) return {scene.exact.make(), false};  // the rows added are in no text
     if (auto fractions =
             mechanics::fractions_from_text(*scene.written->system, scene.written->text, scene.contacts))
       return {std::move(*fractions), true};
@@ -177,13 +180,17 @@ void find_culprits(SolvedAtlas& solved, const convex::ExactProblem& problem) {
 
 Answer atlas_of_problem(Problem problem, const std::string& file, const AtlasOptions& options) {
   if (options.plot) require_drawable(*options.plot);
-  const Scene scene = make_scene(std::move(problem), file, {});
+  Scene scene = make_scene(std::move(problem), file, {});
+  // The atlas is of all forces: what any of them needs at a singular state, its cells need.
+  std::vector<std::string> warnings = warning_lines(resolve_for_every_force(scene));
+  for (std::size_t k = 0; k < scene.added.size(); ++k)
+    warnings.push_back("singular: " + added_row_text(scene, k));
   const std::vector<ForceRange> ranges = force_ranges(options, scene);
   ExactScene exact = exact_scene(scene);
   SolvedAtlas solved{file,
                      scene.title,
                      scene.coordinates,
-                     scene.contact_names(),
+                     scene.row_names(),
                      exact.as_written,
                      {exact.problem.z, exact.problem.unit},
                      options.cells || rank(exact.problem) > convex::atlas::most_variables
@@ -197,7 +204,8 @@ Answer atlas_of_problem(Problem problem, const std::string& file, const AtlasOpt
   find_culprits(solved, exact.problem);
   if (options.plot && !solved.atlas.cells.empty()) draw(*options.plot, atlas_drawing(solved, scene));
   return {exit_of(solved),
-          options.json ? atlas_json(solved) + "\n" : heading(scene.title, file) + atlas_text(solved)};
+          options.json ? atlas_json(solved) + "\n" : heading(scene.title, file) + atlas_text(solved),
+          std::move(warnings)};
 }
 
 namespace {

@@ -12,8 +12,9 @@
 #include "cli/report/equation_code.hpp"
 #include "cli/report/equation_latex.hpp"
 #include "cli/report/json_writer.hpp"
+#include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
-#include "cli/scene.hpp"
+#include "cli/resolved_scene.hpp"
 
 namespace cli::inline commands {
 namespace {
@@ -56,7 +57,7 @@ void write_triplets(JsonWriter& json, const convex::SparseMatrix& A) {
   json.end_array().end_object();
 }
 
-std::string derive_json(const Scene& scene) {
+std::string derive_json(const Scene& scene, const Scene& resolved) {
   const auto& [A, z, U, s, two_sided, radii] = scene.problem;
   JsonWriter json;
   json.begin_object().key("file").value(scene.file).key("names").begin_array();
@@ -83,7 +84,9 @@ std::string derive_json(const Scene& scene) {
   json.end_object().key("s").numbers(scene.contact_names(), s);
   json.key("two_sided").begin_array();
   for (Index row : two_sided) json.value(scene.contact_name(row));
-  json.end_array().key("appell");
+  json.end_array();
+  write_added_rows(json, resolved);
+  json.key("appell");
   if (A.dimension() <= widest)
     json.value(appell_function(scene, shortest_digits));
   else
@@ -126,6 +129,13 @@ std::string derive_text(const Scene& scene) {
          appell_function(scene, number_text) + " + a number without accelerations\n";
 }
 
+/// The equations of a singular state, a paragraph each.
+std::string rows_beside(const Scene& resolved) {
+  std::string text;
+  for (std::size_t k = 0; k < resolved.added.size(); ++k) text += "\n" + added_row_text(resolved, k) + ".\n";
+  return text;
+}
+
 /// What `moreau derive` is told.
 struct DeriveOptions : FileOptions {
   bool c = false, python = false, latex = false;
@@ -145,6 +155,19 @@ std::string derived_code(const Scene& scene, const DeriveOptions& options) {
   return equations_in_latex(equations, title);
 }
 
+/// What the numbers do not show: at a singular state of a mechanism, the equations that they lack.
+std::vector<std::string> what_is_added(Scene& scene) {
+  try {
+    std::vector<std::string> lines = warning_lines(resolve_for_every_force(scene));
+    for (std::size_t k = 0; k < scene.added.size(); ++k)
+      lines.push_back("singular: " + added_row_text(scene, k) + "; it is no derivative of one contact, and " +
+                      "stands beside U and s");
+    return lines;
+  } catch (const convex::InvalidInput& refused) {
+    return {std::string("singular: ") + refused.what()};
+  }
+}
+
 Exit derive_files(const DeriveOptions& options) {
   if (options.files.size() > 1 && options.matrices)
     return answered(options, {options.files[1], ""}, []() -> Exit {
@@ -152,15 +175,18 @@ Exit derive_files(const DeriveOptions& options) {
     });
   return for_each_file(options, [&](const std::string& file) {
     const Scene scene = read_scene(file, {}, options);
-    if (options.matrices) write_problem_folder(scene.problem, *options.matrices);
+    Scene resolved = scene;
+    for (const std::string& warning : what_is_added(resolved))
+      fmt::print(stderr, "moreau: warning: {}: {}\n", file, warning);
+    if (options.matrices) write_problem_folder(resolved.problem, *options.matrices);
     if (options.c || options.python || options.latex)
       fmt::print("{}", derived_code(scene, options));
     else if (options.matrices && !options.json)
       return Exit::solved;
     else if (options.json)
-      fmt::print("{}\n", derive_json(scene));
+      fmt::print("{}\n", derive_json(scene, resolved));
     else if (!options.quiet)
-      fmt::print("{}", derive_text(scene));
+      fmt::print("{}", derive_text(scene) + rows_beside(resolved));
     return Exit::solved;
   });
 }

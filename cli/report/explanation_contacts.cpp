@@ -2,6 +2,7 @@
 
 #include "cli/report/explanation.hpp"
 #include "cli/report/readable_numbers.hpp"
+#include "cli/report/singular_report.hpp"
 #include "cli/report/text_table.hpp"
 
 namespace cli::inline reports {
@@ -84,6 +85,10 @@ void explain_contacts(Document& document, const SolvedScene& solved, const Syste
   if (shown < scene.constraints.size())
     blocks.emplace_back(Paragraph{
         {std::to_string(scene.constraints.size() - shown) + " more constraints are left out here."}});
+  for (std::size_t k = 0; k < scene.added.size(); ++k)
+    blocks.emplace_back(Paragraph{{added_row_text(scene, k) +
+                                   ". It is held with equality, like a two-sided contact, and its multiplier "
+                                   "is that of the row, not of a contact."}});
 }
 
 }  // namespace cli::inline reports

@@ -81,16 +81,26 @@ void write_warnings(JsonWriter& json, const SolvedScene& solved) {
   json.end_array();
 }
 
+namespace {
+
+void write_added_row(JsonWriter& json, const Scene& scene, std::size_t k) {
+  json.key("weights").begin_object();
+  for (const auto& [constraint, weight] : scene.added[k].weights)
+    json.key(scene.constraints[static_cast<std::size_t>(constraint)]).value(weight);
+  json.end_object().key("row").numbers(scene.coordinates, scene.added[k].row);
+  json.key("rhs").value(scene.added[k].rhs);
+}
+
+}  // namespace
+
 void write_added_rows(JsonWriter& json, const SolvedScene& solved) {
   const Scene& scene = solved.scene;
   if (scene.added.empty()) return;
   json.key("added_rows").begin_array();
   for (std::size_t k = 0; k < scene.added.size(); ++k) {
-    json.begin_object().key("weights").begin_object();
-    for (const auto& [constraint, weight] : scene.added[k].weights)
-      json.key(scene.constraints[static_cast<std::size_t>(constraint)]).value(weight);
-    json.end_object().key("row").numbers(scene.coordinates, scene.added[k].row);
-    json.key("rhs").value(scene.added[k].rhs).key("multiplier");
+    json.begin_object();
+    write_added_row(json, scene, k);
+    json.key("multiplier");
     if (const auto lambda = multiplier(solved, k))
       json.value(*lambda).end_object();
     else
@@ -99,31 +109,43 @@ void write_added_rows(JsonWriter& json, const SolvedScene& solved) {
   json.end_array();
 }
 
-std::string added_rows_text(const SolvedScene& solved) {
-  const Scene& scene = solved.scene;
-  std::string text;
+void write_added_rows(JsonWriter& json, const Scene& scene) {
+  if (scene.added.empty()) return;
+  json.key("added_rows").begin_array();
   for (std::size_t k = 0; k < scene.added.size(); ++k) {
-    std::vector<std::string> weighed;
-    for (const auto& [constraint, weight] : scene.added[k].weights)
-      weighed.push_back(fmt::format("{} of {}", number_text(weight),
-                                    scene.constraints[static_cast<std::size_t>(constraint)]));
-    std::vector<std::string> terms;
-    for (Index i = 0; i < scene.added[k].row.size(); ++i)
-      if (scene.added[k].row[i] != 0)
-        terms.push_back(fmt::format("{} {}''", number_text(scene.added[k].row[i]),
-                                    scene.coordinates[static_cast<std::size_t>(i)]));
-    const std::string equation =
-        fmt::format("the sum of {} is {}; multiplier {}.\n", listed(terms), number_text(scene.added[k].rhs),
-                    number_text(multiplier(solved, k).value_or(std::numeric_limits<double>::quiet_NaN())));
-    text +=
-        scene.added[k].is_linear_form
-            ? fmt::format("In place of {}, which says the same here (theory.md, B.8), row {}: {}",
-                          scene.constraints[static_cast<std::size_t>(scene.added[k].main)], k + 1, equation)
-            : fmt::format(
-                  "Second derivatives do not tell the motion here (theory.md, B.8). Added row {}, "
-                  "from the third ones ({}): {}",
-                  k + 1, listed(weighed), equation);
+    json.begin_object();
+    write_added_row(json, scene, k);
+    json.end_object();
   }
+  json.end_array();
+}
+
+std::string added_row_text(const Scene& scene, std::size_t k) {
+  const mechanics::AddedRow& added = scene.added[k];
+  std::vector<std::string> weighed, terms;
+  for (const auto& [constraint, weight] : added.weights)
+    weighed.push_back(fmt::format("{} of {}", number_text(weight),
+                                  scene.constraints[static_cast<std::size_t>(constraint)]));
+  for (Index i = 0; i < added.row.size(); ++i)
+    if (added.row[i] != 0)
+      terms.push_back(
+          fmt::format("{} {}''", number_text(added.row[i]), scene.coordinates[static_cast<std::size_t>(i)]));
+  const std::string equation = fmt::format("the sum of {} is {}", listed(terms), number_text(added.rhs));
+  return added.is_linear_form
+             ? fmt::format("In place of {}, which says the same here (theory.md, B.8), row {}: {}",
+                           scene.constraints[static_cast<std::size_t>(added.main)], k + 1, equation)
+             : fmt::format(
+                   "Second derivatives do not tell the motion here (theory.md, B.8). Added row {}, "
+                   "from the third ones ({}): {}",
+                   k + 1, listed(weighed), equation);
+}
+
+std::string added_rows_text(const SolvedScene& solved) {
+  std::string text;
+  for (std::size_t k = 0; k < solved.scene.added.size(); ++k)
+    text +=
+        fmt::format("{}; multiplier {}.\n", added_row_text(solved.scene, k),
+                    number_text(multiplier(solved, k).value_or(std::numeric_limits<double>::quiet_NaN())));
   return text;
 }
 
@@ -135,11 +157,13 @@ std::string touching_text(const SolvedScene& solved) {
                                  : ": neither press nor open to second order; higher derivatives decide.\n");
 }
 
-std::vector<std::string> warning_lines(const SolvedScene& solved) {
+std::vector<std::string> warning_lines(const std::vector<Warning>& warnings) {
   std::vector<std::string> lines;
-  for (const Warning& warning : solved.warnings)
+  for (const Warning& warning : warnings)
     lines.push_back(std::string(name(warning.kind)) + ": " + warning.message);
   return lines;
 }
+
+std::vector<std::string> warning_lines(const SolvedScene& solved) { return warning_lines(solved.warnings); }
 
 }  // namespace cli::inline reports

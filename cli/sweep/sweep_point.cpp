@@ -141,7 +141,7 @@ SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Wa
           point.watched[k] = solution.primal.q[one.index];
           break;
         case Watched::Of::multiplier:
-          point.watched[k] = lambda[one.index];
+          if (!solved.is_weighed(static_cast<std::size_t>(one.index))) point.watched[k] = lambda[one.index];
           break;
         case Watched::Of::reaction:
           point.watched[k] = solution.reaction[one.index];

@@ -24,4 +24,10 @@ struct Resolution {
 Resolution resolve(const LagrangianSystem&, const State&, const StateRadii& radii, const GaussProblem&,
                    const std::function<const GaussSolution&(const convex::NearestPointProblem&)>& solve);
 
+/// The same for whatever forces act at the state, and whatever one-sided contacts do to them: all equations
+/// that some acceleration with the two-sided rows does not satisfy. The warnings are those of what is left
+/// undecided alone; of the equations, `added` tells.
+Resolution resolve_for_every_force(const LagrangianSystem&, const State&, const StateRadii& radii,
+                                   const GaussProblem&);
+
 }  // namespace mechanics::inline singular_states

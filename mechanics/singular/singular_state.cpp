@@ -183,6 +183,20 @@ std::optional<convex::NearestPointProblem> SingularState::without_repeated(
   return found;
 }
 
+convex::NearestPointProblem SingularState::without_one_sided(
+    const convex::NearestPointProblem& problem) const {
+  convex::NearestPointProblem found = problem;
+  std::map<Index, Vector> rows;
+  for (Index a = 0; a < problem.rows(); ++a) {
+    if (problem.is_two_sided(a)) continue;
+    rows[a] = Vector::Zero(problem.dimension());
+    found.s[a] = 0;
+    if (found.radii) found.radii->row[a] = found.radii->s[a] = 0;
+  }
+  found.U = with_rows(problem.U, rows);
+  return found;
+}
+
 std::vector<AddedRow> SingularState::missing(const convex::NearestPointProblem& problem,
                                              const GaussSolution& solution) {
   const convex::Solution& answer = solution.primal;

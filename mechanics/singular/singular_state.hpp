@@ -17,6 +17,12 @@ class SingularState {
   /// independent.
   SingularState(const LagrangianSystem&, const State&, const StateRadii&, const GaussProblem&);
 
+  /// Whether there is anything that could need other equations.
+  bool may_add_rows() const { return !groups_.empty() || !unseen_.empty() || !too_many_.empty(); }
+
+  /// The problem with 0·q'' >= 0 in place of its one-sided rows.
+  convex::NearestPointProblem without_one_sided(const convex::NearestPointProblem&) const;
+
   /// Rows of gradients that count as 0, or as a combination of others for the digits of the state, are made
   /// so; so are their bounds, unless these contradict.
   /// Returns whether there were any.

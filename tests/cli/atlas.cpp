@@ -122,3 +122,26 @@ TEST_CASE("a map of a force that there is not, or that runs backwards, is refuse
     CHECK(outcome.err.find("--over") != std::string::npos);
   }
 }
+
+TEST_CASE("an atlas at a singular position has the cells of what solve finds for each force") {
+  const Folder folder;
+  const std::string file = folder.write("a.toml", pushing_at_dead_centre());
+  const Outcome outcome = run({"atlas", file, "--json", "--over", "force.a=-3:3"});
+  CHECK(outcome.err.find("24 a'' and -24 b'' is 0") != std::string::npos);
+  // a'' = b'' pushes c while the force on a is above 0: 1.2 + p over [-1.8, 4.2].
+  const Json map = Json::parse(outcome.out).at("map");
+  REQUIRE(map.at("regions").size() == 2);
+  for (const Json& region : map.at("regions")) {
+    const bool pushes = region.at("contacts").dump().find("push") != std::string::npos;
+    CHECK(double(region.at("part")) == doctest::Approx(pushes ? 0.7 : 0.3));
+  }
+  // Of a force that leaves it at rest second derivatives tell all; of the others they do not.
+  const std::string at_rest = folder.write("b.toml", pushing_at_dead_centre({{7, "a = 0"}}));
+  CHECK(Json::parse(run({"atlas", at_rest, "--json"}).out).at("contacts").size() == 3);
+}
+
+TEST_CASE("an atlas at a position of several branches is refused with what to do") {
+  const Outcome outcome = run_json_on("atlas", pushing_at_dead_centre({{12, "a = 0"}, {13, "b = 0"}}));
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("several branches; give a velocity or move off it") != std::string::npos);
+}

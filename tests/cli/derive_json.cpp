@@ -59,3 +59,22 @@ TEST_CASE("above two thousand coordinates A is written as triplets") {
   REQUIRE(triplets.size() == 2001);
   CHECK(triplets.at(2000) == Json::parse("[2000, 2000, 2001]"));
 }
+
+TEST_CASE("derive says which equation U and s lack at a singular position, and writes it beside them") {
+  const Outcome outcome = run_json_on("derive", pushing_at_dead_centre());
+  CHECK(outcome.code == 0);
+  CHECK(outcome.err.find("moreau: warning: ") == 0);
+  CHECK(outcome.err.find("24 a'' and -24 b'' is 0") != std::string::npos);
+  const Json object = Json::parse(outcome.out);
+  CHECK(object.at("U").size() == 2);
+  REQUIRE(object.at("added_rows").size() == 1);
+  const Json& row = object.at("added_rows")[0];
+  CHECK(row.at("weights") == Json{{"coupler", 1}});
+  CHECK(row.at("row") == Json{{"a", 24}, {"b", -24}, {"c", 0}});
+  CHECK(row.at("rhs") == 0);
+  CHECK(run_on("derive", pushing_at_dead_centre()).out.find("Added row 1") != std::string::npos);
+  const Outcome resting = run_json_on("derive", pushing_at_dead_centre({{12, "a = 0"}, {13, "b = 0"}}));
+  CHECK(resting.code == 0);
+  CHECK(resting.err.find("several branches") != std::string::npos);
+  CHECK(run_json_on("derive", point_on_floor()).err.empty());
+}

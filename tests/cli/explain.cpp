@@ -131,6 +131,14 @@ TEST_CASE("the HTML file asks nothing of a network, and the LaTeX file is whole"
   }
 }
 
+TEST_CASE("explain says in words which equation an added row is") {
+  const std::vector<std::string> told =
+      naming(run_on("explain", pushing_at_dead_centre()).out, "Added row 1");
+  REQUIRE(told.size() == 1);
+  CHECK(told.front().find("24 a'' and -24") != std::string::npos);
+  CHECK(told.front().find("held with equality") != std::string::npos);
+}
+
 TEST_SUITE("pdflatex") {
   TEST_CASE("the LaTeX file of each problem compiles, and no line of it leaves the page") {
     const Folder folder;

@@ -126,6 +126,15 @@ std::string point_on_floor(const Changes& changes) {
                  changes);
 }
 
+std::string pushing_at_dead_centre(const Changes& changes) {
+  return changed(
+      {"[system]", R"(coordinates = ["a", "b", "c"])", R"T(kinetic = "(a'^2 + b'^2 + c'^2)/4")T", "[state]",
+       "position = { a = 0, b = 0, c = 0 }", "[system.forces]", "a = 1.2", "[system.constraints]",
+       R"T(coupler = "(2 + cos(b) - cos(a))^2 + (sin(b) - sin(a))^2 = 4")T", R"(push = "c >= b")",
+       "[state.velocity]", "a = 2", "b = 2", "c = 2", ""},
+      changes);
+}
+
 std::string two_rows(const Changes& changes) {
   return changed({"[projection]", "A = [[2, 0], [0, 1]]", "z = [0, -9.81]", "U = [[0, 1], [1, 1]]",
                   "s = [0, 0]", "two_sided = []", ""},

@@ -51,6 +51,10 @@ using Changes = std::map<int, std::string>;
 /// 10 [state], 11 position, 12 velocity, 13 [solve], 14 empty.
 std::string point_on_floor(const Changes& changes = {});
 
+/// Two wheels coupled by a rod, stretched out with a' = b' = 2, of which the second pushes a third; 1.2 turns
+/// the first. That a'' = b'', third derivatives tell alone. Lines: 7 the force, 12 to 14 a', b' and c'.
+std::string pushing_at_dead_centre(const Changes& changes = {});
+
 /// The projection of (0, -9.81) with A = diag(2, 1) on two rows. Lines: 1 [projection], 2 A, 3 z, 4 U, 5 s,
 /// 6 two_sided, 7 empty.
 std::string two_rows(const Changes& changes = {});

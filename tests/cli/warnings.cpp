@@ -320,3 +320,10 @@ TEST_CASE("a contact without a gradient stands beside others") {
   const Json object = solved(particle("nothing = \"0 >= 0\", wall = \"x <= 0\"", "x = 0"));
   CHECK(object.at("acceleration").at("x") == 0);
 }
+
+TEST_CASE("a sweep leaves out the multipliers that solve does not give") {
+  const Folder folder;
+  const Outcome outcome = run({"sweep", folder.write("a.toml", pushing_at_dead_centre()), "--over",
+                               "system.forces.a=1,2", "--watch", "lambda[coupler]"});
+  CHECK(outcome.out.find("1,solved,coupler push,,") != std::string::npos);
+}
