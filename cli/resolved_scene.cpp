@@ -10,6 +10,7 @@
 #include "mechanics/proof_as_written.hpp"
 #include "mechanics/rounded_data.hpp"
 #include "mechanics/singular/resolution.hpp"
+#include "mechanics/touching_contacts.hpp"
 
 namespace cli {
 
@@ -63,6 +64,9 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
     }
   }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
+  if (!scene.written)  // of a mechanism z is rounded, too, and it is asked where that is known
+    mechanics::leave_out_pressing(found.touching, scene.problem, found.primal, found.multipliers,
+                                  convex::Vector::Zero(scene.problem.dimension()));
   mechanics::decide_on_exact_data(found, scene.problem, options, [&] { return numbers_as_written(scene); });
   if (!found.as_written && !scene.written && !scene.exact.are_doubles)
     mechanics::count_rounding_of_data(found, scene.problem, options, scene.exact.make);

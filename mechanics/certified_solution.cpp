@@ -6,6 +6,7 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
+#include "mechanics/touching_contacts.hpp"
 
 namespace mechanics {
 namespace {
@@ -81,7 +82,10 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
   const double wanted =
       is_quick(problem) ? few_ulps * norm : options.accuracy.tolerance * std::max(1.0, norm);
   // What doubles leave open of the multipliers is told by fractions.
-  const bool is_open = !open_question_of(problem, found.solution).empty();
+  leave_out_pressing(found.solution.touching, problem, found.solution.primal, found.solution.multipliers,
+                     Vector::Zero(problem.dimension()));
+  const bool is_open = !open_question_of(problem, found.solution).empty() ||
+                       may_press(found.solution.touching, problem, found.solution.multipliers);
   if (bound && *bound <= wanted && !(is_open && small_enough(problem))) return enclosed();
   if (data.are_doubles && !is_quick(problem) && found.solution.primal.status == Status::infeasible)
     if (auto proof = convex::infeasibility_proof(problem, found.solution.primal.farkas)) {

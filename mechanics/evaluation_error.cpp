@@ -1,9 +1,11 @@
 #include "mechanics/evaluation_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "convex/nearest_point/multipliers/largest_move.hpp"
 #include "mechanics/data_radii.hpp"
+#include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {
@@ -20,6 +22,9 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
   return rows;
 }
 
+/// The equations are evaluated once for A, z, U, s and once, in another order, for the radii.
+constexpr double evaluations = 2;
+
 }  // namespace
 
 double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
@@ -30,8 +35,6 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
   const std::vector<Index> held = rows_held(problem, solution);
   Vector rows(static_cast<Index>(held.size()));
   for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];
-  // The equations are evaluated once for A, z, U, s and once, in another order, for the radii.
-  constexpr double evaluations = 2;
   constexpr double far_below = 1e-2;
   constexpr Index small_system = 40;
   const Units units = fit_units(problem);
@@ -45,6 +48,17 @@ double evaluation_error(const WrittenMechanism& written, const std::vector<Index
     if (coarse <= far_below * accuracy.tolerance * std::max(1.0, solution.acceleration_norm)) return coarse;
   }
   return evaluations * convex::largest_move(problem, held, equations.balance, rows);
+}
+
+void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
+                        const std::vector<Index>& contacts, const convex::NearestPointProblem& problem) {
+  const Vector& lambda = found.multipliers.least_norm;
+  if (std::all_of(found.touching.begin(), found.touching.end(), [&](Index a) { return lambda[a] == 0; }))
+    return;
+  const EquationRadii equations =
+      equation_radii(*written.system, written.state, written.radii, contacts, found.primal.q, lambda);
+  leave_out_pressing(found.touching, problem, found.primal, found.multipliers,
+                     evaluations * equations.balance);
 }
 
 void count_evaluation_error(convex::Solution& solution, double error, const convex::Accuracy& accuracy) {

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "convex/nearest_point/problem.hpp"
-#include "convex/nearest_point/solution.hpp"
+#include "mechanics/gauss_solution.hpp"
 #include "mechanics/written_mechanism.hpp"
 
 namespace mechanics {
@@ -15,5 +14,10 @@ double evaluation_error(const WrittenMechanism&, const std::vector<Index>& conta
 
 /// Adds it to the error bound, which then speaks of the mechanism as written, and judges the status by that.
 void count_evaluation_error(convex::Solution&, double error, const convex::Accuracy&);
+
+/// Of the contacts that touch, those stay whose multipliers are no more than their own errors, as A, z, U and
+/// s were evaluated (`leave_out_pressing`).
+void leave_out_pressing(GaussSolution&, const WrittenMechanism&, const std::vector<Index>& contacts,
+                        const convex::NearestPointProblem&);
 
 }  // namespace mechanics

@@ -182,11 +182,13 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
 void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProblem& problem,
                           const GaussOptions& options,
                           const std::function<std::optional<convex::ExactProblem>()>& data) {
-  const std::string_view open = open_question_of(problem, found);
+  const bool is_named = options.method != &convex::methods().front();
+  std::string_view open = open_question_of(problem, found);
+  if (open.empty() && !is_named && !problem.radii && may_press(found.touching, problem, found.multipliers))
+    open = convex::open_question::dependence;
   if (open.empty()) return;
   const double most_words = options.accuracy.limit * convex::most_word_operations,
                n = static_cast<double>(problem.dimension());
-  const bool is_named = options.method != &convex::methods().front();
   const bool is_solved = found.primal.status == convex::Status::solved;
   // Sizes alone may tell that it is too much, before any number is converted.
   if ((!is_named || is_solved) && n * n * n <= most_words)

@@ -167,6 +167,8 @@ class Proving {
       proof.acceleration = convex::decimals(text.problem, *enclosed, digits);
     }
     proof.K = K;
+    if (exact && K == contacts_ && has_answer(found_.solution))
+      found_.solution.touching = exact->rounded.touching;  // of multipliers that are 0, and no others
     proof.exact = std::move(exact);
     proof.enclosed = std::move(enclosed);
     return one;

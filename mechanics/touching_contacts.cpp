@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include "convex/nearest_point/automatic.hpp"
@@ -12,13 +13,16 @@
 namespace mechanics {
 namespace {
 
-/// What counts as no force beside the largest one.
+/// What is looked at as no force beside the largest one.
 double zero_part(const convex::NearestPointProblem& problem) {
   return problem.radii ? convex::zero_where_z_is_rounded : convex::zero_in_doubles;
 }
 
 /// Rows are looked at one by one up to so many; each look is a solution.
 constexpr std::size_t most_looks = 20;
+
+/// Multipliers are compared with their own errors up to so many; each takes a solution.
+constexpr std::size_t most_directions = 64;
 
 /// Is the acceleration the same without the rows `left_out`, in order?
 bool is_same_without(const std::vector<Index>& left_out, const convex::NearestPointProblem& problem,
@@ -37,7 +41,48 @@ bool is_same_without(const std::vector<Index>& left_out, const convex::NearestPo
   return moved <= solution.error_bound + found.error_bound + zero_part(problem) * solution.acceleration_norm;
 }
 
+/// The direction that feels one of the tight rows alone; none where that depends on the others.
+std::optional<convex::Vector> direction_of(Index row, const convex::NearestPointProblem& problem,
+                                           const std::vector<Index>& tight) {
+  const auto count = static_cast<Index>(tight.size());
+  convex::Vector s = convex::Vector::Zero(count);
+  std::vector<Index> all;
+  for (Index k = 0; k < count; ++k) {
+    if (tight[static_cast<std::size_t>(k)] == row) s[k] = 1;
+    all.push_back(k);
+  }
+  convex::Solution found =
+      convex::automatic({problem.A, convex::Vector::Zero(problem.dimension()), problem.U.select(tight),
+                         std::move(s), std::move(all), convex::select(problem.radii, tight)});
+  if (found.status != convex::Status::solved) return std::nullopt;
+  return std::move(found.q);
+}
+
 }  // namespace
+
+void leave_out_pressing(std::vector<Index>& touching, const convex::NearestPointProblem& problem,
+                        const convex::Solution& solution, const convex::Multipliers& multipliers,
+                        const convex::Vector& balance) {
+  const convex::Vector& lambda = multipliers.least_norm;
+  const auto in_question =
+      std::count_if(touching.begin(), touching.end(), [&](Index a) { return lambda[a] != 0; });
+  if (in_question > static_cast<std::ptrdiff_t>(most_directions)) return;
+  std::erase_if(touching, [&](Index a) {
+    if (lambda[a] == 0) return false;
+    const auto d = direction_of(a, problem, multipliers.tight);
+    return d && std::abs(lambda[a]) > problem.A.norm(*d) * solution.error_bound + d->cwiseAbs().dot(balance);
+  });
+}
+
+bool may_press(const std::vector<Index>& touching, const convex::NearestPointProblem& problem,
+               const convex::Multipliers& multipliers) {
+  if (touching.size() > most_directions || (!multipliers.unique && !multipliers.ranges)) return false;
+  return std::any_of(touching.begin(), touching.end(), [&](Index a) {
+    const double most = multipliers.unique ? multipliers.least_norm[a]
+                                           : (*multipliers.ranges)[static_cast<std::size_t>(a)].high;
+    return most != 0 && !direction_of(a, problem, multipliers.tight);
+  });
+}
 
 std::vector<Index> touching_contacts(const convex::NearestPointProblem& problem,
                                      const convex::Solution& solution, const convex::Multipliers& multipliers,

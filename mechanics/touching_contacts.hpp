@@ -13,4 +13,16 @@ using convex::Index;
 std::vector<Index> touching_contacts(const convex::NearestPointProblem&, const convex::Solution&,
                                      const convex::Multipliers&, double tolerance);
 
+/// Leaves out the rows whose multiplier is more than its own error, whatever is pressed elsewhere. With d,
+/// u_a·d = 1, u_b·d = 0 for the other rows that are tight and ||d||_A least, lambda_a = d·(A q'' - z); of
+/// that the error bound of q'' moves ||d||_A times itself, and `balance` (n), how far z + Σ lambda_a u_a - A
+/// q'' may be from the one that is meant, |d|·balance. Rows that depend on others stay.
+void leave_out_pressing(std::vector<Index>& touching, const convex::NearestPointProblem&,
+                        const convex::Solution&, const convex::Multipliers&, const convex::Vector& balance);
+
+/// Whether doubles leave open if some of these rows can press: its largest multiplier is not 0, and it
+/// depends on others, so that it has no error of its own.
+bool may_press(const std::vector<Index>& touching, const convex::NearestPointProblem&,
+               const convex::Multipliers&);
+
 }  // namespace mechanics

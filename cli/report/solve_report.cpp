@@ -16,6 +16,7 @@ std::optional<double> count_evaluation_error(const Scene& scene, mechanics::Gaus
   const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem, primal,
                                                    scene.solve.accuracy);
   mechanics::count_evaluation_error(primal, error, scene.solve.accuracy);
+  mechanics::leave_out_pressing(solution, *scene.written, scene.contacts, scene.problem);
   return as_evaluated;
 }
 

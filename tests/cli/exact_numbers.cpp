@@ -128,3 +128,39 @@ two_sided = [1]
   const Outcome outcome = run({"solve", "--json", "--method", "nnls", file});
   CHECK(Json::parse(outcome.out).at("status") != "infeasible");
 }
+
+TEST_CASE("a multiplier presses however small it is beside others, as fractions say") {
+  const auto state = [](const std::string& command, const std::string& small) {
+    const Json object =
+        Json::parse(run_json_on("solve", "[projection]\nA = [[1, 0], [0, 1]]\nz = [1, " + small +
+                                             "]\nU = [[-1, 0], [0, -1]]\ns = [0, 0]\n" + command)
+                        .out);
+    return object.at("constraints").at("c[1]").at("state").get<std::string>();
+  };
+  for (const char* method : {"", "[solve]\nmethod = \"exact\"\n"}) {
+    CHECK(state(method, "1e-15") == "persists");
+    CHECK(state(method, "0") == "touches");
+  }
+}
+
+TEST_CASE("a force of 1e-14 beside a weight of 10 presses on a wall, and no warning says that it does not") {
+  const auto wall = [](const std::string& force, const std::string& option) {
+    const Folder folder;
+    const Outcome outcome = run({"solve", "--json", option,
+                                 folder.write("a.toml",
+                                              "[system]\ncoordinates = [\"x\", \"y\"]\nkinetic = \"(x'^2 + "
+                                              "y'^2)/2\"\npotential = \"10*y\"\nforces = { x = \"" +
+                                                  force +
+                                                  "\" }\nconstraints = { floor = \"y >= 0\", wall = \"x <= "
+                                                  "0\" }\n[state]\nposition = { x = 0, y = 0 }\n")});
+    const Json object = Json::parse(outcome.out);
+    CHECK(outcome.err.empty() == object.at("warnings").empty());
+    return object.at("constraints").at("wall").at("state").get<std::string>();
+  };
+  for (const char* option : {"--ranges", "--certify"}) {
+    CHECK(wall("1e-14", option) == "persists");
+    CHECK(wall("0", option) == "touches");
+  }
+  // What rounding made of 0 is not told from it.
+  CHECK(wall("sin(pi)", "--ranges") == "touches");
+}
