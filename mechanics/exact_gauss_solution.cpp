@@ -155,6 +155,12 @@ std::string_view open_question_of(const convex::NearestPointProblem& problem, co
   return ended ? std::string_view() : convex::open_question::conditioning;
 }
 
+bool is_at_rounding(const convex::Solution& primal) {
+  constexpr double roundings = 64;  // of what it is computed from, and of the digits that it is given in
+  const double scale = std::max(primal.acceleration_norm, primal.force_norm);
+  return primal.error_bound <= roundings * convex::unit_roundoff * scale;
+}
+
 bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact,
                          const convex::NearestPointProblem& problem, const GaussOptions& options,
                          std::string_view open) {
@@ -197,8 +203,10 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
       solve_on_exact_data(found, *exact, problem, options, open);
     }
   if (found.as_written) return;
-  found.primal.undecided = open;
-  judge_open_answer(found.primal, problem, options.accuracy);
+  // Where the answer is at rounding it is the tolerance that is too small.
+  const bool is_open = open != convex::open_question::conditioning || !is_at_rounding(found.primal);
+  found.primal.undecided = is_open ? open : std::string_view();
+  if (is_open) judge_open_answer(found.primal, problem, options.accuracy);
 }
 
 }  // namespace mechanics

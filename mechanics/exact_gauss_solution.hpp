@@ -31,6 +31,9 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
 /// multipliers; empty where nothing is.
 std::string_view open_question_of(const convex::NearestPointProblem&, const GaussSolution&);
 
+/// Whether an answer is as accurate as doubles are: what is not good enough then asks for less than rounding.
+bool is_at_rounding(const convex::Solution&);
+
 /// Decides what a solve in doubles left open, could not end, or may owe to rounding or to the radii of the
 /// data (rows that depend on each other), on the data as they are: the answer becomes the exact one, rounded.
 /// `data` is asked for them only then; none when they cannot be had. The q of a method that was named stays

@@ -10,6 +10,7 @@
 #include "cli/report/text_table.hpp"
 #include "cli/report/verdict_text.hpp"
 #include "convex/double_double.hpp"
+#include "mechanics/exact_gauss_solution.hpp"
 #include "mechanics/gauss_laws.hpp"
 
 namespace cli::inline reports {
@@ -276,7 +277,10 @@ std::string accuracy_text(const SolvedScene& solved) {
     accuracy += ", for A, z, U, s as evaluated";
   if (primal.status != convex::Status::solved)
     return fmt::format(
-        "NOT solved to the accuracy that was asked for; {} reached: {}.{}\n", primal.method, accuracy,
+        "NOT solved to the accuracy that was asked for; {} reached: {}.{}{}\n", primal.method, accuracy,
+        mechanics::is_at_rounding(primal)
+            ? " The tolerance is below the rounding of doubles: ask for a larger one than this."
+            : "",
         primal.lambda.allFinite() ? ""
                                   : " A multiplier is beyond what doubles hold: other units bring it back.");
   return fmt::format("Solved{}{}: {}.\n",

@@ -128,3 +128,19 @@ TEST_CASE("fractions that the text proves are told where they can be read") {
       run({"solve", "--certify", tests::source_folder() + "docs/problems/delassus_drops_too_much.toml"}).out;
   CHECK(told.find("\nIn fractions: y'' = 9/5, a'' = -6; lambda left 0, right 7/2.\n") != std::string::npos);
 }
+
+TEST_CASE("a tolerance below rounding is told as that, and blames no rows") {
+  const std::string ladder =
+      "[system]\ncoordinates = [\"x\", \"y\", \"a\"]\nkinetic = \"6*(x'^2 + y'^2) + 8*a'^2\"\npotential = "
+      "\"117.72*y\"\n[system.constraints]\nfloor = \"y >= 2*cos(a)\"\nwall = \"x >= "
+      "2*sin(a)\"\n[state]\nposition = { "
+      "a = 0.7, x = \"2*sin(a)\", y = \"2*cos(a)\" }\nvelocity = { a = 0.9, x = \"(2*sin(a))'\", y = "
+      "\"(2*cos(a))'\" "
+      "}\n";
+  const Folder folder;
+  const Outcome outcome = run({"solve", "--tolerance", "1e-16", folder.write("a.toml", ladder)});
+  CHECK(outcome.code == 3);
+  CHECK(outcome.out.find("below the rounding of doubles") != std::string::npos);
+  CHECK(outcome.out.find("singular") == std::string::npos);
+  CHECK(outcome.out.find("depend on each other") == std::string::npos);
+}
