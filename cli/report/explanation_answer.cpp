@@ -41,7 +41,7 @@ std::string latex_number(double x) { return number_math(x).latex; }
 void explain_gauss(Document& document, const SolvedScene& solved) {
   const Scene& scene = solved.scene;
   auto& blocks = document.blocks;
-  const Vector free = scene.problem.A.solve(scene.problem.z);
+  const Vector free = without_rounding(solved, scene.problem.A.solve(scene.problem.z));
   Vector acceleration = solved.solution.primal.q;
   const Vector readable = readable_numbers(solved, most_rows).acceleration;
   acceleration.head(readable.size()) = readable;
@@ -59,7 +59,10 @@ void explain_gauss(Document& document, const SolvedScene& solved) {
     blocks.emplace_back(
         Paragraph{{"With every contact held G would be ", number_math(gauss(scene, classical.acceleration)),
                    ", which is more: letting go is nearer to the free motion."}});
-  const double distance = std::sqrt(std::max(0.0, 2 * (solved.solution.gauss - gauss(scene, free))));
+  // ||y||_(A⁻¹), y = -R: not the root of a difference of G's, which keeps half their digits.
+  const convex::Solution& primal = solved.solution.primal;
+  const double distance = without_rounding(scene.problem.A.dual_norm(solved.solution.reaction),
+                                           std::max(primal.acceleration_norm, primal.force_norm));
   blocks.emplace_back(
       Paragraph{{"In the kinetic metric this says that ", Math{"x = A q''", "x = A\\ddot q"},
                  " is the point of ", Math{"C = {x : (u_a|x) >= s_a}", "C = \\{x : (u_a|x) \\ge s_a\\}"},

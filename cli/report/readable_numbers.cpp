@@ -34,21 +34,41 @@ convex::ConstraintRows rows_of(const Scene& scene, Index shown, Vector& s) {
   return convex::ConstraintRows(std::move(rows.U));
 }
 
+/// The largest size there is; beside one that is beyond doubles nothing is known to be rounding.
+double scale_of(const convex::Solution& primal) {
+  const double largest = std::max(primal.acceleration_norm, primal.force_norm);
+  return std::isfinite(largest) ? largest : 0;
+}
+
+double error_of(const convex::Solution& primal) {
+  const double scale = scale_of(primal);
+  return std::clamp(primal.error_bound, rounding * scale, coarsest * scale);
+}
+
 }  // namespace
 
 double without_rounding(double x, double scale) { return std::abs(x) <= rounding * scale ? 0 : x; }
+
+Vector without_rounding(const SolvedScene& solved, Vector acceleration) {
+  const convex::Metric& A = solved.scene.problem.A;
+  const double largest = acceleration.size() > 0 ? acceleration.cwiseAbs().maxCoeff() : 0,
+               error = error_of(solved.solution.primal);
+  for (Index i = 0; i < acceleration.size(); ++i) {
+    if (acceleration[i] == 0 || std::abs(acceleration[i]) > 1e-6 * largest) continue;
+    const Vector unit = Vector::Unit(A.dimension(), i);
+    if (std::abs(acceleration[i]) <= error * A.dual_norm(unit)) acceleration[i] = 0;
+  }
+  return acceleration;
+}
 
 ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
   const Scene& scene = solved.scene;
   const convex::Metric& A = scene.problem.A;
   const convex::Solution& primal = solved.solution.primal;
-  // Beside a size that is beyond doubles nothing is known to be rounding.
-  const double largest_size = std::max(primal.acceleration_norm, primal.force_norm),
-               scale = std::isfinite(largest_size) ? largest_size : 0;
-  const double error = std::clamp(primal.error_bound, rounding * scale, coarsest * scale);
+  const double scale = scale_of(primal), error = error_of(primal);
   const Index n = std::min(shown, A.dimension());
   const auto m = std::min(shown, static_cast<Index>(scene.constraints.size()));
-  ReadableNumbers read{primal.q.head(n),
+  ReadableNumbers read{without_rounding(solved, primal.q.head(n)),
                        solved.solution.reaction.head(n),
                        {},
                        {},
@@ -56,13 +76,8 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
                        scene.over_constraints(solved.solution.multipliers.least_norm).head(m),
                        std::vector<std::optional<double>>(static_cast<std::size_t>(m)),
                        {}};
-  const double largest = primal.q.size() > 0 ? primal.q.cwiseAbs().maxCoeff() : 0;
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i)
     if (std::abs(read.reaction[i]) <= error * std::sqrt(A.diagonal()[i])) read.reaction[i] = 0;
-    if (read.acceleration[i] == 0 || std::abs(read.acceleration[i]) > 1e-6 * largest) continue;
-    const Vector unit = Vector::Unit(A.dimension(), i);
-    if (std::abs(read.acceleration[i]) <= error * A.dual_norm(unit)) read.acceleration[i] = 0;
-  }
   Vector s;
   const convex::ConstraintRows rows = rows_of(scene, m, s);
   convex::DataRadii radii{Vector::Zero(m), Vector::Zero(m)};

@@ -21,5 +21,7 @@ ReadableNumbers readable_numbers(const SolvedScene&, convex::Index shown);
 
 /// x, or 0 when it is no more than rounding of numbers as large as `scale`.
 double without_rounding(double x, double scale);
+/// The first entries of an acceleration of the scene, without those of rounding.
+convex::Vector without_rounding(const SolvedScene&, convex::Vector acceleration);
 
 }  // namespace cli::inline reports

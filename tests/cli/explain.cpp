@@ -139,6 +139,16 @@ TEST_CASE("explain says in words which equation an added row is") {
   CHECK(told.front().find("held with equality") != std::string::npos);
 }
 
+TEST_CASE("a free motion is at the distance 0 of the point nearest to it, and rounding is printed as 0") {
+  // sin(pi) is rounding, and beside it x is accelerated.
+  const std::string text =
+      run_on("explain",
+             point_on_floor({{4, "potential = \"-5*x + sin(pi)*y\""}, {11, "position = { x = 0, y = 1 }"}}))
+          .out;
+  CHECK(text.find("at the distance 0;") != std::string::npos);
+  CHECK(text.find("= (2.5, 0)") != std::string::npos);
+}
+
 TEST_SUITE("pdflatex") {
   TEST_CASE("the LaTeX file of each problem compiles, and no line of it leaves the page") {
     const Folder folder;
