@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "mechanics/motion/accumulation.hpp"
 #include "mechanics/motion/course.hpp"
@@ -12,6 +13,12 @@
 namespace mechanics::inline motions {
 
 inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// What to do where gradients of contacts held vanish, or depend on each other, at one position alone.
+inline constexpr std::string_view advice_on_singular_states =
+    ", a singular position, as of a linkage stretched out; write the loop otherwise (by an angle for both "
+    "sides, or by constraints that are independent there), start beyond the position, or follow the motion "
+    "with --method time-stepping";
 
 /// A motion followed from event to event. A step ends at the first event of its arc; the event changes the
 /// velocity, and the right limit of the motion chooses the contacts of the next arc.

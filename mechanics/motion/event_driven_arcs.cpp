@@ -119,7 +119,8 @@ void Motion::EventDriven::project() {
       }))
     return;
   stop("at t = " + number_text(state.t) +
-       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state");
+       ": the contacts held cannot be brought back to f = 0; they depend on each other at this state" +
+       std::string(advice_on_singular_states));
 }
 
 void Motion::EventDriven::fill_next() {

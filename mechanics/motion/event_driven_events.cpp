@@ -68,6 +68,9 @@ std::vector<Zero> Motion::EventDriven::closing_at_the_end() {
 }
 
 void Motion::EventDriven::stop_at_vanishing_gradient(Index a) {
+  if (is_two_sided(a))
+    return stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
+                " vanishes here" + std::string(advice_on_singular_states));
   stop("at t = " + number_text(state.t) + ": the gradient of " + constraint_name(a) +
        " vanishes here, and derivatives do not tell what it demands; write it so that its gradient does not "
        "vanish, as y >= 0 for y^3 >= 0");

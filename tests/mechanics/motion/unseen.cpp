@@ -202,3 +202,26 @@ TEST_CASE("a branch that is not taken costs no steps where it grows without boun
   CHECK(found.end().t == doctest::Approx(1).epsilon(1e-12));  // what follows has no series there
   CHECK(found.end().q[0] == doctest::Approx(1).epsilon(1e-12));
 }
+
+TEST_CASE("a motion that comes to a singular position, or starts there, stops with what to do") {
+  // Two wheels with a rod between them, stretched out at a = b = 0.
+  const SystemText wheels{{"a", "b"},
+                          "(a'^2 + b'^2)/4",
+                          "",
+                          {},
+                          {},
+                          {{"a", "1.2"}},
+                          {{"coupler", "(2 + cos(b) - cos(a))^2 + (sin(b) - sin(a))^2 = 4"}}};
+  SystemText pushing = wheels;
+  pushing.coordinates.push_back("c");
+  pushing.kinetic = "(a'^2 + b'^2 + c'^2)/4";
+  pushing.constraints.push_back({"push", "c >= b"});
+  for (const bool pushes : {false, true}) {
+    const Followed motion = pushes ? followed(pushing, state({0, 0, 0}, {2, 2, 2}), 1)
+                                   : followed(wheels, state({0, 0}, {2, 2}), 1);
+    CHECK(motion.motion.status() == MotionStatus::stopped);
+    CHECK(motion.motion.why().find("a singular position") != std::string::npos);
+    CHECK(motion.motion.why().find("--method time-stepping") != std::string::npos);
+    CHECK(motion.motion.why().find("y^3") == std::string::npos);
+  }
+}
