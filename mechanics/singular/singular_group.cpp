@@ -161,11 +161,11 @@ std::vector<SingularGroup::Settled> SingularGroup::settled() const {
   return found;
 }
 
-std::vector<SingularGroup::Repeated> SingularGroup::repeated() const {
+std::vector<SingularGroup::Repeated> SingularGroup::dependent(bool is_consistent) const {
   std::vector<Repeated> found;
   const std::vector<TimeSeries> f = along({}, 2);
   for (const Dependence& dependence : dependences_) {
-    if (!combined(dependence.weights, f, 2).may_be_zero()) continue;
+    if (combined(dependence.weights, f, 2).may_be_zero() != is_consistent) continue;
     Repeated& repeated = found.emplace_back();
     repeated.main = constraints_[static_cast<std::size_t>(dependence.main)];
     for (std::size_t a = 0; a < constraints_.size(); ++a)

@@ -52,7 +52,10 @@ class SingularGroup {
     Index main;
     std::vector<Index> constraints;
   };
-  std::vector<Repeated> repeated() const;
+  std::vector<Repeated> repeated() const { return dependent(true); }
+
+  /// Dependences of which d²f/dt² contradicts itself with this velocity, whatever q'' is.
+  std::vector<Repeated> contradicted() const { return dependent(false); }
 
   /// The equations of third derivatives that `q2` (with radii, by coordinate) does not satisfy. Throws
   /// InvalidInput where no equation can make up for it: where third derivatives contradict each other, where
@@ -64,6 +67,7 @@ class SingularGroup {
   bool is_undecided() const { return undecided_; }
 
  private:
+  std::vector<Repeated> dependent(bool is_consistent) const;
   /// Σ w_a u_a = 0, over the constraints of the group; `main` has the weight 1 before scaling.
   struct Dependence {
     Index main;

@@ -256,6 +256,15 @@ std::vector<Warning> SingularState::warnings(const std::vector<AddedRow>& added,
             "their gradients depend on each other but for what the state misses of f = 0 and df/dt = 0, and "
             "count as dependent; give the state with more digits");
       }
+  if (infeasible)
+    for (const SingularGroup& group : groups_)
+      for (const SingularGroup::Repeated& contradicted : group.contradicted())
+        say(contradicted.constraints,
+            (contradicted.constraints.size() == 1 ? "its gradient vanishes at this state"
+                                                  : "their gradients depend on each other at this state") +
+                std::string(
+                    ", and with this velocity d²f/dt² is not 0 whatever the acceleration: the velocity "
+                    "is on no branch of the motions through this position; give it another one"));
   if (left_out_ && !infeasible)
     for (const SingularGroup& group : groups_)
       for (const SingularGroup::Repeated& repeated : group.repeated())

@@ -321,6 +321,12 @@ TEST_CASE("a contact without a gradient stands beside others") {
   CHECK(object.at("acceleration").at("x") == 0);
 }
 
+TEST_CASE("a velocity on no branch of a singular position is told as what contradicts itself there") {
+  const Outcome outcome = run_json_on("solve", pushing_at_dead_centre({{13, "b = 1"}}));
+  CHECK(outcome.code == 1);
+  CHECK(outcome.err.find("the velocity is on no branch") != std::string::npos);
+}
+
 TEST_CASE("a sweep leaves out the multipliers that solve does not give") {
   const Folder folder;
   const Outcome outcome = run({"sweep", folder.write("a.toml", pushing_at_dead_centre()), "--over",
