@@ -130,6 +130,7 @@ void add_check(CLI::App& program, Work& chosen) {
     if (asked > 1) throw CLI::ValidationError("FILE, --catalogue, --map and --table go one at a time");
     if (!options->settings.empty() && options->files.empty())
       throw CLI::ValidationError("--set changes what a file says; give a FILE");
+    if (const char* advice = options->map.given_amiss()) throw CLI::ValidationError(advice);
   });
 }
 

@@ -162,6 +162,14 @@ JudgedMap judged(const MapOptions& options, Source& source) {
 
 }  // namespace
 
+const char* MapOptions::given_amiss() const {
+  if (metric && !is_given())
+    return "--metric goes with --map or --table, a file has its own; leave it out, or set it in the file";
+  if (box && !map) return "--box goes with --map; leave it out";
+  if (data && !map) return "--data goes with --map; leave it out";
+  return nullptr;
+}
+
 void add_map(CLI::App& command, MapOptions& options) {
   command
       .add_option("--map", options.map,
@@ -169,7 +177,8 @@ void add_map(CLI::App& command, MapOptions& options) {
       ->type_name("T");
   command.add_option("--table", options.table, "is this one? Rows z1, …, zn, T1, …, Tn")->type_name("F.csv");
   command
-      .add_option("--metric", options.metric, "with --map: the Gram matrix of the product; default identity")
+      .add_option("--metric", options.metric,
+                  "with --map or --table: the Gram matrix of the product; default identity")
       ->type_name("MATRIX");
   command.add_option("--box", options.box, "with --map: where to look, for every coordinate; default -4:4")
       ->type_name("LOW:HIGH");

@@ -19,6 +19,8 @@ struct MapOptions {
   std::optional<std::string> box;   ///< "low:high", of every coordinate
   std::optional<std::string> data;  ///< the function on a grid, to a file
   bool is_given() const { return map || table; }
+  /// Which option says something of a map where there is none, and what to do; null when none does.
+  const char* given_amiss() const;
 };
 
 void add_map(CLI::App& command, MapOptions&);

@@ -148,7 +148,11 @@ void add_prox(CLI::App& program, Work& chosen) {
   const auto options = std::make_shared<ProxOptions>();
   CLI::App& command = add_command(
       program, "prox", "splits a point: z = x + y, x = prox_f z, y = prox_g z, g the conjugate of f", chosen,
-      [options] { return options->symbolic ? tell_prox_in_symbols(*options) : split_points(*options); });
+      [options] {
+        if (!options->symbolic) return split_points(*options);
+        return tell_prox_in_symbols(*options,
+                                    options->step ? std::optional(std::stod(*options->step)) : std::nullopt);
+      });
   add_function(command, *options, true);
   add_proof(command, options->certify);
   command.add_option("--step", options->step, "gamma: the prox of gamma f, that of f in the metric W/gamma")

@@ -70,6 +70,10 @@ class MotionFiles {
         throw InvalidInput(
             "--strobe says at which instants to look; add --output F.csv, or --plot F.svg --phase x");
     }
+    if (!options.modulo.empty() && !options.output && !options.phase)
+      throw InvalidInput(
+          "--modulo says how a table or a picture writes a coordinate; add --output F.csv, or --plot F.svg "
+          "--phase x");
     const convex::Vector modulo = multiples_of_turns(problem, system, options.modulo);
     if (options.plot) require_drawable(*options.plot);
     if (options.phase) {

@@ -81,15 +81,34 @@ Fraction weight(const FunctionOptions& options, Source& source) {
   return symbolic::simplest_fraction(W.diagonal()[0]);
 }
 
-Exit tell(const FunctionOptions& options, bool is_prox) {
+/// What is found without symbols alone is refused beside them.
+void require_applicable_to_symbols(const FunctionOptions& options) {
+  if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
+  const std::pair<bool, const char*> of_points[] = {{options.certify, "--certify"},
+                                                    {options.method.has_value(), "--method"},
+                                                    {options.tolerance.has_value(), "--tolerance"},
+                                                    {options.limit.has_value(), "--limit"}};
+  for (const auto& [is_given, option] : of_points)
+    if (is_given)
+      throw InvalidInput(std::string(option) +
+                         " goes with a point; with --symbolic formulas are exact or by rules, leave it out");
+}
+
+/// "prox_f(z)"; of a step "prox_(2 f)(z)".
+std::string name_of_prox(const std::optional<Fraction>& step, bool latex) {
+  const std::string of =
+      step ? (latex ? symbolic::latex(symbolic::Bound(*step)) + " f" : convex::text(*step) + " f") : "f";
+  if (latex) return "\\operatorname{prox}_{" + of + "}(z)";
+  return step ? "prox_(" + of + ")(z)" : "prox_f(z)";
+}
+
+Exit tell(const FunctionOptions& options, bool is_prox, const std::optional<Fraction>& step) {
   Source source;
   return answered(options, source, [&] {
+    source = {"f", options.expression};
+    require_applicable_to_symbols(options);
     const Fraction w = weight(options, source);
     source = {"f", options.expression};
-    if (options.certify)
-      throw InvalidInput(
-          "--certify goes with a point; with --symbolic formulas are exact or by rules, leave it out");
-    if (options.at) throw InvalidInput("--symbolic tells the whole function; leave --at out");
     const convex::Call call = parse_call(options.expression, "f");
     // What the language refuses, symbols refuse with the same words.
     convex::make_function(call, {convex::Metric::identity(1).scaled(convex::nearest_double(w))});
@@ -98,8 +117,8 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
     if (is_prox) {
       const symbolic::Cases itself = symbolic::formula(f);
       told.push_back({"f(x)", "x", itself, false});
-      told.push_back({options.latex ? "\\operatorname{prox}_f(z)" : "prox_f(z)", "z",
-                      symbolic::prox_formula(f, Fraction{1, 1} / w), true});
+      told.push_back({name_of_prox(step, options.latex), "z",
+                      symbolic::prox_formula(f, step.value_or(Fraction{1, 1}) / w), true});
     } else {
       // In the product w x y:
       told.push_back({"f(x)", "x", symbolic::formula(f), false});
@@ -109,7 +128,9 @@ Exit tell(const FunctionOptions& options, bool is_prox) {
     if (options.json) {
       JsonWriter json;
       json.begin_object().key("kind").value(is_prox ? "prox" : "conjugate").key("status").value("solved");
-      json.key("f").value(to_text(call)).key("symbolic").begin_object().key("f");
+      json.key("f").value(to_text(call));
+      if (step) json.key("step").value(convex::text(*step));
+      json.key("symbolic").begin_object().key("f");
       write_cases(json, told[0].cases);
       json.key(is_prox ? "prox" : "g");
       write_cases(json, told[1].cases);
@@ -155,7 +176,9 @@ void write_cases(JsonWriter& json, const symbolic::Cases& cases) {
   json.end_array();
 }
 
-Exit tell_prox_in_symbols(const FunctionOptions& options) { return tell(options, true); }
-Exit tell_conjugate_in_symbols(const FunctionOptions& options) { return tell(options, false); }
+Exit tell_prox_in_symbols(const FunctionOptions& options, std::optional<double> step) {
+  return tell(options, true, step ? std::optional(symbolic::simplest_fraction(*step)) : std::nullopt);
+}
+Exit tell_conjugate_in_symbols(const FunctionOptions& options) { return tell(options, false, std::nullopt); }
 
 }  // namespace cli::inline reports

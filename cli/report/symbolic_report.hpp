@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/options.hpp"
@@ -19,9 +20,9 @@ std::string cases_latex(const std::string& left, const std::string& variable, co
 /// An array of them.
 void write_cases(JsonWriter&, const convex::symbolic::Cases&);
 
-/// `--symbolic`: f of one variable with its prox, or its conjugate, by cases; `--latex`: as formulas of
-/// amsmath.
-Exit tell_prox_in_symbols(const FunctionOptions&);
+/// `--symbolic`: f of one variable with the prox of step f, or its conjugate, by cases; `--latex`: as
+/// formulas of amsmath.
+Exit tell_prox_in_symbols(const FunctionOptions&, std::optional<double> step);
 Exit tell_conjugate_in_symbols(const FunctionOptions&);
 
 }  // namespace cli::inline reports

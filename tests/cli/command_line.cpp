@@ -66,6 +66,11 @@ TEST_CASE("what the program never heard of exits two and is named") {
   expect_wrong({"derive"}, {"FILE"});
   expect_wrong({"check"}, {"FILE, --catalogue or --map"});
   expect_wrong({"check", "--catalogue", file}, {"--catalogue"});
+  expect_wrong({"check", file, "--metric", "[[1]]"}, {"--metric goes with --map or --table"});
+  expect_wrong({"check", "--catalogue", "--box", "0:1"}, {"--box goes with --map"});
+  expect_wrong({"check", file, "--data", folder.path("f.csv")}, {"--data goes with --map"});
+  expect_wrong({"simulate", file, "--until", "1", "--modulo", "x=2"},
+               {"--modulo", "--output F.csv", "--phase"});
   expect_wrong({"prox"}, {"f is required"});
   expect_wrong({"prox", "norm2()"}, {"--at"});
   expect_wrong({"conjugate"}, {"f is required"});

@@ -25,6 +25,39 @@ TEST_CASE("the metric's weight enters prox and conjugate as the product has it")
         std::string::npos);
 }
 
+TEST_CASE("with a step the prox is that of so many times f, and is named so") {
+  const Json answer = Json::parse(run({"prox", "norm1(1/3)", "--symbolic", "--step", "6", "--json"}).out);
+  CHECK(answer.at("step") == "6");
+  CHECK(answer.at("symbolic").at("f").back().at("formula") == "x/3");  // f itself is told as it is
+  CHECK(answer.at("symbolic").at("prox")[2].at("formula") == "z - 2");
+  // A tenth is 1/10 here. The envelope of |x| is that of the metric, whatever the step: 0 = x - z + 1/10 x.
+  const std::string text = run({"prox", "envelope(norm1(), 1)", "--symbolic", "--step", "0.1"}).out;
+  CHECK(text.find("prox_(1/10 f)(z) =") != std::string::npos);
+  CHECK(text.find("10*z/11") != std::string::npos);
+  CHECK(run({"prox", "norm1()", "--symbolic", "--step", "2", "--latex"}).out.find("prox}_{2 f}(z)") !=
+        std::string::npos);
+  // In the product 2xy, with step 6: 2(x - z) + 6/3 sign(x) = 0.
+  CHECK(run({"prox", "norm1(1/3)", "--symbolic", "--step", "6", "--metric", "[[2]]"}).out.find("z - 1 ") !=
+        std::string::npos);
+}
+
+TEST_CASE("symbols refuse what only numbers have: a method, a tolerance, a limit, a proof") {
+  for (const char* command : {"prox", "conjugate"})
+    for (const std::vector<std::string>& option : {std::vector<std::string>{"--method", "exact"},
+                                                   {"--tolerance", "1e-3"},
+                                                   {"--limit", "2"},
+                                                   {"--certify"}}) {
+      std::vector<std::string> words{command, "norm1()", "--symbolic"};
+      words.insert(words.end(), option.begin(), option.end());
+      const Outcome outcome = run(words);
+      CAPTURE(command);
+      CAPTURE(option.front());
+      CHECK(outcome.code == 2);
+      CHECK(outcome.out.empty());
+      CHECK(outcome.err.find(option.front() + " goes with a point") != std::string::npos);
+    }
+}
+
 TEST_CASE("of a sum by rules the prox is the root of its equation, without factors that cancel") {
   CHECK(
       run({"prox", "sum(exponential(), entropy())", "--symbolic"}).out.find("u + exp(u) + log(u) + 1 = z") !=
