@@ -46,15 +46,10 @@ std::string nonnegative_number(const std::string& text) {
   return text + " is not a number from 0 on; give 0 or more";
 }
 
-void add_accuracy(CLI::App& command, AccuracyOptions& options) {
+void add_accuracy(CLI::App& command, AccuracyOptions& options, const char* tolerance) {
   command.add_option("--method", options.method, "method of solution (see `moreau methods`)")
       ->type_name("NAME");
-  command
-      .add_option("--tolerance", options.tolerance,
-                  "accept an error bound of X * max(1, ||q''||_A), default 1e-9; of a liquid of X times the "
-                  "largest pressure, default 1e-3")
-      ->type_name("X")
-      ->check(positive_number);
+  command.add_option("--tolerance", options.tolerance, tolerance)->type_name("X")->check(positive_number);
   command
       .add_option(
           "--limit", options.limit,

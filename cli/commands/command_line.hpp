@@ -59,8 +59,12 @@ void add_overrides(CLI::App& command, Overrides&);
 /// Problem files, what is set in them, and how their answers are printed.
 void add_files(CLI::App& command, FileOptions&);
 
-/// --method, --tolerance and --limit.
-void add_accuracy(CLI::App& command, AccuracyOptions&);
+/// --method, --tolerance, with what it is a tolerance of, and --limit.
+inline constexpr const char* tolerance_of_solutions =
+    "accept an error bound of X * max(1, ||q''||_A), default 1e-9; of a liquid of X times the largest "
+    "pressure, "
+    "default 1e-3";
+void add_accuracy(CLI::App& command, AccuracyOptions&, const char* tolerance = tolerance_of_solutions);
 
 /// --tolerance of a motion's steps.
 void add_step_tolerance(CLI::App& command, MotionChoice&);

@@ -53,9 +53,7 @@ ConjugateQuestion read_question(const FunctionOptions& options, Source& source) 
   require_applicable_to_value(options, source);
   if (options.at) {
     source = {"--at", *options.at};
-    y = parse_vector(*options.at, "y");
-    if (y->size() == 0) throw InvalidInput("y: empty; give at least one number");
-    if (!y->allFinite()) throw InvalidInput("y: an entry is not finite; give finite numbers");
+    y = parse_point(*options.at, "y");
   }
   if (options.metric) {
     source = {"--metric", *options.metric};
@@ -196,7 +194,7 @@ void add_conjugate(CLI::App& program, Work& chosen) {
                     return options->symbolic ? tell_conjugate_in_symbols(*options) : tell_conjugate(*options);
                   });
   add_function(command, *options, false);
-  add_accuracy(command, *options);
+  add_accuracy(command, *options, "accept an error of the value of X * max(1, |g(y)|), default 1e-9");
   add_proof(command, options->certify);
   add_symbols(command, *options);
   add_printing(command, *options);

@@ -33,11 +33,6 @@ struct AskedPoint {
   int line = 0;
 };
 
-void require_point(const convex::Vector& z) {
-  if (z.size() == 0) throw InvalidInput("z: empty; give at least one number");
-  if (!z.allFinite()) throw InvalidInput("z: an entry is not finite; give finite numbers");
-}
-
 /// A point a line, numbers separated by commas; lines that are empty or begin with # are left out.
 std::vector<AskedPoint> points_of_file(const std::string& file) {
   std::vector<AskedPoint> points;
@@ -50,9 +45,7 @@ std::vector<AskedPoint> points_of_file(const std::string& file) {
     if (first == std::string::npos || line[first] == '#') continue;
     try {
       const std::string text = "[" + line + "]";
-      convex::Vector z = parse_vector(text, "z");
-      require_point(z);
-      points.push_back({std::move(z), text, number});
+      points.push_back({parse_point(text, "z"), text, number});
     } catch (const InvalidInput& error) {
       const int column = error.place() ? std::max(1, error.place()->column - 1) : 1;
       throw InvalidInput(error.what(), convex::Place{number, column});
@@ -71,9 +64,7 @@ std::vector<AskedPoint> read_points(const ProxOptions& options, Source& source) 
     return points_of_file(source.name);
   }
   source = {"--at", *options.at};
-  convex::Vector z = parse_vector(*options.at, "z");
-  require_point(z);
-  return {{std::move(z), *options.at, 0}};
+  return {{parse_point(*options.at, "z"), *options.at, 0}};
 }
 
 /// The same as written.
@@ -158,7 +149,8 @@ void add_prox(CLI::App& program, Work& chosen) {
   command.add_option("--step", options->step, "gamma: the prox of gamma f, that of f in the metric W/gamma")
       ->type_name("X")
       ->check(positive_number);
-  add_accuracy(command, *options);
+  add_accuracy(command, *options,
+               "accept an error of x and of y of X * max(1, ||z||_W, ||x||_W), default 1e-9");
   add_symbols(command, *options);
   add_printing(command, *options);
 }

@@ -25,10 +25,7 @@ struct SubdifferentialOptions : FunctionOptions {
 convex::Fractions read_exact_point(const std::string& text, const char* option, std::size_t n,
                                    Source& source) {
   source = {option, text};
-  const convex::Vector rounded = parse_vector(text, option + 2);
-  if (rounded.size() == 0) throw InvalidInput(std::string(option + 2) + ": empty; give at least one number");
-  if (!rounded.allFinite())
-    throw InvalidInput(std::string(option + 2) + ": an entry is not finite; give finite numbers");
+  parse_point(text, option + 2);
   convex::Fractions x = written_numbers(text);
   if (n != 0 && x.size() != n)
     throw InvalidInput(fmt::format("{}: {} entries; give {}, as --at has", option + 2, x.size(), n));

@@ -1,5 +1,7 @@
 #include "cli/function_language/parse_call.hpp"
 
+#include <cmath>
+
 #include "cli/function_language/cursor.hpp"
 #include "cli/function_language/read_list.hpp"
 #include "cli/function_language/read_number.hpp"
@@ -16,6 +18,8 @@ using convex::Place;
 
 constexpr const char* form = "name(arguments), such as norm1(weight=2); `moreau functions` lists the names";
 
+constexpr const char* vector_example = "a vector, such as [1, -2, 1/3]";
+
 class Parser {
  public:
   explicit Parser(Cursor& cursor) : cursor_(cursor) {}
@@ -25,7 +29,7 @@ class Parser {
     const Place place = cursor_.place();
     if (!number_begins(cursor_) && !begins_name(cursor_.peek())) {
       if (cursor_.at_end()) cursor_.fail(std::string("empty; write ") + form, place);
-      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form, place);
+      fail_no_name();
     }
     Call call = sum_from(term(1), place, 1);
     require_end();
@@ -70,9 +74,7 @@ class Parser {
       return multiple(take_number(cursor_), place, depth);
     }
     const std::string_view name = cursor_.take_name();
-    if (name.empty())
-      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form,
-                   cursor_.place());
+    if (name.empty()) fail_no_name();
     return scaled_behind(call_of(name, place, depth), place);
   }
 
@@ -85,8 +87,7 @@ class Parser {
           place);
     const Place begin = cursor_.place();
     const std::string_view name = cursor_.take_name();
-    if (name.empty())
-      cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form, begin);
+    if (name.empty()) fail_no_name();
     return scaled(call_of(name, begin, depth), alpha, place);
   }
 
@@ -155,6 +156,14 @@ class Parser {
     return std::make_shared<const Call>(sum_from(std::move(f), place, depth + 1));
   }
 
+  [[noreturn]] void fail_no_name() const {
+    if (cursor_.peek() == '-')
+      cursor_.fail(
+          "\"-\" where a function should be; a negative multiple of a convex function is none, give f "
+          "itself");
+    cursor_.fail(cursor_.shown_next() + " where a function's name should be; write " + form);
+  }
+
   [[noreturn]] void fail_bare(std::string_view name, Place place) const {
     const std::string quoted = shown(std::string(name));
     if (name == "nan" || name == "NaN")
@@ -196,10 +205,23 @@ Call parse_call(std::string_view text, std::string_view what, Place begin) {
 }
 
 convex::Vector parse_vector(std::string_view text, std::string_view what, Place begin) {
-  constexpr const char* example = "a vector, such as [1, -2, 1/3]";
-  const Argument list = only_list(text, what, begin, example).value;
+  const Argument list = only_list(text, what, begin, vector_example).value;
   if (const auto* x = std::get_if<convex::Vector>(&list)) return *x;
-  throw convex::InvalidInput(std::string(what) + ": a matrix; write " + example, begin);
+  throw convex::InvalidInput(std::string(what) + ": a matrix; write " + vector_example, begin);
+}
+
+convex::Vector parse_point(std::string_view text, std::string_view what) {
+  const WrittenList list = only_list(text, what, {}, vector_example);
+  const auto* x = std::get_if<convex::Vector>(&list.value);
+  const auto refuse = [&](const std::string& message, Place place = {}) {
+    throw convex::InvalidInput(std::string(what) + ": " + message, place);
+  };
+  if (x == nullptr) refuse(std::string("a matrix; write ") + vector_example);
+  if (x->size() == 0) refuse("empty; give at least one number");
+  for (std::size_t i = 0; i < list.written.size(); ++i)
+    if (!std::isfinite((*x)[static_cast<convex::Index>(i)]))
+      refuse(list.written[i] + " is not finite; give finite numbers", list.places[i]);
+  return *x;
 }
 
 convex::Matrix parse_matrix(std::string_view text, std::string_view what, Place begin) {

@@ -20,6 +20,9 @@ convex::Call parse_call(std::string_view text, std::string_view what, convex::Pl
 convex::Vector parse_vector(std::string_view text, std::string_view what, convex::Place begin = {});
 convex::Matrix parse_matrix(std::string_view text, std::string_view what, convex::Place begin = {});
 
+/// A vector that is a point: it has entries, and they are finite; where one is not, its place is told.
+convex::Vector parse_point(std::string_view text, std::string_view what);
+
 /// The numbers of a list that has been read, as they are written: "0.1" is a tenth. Of a vector, row by row
 /// of a matrix.
 std::vector<convex::Fraction> written_numbers(std::string_view list);

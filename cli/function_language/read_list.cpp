@@ -25,27 +25,30 @@ void take_entries(Cursor& cursor, const TakeEntry& take_entry) {
   }
 }
 
-convex::Vector take_numbers(Cursor& cursor, std::vector<std::string>& written) {
+convex::Vector take_numbers(Cursor& cursor, WrittenList& list) {
   std::vector<double> entries;
   take_entries(cursor, [&] {
-    if (!number_begins(cursor))
+    list.places.push_back(cursor.place());
+    if (!number_begins(cursor)) {
+      refuse_word_of_no_number(cursor);
       cursor.fail(cursor.shown_next() +
                   " where a number should be; a list holds numbers, as [1, 2], or "
                   "rows, as [[1, 2], [3, 4]]");
+    }
     WrittenNumber number = take_number(cursor);
     entries.push_back(number.value);
-    written.push_back(std::move(number.text));
+    list.written.push_back(std::move(number.text));
   });
   return Eigen::Map<const convex::Vector>(entries.data(), static_cast<Index>(entries.size()));
 }
 
-convex::Matrix take_rows(Cursor& cursor, std::vector<std::string>& written) {
+convex::Matrix take_rows(Cursor& cursor, WrittenList& list) {
   std::vector<convex::Vector> rows;
   take_entries(cursor, [&] {
     const convex::Place place = cursor.place();
     if (cursor.peek() != '[')
       cursor.fail(cursor.shown_next() + " where a row should be; a matrix holds rows, as [[1, 2], [3, 4]]");
-    rows.push_back(take_numbers(cursor, written));
+    rows.push_back(take_numbers(cursor, list));
     if (rows.back().size() != rows.front().size())
       cursor.fail("row " + std::to_string(rows.size()) + " has length " + std::to_string(rows.back().size()) +
                       ", the first " + std::to_string(rows.front().size()) + "; give rows of one length",
@@ -65,9 +68,9 @@ WrittenList take_list(Cursor& cursor) {
     ++ahead;
   WrittenList list;
   if (cursor.peek(ahead) == '[')
-    list.value = take_rows(cursor, list.written);
+    list.value = take_rows(cursor, list);
   else
-    list.value = take_numbers(cursor, list.written);
+    list.value = take_numbers(cursor, list);
   return list;
 }
 

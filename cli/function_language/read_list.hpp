@@ -9,6 +9,7 @@ namespace cli::inline function_language {
 struct WrittenList {
   convex::Argument value;
   std::vector<std::string> written;
+  std::vector<convex::Place> places = {};  ///< where these numbers stand
 };
 
 /// Takes a list: of numbers, a vector [1, 2]; of such lists, the rows of a matrix [[1, 2], [3, 4]]. An empty

@@ -1,5 +1,6 @@
 #include "cli/function_language/read_number.hpp"
 
+#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -42,8 +43,20 @@ std::size_t decimal_length(const Cursor& cursor, std::size_t ahead) {
 }  // namespace
 
 bool number_begins(const Cursor& cursor) {
-  const char c = cursor.peek();
-  return is_digit(c) || c == '.' || c == '-' || c == '+' || infinity_begins(cursor, 0);
+  const char sign = cursor.peek();
+  const std::size_t ahead = sign == '-' || sign == '+' ? 1 : 0;
+  const char c = cursor.peek(ahead);
+  return is_digit(c) || c == '.' || infinity_begins(cursor, ahead);
+}
+
+void refuse_word_of_no_number(const Cursor& cursor) {
+  const std::size_t first = cursor.peek() == '-' || cursor.peek() == '+' ? 1 : 0;
+  std::string word, small;
+  for (std::size_t i = first; begins_name(cursor.peek(i)); ++i) word += cursor.peek(i);
+  for (const char c : word) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (small == "nan") cursor.fail(word + " is not finite; give a number");
+  if (small == "inf" || small == "infinity")
+    cursor.fail("\"" + word + "\" is no number; an infinite one is inf or -inf");
 }
 
 WrittenNumber take_number(Cursor& cursor) {

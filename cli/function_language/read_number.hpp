@@ -6,8 +6,11 @@
 
 namespace cli::inline function_language {
 
-/// Does a number begin here: a digit, a point, a sign, or inf?
+/// Does a number begin here: a digit, a point or inf, with a sign before it or without?
 bool number_begins(const Cursor& cursor);
+
+/// Throws InvalidInput where a word for what is no number stands here: nan, Infinity, …
+void refuse_word_of_no_number(const Cursor& cursor);
 
 /// A number as it was written, and the double nearest to it.
 struct WrittenNumber {

@@ -91,8 +91,13 @@ TomlValue read_document(const std::string& file) {
     case DocumentForm::matrix_market:
       return read_matrix_folder(file);
     default:
-      return parse_toml(read_file(file));
+      break;
   }
+  const std::string text = read_file(file);
+  // Standard input has no name to tell the form by; no TOML begins with a brace.
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool is_json = file == "-" && first != std::string::npos && text[first] == '{';
+  return is_json ? parse_json(text) : parse_toml(text);
 }
 
 TomlValue projection_document(const std::vector<std::vector<std::string>>& A,

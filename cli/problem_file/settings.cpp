@@ -13,13 +13,19 @@ namespace {
 
 using convex::InvalidInput;
 
-[[noreturn]] void refuse_setting(const std::string& key, const std::string& message) {
-  throw InvalidInput("--set " + shown(key) + ": " + message);
+[[noreturn]] void refuse_setting(const Setting& setting, const std::string& message) {
+  throw InvalidInput(setting.option + " " + shown(setting.key) + ": " + message);
 }
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// "inf", "-nan", …, which the file itself would have as numbers that are not finite.
+bool is_word_of_no_number(const std::string& text) {
+  const std::string word = text.substr(text.find_first_not_of("+-") == 1 ? 1 : 0);
+  return word == "inf" || word == "nan";
 }
 
 /// A number is one, lists, tables, quoted texts and truths are TOML, all else is an expression.
@@ -39,8 +45,13 @@ TomlValue value_of_text(const std::string& key, const std::string& text) {
     try {
       return parse_toml("value = " + text).table.front().value;
     } catch (const InvalidInput& error) {
-      refuse_setting(key, error.what());
+      refuse_setting({key, {}}, error.what());
     }
+  }
+  if (is_word_of_no_number(text)) {
+    value.kind = TomlValue::Kind::floating;
+    value.text = text;
+    return value;
   }
   value.kind = TomlValue::Kind::string;
   value.number = 0;
@@ -64,7 +75,7 @@ TomlValue* find(TomlValue& table, const std::string& key) {
   return nullptr;
 }
 
-TomlValue& table_in(TomlValue& document, const std::string& key, const std::string& setting) {
+TomlValue& table_in(TomlValue& document, const std::string& key, const Setting& setting) {
   TomlValue* found = find(document, key);
   if (found == nullptr) {
     document.table.push_back({key, {}, {}});
@@ -95,7 +106,8 @@ TomlValue* entry_of_list(TomlValue& table, const std::string& key) {
 }
 
 /// What a key of one part stands for: a parameter, t, or a key of the table that the problem is.
-std::string full_key(const TomlValue& document, const std::string& key) {
+std::string full_key(const TomlValue& document, const Setting& setting) {
+  const std::string& key = setting.key;
   for (const char* content : {"system", "liquid"}) {
     const TomlValue* table = document.find(content);
     if (table == nullptr) continue;
@@ -110,11 +122,11 @@ std::string full_key(const TomlValue& document, const std::string& key) {
     const TomlValue* state = document.find("state");
     const TomlValue* position = state == nullptr ? nullptr : state->find("position");
     if (position != nullptr && position->find(key) != nullptr)
-      refuse_setting(key, "this is a coordinate; write position." + key + " or velocity." + key);
+      refuse_setting(setting, "this is a coordinate; write position." + key + " or velocity." + key);
     const std::string nearest = convex::nearest_name(key, known);
     std::string list;
     for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-    refuse_setting(key,
+    refuse_setting(setting,
                    "there is no such parameter; " + (!nearest.empty() ? "did you mean \"" + nearest + "\"?"
                                                      : known.empty()  ? "the file has none"
                                                                       : "the file has " + list));
@@ -128,7 +140,7 @@ void apply_setting(TomlValue& document, const Setting& setting) {
   std::string path = setting.key;
   // A dot within brackets belongs to an index.
   const auto is_path = [&] { return path.substr(0, path.find('[')).find('.') != std::string::npos; };
-  if (!is_path() && path != "title") path = full_key(document, path);
+  if (!is_path() && path != "title") path = full_key(document, setting);
   const std::string first = path.substr(0, path.find('.'));
   const bool of_state = first == "position" || first == "velocity";
   const bool of_system =
@@ -139,7 +151,7 @@ void apply_setting(TomlValue& document, const Setting& setting) {
   for (;;) {
     const std::size_t dot = path.find('.'), bracket = path.find('[');
     if (dot == std::string::npos || bracket < dot) break;
-    table = &table_in(*table, path.substr(0, dot), setting.key);
+    table = &table_in(*table, path.substr(0, dot), setting);
     path = path.substr(dot + 1);
   }
   TomlValue value = setting.value;
@@ -176,7 +188,7 @@ Setting number_setting(const std::string& key, double value) {
   number.kind = TomlValue::Kind::floating;
   number.number = value;
   number.text = fmt::format("{}", value);
-  return {key, std::move(number)};
+  return {key, std::move(number), "--over"};
 }
 
 void apply_settings(TomlValue& document, const std::vector<Setting>& settings) {

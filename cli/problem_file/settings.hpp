@@ -13,6 +13,7 @@ namespace cli::inline problem_files {
 struct Setting {
   std::string key;
   TomlValue value;
+  std::string option = "--set";  ///< that it came from, for messages
 };
 
 /// Throws InvalidInput for what has not this form.
@@ -23,7 +24,7 @@ std::vector<Setting> parsed_settings(const std::vector<std::string>& texts);
 /// Puts the values in their places. Throws InvalidInput for a parameter that the file does not have.
 void apply_settings(TomlValue& document, const std::vector<Setting>& settings);
 
-/// The same for one number, written with all its digits.
+/// The same for one number of `--over`, written with all its digits.
 Setting number_setting(const std::string& key, double value);
 
 }  // namespace cli::inline problem_files

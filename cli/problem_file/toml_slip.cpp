@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 
 namespace cli::inline problem_files {
 namespace {
+
+/// Of a value in a message.
+constexpr std::size_t longest_shown = 80;
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
@@ -61,8 +65,7 @@ Spot spot_of(const std::string& text, convex::Place at) {
 
 /// Whether it reads as an expression that lacks its quotation marks.
 bool is_bare_expression(const std::string& value) {
-  constexpr std::size_t longest = 80;
-  if (value.empty() || value.size() > longest || value.find_first_of("\"\\") != std::string::npos)
+  if (value.empty() || value.size() > longest_shown || value.find_first_of("\"\\") != std::string::npos)
     return false;
   const unsigned char first = static_cast<unsigned char>(value.front());
   return std::isalnum(first) != 0 || first == '-' || first == '+' || first == '(';
@@ -131,10 +134,12 @@ std::string advice_on_value(const Spot& spot) {
   if (from.size() > 1 && from.front() == '.' && std::isdigit(static_cast<unsigned char>(from[1])) != 0)
     return "a number begins with a digit; write 0" + spot.value;
   char* end = nullptr;
-  std::strtod(from.c_str(), &end);
+  const double number = std::strtod(from.c_str(), &end);
   const auto length = static_cast<std::size_t>(end - from.c_str());
   const std::string token = from.substr(0, length);
   if (token.empty() || is_letter(token.front())) return "";
+  if (std::isinf(number) && token.find_first_of("0123456789") != std::string::npos)
+    return "the number " + token.substr(0, longest_shown) + " is too large for a double; choose other units";
   if (token.back() == '.' && without_spaces_around(from.substr(length)).empty())
     return "a number ends with a digit; write " + token + "0";
   return advice_on_rest(token, from.substr(length));
@@ -161,6 +166,16 @@ std::string key_before(const Spot& spot) {
   return spot.line.substr(begin, end - begin);
 }
 
+/// "[state": the bracket is missing behind the name.
+std::string advice_on_header(const std::string& line) {
+  const std::size_t open = line.find('[');
+  std::size_t end = open == std::string::npos ? line.size() : open + 1;
+  const std::size_t begin = end;
+  while (end < line.size() && (is_of_key(line[end]) || line[end] == ' ') && line[end] != '[') ++end;
+  const std::string name = without_spaces_around(line.substr(begin, end - begin));
+  return "the name of a table without its ]; write [" + (name.empty() ? "system.parameters" : name) + "]";
+}
+
 /// Of tables, lists and the = between a key and its value.
 std::string advice_on_structure(const Spot& spot, std::string_view description) {
   if (says(description, "redefine existing table")) {
@@ -175,8 +190,7 @@ std::string advice_on_structure(const Spot& spot, std::string_view description) 
   if (says(description, "inline table")) return "no } closes this {; a table in { } stands on one line";
   if (says(description, "array: expected comma"))
     return "a list without its ], or two entries without a comma between them; write [1, 2]";
-  if (says(description, "table header: expected ']'"))
-    return "the name of a table without its ]; write [system.parameters]";
+  if (says(description, "table header: expected ']'")) return advice_on_header(spot.line);
   if (says(description, "control characters other than TAB") || says(description, "string: encountered end"))
     return "a text without its closing quotation mark; add it";
   if (!says(description, "expected '='")) return "";

@@ -136,7 +136,7 @@ TEST_CASE("what is no call is refused where it goes wrong, with what to do") {
       {"norm1(1;2)", 1, 8, "commas"},
       {"norm1('a')", 1, 7, "argument"},
       {"norm1(2x)", 1, 8, "right behind a number"},
-      {"norm1(-)", 1, 8, "no number"},
+      {"norm1(-)", 1, 7, "where an argument should be"},
       {"norm1(1/0)", 1, 7, "denominator"},
       {"norm1(1e999)", 1, 7, "too large"},
       {"norm1(nan)", 1, 7, "no number"},

@@ -85,7 +85,7 @@ TEST_CASE("wrong expressions are told from wrong points and wrong metrics, with 
       {{"prox", "norm2()", "--at", "1"}, "--at:1:1: ", {"vector"}},
       {{"prox", "norm2()", "--at", "[]"}, "--at:1:1: ", {"empty"}},
       {{"prox", "norm2()", "--at", "[[1]]"}, "--at:1:1: ", {"vector"}},
-      {{"prox", "norm2()", "--at", "[1, inf]"}, "--at:1:1: ", {"finite"}},
+      {{"prox", "norm2()", "--at", "[1, inf]"}, "--at:1:5: ", {"finite"}},
       {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "[1, 2]"}, "--metric:1:1: ", {"diagonal"}},
       {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "diagonal [[1]]"}, "--metric:1:1: ", {"diagonal"}},
       {{"prox", "norm2()", "--at", "[1, 2]", "--metric", "diag [1, 2]"}, "--metric:1:1: ", {"diagonal"}},

@@ -55,6 +55,16 @@ TEST_CASE("a dash reads the problem from standard input") {
   CHECK(Json::parse(derived.out).at("names") == Json{"q[0]", "q[1]"});
 }
 
+TEST_CASE("what begins with a brace on standard input is JSON, which no name there could say") {
+  const std::string problem = R"(
+    {"projection": {"A": [[1]], "z": [-1], "U": [[1]], "s": [0]}})";
+  const Outcome outcome = run({"solve", "--json", "-"}, problem);
+  CHECK(outcome.code == 0);
+  CHECK(Json::parse(outcome.out).at("multipliers").at("c[0]") == 1);
+  const Outcome wrong = run({"solve", "-"}, R"({"projection": {"A": [[1]], "z": [-1], "W": [[1]]}})");
+  CHECK(wrong.err.starts_with("moreau: -:1:40: unknown key \"W\""));
+}
+
 TEST_CASE("an error on standard input names the dash as the file") {
   const Outcome outcome = run({"solve", "-"}, point_on_floor({{3, "kinetik = \"1\""}}));
   CHECK(outcome.code == 2);
