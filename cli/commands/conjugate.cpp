@@ -153,12 +153,15 @@ std::string conjugate_text(const ConjugateQuestion& question, const ConjugateAns
   text += fmt::format("domain of g: {}\n", domain.empty() ? "where the supremum is finite" : domain);
   if (question.y) {
     // All digits of the point: six of them may be those of one on the other side of the domain's edge.
-    text += fmt::format("g([{}]) = {}\n", fmt::join(*question.y, ", "), number_text(answer.value->value));
+    const bool is_told_below = answer.proof || answer.status != convex::Status::solved ||
+                               (std::isinf(answer.value->value) && answer.value->error == 0);
+    text += fmt::format("g([{}]) = {}{}\n", fmt::join(*question.y, ", "), number_text(answer.value->value),
+                        is_told_below ? "" : ", error at most " + error_text(answer.value->error));
     if (answer.proof && answer.proof->exact) text += "exactly " + convex::text(*answer.proof->exact) + "\n";
     if (answer.proof)
       text += answer.proof->level == convex::ProofLevel::none
                   ? "NOT proved: " + answer.proof->why_none + ".\n"
-                  : fmt::format("Proved: its error is at most {:.1e}.\n", answer.value->error);
+                  : fmt::format("Proved: its error is at most {}.\n", error_text(answer.value->error));
     if (answer.status != convex::Status::solved)
       text += fmt::format("NOT known to the accuracy that was asked for: its error may be {:.1e}.\n",
                           answer.value->error);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "cli/commands/command_line.hpp"
@@ -9,6 +10,7 @@
 #include "cli/function_language/parse_call.hpp"
 #include "cli/function_language/parse_metric.hpp"
 #include "cli/report/subdifferential_report.hpp"
+#include "cli/report/text_table.hpp"
 #include "convex/catalogue/catalogue.hpp"
 
 namespace cli::inline commands {
@@ -30,6 +32,22 @@ convex::Fractions read_exact_point(const std::string& text, const char* option, 
   if (n != 0 && x.size() != n)
     throw InvalidInput(fmt::format("{}: {} entries; give {}, as --at has", option + 2, x.size(), n));
   return x;
+}
+
+/// Where doubles let x into the domain and fractions do not, x is one that was rounded, as those of a prox
+/// are.
+std::string why_empty(const convex::Function& f, const convex::Vector& x) {
+  const convex::Value value = f.evaluate(x);
+  const bool is_set = f.facts().indicator;
+  const double distance = is_set ? (x - f.prox(x, convex::Metric::identity(x.size())).x).norm() : 0;
+  if (std::isinf(value.value))
+    return "x is outside the domain" + (distance > 0 ? " by " + number_text(distance) : std::string());
+  // In the domain of an indicator 0 is a subgradient.
+  const bool is_rounded = is_set || std::isinf(value.error);
+  const std::string vertical = is_rounded ? "" : "a slope is vertical at x, or ";
+  return vertical + "x is outside the domain by a rounding" +
+         (distance > 0 ? ", about " + error_text(distance) : std::string()) +
+         "; give fractions, or a point inside";
 }
 
 ToldSubdifferential find_subdifferential(const SubdifferentialOptions& options, Source& source) {
@@ -54,7 +72,10 @@ ToldSubdifferential find_subdifferential(const SubdifferentialOptions& options, 
   f(nearest(told.x));  // checks the number of entries
   told.at = convex::subdifferential(told.f, W, told.x);
   if (options.covector) told.contains = told.at.contains(v);
-  if (told.at.is_empty()) return told;
+  if (told.at.is_empty()) {
+    told.why_empty = why_empty(f, nearest(told.x));
+    return told;
+  }
   const convex::Index n = in_doubles.dimension();
   convex::Matrix inverse(n, n);
   for (convex::Index i = 0; i < n; ++i) inverse.col(i) = in_doubles.solve(convex::Vector::Unit(n, i));

@@ -135,7 +135,7 @@ std::string of_operation(const Call& call, Index n) {
     if (A == nullptr || !std::holds_alternative<convex::Matrix>(*A)) return "";
     const std::string b = given.text("b");
     return changed(f, std::get<convex::Matrix>(*A).rows(), [&](const std::string& domain) {
-      return given.text("A") + "x" + (b.empty() ? "" : " + " + b) + " in (" + domain + ")";
+      return given.text("A") + "y" + (b.empty() ? "" : " + " + b) + " in (" + domain + ")";
     });
   }
   if (call.name == "separable") return of_blocks(call);

@@ -105,7 +105,8 @@ std::string split_text(const SolvedCone& solved) {
   const double inner = convex::nearest_double(solved.split->inner);
   if (inner == 0 && solved.split->residual == 0)
     return text + "In fractions z = x + y and (x|y) = 0 hold exactly; what is printed is rounded once.\n";
-  return text + fmt::format("(x|y) = {:.1e}, and x + y misses z by {:.1e}.\n", inner, solved.split->residual);
+  return text + fmt::format("(x|y) = {}, and x + y misses z by {}.\n", error_text(inner),
+                            error_text(solved.split->residual));
 }
 
 }  // namespace

@@ -67,10 +67,10 @@ std::string proof_text(const SplitPoint& solved) {
   const convex::ProvedSplit& proof = *solved.proof;
   if (proof.level == convex::ProofLevel::none) return "NOT proved: " + proof.why_none + ".\n";
   std::string text = fmt::format(
-      "Proved{}: the error of x is at most {:.1e}, that of y at most {:.1e}; each was proved by itself, and "
-      "their sum misses z by {:.1e} at most.\n",
-      proof.level == convex::ProofLevel::exact ? " in rational arithmetic" : "", proof.x_bound, proof.y_bound,
-      proof.sum_miss);
+      "Proved{}: the error of x is at most {}, that of y at most {}; each was proved by itself, and "
+      "their sum misses z by {} at most.\n",
+      proof.level == convex::ProofLevel::exact ? " in rational arithmetic" : "", error_text(proof.x_bound),
+      error_text(proof.y_bound), error_text(proof.sum_miss));
   const auto line = [&](const char* what, const convex::ProvedInterval& interval) {
     text += interval.low == interval.high
                 ? fmt::format("{} = {}\n", what, number_text(interval.low))
@@ -205,19 +205,19 @@ std::string split_text(const SplitPoint& solved) {
   std::string text = table.text();
   if (z.size() > most_rows)
     text += fmt::format("  … and {} more entries; --json gives all\n", z.size() - most_rows);
-  text += fmt::format("\nf(x) = {}, g(y) = {}, (x|y) = {}: f(x) + g(y) - (x|y) = {:.1e}\n",
-                      number_text(split.f_x), number_text(split.g_y), number_text(split.inner),
-                      split.fenchel_gap);
-  text += fmt::format("x: {}. y: {}. Their sum misses z by {:.1e}.\n", how(split.x), how(split.y),
-                      split.residual);
+  text +=
+      fmt::format("\nf(x) = {}, g(y) = {}, (x|y) = {}: f(x) + g(y) - (x|y) = {}\n", number_text(split.f_x),
+                  number_text(split.g_y), number_text(split.inner), error_text(split.fenchel_gap));
+  text += fmt::format("x: {}. y: {}. Their sum misses z by {}.\n", how(split.x), how(split.y),
+                      error_text(split.residual));
   if (solved.exact) text += exact_text(*solved.exact);
   if (solved.proof) text += proof_text(solved);
   const bool proved = solved.proof && solved.proof->level != convex::ProofLevel::none;
   if (proved && split.status == convex::Status::solved) return text;
   text += fmt::format(
-      "{}: error of x and of y at most about {:.1e}.\n",
+      "{}: error of x and of y at most about {}.\n",
       split.status == convex::Status::solved ? "Solved" : "NOT solved to the accuracy that was asked for",
-      split.error_bound);
+      error_text(split.error_bound));
   return text;
 }
 

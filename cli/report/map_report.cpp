@@ -149,7 +149,8 @@ std::string map_text(const JudgedMap& judged) {
     text += fmt::format("Jacobian times metric: symmetric at {} points, by exact derivatives.\n",
                         verdict.symmetric_at);
   else if (verdict.asymmetry > 0)
-    text += fmt::format("Jacobian times metric: symmetric to {:.1e}, by differences.\n", verdict.asymmetry);
+    text += fmt::format("Jacobian times metric: symmetric to {}, by differences.\n",
+                        error_text(verdict.asymmetry));
   if (judged.function) {
     text += judged.is_table
                 ? "Joined by straight lines it is the prox of, up to a constant,\n"

@@ -221,7 +221,7 @@ std::string dual_text(const SolvedScene& solved) {
   const double difference = solved.solution.from_dual->difference;
   constexpr const char* route = "The reaction found from the dual alone (Moreau 1966, section 5)";
   if (difference * scale <= agreement * std::max(scale, solved.solution.from_dual->apex_norm))
-    return solved.verbose ? fmt::format("{} agrees to {:.1e}.\n", route, difference) : "";
+    return solved.verbose ? fmt::format("{} agrees to {}.\n", route, error_text(difference)) : "";
   // At rest both are roundings, and a part of them says nothing; so are forces of which large multipliers
   // leave little, and those that contacts nearly depending on each other share.
   const double known = mechanics::apart_by_rounding(solved.scene.problem, solved.solution);
@@ -262,11 +262,10 @@ std::string accuracy_text(const SolvedScene& solved) {
   // itself.
   const bool may_be_zero = scale > 0 && relative >= 1 && primal.status == convex::Status::solved;
   const double unit = scale > 0 && !may_be_zero ? scale : 1;
-  std::string accuracy =
-      fmt::format("{}error of the acceleration at most {}{}{}{}", may_be_zero ? "" : "relative ",
-                  is_proved(solved.certificate) ? "" : "about ",
-                  relative > 0 ? fmt::format("{:.1e}", primal.error_bound / unit) : "0",
-                  may_be_zero ? " in the kinetic norm (it may be 0)" : "", proof_text(solved.certificate));
+  std::string accuracy = fmt::format(
+      "{}error of the acceleration at most {}{}{}{}", may_be_zero ? "" : "relative ",
+      is_proved(solved.certificate) ? "" : "about ", error_text(relative > 0 ? primal.error_bound / unit : 0),
+      may_be_zero ? " in the kinetic norm (it may be 0)" : "", proof_text(solved.certificate));
   const std::string mechanism = mechanism_text(solved);
   if (solved.as_evaluated && solved.verbose)
     accuracy +=

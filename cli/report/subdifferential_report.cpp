@@ -130,6 +130,7 @@ std::string subdifferential_json(const ToldSubdifferential& told) {
     write_polyhedron(json, *at.polyhedron);
   else
     json.null();
+  if (at.is_empty()) json.key("why").value(told.why_empty);
   if (told.least) json.key("least").numbers(*told.least).key("least_norm").value(told.least_norm);
   if (told.contains) json.key("contains").value(*told.contains);
   if (told.along) json.key("along").value(*told.along);
@@ -141,7 +142,7 @@ std::string subdifferential_json(const ToldSubdifferential& told) {
 std::string subdifferential_text(const ToldSubdifferential& told) {
   const convex::Subdifferential& at = told.at;
   std::string text = fmt::format("f = {} at {}\n", to_text(told.f), row_text(told.x));
-  if (at.is_empty()) return text + "The subdifferential is empty.\n";
+  if (at.is_empty()) return text + "The subdifferential is empty: " + told.why_empty + ".\n";
   if (at.is_single())
     text += fmt::format("One subgradient{}: {}\n", at.is_exact ? "" : ", rounded",
                         row_text(at.polyhedron->vertices.front()));

@@ -11,6 +11,7 @@ struct ToldSubdifferential {
   convex::Call f;
   convex::Fractions x;
   convex::Subdifferential at;
+  std::string why_empty;                ///< where it is
   std::optional<convex::Vector> least;  ///< the element of least norm in the dual metric
   double least_norm = 0;
   std::optional<bool> contains;                             ///< the covector asked for

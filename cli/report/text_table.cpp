@@ -17,6 +17,8 @@ std::size_t width(const std::string& text) {
 
 std::string number_text(double x) { return fmt::format("{:.6g}", x + 0.0); }
 
+std::string error_text(double x) { return x == 0 ? "0" : fmt::format("{:.1e}", x); }
+
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size(), 0);
   for (const auto& row : rows_)

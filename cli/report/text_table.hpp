@@ -12,6 +12,9 @@ inline constexpr std::ptrdiff_t most_rows = 40;
 /// A number as a person reads it: six significant digits.
 std::string number_text(double x);
 
+/// An error in two digits, "2.2e-16"; 0 is "0".
+std::string error_text(double x);
+
 /// Columns with a heading each; the first is set to the left, the others to the right.
 class TextTable {
  public:

@@ -66,6 +66,20 @@ TEST_CASE("the conjugate prints as an expression that reads back, with its domai
     CHECK(text.find(words) != std::string::npos);
 }
 
+TEST_CASE("the value of a conjugate is printed with its error, a domain in the variable of the conjugate") {
+  CHECK(run({"conjugate", "ball2(2)", "--at", "[1, 0.5]"})
+            .out.find("g([1, 0.5]) = 2.23607, error at most 9.9e-16") != std::string::npos);
+  CHECK(run({"conjugate", "norm1()", "--at", "[3]"}).out.find("g([3]) = inf\n") != std::string::npos);
+  CHECK(run({"conjugate", "precompose(norm2(), [[2, 1], [1, 1]])"})
+            .out.find("]]y + [0,0] in (ball2(radius=1))") != std::string::npos);
+}
+
+TEST_CASE("what is 0 is printed as 0") {
+  const std::string split = run({"prox", "norm1()", "--at", "[1]"}).out;
+  CHECK(split.find("f(x) + g(y) - (x|y) = 0\n") != std::string::npos);
+  CHECK(split.find("Their sum misses z by 0.\n") != std::string::npos);
+}
+
 TEST_CASE("a point beyond the edge of a conjugate's domain is told with the digits that put it there") {
   CHECK(run({"conjugate", "norm2()", "--at", "[1.0000001, 0]"}).out.find("g([1.0000001, 0]) = inf\n") !=
         std::string::npos);

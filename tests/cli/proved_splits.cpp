@@ -180,6 +180,31 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "why a subdifferential is empty is told: x is outside, or outside by a rounding, or a slope is "
+    "vertical") {
+  const std::vector<std::array<std::string, 3>> table = {
+      {"ball2()", "[3, 4]", "x is outside the domain by 4."},
+      {"box(0, 1)", "[1.0000000000000002]",
+       "x is outside the domain by a rounding, about 2.2e-16; give fractions, or a point inside."},
+      {"sum(exponential(), indicator(box(0, 1)))", "[1.0000000000000002]",
+       "a slope is vertical at x, or x is outside the domain by a rounding; give fractions, or a point "
+       "inside."},
+      {"log_barrier()", "[-1]", "x is outside the domain."},
+      {"entropy()", "[0]", "a slope is vertical at x"}};
+  for (const auto& [f, x, why] : table) {
+    const Outcome outcome = run({"subdifferential", f, "--at", x});
+    CAPTURE(f);
+    CAPTURE(outcome.out);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.out.find("The subdifferential is empty: " + why) != std::string::npos);
+  }
+  // The point that a prox returns.
+  const Json x = json_of({"prox", "ball2()", "--at", "[3,1,0.2]", "--json"})["x"];
+  const Json at = json_of({"subdifferential", "ball2()", "--at", x.dump(), "--json"});
+  CHECK(at["why"].get<std::string>().find("by a rounding") != std::string::npos);
+}
+
+TEST_CASE(
     "the directional derivative and the element of least norm are printed, and what has no rule is refused") {
   const Json corner =
       json_of({"subdifferential", "norm2(2)", "--at", "[0,0]", "--direction", "[3,4]", "--json"});
