@@ -18,12 +18,31 @@ std::string largest_multiplier(const mechanics::Orbit& orbit) {
   return fmt::format("{}", std::abs(orbit.multipliers->front()));
 }
 
-/// Columns: value, q, v, largest multiplier.
-std::string columns(const BranchPoint& point) {
+/// Columns: value, q, v, largest multiplier; the velocity may be left out, which interrupts its curve.
+std::string columns(const BranchPoint& point, bool has_velocity = true) {
   std::string text = fmt::format("{}", point.value);
   for (const double q : point.orbit.start.q) text += fmt::format(" {}", q);
-  for (const double v : point.orbit.start.v) text += fmt::format(" {}", v);
+  for (const double v : point.orbit.start.v) text += has_velocity ? fmt::format(" {}", v) : " NaN";
   return text + " " + largest_multiplier(point.orbit) + "\n";
+}
+
+/// Does an impact pass the instant of the start between two orbits, so that their velocities there lie on
+/// both sides of it? Impacts that keep their places in the period move less than those that are counted one
+/// on, with one that left at its one end and came in at the other.
+bool passes_an_impact(const mechanics::Orbit& a, const mechanics::Orbit& b) {
+  const std::size_t count = a.impacts.size();
+  if (count == 0 || b.impacts.size() != count) return false;
+  const auto phase = [count](const mechanics::Orbit& orbit, std::size_t k) {
+    const double begins = orbit.start.t + static_cast<double>(k / count) * -orbit.period;
+    return (orbit.impacts[k % count].t - begins) / orbit.period;
+  };
+  const auto moved = [&](const mechanics::Orbit& first, const mechanics::Orbit& second, std::size_t shift) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += std::abs(phase(first, k + shift) - phase(second, k));
+    return sum;
+  };
+  const double kept = moved(a, b, 0);
+  return moved(a, b, 1) < kept || moved(b, a, 1) < kept;
 }
 
 /// The pieces of one stability. At an event a multiplier is on the unit circle but for rounding: between two
@@ -35,6 +54,7 @@ std::string pieces(const std::vector<BranchPoint>& points, bool stable) {
     const BranchPoint& tells = points[k + 1].event.empty() ? points[k + 1] : points[k];
     const bool belongs = tells.orbit.is_stable == stable;
     if (belongs && !is_inside) text += (text.empty() ? "" : "\n") + columns(points[k]);
+    if (belongs && passes_an_impact(points[k].orbit, points[k + 1].orbit)) text += columns(points[k], false);
     if (belongs) text += columns(points[k + 1]);
     is_inside = belongs;
   }

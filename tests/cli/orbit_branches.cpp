@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "cli/drawing/branch_drawing.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "tests/cli/program.hpp"
 
@@ -101,6 +102,36 @@ TEST_CASE("a branch is drawn with its unstable part and its events, and nothing 
   drawn << std::ifstream(picture).rdbuf();
   for (const char* words : {"x, unstable", "fold", "largest", "w"})
     CHECK_MESSAGE(drawn.str().find(words) != std::string::npos, words);
+}
+
+TEST_CASE("a velocity that jumps where an impact passes the instant of the start is not joined to itself") {
+  struct Passed {
+    std::vector<double> before, after;  ///< phases of impacts in a period of 2
+    long interruptions;
+  };
+  for (const Passed& one : {Passed{{0.02}, {0.99}, 1}, Passed{{0.99}, {0.02}, 1}, Passed{{0.45}, {0.55}, 0},
+                            Passed{{}, {}, 0}, Passed{{0.01, 0.5}, {0.49, 0.98}, 1},
+                            Passed{{0.1, 0.5}, {0.05, 0.4}, 0}, Passed{{0.5}, {0.5, 0.6}, 0}}) {
+    std::vector<cli::BranchPoint> points(2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      mechanics::Orbit& orbit = points[k].orbit;
+      points[k].value = static_cast<double>(k);
+      orbit.start.t = 3;
+      orbit.start.q = orbit.start.v = convex::Vector::Constant(1, static_cast<double>(k));
+      orbit.period = 2;
+      orbit.is_stable = true;
+      orbit.multipliers = {{0.5, 0.0}};
+      for (const double phase : k == 0 ? one.before : one.after) {
+        orbit.impacts.emplace_back();
+        orbit.impacts.back().t = orbit.start.t + orbit.period * phase;
+      }
+    }
+    const std::string script = cli::branch_drawing(points, {"x"}, "w", "").script;
+    long interruptions = 0;
+    for (std::size_t at = 0; (at = script.find(" NaN ", at)) != std::string::npos; ++at) ++interruptions;
+    CAPTURE(one.before.size());
+    CHECK(interruptions == one.interruptions);
+  }
 }
 
 TEST_CASE("a flip is told where the multiplier of the closed form is -1") {
