@@ -152,7 +152,6 @@ struct Words {
 void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection& section,
                const PageWindow& window, std::vector<std::string>& elsewhere) {
   std::vector<std::pair<Polygon, std::string>> named;
-  for (const Index row : section.without_line) elsewhere.push_back(solved.scene.contact_name(row));
   for (const PlaneSection::Row& row : section.rows) {
     const Polygon line = visible_part(row, window);
     const std::string& name = solved.scene.contact_name(row.row);
@@ -170,8 +169,14 @@ void draw_rows(LabelledPage& page, const SolvedScene& solved, const PlaneSection
 std::string heading_of(const SolvedScene& solved, const PlaneSection& section, bool ellipses,
                        const std::vector<std::string>& elsewhere, bool is_beside) {
   const Scene& scene = solved.scene;
-  std::string below;
+  std::string below, missing;
   const auto say = [&](const std::string& words) { below += (below.empty() ? "" : "; ") + words; };
+  if (!elsewhere.empty()) missing = "outside of the picture: " + listed(elsewhere);
+  std::vector<std::string> unseen;
+  for (const Index row : section.without_line) unseen.push_back(scene.contact_name(row));
+  if (!unseen.empty())
+    missing += std::string(missing.empty() ? "" : "; ") + (unseen.size() == 1 ? "does" : "do") +
+               " not show in this plane: " + listed(unseen);
   if (scene.problem.dimension() > 2)
     say("plane of " + scene.coordinates[static_cast<std::size_t>(section.axes[0])] + "'' and " +
         scene.coordinates[static_cast<std::size_t>(section.axes[1])] + "'', the rest held");
@@ -180,7 +185,7 @@ std::string heading_of(const SolvedScene& solved, const PlaneSection& section, b
   if (is_beside && below.empty()) below = "accelerations";
   const std::string name = is_beside ? "" : heading_line(scene.title.empty() ? scene.file : scene.title);
   return name + (below.empty() || is_beside ? "" : "\n") + heading_line(below) +
-         (elsewhere.empty() ? "" : "\n" + heading_line("outside of the picture: " + listed(elsewhere)));
+         (missing.empty() ? "" : "\n" + heading_line(missing));
 }
 
 }  // namespace
@@ -220,7 +225,8 @@ Drawing decomposition_drawing(const SolvedScene& solved, const std::optional<std
   if (admissible.size() == 2) page.add(admissible, "with lines lc rgb \"#a9cbe8\" lw 7 notitle");
   if (moved)
     for (const double part : {1.0 / 3, 2.0 / 3, 1.0})
-      page.line(ellipse(section.A, free, part * radius), "with lines lc rgb \"#888888\" lw 0.8 notitle");
+      page.faint_line(ellipse(section.A, free, part * radius),
+                      "with lines lc rgb \"#888888\" lw 0.8 notitle");
   std::vector<std::string> elsewhere;
   for (const Point& g : generators) {
     const Point end = x + 4 * window.size() * g.normalized();

@@ -25,8 +25,10 @@ constexpr std::array scale{"#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c"
                            "#28ae80", "#5ec962", "#addc30", "#fde725"};
 constexpr double most_digits = 16;
 
+/// Whole digits, which are printed too: cells with one number have one colour.
 double digits_of(double error) {
-  return error > 0 ? std::clamp(-std::log10(error), 0.0, most_digits) + 0.0 : most_digits;  // no -0
+  return error > 0 ? std::round(std::clamp(-std::log10(error), 0.0, most_digits)) + 0.0
+                   : most_digits;  // no -0
 }
 
 std::string colour(double error) {

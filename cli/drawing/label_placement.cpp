@@ -12,6 +12,9 @@ constexpr double line_height = 1.25;  ///< over the font size
 constexpr double clearance = 3;       ///< of the words from what they had better not lie on, in pixels
 constexpr double impossible = 1e9;    ///< on another label, or out of the frame
 constexpr double line_cost = 60;      ///< of lying on a line, in pixels of distance
+constexpr double faint_line_cost = 10;
+constexpr double parted_cost = 40;   ///< of a line between the label and what it names
+constexpr double shorter_cost = 20;  ///< of the next shorter text
 constexpr double point_cost = 200;
 
 bool overlap(const PagePoint& low, const PagePoint& high, const PagePoint& other_low,
@@ -70,13 +73,26 @@ double LabelPlacement::cost(const Box& box) const {
     if (overlap(box.low, box.high, other.low, other.high)) return impossible;
   for (const Box& other : points_)
     if (overlap(box.low, box.high, other.low, other.high)) sum += point_cost;
-  for (const std::vector<PagePoint>& line : lines_)
-    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      if (!crosses(line[k], line[k + 1], box.low, box.high)) continue;
-      sum += line_cost;
+  for (const auto& [corners, is_faint] : lines_)
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+      if (!crosses(corners[k], corners[k + 1], box.low, box.high)) continue;
+      sum += is_faint ? faint_line_cost : line_cost;
       break;
     }
   return sum;
+}
+
+double LabelPlacement::parted(const PagePoint& anchor, const PagePoint& end) const {
+  const auto side = [](const PagePoint& a, const PagePoint& b, const PagePoint& p) {
+    return (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+  };
+  for (const auto& [corners, is_faint] : lines_)
+    for (std::size_t k = 0; !is_faint && k + 1 < corners.size(); ++k) {
+      const PagePoint &a = corners[k], &b = corners[k + 1];
+      if (side(a, b, anchor) * side(a, b, end) < 0 && side(anchor, end, a) * side(anchor, end, b) < 0)
+        return parted_cost;
+    }
+  return 0;
 }
 
 LabelPlacement::Found LabelPlacement::best(const std::vector<PagePoint>& anchors, const std::string& text,
@@ -93,7 +109,10 @@ LabelPlacement::Found LabelPlacement::best(const std::vector<PagePoint>& anchors
         // The nearest side of the box is that far away.
         const PagePoint middle = anchor + away * way + way.cwiseProduct(half);
         if (away >= found.cost + found.distance) continue;
-        const double lies_on = cost({middle - half, middle + half});
+        // What goes through the anchor parts nothing from it.
+        constexpr double beside = 3;
+        const double lies_on =
+            cost({middle - half, middle + half}) + parted(anchor + beside * way, anchor + away * way);
         if (away + lies_on >= found.cost + found.distance) continue;
         found = {text, middle, half, way, lies_on, away};
       }
@@ -103,10 +122,13 @@ LabelPlacement::Found LabelPlacement::best(const std::vector<PagePoint>& anchors
 std::optional<PlacedLabel> LabelPlacement::place(const std::vector<PagePoint>& anchors,
                                                  const std::vector<std::string>& texts, double font_size) {
   std::optional<Found> chosen;
+  double worth = 0;
   for (const std::string& text : texts) {
     const Found found = best(anchors, text, font_size);
-    if (!chosen || found.cost + found.distance < chosen->cost + chosen->distance) chosen = found;
-    if (chosen->cost == 0) break;
+    if (!chosen || found.cost + found.distance + shorter_cost < worth) {
+      chosen = found;
+      worth = found.cost + found.distance;
+    }
   }
   if (!chosen || chosen->cost >= impossible) return std::nullopt;
   const auto& [text, middle, half, direction, cost, distance] = *chosen;

@@ -24,8 +24,11 @@ class LabelPlacement {
  public:
   LabelPlacement(PagePoint low, PagePoint high) : low_(std::move(low)), high_(std::move(high)) {}
 
-  /// What labels had better not lie on; a curve of many corners counts once.
-  void avoid_line(std::vector<PagePoint> corners) { lines_.push_back(std::move(corners)); }
+  /// What labels had better not lie on; a curve of many corners counts once. Labels may lie on what is faint
+  /// if they are nearer to their anchors there.
+  void avoid_line(std::vector<PagePoint> corners, bool is_faint = false) {
+    lines_.push_back({std::move(corners), is_faint});
+  }
   void avoid_point(const PagePoint&, double radius);
 
   /// Where the label goes, the first of `texts` that lies on no line and no point, or else the one that
@@ -44,10 +47,15 @@ class LabelPlacement {
     double cost, distance;  ///< of what it lies on; from its anchor
   };
   double cost(const Box&) const;
+  double parted(const PagePoint& anchor, const PagePoint& end) const;
   Found best(const std::vector<PagePoint>& anchors, const std::string& text, double font_size) const;
 
   PagePoint low_, high_;
-  std::vector<std::vector<PagePoint>> lines_;
+  struct Line {
+    std::vector<PagePoint> corners;
+    bool is_faint;
+  };
+  std::vector<Line> lines_;
   std::vector<Box> points_, labels_;
 };
 

@@ -56,11 +56,20 @@ void LabelledPage::add(const Polygon& points, const std::string& how) {
   ++count_;
 }
 
+std::vector<PagePoint> LabelledPage::pixels(const Polygon& points) const {
+  std::vector<PagePoint> made;
+  for (const Point& p : points) made.push_back(window_.pixel(p));
+  return made;
+}
+
 void LabelledPage::line(const Polygon& points, const std::string& how) {
   add(points, how);
-  std::vector<PagePoint> corners;
-  for (const Point& p : points) corners.push_back(window_.pixel(p));
-  labels_.avoid_line(std::move(corners));
+  labels_.avoid_line(pixels(points));
+}
+
+void LabelledPage::faint_line(const Polygon& points, const std::string& how) {
+  add(points, how);
+  labels_.avoid_line(pixels(points), true);
 }
 
 void LabelledPage::point(const Point& p, const std::string& how) {
@@ -76,9 +85,7 @@ void LabelledPage::arrow(const Point& from, const Point& to, const char* style) 
 }
 
 bool LabelledPage::label(const Polygon& anchors, const std::vector<std::string>& texts, const char* tint) {
-  std::vector<PagePoint> pixels;
-  for (const Point& anchor : anchors) pixels.push_back(window_.pixel(anchor));
-  const auto placed = labels_.place(pixels, texts, label_size * area_.letters());
+  const auto placed = labels_.place(pixels(anchors), texts, label_size * area_.letters());
   if (!placed) return false;
   blocks_ += fmt::format("set label {} at screen {},{} {} front font \",{:g}\" tc rgb \"{}\"\n",
                          quoted(placed->text), across(placed->at.x()), placed->at.y() / page_size,

@@ -39,6 +39,8 @@ class LabelledPage {
   void add(const Polygon& points, const std::string& how);
   /// The same, as something that labels keep off.
   void line(const Polygon& points, const std::string& how);
+  /// The same, as something that they may lie on if they are nearer there to what they name.
+  void faint_line(const Polygon& points, const std::string& how);
   void point(const Point& p, const std::string& how);
   void arrow(const Point& from, const Point& to, const char* style);
   /// The first of the texts that lies on nothing, or the one that stands best. Whether there was room.
@@ -47,6 +49,7 @@ class LabelledPage {
   std::string script(const std::string& x, const std::string& y, const std::string& title) const;
 
  private:
+  std::vector<PagePoint> pixels(const Polygon&) const;
   double across(double pixel) const { return (area_.left + pixel) / area_.page_width; }
 
   const PageWindow& window_;

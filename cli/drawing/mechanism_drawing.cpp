@@ -42,12 +42,12 @@ Polygon outline(const DrawnScene::Shape& shape, const Vector& values) {
   return {};
 }
 
-std::vector<ContactArrow> arrows_of(const SolvedScene& solved, const DrawnScene& drawn,
-                                    const Vector& values) {
+/// The multipliers as the table has them.
+Vector multipliers_of(const SolvedScene& solved) {
   Vector lambda = solved.scene.over_constraints(solved.solution.multipliers.least_norm);
   const Vector readable = readable_numbers(solved, most_rows).lambda;
   lambda.head(readable.size()) = readable;
-  return ContactArrows(*solved.scene.system, drawn).at(solved.scene.state, values, lambda).arrows;
+  return lambda;
 }
 
 }  // namespace
@@ -61,7 +61,9 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
     outlines.push_back(outline(shape, values));
     all.insert(all.end(), outlines.back().begin(), outlines.back().end());
   }
-  const std::vector<ContactArrow> arrows = arrows_of(solved, drawn, values);
+  const Vector lambda = multipliers_of(solved);
+  const std::vector<ContactArrow> arrows =
+      ContactArrows(*scene.system, drawn).at(scene.state, values, lambda).arrows;
   double longest = 0;
   for (const ContactArrow& arrow : arrows)
     longest = std::max(longest, std::hypot(arrow.force[0], arrow.force[1]));
@@ -84,22 +86,26 @@ Drawing mechanism_drawing(const SolvedScene& solved, const DrawnScene& drawn, Pa
   }
   std::vector<std::string> unnamed;
   for (const ContactArrow& arrow : arrows) {
-    if (!named.insert(arrow.constraint).second) continue;
     const Point at(arrow.at[0], arrow.at[1]), force(arrow.force[0], arrow.force[1]);
     const Point step = a_unit * force;
     const std::string& name = scene.constraints[static_cast<std::size_t>(arrow.constraint)];
-    if (!page.label({at + step, at + step / 2, at}, {name + " " + number_text(force.norm())}, "#b04a00"))
-      unnamed.push_back(name);
+    // The second arrow of a pair of places has the name alone.
+    const bool is_first = named.insert(arrow.constraint).second;
+    const std::string label = is_first ? name + " " + number_text(lambda[arrow.constraint]) : name;
+    if (!page.label({at + step, at + step / 2, at}, {label}, "#b04a00") && is_first) unnamed.push_back(name);
   }
   for (const Index a : scene.contacts)
     if (named.count(a) == 0) unnamed.push_back(scene.constraints[static_cast<std::size_t>(a)]);
   std::string title = heading_line(scene.title.empty() ? scene.file : scene.title);
   // In one line: a third has no room above the frame.
   std::string below;
-  if (!arrows.empty()) below = "forces of contacts, the longest " + number_text(longest);
+  if (!arrows.empty())
+    below = "arrows: forces, as far as they work there, the longest " + number_text(longest) +
+            "; numbers: lambda";
   if (!unnamed.empty()) below += (below.empty() ? "" : "; ") + ("without an arrow: " + listed(unnamed));
   if (!below.empty()) title += "\n" + heading_line(below);
-  return {page.script("", "", title), page_size, area.page_width};
+  return {page.script("across, in the units of the file", "up, in the units of the file", title), page_size,
+          area.page_width};
 }
 
 Drawing scene_drawing(const SolvedScene& solved, const DrawnScene& drawn,

@@ -62,11 +62,21 @@ struct Panel {
   Index first_column;
 };
 
+/// Lengths and angles may stand on one axis, whose units the file alone knows.
+std::string axis_name(const Panel& panel) {
+  if (panel.label != "q") return panel.label;
+  constexpr std::size_t longest = 14;
+  std::string names;
+  for (const std::string& name : panel.names) names += (names.empty() ? "" : ", ") + name;
+  return (names.size() <= longest ? names : "q") + ", in units of the file";
+}
+
 /// What begins at 0 is drawn at 0 where rounding is below it.
 std::string panel_script(const Panel& panel, bool is_last, bool from_zero, const std::string& key_of_events) {
   // A label of its own: one beside tics of many digits would leave the picture.
-  std::string text = fmt::format(
-      "set label 1 {} at screen 0.015, graph 0.5 center rotate by 90 font \",10\"\n", quoted(panel.label));
+  std::string text =
+      fmt::format("set label 1 {} at screen 0.015, graph 0.5 center rotate by 90 font \",10\"\n",
+                  quoted(axis_name(panel)));
   text += is_last ? "set xlabel \"t\" font \",10\"\nset format x\n" : "unset xlabel\nset format x \"\"\n";
   text += "plot ";
   for (std::size_t k = 0; k < panel.names.size(); ++k) {

@@ -72,8 +72,9 @@ struct CurvePanel {
   std::vector<std::size_t> columns;  // of what is watched
 };
 
-std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched) {
-  std::vector<CurvePanel> panels{{"q''", {}}, {"lambda", {}}, {"reaction", {}}, {"G", {}}};
+std::vector<CurvePanel> panels_of(const std::vector<Watched>& watched, bool is_unique) {
+  const char* multipliers = is_unique ? "lambda" : "lambda: least norm; not unique";
+  std::vector<CurvePanel> panels{{"q''", {}}, {multipliers, {}}, {"reaction", {}}, {"G", {}}};
   for (std::size_t k = 0; k < watched.size(); ++k) {
     auto& columns = panels[static_cast<std::size_t>(watched[k].of)].columns;
     if (columns.size() < most_drawn) columns.push_back(k);
@@ -111,7 +112,9 @@ Drawing bands(const std::vector<SweepPoint>& points, const SweepRange& range,
           from, to, band_colour(set));
     from = to;
   }
-  const std::vector<CurvePanel> panels = panels_of(watched);
+  const std::vector<CurvePanel> panels =
+      panels_of(watched, std::all_of(points.begin(), points.end(),
+                                     [](const SweepPoint& point) { return point.has_unique_multipliers; }));
   Drawing made;
   constexpr int panel_height = 210;
   made.height = panel_height * static_cast<int>(panels.size()) + 50;

@@ -275,7 +275,7 @@ std::string key(double width, double height, const std::vector<Trial>& trials, c
   double x = 22;
   for (const Sign& sign : signs) {
     if (!sign.is_drawn) continue;
-    add(x, 34, sign.words, fmt::format("point {} offset 0.8,0", sign.point));
+    add(x, 34, sign.words, fmt::format("point {} offset 0.8,-0.3", sign.point));
     x += sign.width;
   }
   return text;
@@ -317,6 +317,7 @@ Drawing work_precision_drawing(const std::vector<Trial>& trials, const DrawnAs& 
       "set object 1 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
       "set object 2 rect from {},graph 0 to {},graph 1 fs solid noborder fc rgb \"#f5f5f5\" behind\n"
       "set label 3 \"relative error{}\" at -9,graph 0 center offset 0,-2.1 font \",9\"\n"
+      "set label 5 \"time\" at graph 0,graph 0 right offset -0.9,-1.1 font \",9\"\n"
       "set label 4 \"not solved\" at {},graph 0 center offset 0,-1.1 font \",9\"\n",
       layout.names_from, layout.x_end, exact_at, layout.names_from, exact_at - 0.6, errors_end, layout.x_end,
       drawn.multipliers ? " of the multipliers" : "", (errors_end + layout.x_end) / 2);

@@ -130,6 +130,7 @@ SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Wa
     point.contacts = scene.contacts;
     if (!solved.has_answer()) return point;
     point.error_bound = solution.primal.error_bound;
+    point.has_unique_multipliers = solved.multipliers_are_unique();
     for (std::size_t a = 0; a < solved.states.size(); ++a)
       if (solved.states[a] == ConstraintState::persists || solved.states[a] == ConstraintState::touches)
         point.active.push_back(static_cast<Index>(a));

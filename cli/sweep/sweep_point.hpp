@@ -18,7 +18,8 @@ struct SweepPoint {
   std::vector<convex::Index> contacts;  ///< K
   std::vector<double> watched;          ///< NaN without an answer
   double error_bound = 0;
-  std::string message;  ///< of an error
+  bool has_unique_multipliers = true;  ///< without: those watched have the least norm
+  std::string message;                 ///< of an error
   bool is_change = false;
   bool has_answer() const { return status == "solved" || status == "inaccurate"; }
 };

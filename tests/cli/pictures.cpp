@@ -10,6 +10,7 @@
 #include "cli/drawing/failure_map_drawing.hpp"
 #include "cli/drawing/gnuplot.hpp"
 #include "cli/measurement/stress_families.hpp"
+#include "cli/report/text_table.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/svg_text.hpp"
 #include "tests/this_build.hpp"
@@ -45,8 +46,13 @@ std::size_t times_named(const std::vector<SvgText>& texts, const std::string& na
   std::size_t count = 0;
   for (const SvgText& text : texts) {
     if (text.text == name) ++count;
-    const std::size_t at = text.text.find("outside of the picture: ");
-    if (at != std::string::npos && text.text.find(name, at) != std::string::npos) ++count;
+    for (const char* without_line : {"outside of the picture: ", "not show in this plane: "}) {
+      const std::size_t at = text.text.find(without_line);
+      if (at == std::string::npos) continue;
+      const std::size_t begin = at + std::string(without_line).size();
+      if (text.text.substr(begin, text.text.find(';', begin) - begin).find(name) != std::string::npos)
+        ++count;
+    }
   }
   return count;
 }
@@ -179,8 +185,46 @@ TEST_CASE("a page of two pictures has larger letters than a page of one") {
   CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
   const std::string svg = picture_bytes(picture);
   check_legible(svg);
-  for (const char* name : {"along", "across"}) CHECK(times_named(svg_texts(svg), name) == 1);
+  // A line in the plane, and without a number the second arrow of each pair.
+  for (const char* name : {"along", "across"}) CHECK(times_named(svg_texts(svg), name) == 2);
+  CHECK(times_named(svg_texts(svg), "stop") == 1);  // it does not show in this plane
   CHECK(svg.find("font-size=\"15.40\"") != std::string::npos);
+}
+
+TEST_CASE("an arrow of the mechanism has the number that the table has, and the heading says what is drawn") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = tests::source_folder() + "docs/tutorial/four_bar.toml",
+                    picture = folder.path("a.svg");
+  const Json lambda = Json::parse(run({"solve", "--json", file, "--plot", picture}).out)["multipliers"];
+  const std::vector<SvgText> texts = svg_texts(picture_bytes(picture));
+  const auto is_told = [&](const std::string& words) {
+    return std::any_of(texts.begin(), texts.end(), [&](const SvgText& text) { return text.text == words; });
+  };
+  for (const char* name : {"along", "across", "stop"})
+    CHECK(is_told(std::string(name) + " " + cli::number_text(lambda[name].get<double>())));
+  CHECK(is_told("arrows: forces, as far as they work there, the longest 14.715; numbers: lambda"));
+  CHECK(is_told("does not show in this plane: stop"));
+  for (const char* axis : {"across, in the units of the file", "up, in the units of the file"})
+    CHECK(is_told(axis));
+}
+
+TEST_CASE("the reaction has its name beside its arrow, also amid the ellipses") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string file = tests::source_folder() + "docs/problems/delassus_drops_too_much.toml",
+                    picture = folder.path("a.svg");
+  CHECK(run({"solve", "--quiet", file, "--plot", picture}).code == 0);
+  const std::vector<SvgText> texts = svg_texts(picture_bytes(picture));
+  const auto named = [&](const std::string& name) {
+    return *std::find_if(texts.begin(), texts.end(),
+                         [&](const SvgText& text) { return text.text.rfind(name, 0) == 0; });
+  };
+  // The arrow goes up to q'', nearly upright, between the lines of both contacts.
+  const double arrow = named("q''").left - 8;
+  const SvgText reaction = named("A⁻¹R");
+  constexpr double beside = 20;
+  CHECK(std::min(std::abs(reaction.left - arrow), std::abs(reaction.right - arrow)) <= beside);
 }
 
 TEST_CASE(
@@ -219,6 +263,37 @@ TEST_CASE("a picture is written as PDF and as PNG too") {
     CHECK(run({"solve", "--quiet", file, "--plot", folder.path(name)}).code == 0);
     CHECK(picture_bytes(folder.path(name)).starts_with(begin));
   }
+}
+
+TEST_CASE("axes say whose units they have, and a sweep that its multipliers are those of least norm") {
+  if (!cli::has_gnuplot()) return;
+  const Folder folder;
+  const std::string bead = folder.write("a.toml", point_on_floor()), picture = folder.path("a.svg");
+  CHECK(run({"simulate", "--quiet", bead, "--until", "1", "--plot", picture}).code == 0);
+  CHECK(picture_bytes(picture).find("x, y, in units of the file") != std::string::npos);
+  const std::string table = tests::source_folder() + "docs/problems/table_off_centre.toml";
+  CHECK(run({"sweep", "--quiet", table, "--over", "g=9,10", "--plot", picture}).code == 0);
+  CHECK(picture_bytes(picture).find("lambda: least norm; not unique") != std::string::npos);
+  CHECK(run({"sweep", "--quiet", bead, "--over", "g=9,10", "--plot", picture}).code == 0);
+  CHECK(picture_bytes(picture).find("not unique") == std::string::npos);
+}
+
+TEST_CASE("cells of one printed number have one colour") {
+  std::vector<cli::StressTrial> trials;
+  for (const double digits : {6.6, 7.0, 7.4}) {
+    cli::StressTrial t;
+    t.family = "scaled";
+    t.difficulty = digits;
+    t.trial.method = "auto";
+    t.trial.judgement.error = std::pow(10, -digits);
+    t.trial.judgement.verdict = cli::Verdict::ok;
+    trials.push_back(t);
+  }
+  const std::string script = cli::failure_map_drawing(trials).script;
+  const std::size_t boxes = script.find("$boxes0 << EOD\n"), end = script.find("EOD\n", boxes + 16);
+  REQUIRE(boxes != std::string::npos);
+  const std::string rows = script.substr(boxes + 15, end - boxes - 15);
+  CHECK(std::count(rows.begin(), rows.end(), '\n') == 1);  // neighbours of one colour are one box
 }
 
 TEST_CASE("the map of failures has a digit or a mark in each cell, and its words stand apart") {
