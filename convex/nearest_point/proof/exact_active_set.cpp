@@ -8,6 +8,7 @@
 #include "convex/invariant.hpp"
 #include "convex/nearest_point/proof/exact_held_rows.hpp"
 #include "convex/nearest_point/proof/exact_solution.hpp"
+#include "convex/nearest_point/solve_watch.hpp"
 
 namespace convex::inline proof {
 namespace {
@@ -92,6 +93,7 @@ class ExactActiveSet {
       return false;
     }
     estimate_ = next;
+    SolveWatch::tell("exact", solution_.steps);
     return true;
   }
 
