@@ -18,16 +18,6 @@ constexpr Index block = 4;
 /// processor.
 constexpr Index most_summed = 128;
 
-/// Eight numbers anywhere, whatever the registers of the machine.
-using Eight [[gnu::vector_size(64), gnu::aligned(8), gnu::may_alias]] = double;
-[[gnu::always_inline]] inline const Eight& eight(const double* x) {
-  return *reinterpret_cast<const Eight*>(x);
-}
-[[gnu::always_inline]] inline Eight& eight(double* x) { return *reinterpret_cast<Eight*>(x); }
-[[gnu::always_inline]] inline double total(const Eight& x) {
-  return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
-}
-
 /// L D Lᵀ of some factored columns, to be taken off columns from … to - 1 of a lower triangle: its entry
 /// (i, j) is C[j stride + i], that of column k of L is L[k rows + i], and its pivot D[k (rows + 1)].
 struct Products {
@@ -46,21 +36,22 @@ struct Tiles {
   /// What is summed in registers at a time: so many packs of eight rows of so many columns.
   static constexpr Index packs_at_once = W == 8 ? 2 : 1, columns_at_once = W;
 
-  /// Of eight numbers those of a mask; the others are neither read nor written.
-  MOREAU_INLINE Pack read(const double* x, unsigned mask) {
-    Pack pack;
-    asm("vmovupd %2, %0%{%1%}%{z%}"
-        : "=v"(pack.part[0])
-        : "Yk"(static_cast<unsigned short>(mask)), "m"(*reinterpret_cast<const double(*)[8]>(x)));
-    return pack;
-  }
-  MOREAU_INLINE void write(double* x, unsigned mask, const Pack& pack) {
-    asm("vmovupd %1, %0%{%2%}"
-        : "+m"(*reinterpret_cast<double(*)[8]>(x))
-        : "v"(pack.part[0]), "Yk"(static_cast<unsigned short>(mask)));
+  /// What lies before `end` is written, and nothing else.
+  MOREAU_INLINE void store_before(double* x, double* end, const Pack& pack) {
+    if (end - x >= 8) return P::store(x, pack);
+    if constexpr (W == 8) {
+      asm("vmovupd %1, %0%{%2%}"
+          : "+m"(*reinterpret_cast<double(*)[8]>(x))
+          : "v"(pack.part[0]), "Yk"(static_cast<unsigned short>((1U << (end - x)) - 1)));
+    } else {
+      double all[8];
+      P::store(all, pack);
+      for (Index r = 0; r < end - x; ++r) x[r] = all[r];
+    }
   }
 
   /// Rows i … i + 8 packs - 1 of columns j … j + columns - 1, of which those exist that the triangle has.
+  /// What stands above its diagonal is nobody's.
   template <Index packs, Index columns>
   MOREAU_INLINE void subtract_tile(const Products& of, Index i, Index j, const double* L, Index count,
                                    const double* weight, bool is_new) {
@@ -76,7 +67,7 @@ struct Tiles {
 #pragma GCC unroll 2
         for (Index p = 0; p < packs; ++p) P::add_product(sum[c][p], x[p], weight[c]);
     }
-    const bool is_whole = i >= j + columns - 1 && i + 8 * packs <= of.end && j + columns <= of.to;
+    const bool is_whole = i + 8 * packs <= of.end && j + columns <= of.to;
 #pragma GCC unroll 8
     for (Index c = 0; c < columns; ++c) {
       double* const to = of.C + (j + c) * of.stride + i;
@@ -86,18 +77,9 @@ struct Tiles {
           P::store(to + 8 * p, P::minus(is_new ? Pack{} : P::load(to + 8 * p), sum[c][p]));
           continue;
         }
-        if (j + c >= of.to) break;
-        const Index first = std::max(Index{0}, j + c - i - 8 * p),
-                    last = std::min(Index{8}, of.end - i - 8 * p);
-        if (first >= last) continue;
-        if constexpr (W == 8) {
-          const unsigned rows = (1U << last) - (1U << first);
-          write(to + 8 * p, rows, P::minus(is_new ? Pack{} : read(to + 8 * p, rows), sum[c][p]));
-          continue;
-        }
-        double part[8];
-        P::store(part, sum[c][p]);
-        for (Index r = first; r < last; ++r) to[8 * p + r] = (is_new ? 0 : to[8 * p + r]) - part[r];
+        if (j + c >= of.to || of.end <= i + 8 * p) break;
+        double* const end = of.C + (j + c) * of.stride + of.end;
+        store_before(to + 8 * p, end, P::minus(is_new ? Pack{} : P::load_before(to + 8 * p, end), sum[c][p]));
       }
     }
   }
@@ -136,8 +118,9 @@ struct Tiles {
     Index i = 0;
     for (; i + 8 <= n; i += 8) P::store(sum + i, P::plus(P::load(sum + i), P::load(given + i)));
     if constexpr (W == 8) {
-      const unsigned rows = (1U << (n - i)) - 1;
-      if (i < n) write(sum + i, rows, P::plus(read(sum + i, rows), read(given + i, rows)));
+      if (i < n)
+        store_before(sum + i, sum + n,
+                     P::plus(P::load_before(sum + i, sum + n), P::load_before(given + i, given + n)));
     } else {
       for (; i < n; ++i) sum[i] += given[i];
     }
@@ -155,66 +138,160 @@ struct Tiles {
       }
     }
   }
+
+  /// Up to `block` columns from `first` on, from which those before have been taken, one after the other.
+  MOREAU_INLINE bool eliminate(double* panel, Index rows, Index first, Index count) {
+    double* const column = panel + first * rows;
+    double inverse[block], weight[block][block];  // 1/D_k; D_j times what L has of column j in row k
+    for (Index k = 0; k < count; ++k) {
+      double* const own = column + k * rows + first;
+      for (Index i = k; i < count; ++i)
+        for (Index j = 0; j < k; ++j) own[i] -= column[j * rows + first + i] * weight[j][k];
+      const double pivot = own[k];
+      if (!std::isfinite(pivot) || !(std::abs(pivot) > 0)) return false;
+      inverse[k] = 1 / pivot;
+      for (Index i = k + 1; i < count; ++i) {
+        weight[k][i] = own[i];
+        own[i] *= inverse[k];
+      }
+    }
+    for (Index i = first + count; i < rows; i += 8)
+      if (count == block)
+        eliminate_rows<block>(column + i, rows, std::min(Index{8}, rows - i), inverse, weight, block);
+      else
+        eliminate_rows<block - 1>(column + i, rows, std::min(Index{8}, rows - i), inverse, weight, count);
+    return true;
+  }
+
+  /// The same of eight rows below, or fewer.
+  template <Index most>
+  MOREAU_INLINE void eliminate_rows(double* x, Index stride, Index some, const double* inverse,
+                                    const double (&weight)[block][block], Index count) {
+    Pack L[most];
+#pragma GCC unroll 4
+    for (Index k = 0; k < most; ++k) {
+      if (k >= count) break;
+      L[k] = P::load(x + k * stride);
+#pragma GCC unroll 4
+      for (Index j = 0; j < k; ++j) P::subtract_product(L[k], L[j], weight[j][k]);
+      L[k] = P::times(L[k], inverse[k]);
+      store_before(x + k * stride, x + k * stride + some, L[k]);
+    }
+  }
+
+  MOREAU_INLINE void forward(const double* panel, Index rows, Index columns, double* x) {
+    Index j = 0;
+    for (; j + block <= columns; j += block) {
+      const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
+      const double x0 = x[j], x1 = x[j + 1] -= a[j + 1] * x0, x2 = x[j + 2] -= a[j + 2] * x0 + b[j + 2] * x1,
+                   x3 = x[j + 3] -= (a[j + 3] * x0 + b[j + 3] * x1) + c[j + 3] * x2;
+      for (Index i = j + block; i < rows; i += 8) {
+        Pack y = P::load(x + i), z = P::times(P::load(b + i), x1);
+        P::subtract_product(y, P::load(a + i), x0);
+        P::add_product(z, P::load(d + i), x3);
+        P::subtract_product(y, P::load(c + i), x2);
+        P::store(x + i, P::minus(y, z));
+      }
+    }
+    for (; j < columns; ++j) {
+      const double *a = panel + j * rows, x0 = x[j];
+      for (Index i = j + 1; i < rows; i += 8) {
+        Pack y = P::load(x + i);
+        P::subtract_product(y, P::load(a + i), x0);
+        P::store(x + i, y);
+      }
+    }
+  }
+
+  MOREAU_INLINE void backward(const double* panel, Index rows, Index columns, double* x) {
+    Index end = columns;
+    for (; end % block != 0; --end) {
+      const double* a = panel + (end - 1) * rows;
+      Pack sum{};
+      for (Index i = end; i < rows; i += 8) P::add_products(sum, P::load(a + i), P::load(x + i));
+      x[end - 1] = x[end - 1] / a[end - 1] - P::total(sum);
+    }
+    for (; end > 0; end -= block) {
+      const Index j = end - block;
+      const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
+      Pack sum[8];
+      P::clear(sum);
+      for (Index i = end; i < rows; i += 8) {
+        const Pack y = P::load(x + i);
+        P::add_products(sum[0], P::load(a + i), y);
+        P::add_products(sum[1], P::load(b + i), y);
+        P::add_products(sum[2], P::load(c + i), y);
+        P::add_products(sum[3], P::load(d + i), y);
+      }
+      double total[8];
+      P::store(total, P::totals(sum));
+      const double x3 = x[j + 3] = x[j + 3] / d[j + 3] - total[3],
+                   x2 = x[j + 2] = x[j + 2] / c[j + 2] - total[2] - c[j + 3] * x3,
+                   x1 = x[j + 1] = x[j + 1] / b[j + 1] - total[1] - (b[j + 2] * x2 + b[j + 3] * x3);
+      x[j] = x[j] / a[j] - total[0] - (a[j + 1] * x1 + (a[j + 2] * x2 + a[j + 3] * x3));
+    }
+  }
 };
 
 // Products and sums may be fused, as in the dense kernels.
 #pragma GCC push_options
 #pragma GCC optimize("fp-contract=fast")
-void subtract_by_two(const Products& of) { Tiles<2>::subtract(of); }
-#ifdef MOREAU_HAS_FAMILIES
-[[gnu::target("avx2,fma")]] void subtract_by_four(const Products& of) { Tiles<4>::subtract(of); }
-[[gnu::target("avx512f")]] void subtract_by_eight(const Products& of) { Tiles<8>::subtract(of); }
-#endif
-#pragma GCC pop_options
-
-using AddColumns = void(const double*, Index, Index, Index, const int*, double*, Index);
-constinit AddColumns* const add_tables[] = {&dense::Compiled<2, &Tiles<2>::add_columns>::at,
-#ifdef MOREAU_HAS_FAMILIES
-                                            &dense::Compiled<4, &Tiles<4>::add_columns>::at,
-                                            &dense::Compiled<8, &Tiles<8>::add_columns>::at
-#endif
+struct FrontKernels {
+  void (*subtract)(const Products&);
+  bool (*eliminate)(double* panel, Index rows, Index first, Index count);
+  void (*add_columns)(const double*, Index, Index, Index, const int*, double*, Index);
+  void (*forward)(const double* panel, Index rows, Index columns, double* x);
+  void (*backward)(const double* panel, Index rows, Index columns, double* x);
 };
 
-void subtract(const Products& of) {
+template <int W>
+struct Family;
+#define MOREAU_FRONT_KERNELS(W, target)                                                                      \
+  template <>                                                                                                \
+  struct Family<W> {                                                                                         \
+    target static void subtract(const Products& of) { Tiles<W>::subtract(of); }                              \
+    target static bool eliminate(double* panel, Index rows, Index first, Index count) {                      \
+      return Tiles<W>::eliminate(panel, rows, first, count);                                                 \
+    }                                                                                                        \
+    target static void add_columns(const double* update, Index size, Index from, Index to, const int* place, \
+                                   double* into, Index stride) {                                             \
+      Tiles<W>::add_columns(update, size, from, to, place, into, stride);                                    \
+    }                                                                                                        \
+    target static void forward(const double* panel, Index rows, Index columns, double* x) {                  \
+      Tiles<W>::forward(panel, rows, columns, x);                                                            \
+    }                                                                                                        \
+    target static void backward(const double* panel, Index rows, Index columns, double* x) {                 \
+      Tiles<W>::backward(panel, rows, columns, x);                                                           \
+    }                                                                                                        \
+    static constexpr FrontKernels table{subtract, eliminate, add_columns, forward, backward};                \
+  };
+MOREAU_FRONT_KERNELS(2, )
 #ifdef MOREAU_HAS_FAMILIES
-  static const Processor machine = processor();
-  if (machine == Processor::avx512) return subtract_by_eight(of);
-  if (machine == Processor::avx2) return subtract_by_four(of);
+MOREAU_FRONT_KERNELS(4, [[gnu::target("avx2,fma")]])
+MOREAU_FRONT_KERNELS(8, [[gnu::target("avx512f")]])
 #endif
-  subtract_by_two(of);
-}
+#undef MOREAU_FRONT_KERNELS
+#pragma GCC pop_options
 
-MOREAU_CLONES
-void subtract_one(Index n, double* __restrict c, const double* a, double w) {
-  for (Index i = 0; i < n; ++i) c[i] -= a[i] * w;
-}
-
-MOREAU_CLONES
-void scale(Index n, double* c, double w) {
-  for (Index i = 0; i < n; ++i) c[i] *= w;
+const FrontKernels& kernels() {
+  static constexpr const FrontKernels* tables[] = {&Family<2>::table,
+#ifdef MOREAU_HAS_FAMILIES
+                                                   &Family<4>::table, &Family<8>::table
+#endif
+  };
+  static const FrontKernels& chosen = *tables[static_cast<std::size_t>(processor())];
+  return chosen;
 }
 
 /// Columns first … first + count - 1, from which those before have been taken: the first half of them, then
 /// the others without it.
 bool factor_columns(double* panel, Index rows, Index first, Index count) {
-  if (count > block) {
-    const Index half = (count / 2 + block - 1) / block * block, middle = first + half;
-    if (!factor_columns(panel, rows, first, half)) return false;
-    const double* L = panel + first * rows;
-    subtract({panel, rows, middle, first + count, rows, L, L + first, rows, half});
-    return factor_columns(panel, rows, middle, count - half);
-  }
-  for (Index k = first; k < first + count; ++k) {
-    double* column = panel + k * rows;
-    for (Index j = first; j < k; ++j) {
-      const double* done = panel + j * rows;
-      subtract_one(rows - k, column + k, done + k, done[k] * done[j]);
-    }
-    const double pivot = column[k];
-    if (!std::isfinite(pivot) || !(std::abs(pivot) > 0)) return false;
-    scale(rows - k - 1, column + k + 1, 1 / pivot);
-  }
-  return true;
+  if (count <= block) return kernels().eliminate(panel, rows, first, count);
+  const Index half = (count / 2 + block - 1) / block * block, middle = first + half;
+  if (!factor_columns(panel, rows, first, half)) return false;
+  const double* L = panel + first * rows;
+  kernels().subtract({panel, rows, middle, first + count, rows, L, L + first, rows, half});
+  return factor_columns(panel, rows, middle, count - half);
 }
 
 }  // namespace
@@ -224,56 +301,20 @@ bool factor_panel(double* panel, Index rows, Index columns) {
 }
 
 void outer_product(double* C, Index size, const double* panel, Index rows, Index columns) {
-  subtract({C, size, 0, size, size, panel + rows - size, panel, rows, columns, true});
+  kernels().subtract({C, size, 0, size, size, panel + rows - size, panel, rows, columns, true});
 }
 
 void add_columns(const double* update, Index size, Index from, Index to, const int* place, double* target,
                  Index stride) {
-  static AddColumns* const chosen = add_tables[static_cast<std::size_t>(processor())];
-  chosen(update, size, from, to, place, target, stride);
+  kernels().add_columns(update, size, from, to, place, target, stride);
 }
 
-MOREAU_CLONES
 void forward_panel(const double* panel, Index rows, Index columns, double* x) {
-  Index j = 0;
-  for (; j + block <= columns; j += block) {
-    const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
-    const double x0 = x[j], x1 = x[j + 1] -= a[j + 1] * x0, x2 = x[j + 2] -= a[j + 2] * x0 + b[j + 2] * x1,
-                 x3 = x[j + 3] -= (a[j + 3] * x0 + b[j + 3] * x1) + c[j + 3] * x2;
-    for (Index i = j + block; i < rows; i += 8)
-      eight(x + i) -= (eight(a + i) * x0 + eight(b + i) * x1) + (eight(c + i) * x2 + eight(d + i) * x3);
-  }
-  for (; j < columns; ++j) {
-    const double *a = panel + j * rows, x0 = x[j];
-    for (Index i = j + 1; i < rows; i += 8) eight(x + i) -= eight(a + i) * x0;
-  }
+  kernels().forward(panel, rows, columns, x);
 }
 
-MOREAU_CLONES
 void backward_panel(const double* panel, Index rows, Index columns, double* x) {
-  Index end = columns;
-  for (; end % block != 0; --end) {
-    const double* a = panel + (end - 1) * rows;
-    Eight sum{};
-    for (Index i = end; i < rows; i += 8) sum += eight(a + i) * eight(x + i);
-    x[end - 1] = x[end - 1] / a[end - 1] - total(sum);
-  }
-  for (; end > 0; end -= block) {
-    const Index j = end - block;
-    const double *a = panel + j * rows, *b = a + rows, *c = b + rows, *d = c + rows;
-    Eight s0{}, s1{}, s2{}, s3{};
-    for (Index i = end; i < rows; i += 8) {
-      const Eight y = eight(x + i);
-      s0 += eight(a + i) * y;
-      s1 += eight(b + i) * y;
-      s2 += eight(c + i) * y;
-      s3 += eight(d + i) * y;
-    }
-    const double x3 = x[j + 3] = x[j + 3] / d[j + 3] - total(s3),
-                 x2 = x[j + 2] = x[j + 2] / c[j + 2] - total(s2) - c[j + 3] * x3,
-                 x1 = x[j + 1] = x[j + 1] / b[j + 1] - total(s1) - (b[j + 2] * x2 + b[j + 3] * x3);
-    x[j] = x[j] / a[j] - total(s0) - (a[j + 1] * x1 + (a[j + 2] * x2 + a[j + 3] * x3));
-  }
+  kernels().backward(panel, rows, columns, x);
 }
 
 }  // namespace convex::linear_algebra
