@@ -41,4 +41,15 @@ double InverseForm::value(const Vector& v, const Vector& c, double constant) con
   return nearest_double(half - fraction(constant));
 }
 
+Matrix InverseForm::matrix() const {
+  const auto n = static_cast<Index>(inverse_.adjugate.size());
+  Matrix made(n, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      made(i, j) = nearest_double(
+          Fraction{inverse_.adjugate[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] * scale_,
+                   inverse_.determinant});
+  return made;
+}
+
 }  // namespace convex::inline named_functions

@@ -15,6 +15,8 @@ class InverseForm {
 
   /// ½ (v - c)·Q⁻¹(v - c) - constant, rounded once.
   double value(const Vector& v, const Vector& c, double constant) const;
+  /// Q⁻¹, rounded once.
+  Matrix matrix() const;
 
  private:
   InverseForm(ExactInverse inverse, Integer scale) : inverse_(std::move(inverse)), scale_(std::move(scale)) {}

@@ -1,73 +1,50 @@
 #include "convex/functions/quadratic.hpp"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "convex/composite/metric_difference.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/inverse_form.hpp"
+#include "convex/functions/semidefinite.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/gamma0/parameter.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_algebra/cholesky.hpp"
-#include "convex/linear_algebra/symmetric_eigen.hpp"
 #include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 
 namespace convex::inline named_functions {
 namespace {
 
-/// Q symmetric positive semidefinite of rank r: Q = L Lᵀ, L = basis · diag(root), n×r, and the rest of an
-/// orthonormal basis spans the null space.
-struct Spectrum {
-  Matrix basis, null;
-  Vector values;        ///< the positive eigenvalues: r
-  bool is_sure = true;  ///< of r
-  Matrix factor() const { return basis * values.cwiseSqrt().asDiagonal(); }
+/// ½ x·Qx + c·x + constant.
+struct QuadraticData {
+  Matrix Q;
+  Vector c;
+  double constant;
+  Spectrum of_Q;
 };
+using SharedData = std::shared_ptr<const QuadraticData>;
 
-/// Eigenvalues below this part of the largest, times n, are rounding.
-constexpr double rank_tolerance = 8 * unit_roundoff;
-
-/// Of which nothing is rounded.
-Spectrum spectrum_of_diagonal(const Vector& values) {
-  const Index n = values.size(), rank = (values.array() > 0).count();
-  Spectrum found{Matrix::Zero(n, rank), Matrix::Zero(n, n - rank), Vector(rank)};
-  Index range = 0, null = 0;
-  for (Index i = 0; i < n; ++i) {
-    if (values[i] > 0) {
-      found.basis(i, range) = 1;
-      found.values[range++] = values[i];
-    } else {
-      found.null(i, null++) = 1;
-    }
-  }
-  return found;
-}
-
-Spectrum spectrum(const Matrix& Q) {
-  if (Q.isDiagonal(0) && (Q.diagonal().array() >= 0).all()) return spectrum_of_diagonal(Q.diagonal());
-  const linear_algebra::SymmetricEigen eigen(Q);
-  const Vector& values = eigen.values;
-  const Index n = Q.rows();
-  const double negligible = rank_tolerance * static_cast<double>(n) * values.cwiseAbs().maxCoeff();
-  if (values.minCoeff() < -negligible)
-    throw InvalidInput("quadratic(Q): not positive semidefinite, an eigenvalue is " +
-                       std::to_string(values.minCoeff()) + "; the function would not be convex");
-  const Index rank = (values.array() > negligible).count();
-  return {eigen.vectors.rightCols(rank), eigen.vectors.leftCols(n - rank), values.tail(rank),
-          values.minCoeff() > 2 * negligible};
+/// The recession function, c·d where Qd = 0, else +inf. An eigenvalue that is 0 or not for all that is known
+/// counts as positive: what is told is never too small.
+double recession_of(const QuadraticData& f, const Vector& d) {
+  const Spectrum& of_Q = f.of_Q;
+  if (d.isZero(0)) return 0;
+  if (!of_Q.is_sure) return infinity;
+  const double outside = (d - of_Q.null * (of_Q.null.transpose() * d)).norm();
+  return outside <= membership_tolerance * d.norm() ? f.c.dot(d) : infinity;
 }
 
 LinearQuadratic form(const Matrix& Q, const Vector& c, double constant) {
   return linear_quadratic::raise(linear_quadratic::quadratic(Q, c), constant);
 }
 
-Function dual_quadratic(const Matrix& Q, const Vector& c, double constant);
+Function dual_quadratic(SharedData f);
 
 class Quadratic : public Atom {
  public:
-  Quadratic(Matrix Q, Vector c, double constant) : Q_(std::move(Q)), c_(std::move(c)), constant_(constant) {}
+  explicit Quadratic(SharedData f) : f_(std::move(f)), Q_(f_->Q), c_(f_->c), constant_(f_->constant) {}
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
     return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = true, .finite = true};
@@ -91,15 +68,10 @@ class Quadratic : public Atom {
     sum.add(constant_);
     return {sum.value(), 4 * unit_roundoff * std::abs(sum.value())};
   }
-  Function conjugate() const override { return dual_quadratic(Q_, c_, constant_); }
+  Function conjugate() const override { return dual_quadratic(f_); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override { return form(Q_, c_, constant_); }
   std::optional<Vector> subgradient(const Vector& x) const override { return slope(x); }
-  /// c·d where Qd = 0.
-  double recession(const Vector& d) const override {
-    const double size = Q_.cwiseAbs().maxCoeff() * d.norm();
-    return (Q_ * d).norm() <= membership_tolerance * size ? c_.dot(d)
-                                                          : std::numeric_limits<double>::infinity();
-  }
+  double recession(const Vector& d) const override { return recession_of(*f_, d); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d), {}).x;
   }
@@ -126,31 +98,32 @@ class Quadratic : public Atom {
       add_multiple(x.size(), Q_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
     return sum.value();
   }
-  Matrix Q_;
-  Vector c_;
-  double constant_;
+  const SharedData f_;
+  const Matrix& Q_;
+  const Vector& c_;
+  const double constant_;
 };
 
 /// The conjugate, ½|t|² - constant at v = c + Lt, +inf off that range.
 class DualQuadratic : public Atom {
  public:
-  DualQuadratic(Matrix Q, Vector c, double constant)
-      : Q_(std::move(Q)), c_(std::move(c)), constant_(constant), of_Q_(spectrum(Q_)), L_(of_Q_.factor()) {
+  explicit DualQuadratic(SharedData f)
+      : f_(std::move(f)), Q_(f_->Q), c_(f_->c), constant_(f_->constant), of_Q_(f_->of_Q), L_(of_Q_.factor()) {
     if (!of_Q_.is_sure) inverse_ = InverseForm::of(Q_);
   }
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
-    const bool finite = of_Q_.null.cols() == 0;
+    const bool finite = is_finite();
     return {.separable = Q_.isDiagonal(0), .piecewise_quadratic = true, .smooth = finite, .finite = finite};
   }
   /// ½ (v - c)·Q⁺(v - c) - constant, with Nᵀv = Nᵀc.
   Call call() const override {
-    const Matrix inverse = of_Q_.basis * of_Q_.values.cwiseInverse().asDiagonal() * of_Q_.basis.transpose();
+    const Matrix inverse = inverse_ ? inverse_->matrix() : of_Q_.pseudoinverse();
     const Vector slope = -(inverse * c_);
     const Call on_range{"quadratic",
                         {argument("Q", Matrix(0.5 * (inverse + inverse.transpose()))), argument("c", slope),
                          argument("constant", -0.5 * c_.dot(slope) - constant_)}};
-    if (of_Q_.null.cols() == 0) return on_range;
+    if (is_finite()) return on_range;
     const Call range{
         "affine",
         {argument("A", Matrix(of_Q_.null.transpose())), argument("b", Vector(of_Q_.null.transpose() * c_))}};
@@ -158,10 +131,14 @@ class DualQuadratic : public Atom {
   }
   double value(const Vector& v) const override { return evaluate(v).value; }
   Value evaluate(const Vector& v) const override {
+    if (inverse_ && v.allFinite()) {
+      const double value = inverse_->value(v, c_, constant_);
+      return {value, unit_roundoff * std::abs(value)};
+    }
     const Vector from = v - c_;
     const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
-    // Whether it is +inf there, or large, rests on the rounding of Q.
-    if (std::isinf(on_range.value)) return {infinity, inverse_ ? infinity : 0};
+    // Whether it is +inf there, or large, may rest on the rounding of Q.
+    if (std::isinf(on_range.value)) return {infinity, of_Q_.is_sure ? 0 : infinity};
     // For any y it is at least y·(v - c) - ½ y·Qy - constant, and ½ r·Q⁺r more, r = v - c - Qy.
     Vector y = solve(from);
     y += solve(left_of(v, y, 1).value());
@@ -178,12 +155,9 @@ class DualQuadratic : public Atom {
     const Vector terms = v.cwiseAbs() + c_.cwiseAbs() + Q_.cwiseAbs() * y.cwiseAbs();
     const double of_pairs = roundings_of_pairs * static_cast<double>(y.size() + 1) * unit_roundoff *
                             unit_roundoff * (terms.dot(y.cwiseAbs()) + std::abs(constant_));
-    const double of_rank =
-        inverse_ && v.allFinite() ? std::abs(inverse_->value(v, c_, constant_) - found) : 0;
-    return {found,
-            sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error + of_rank};
+    return {found, sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error};
   }
-  Function conjugate() const override { return Function(std::make_shared<Quadratic>(Q_, c_, constant_)); }
+  Function conjugate() const override { return Function(std::make_shared<Quadratic>(f_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {
     return linear_quadratic::conjugate(form(Q_, c_, constant_));
   }
@@ -192,7 +166,7 @@ class DualQuadratic : public Atom {
     return solve(v - c_);
   }
   /// The recession function of the quadratic.
-  double domain_support(const Vector& d) const override { return Quadratic(Q_, c_, constant_).recession(d); }
+  double domain_support(const Vector& d) const override { return recession_of(*f_, d); }
   Vector prox_diagonal(const Vector& z, const Vector& d) const override {
     return prox(z, Metric::diagonal(d), {}).x;
   }
@@ -222,6 +196,8 @@ class DualQuadratic : public Atom {
 
  private:
   static constexpr double roundings_of_pairs = 16;
+
+  bool is_finite() const { return of_Q_.null.cols() == 0 || inverse_; }
 
   /// Where products are beyond doubles: ½ from·Q⁺from - constant as it comes.
   Value beyond_products(const Vector& from) const {
@@ -253,17 +229,16 @@ class DualQuadratic : public Atom {
   Vector solve(const Vector& b) const {
     return of_Q_.basis * (of_Q_.values.cwiseInverse().asDiagonal() * (of_Q_.basis.transpose() * b));
   }
-  Matrix Q_;
-  Vector c_;
-  double constant_;
-  Spectrum of_Q_;
+  const SharedData f_;
+  const Matrix& Q_;
+  const Vector& c_;
+  const double constant_;
+  const Spectrum& of_Q_;
   std::optional<InverseForm> inverse_;  // where the rank is not sure, and n for Q as it stands
   Matrix L_;
 };
 
-Function dual_quadratic(const Matrix& Q, const Vector& c, double constant) {
-  return Function(std::make_shared<DualQuadratic>(Q, c, constant));
-}
+Function dual_quadratic(SharedData f) { return Function(std::make_shared<DualQuadratic>(std::move(f))); }
 
 }  // namespace
 
@@ -286,8 +261,8 @@ Function quadratic(const Matrix& Q, const Vector& c, double constant) {
                            std::to_string(j) + ") and back differ; give (Q + Q')/2");
   }
   const Matrix symmetric = 0.5 * (Q + Q.transpose());
-  spectrum(symmetric);  // refuses an indefinite Q
-  return Function(std::make_shared<Quadratic>(symmetric, c, constant));
+  return Function(std::make_shared<Quadratic>(
+      std::make_shared<const QuadraticData>(QuadraticData{symmetric, c, constant, spectrum_of(symmetric)})));
 }
 
 }  // namespace convex::inline named_functions
