@@ -18,6 +18,7 @@ Value sum_of_terms(double sum, double sizes) {
 }
 
 Value indicated(double miss, double size) {
+  if (!std::isfinite(miss)) return {infinity, std::isfinite(size) ? 0 : infinity};
   if (!(miss <= membership_tolerance * size)) return {infinity, 0};
   return {0, miss <= accuracy_of_prox * size ? 0 : infinity};
 }

@@ -24,7 +24,7 @@ class InProduct : public Operation {
   }
   Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
   Value evaluate(const Vector& x) const override {
-    return value_near(h_, image(x), (gram(M_).cwiseAbs() * x.cwiseAbs()).norm());
+    return value_near(h_, image(x), length_of(gram(M_).cwiseAbs() * x.cwiseAbs()));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const std::optional<Vector> v = h_.subgradient(image(x));

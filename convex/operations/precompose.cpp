@@ -4,6 +4,7 @@
 
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/double_double.hpp"
+#include "convex/exact/exact_sum.hpp"
 #include "convex/linear_algebra/householder.hpp"
 #include "convex/linear_algebra/inverse.hpp"
 #include "convex/linear_algebra/pivoted_qr.hpp"
@@ -19,6 +20,14 @@
 
 namespace convex::inline operations {
 namespace {
+
+void tidy(DoubleDoubleVector& x) {
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble sum = two_sum(x.hi[i], x.lo[i]);
+    x.hi[i] = sum.hi;
+    x.lo[i] = sum.lo;
+  }
+}
 
 /// x -> f(Ax + b).
 class Precompose : public Operation {
@@ -45,7 +54,7 @@ class Precompose : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    return value_near(f_, accurate_image(x), (A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()).norm());
+    return value_near(f_, accurate_image(x), length_of(A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const std::optional<Vector> v = f_.subgradient(image_of(x));
@@ -116,11 +125,7 @@ class Precompose : public Operation {
     DoubleDoubleVector sum(b_);
     for (Index j = 0; j < x.size(); ++j)
       add_multiple(A_.rows(), A_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
-    for (Index i = 0; i < A_.rows(); ++i) {
-      const DoubleDouble tidy = two_sum(sum.hi[i], sum.lo[i]);
-      sum.hi[i] = tidy.hi;
-      sum.lo[i] = tidy.lo;
-    }
+    tidy(sum);
     return sum;
   }
   Vector image_of(const Vector& x) const { return accurate_image(x).hi; }
@@ -142,10 +147,54 @@ class ConjugateSum : public Sum {
   Function primal_;
 };
 
-/// The same for a square map: its inverse inverted is another matrix than A.
-class ConjugateMap : public Precompose {
+/// v -> g(w) where Aᵀw = v, `made` with the inverse of Aᵀ, or a left one. What that is rounded by is taken
+/// back where it acts.
+class InverseMap : public Precompose {
  public:
-  ConjugateMap(const Precompose& made, Function primal) : Precompose(made), primal_(std::move(primal)) {}
+  InverseMap(const Precompose& made, Matrix A) : Precompose(made), A_(std::move(A)) {
+    // Row by row, of what rounding is relative to (Skeel 1979).
+    condition_ = (this->A().cwiseAbs() * A_.transpose().cwiseAbs()).rowwise().sum().maxCoeff();
+  }
+  Value evaluate(const Vector& v) const override {
+    DoubleDoubleVector w(Vector(A() * v));
+    for (int pass = 0; pass < 2; ++pass) w.add(A() * left_of(v, w));
+    tidy(w);
+    if (!w.hi.allFinite()) return Precompose::evaluate(v);
+    const Vector terms = A().cwiseAbs() * (v.cwiseAbs() + A_.transpose().cwiseAbs() * w.hi.cwiseAbs());
+    Value found = value_near(part(), w, length_of(terms));
+    constexpr double roundings = 8;
+    if (const auto slope = part().subgradient(w.hi); slope && std::isfinite(found.value))
+      found.error += roundings * unit_roundoff * unit_roundoff * slope->cwiseAbs().dot(terms);
+    return found;
+  }
+
+ protected:
+  std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
+    auto found = Precompose::reduced_prox(z, W, look);
+    if (found && found->x.size() == z.size() && found->v.size() == z.size())
+      found->error_bound += 4 * unit_roundoff * condition_ * (W.norm(found->x) + W.dual_norm(found->v));
+    return found;
+  }
+
+ private:
+  /// v - Aᵀw, rounded once.
+  Vector left_of(const Vector& v, const DoubleDoubleVector& w) const {
+    DoubleDoubleVector sum(v);
+    const Matrix back = A_.transpose();
+    for (Index j = 0; j < v.size(); ++j)
+      add_multiple(v.size(), back.col(j).data(), {-w.hi[j], -w.lo[j]}, sum.hi.data(), sum.lo.data());
+    return sum.value();
+  }
+
+  Matrix A_;
+  double condition_ = 1;
+};
+
+/// The same for a square map: its inverse inverted is another matrix than A.
+class ConjugateMap : public InverseMap {
+ public:
+  ConjugateMap(const Precompose& made, Matrix A, Function primal)
+      : InverseMap(made, std::move(A)), primal_(std::move(primal)) {}
   Function conjugate() const override { return primal_; }
 
  private:
@@ -165,8 +214,8 @@ Function Precompose::conjugate() const {
     back = linear_algebra::inverse(A_.transpose());
     const Function made = precompose(g, back, Vector::Zero(m));
     const auto* map = dynamic_cast<const Precompose*>(&made.node());
-    if (!map || is_diagonal_kind(image->metric)) return made;
-    return Function(std::make_shared<ConjugateMap>(*map, self()));
+    if (!map) return made;
+    return Function(std::make_shared<ConjugateMap>(*map, A_, self()));
   }
   const linear_algebra::Householder factor(A_.transpose());
   if (is_diagonal_kind(image->metric))
@@ -176,7 +225,10 @@ Function Precompose::conjugate() const {
   const Matrix outside = factor.Q(n).rightCols(n - m).transpose();
   const Function in_range =
       named("affine", {argument("A", outside), argument("b", Vector::Zero(n - m).eval())}, n);
-  std::vector<Function> terms{precompose(g, back, Vector::Zero(m)), in_range};
+  Function on_range = precompose(g, back, Vector::Zero(m));
+  if (const auto* map = dynamic_cast<const Precompose*>(&on_range.node()))
+    on_range = Function(std::make_shared<InverseMap>(*map, A_));
+  std::vector<Function> terms{on_range, in_range};
   return Function(std::make_shared<ConjugateSum>(std::move(terms), self()));
 }
 
@@ -195,6 +247,24 @@ std::optional<RankOne> rank_one(const Matrix& A) {
   return made;
 }
 
+/// f(A (Bx + b) + a): each number rounded once, whatever cancels in it.
+Function merged(const Function& f, const Matrix& A, const Vector& a, const Matrix& B, const Vector& b) {
+  Matrix product(A.rows(), B.cols());
+  Vector shift(A.rows());
+  for (Index i = 0; i < A.rows(); ++i) {
+    ExactSum of_shift;
+    of_shift.add(a[i]);
+    for (Index k = 0; k < A.cols(); ++k) of_shift.add_product(A(i, k), b[k]);
+    shift[i] = of_shift.value();
+    for (Index j = 0; j < B.cols(); ++j) {
+      ExactSum sum;
+      for (Index k = 0; k < A.cols(); ++k) sum.add_product(A(i, k), B(k, j));
+      product(i, j) = sum.value();
+    }
+  }
+  return precompose(f, product, shift);
+}
+
 }  // namespace
 
 Function precompose(const Function& f, const Matrix& A, const Vector& b) {
@@ -210,7 +280,7 @@ Function precompose(const Function& f, const Matrix& A, const Vector& b) {
            " rows; give as many");
   if (!b.allFinite()) refuse("(b): an entry is not finite; give finite numbers");
   if (const auto* inner = dynamic_cast<const Precompose*>(&f.node()))
-    return precompose(inner->part(), inner->A() * A, inner->A() * b + inner->b());
+    return merged(inner->part(), inner->A(), inner->b(), A, b);
   const Index n = A.cols();
   if (A.rows() == n && A.isIdentity(0) && f.dimension() != 0) return b.isZero(0) ? f : translate(f, -b);
   if (A.isZero(0) && std::isinf(f(b)))

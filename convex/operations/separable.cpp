@@ -43,7 +43,7 @@ class Separable : public Operation {
   Value evaluate(const Vector& x) const override {
     Value total;
     for_each([&](const Function& f, Index first, Index size) {
-      total = sum_of(total, value_near(f, x.segment(first, size), x.norm()));
+      total = sum_of(total, value_near(f, x.segment(first, size), length_of(x)));
     });
     return total;
   }

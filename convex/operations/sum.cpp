@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <typeinfo>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/exact/exact_sum.hpp"
+#include "convex/linear_quadratic/functions.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
@@ -16,20 +19,44 @@
 
 namespace convex::inline operations {
 
-SplitSum split(std::span<const Function> parts, Index n) {
-  SplitSum sorted;
-  for (const Function& f : parts) {
-    const auto q = quadratic_term(f, n);
-    if (!q) {
-      sorted.rest.push_back(f);
-    } else if (!sorted.quadratic) {
-      sorted.quadratic = q;
-    } else {
-      sorted.quadratic->Q += q->Q;
-      sorted.quadratic->c += q->c;
-      sorted.quadratic->constant += q->constant;
+namespace {
+
+/// Each number rounded once, however many terms there are and whatever cancels between them.
+QuadraticTerm total_of(const std::vector<QuadraticTerm>& terms, Index n) {
+  if (terms.size() == 1) return terms[0];
+  QuadraticTerm total{SparseMatrix(n, n), Vector(n), 0};
+  ExactSum constant;
+  std::vector<ExactSum> c(static_cast<std::size_t>(n));
+  std::map<std::pair<Index, Index>, ExactSum> Q;  // by column and row
+  for (const QuadraticTerm& term : terms) {
+    constant.add(term.constant);
+    for (Index j = 0; j < n; ++j) {
+      c[static_cast<std::size_t>(j)].add(term.c[j]);
+      for (SparseMatrix::InnerIterator entry(term.Q, j); entry; ++entry)
+        Q[{j, entry.row()}].add(entry.value());
     }
   }
+  total.constant = constant.value();
+  for (Index j = 0; j < n; ++j) total.c[j] = c[static_cast<std::size_t>(j)].value();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [place, sum] : Q)
+    entries.emplace_back(static_cast<int>(place.second), static_cast<int>(place.first), sum.value());
+  total.Q.setFromTriplets(entries.begin(), entries.end());
+  return total;
+}
+
+}  // namespace
+
+SplitSum split(std::span<const Function> parts, Index n) {
+  SplitSum sorted;
+  std::vector<QuadraticTerm> quadratics;
+  for (const Function& f : parts) {
+    if (auto q = quadratic_term(f, n))
+      quadratics.push_back(*std::move(q));
+    else
+      sorted.rest.push_back(f);
+  }
+  if (!quadratics.empty()) sorted.quadratic = total_of(quadratics, n);
   return sorted;
 }
 
@@ -91,8 +118,13 @@ std::optional<Function> Sum::entry(Index i) const {
 std::optional<Value> Sum::constant_beside_entries() const { return sum_of_constants(parts_); }
 
 std::optional<LinearQuadratic> Sum::linear_quadratic(Index n) const {
-  const auto forms = programs(parts_, n);
+  const SplitSum sorted = split(parts_, n);
+  auto forms = programs(sorted.rest, n);
   if (!forms) return std::nullopt;
+  if (const auto& q = sorted.quadratic) {
+    LinearQuadratic form = linear_quadratic::quadratic(q->Q, q->c);
+    forms->push_back(linear_quadratic::raise(form, q->constant));
+  }
   return linear_quadratic::sum(*forms);
 }
 

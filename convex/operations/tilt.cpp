@@ -1,6 +1,7 @@
 #include "convex/composite/affine_atoms.hpp"
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/merged_vector.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
@@ -12,9 +13,9 @@ namespace {
 
 class Tilt : public Operation {
  public:
-  Tilt(Function f, Vector c) : f_(std::move(f)), c_(std::move(c)) {}
+  Tilt(Function f, MergedVector c) : f_(std::move(f)), merged_(std::move(c)), c_(merged_.value()) {}
   const Function& part() const { return f_; }
-  const Vector& c() const { return c_; }
+  const MergedVector& c() const { return merged_; }
 
   Index dimension() const override { return c_.size(); }
   Facts facts() const override {
@@ -22,7 +23,11 @@ class Tilt : public Operation {
     facts.indicator = facts.cone = facts.radial = false;
     return facts;
   }
-  Call call() const override { return {"tilt", {argument(f_.call()), argument("c", c_)}}; }
+  Call call() const override {
+    Call made = f_.call();
+    for (const Vector& c : merged_.terms()) made = {"tilt", {argument(made), argument("c", c)}};
+    return made;
+  }
   Value evaluate(const Vector& x) const override { return sum_of(f_.evaluate(x), product(c_, x)); }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x);
@@ -71,16 +76,22 @@ class Tilt : public Operation {
 
  private:
   Function f_;
-  Vector c_;
+  MergedVector merged_;
+  Vector c_;  ///< all of it
 };
+
+Function tilted(const Function& f, MergedVector c) {
+  if (c.value().isZero(0) && f.dimension() != 0) return f;
+  return Function(std::make_shared<Tilt>(f, std::move(c)));
+}
 
 }  // namespace
 
 Function tilt(const Function& f, const Vector& c) {
   require_fit(f, c, "tilt", "c");
-  if (const auto* inner = dynamic_cast<const Tilt*>(&f.node())) return tilt(inner->part(), inner->c() + c);
-  if (c.isZero(0) && f.dimension() != 0) return f;
-  return Function(std::make_shared<Tilt>(f, c));
+  if (const auto* inner = dynamic_cast<const Tilt*>(&f.node()))
+    return tilted(inner->part(), inner->c().plus(c));
+  return tilted(f, c);
 }
 
 }  // namespace convex::inline operations

@@ -1,5 +1,7 @@
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/merged_vector.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/two_function_max.hpp"
@@ -10,9 +12,9 @@ namespace {
 
 class Translate : public Operation {
  public:
-  Translate(Function f, Vector by) : f_(std::move(f)), by_(std::move(by)) {}
+  Translate(Function f, MergedVector by) : f_(std::move(f)), merged_(std::move(by)), by_(merged_.value()) {}
   const Function& part() const { return f_; }
-  const Vector& by() const { return by_; }
+  const MergedVector& by() const { return merged_; }
 
   Index dimension() const override { return by_.size(); }
   Facts facts() const override {
@@ -20,10 +22,14 @@ class Translate : public Operation {
     facts.cone = facts.support = facts.radial = facts.by_order = false;
     return facts;
   }
-  Call call() const override { return {"translate", {argument(f_.call()), argument("by", by_)}}; }
+  Call call() const override {
+    Call made = f_.call();
+    for (const Vector& by : merged_.terms()) made = {"translate", {argument(made), argument("by", by)}};
+    return made;
+  }
   Value evaluate(const Vector& x) const override {
     const DoubleDoubleVector y = difference(x, by_);
-    const Value near = value_near(f_, y, x.norm() + by_.norm());
+    const Value near = value_near(f_, y, length_of(x) + length_of(by_));
     return near.value == infinity && y.lo.isZero(0) ? f_.evaluate(y.hi)
                                                     : near;  // y is x - b to the last digit
   }
@@ -67,17 +73,22 @@ class Translate : public Operation {
 
  private:
   Function f_;
-  Vector by_;
+  MergedVector merged_;
+  Vector by_;  ///< all of it
 };
+
+Function translated(const Function& f, MergedVector by) {
+  if (by.value().isZero(0) && f.dimension() != 0) return f;
+  return Function(std::make_shared<Translate>(f, std::move(by)));
+}
 
 }  // namespace
 
 Function translate(const Function& f, const Vector& by) {
   require_fit(f, by, "translate", "by");
   if (const auto* inner = dynamic_cast<const Translate*>(&f.node()))
-    return translate(inner->part(), inner->by() + by);
-  if (by.isZero(0) && f.dimension() != 0) return f;
-  return Function(std::make_shared<Translate>(f, by));
+    return translated(inner->part(), inner->by().plus(by));
+  return translated(f, by);
 }
 
 }  // namespace convex::inline operations

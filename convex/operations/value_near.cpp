@@ -44,6 +44,11 @@ double rise_towards(const Function& f, const Vector& y, const Vector& inside, co
 
 }  // namespace
 
+double length_of(const Vector& x) {
+  const double length = x.norm();
+  return std::isfinite(length) ? length : x.stableNorm();
+}
+
 Value value_near(const Function& f, const Vector& y, double size) {
   const Value value = f.evaluate(y);
   const bool decided = !(value.value == infinity) && std::isfinite(value.error);
@@ -59,7 +64,7 @@ Value value_near(const Function& f, const Vector& y, double size) {
     WorkLimit::count(WorkLimit::of_a_nearest_point);
     const Prox nearest = f.prox(y, Metric::diagonal(Vector::Constant(y.size(), weight)), Look{});
     if (nearest.x.size() != y.size()) continue;
-    const Value membership = indicated((nearest.x - y).norm(), size);
+    const Value membership = indicated(length_of(nearest.x - y), size);
     if (membership.value > 0) continue;
     const Value inside = f.evaluate(nearest.x);
     if (!std::isfinite(inside.value)) continue;

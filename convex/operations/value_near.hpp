@@ -5,6 +5,9 @@
 
 namespace convex::inline operations {
 
+/// |x|, also where its square is no double.
+double length_of(const Vector& x);
+
 /// f(y) for a y that comes with the rounding of numbers as large as `size`: where f is +inf but finite within
 /// `membership_tolerance` of that, the value there.
 Value value_near(const Function& f, const Vector& y, double size);
