@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "convex/double_double.hpp"
+#include "convex/gamma0/facts.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/prox_formulas/relative_entropy.hpp"
@@ -110,6 +112,21 @@ struct EntropyOnSimplex final : Atom {
     double sum = 0;
     for (const double entry : v) sum += entry > 0 ? entry * std::log(entry) : 0;
     return sum;
+  }
+  Value evaluate(const Vector& v) const override {
+    const double found = value(v);
+    if (!std::isfinite(found)) return {found, 0};
+    RunningSum total;
+    double sizes = 0;
+    for (const double entry : v) {
+      total.add(entry);
+      sizes += entry > 0 ? std::abs(entry * std::log(entry)) : 0;
+    }
+    total.add(-1);
+    // Within the tolerance the point counts as one of the simplex, and what it may stand for is open.
+    const Value member =
+        indicated(std::max(std::abs(total.value()), std::max(0.0, -v.minCoeff())), 1 + v.norm());
+    return {found, sum_of_terms(found, sizes + std::abs(found)).error + member.error};
   }
   std::optional<Vector> subgradient(const Vector& v) const override {
     if (std::isinf(value(v)) || !(v.minCoeff() > 0)) return std::nullopt;

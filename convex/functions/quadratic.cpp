@@ -131,10 +131,6 @@ class DualQuadratic : public Atom {
   }
   double value(const Vector& v) const override { return evaluate(v).value; }
   Value evaluate(const Vector& v) const override {
-    if (inverse_ && v.allFinite()) {
-      const double value = inverse_->value(v, c_, constant_);
-      return {value, unit_roundoff * std::abs(value)};
-    }
     const Vector from = v - c_;
     const Value on_range = indicated((of_Q_.null.transpose() * from).norm(), v.norm() + c_.norm());
     // Whether it is +inf there, or large, may rest on the rounding of Q.
@@ -155,7 +151,10 @@ class DualQuadratic : public Atom {
     const Vector terms = v.cwiseAbs() + c_.cwiseAbs() + Q_.cwiseAbs() * y.cwiseAbs();
     const double of_pairs = roundings_of_pairs * static_cast<double>(y.size() + 1) * unit_roundoff *
                             unit_roundoff * (terms.dot(y.cwiseAbs()) + std::abs(constant_));
-    return {found, sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error};
+    const double of_rank =
+        inverse_ && v.allFinite() ? std::abs(inverse_->value(v, c_, constant_) - found) : 0;
+    return {found,
+            sum_of_terms(found, std::abs(found)).error + of_pairs + left_by(r) + on_range.error + of_rank};
   }
   Function conjugate() const override { return Function(std::make_shared<Quadratic>(f_)); }
   std::optional<LinearQuadratic> linear_quadratic(Index) const override {

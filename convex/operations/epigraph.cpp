@@ -102,14 +102,15 @@ class Epigraph : public Lifted {
   Call call() const override { return {"indicator", {argument(Call{"epigraph", {argument(f_.call())}})}}; }
   Value evaluate(const Vector& x) const override {
     const Index n = x.size() - 1;
-    const Value height = value_near(f_, x.head(n), x.norm());
+    const Value height = value_near(f_, x.head(n), length_of(x));
     if (height.value == infinity) return height;
-    const double scale = std::abs(height.value) + x.norm();
+    const double scale = std::abs(height.value) + length_of(x);
     const Value below = indicated(height.value - x[n], scale);
     if (below.value == 0) return std::isfinite(height.error) ? below : Value{0, infinity};
     // On a steep part a rounded x may lift f(x) far above t: the nearest point decides.
     const Prox nearest = prox(x, Metric::identity(x.size()), Look{});
-    return nearest.x.size() == x.size() ? indicated((nearest.x - x).norm(), x.norm()) : Value{infinity, 0};
+    return nearest.x.size() == x.size() ? indicated(length_of(nearest.x - x), length_of(x))
+                                        : Value{infinity, 0};
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     if (value(x) > 0) return std::nullopt;
@@ -159,9 +160,9 @@ class Perspective : public Lifted {
   Value evaluate(const Vector& x) const override {
     const Index n = x.size() - 1;
     const double s = x[n];
-    const double size = x.norm();
+    const double size = length_of(x);
     if (s < -membership_tolerance * size) return {infinity, 0};
-    if (s > membership_tolerance * membership_tolerance * size) {
+    if (s > 0) {
       const Value inside = multiple_of(s, value_near(f_, quotient(x.head(n), s), size / s));
       if (std::isfinite(inside.value)) return inside;
       if (s > membership_tolerance * size) return inside;

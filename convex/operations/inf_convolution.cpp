@@ -3,8 +3,10 @@
 #include <limits>
 
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/composed_prox.hpp"
+#include "convex/operations/exact_end.hpp"
 #include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
@@ -42,9 +44,16 @@ class InfConvolution : public Operation {
     if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
     if (const auto sum = value_by_entries(*this, x)) return *sum;
     ByProgram found = by_program(x);
+    // Of cones that only near each other far out, a program takes points out there, where it is right to a
+    // part of their size, for common ones.
+    constexpr double far_out = 100;
+    if (facts().support && found.least.size() >= x.size() && std::isfinite(found.value.value) &&
+        length_of(found.least.head(x.size())) > far_out * length_of(x))
+      found.value.error = infinity;
     if (found.least.size() >= x.size() && !is_of_rounding(found.value)) {
       const Vector w = found.least.head(x.size());
-      const Value at_w = sum_of(value_near(f_, difference(x, w), x.norm() + w.norm()), g_.evaluate(w));
+      const Value at_w =
+          sum_of(value_near(f_, difference(x, w), length_of(x) + length_of(w)), g_.evaluate(w));
       found.value = between_points(found.value, at_w, found.slope, conjugate(), x);
     }
     const OneAtATime question(OneAtATime::Kind::least_on_line);  // one in another would take its square
@@ -53,7 +62,7 @@ class InfConvolution : public Operation {
       const double start = found.least.size() > 0 ? found.least[0] : x[0] / 2;
       const auto at = [&](double w) {
         const Vector part = Vector::Constant(1, w);
-        return sum_of(value_near(f_, difference(x, part), x.norm() + std::abs(w)), g_.evaluate(part));
+        return sum_of(value_near(f_, difference(x, part), length_of(x) + std::abs(w)), g_.evaluate(part));
       };
       const Value least = least_on_line(at, start);
       if (least.error < found.value.error) found.value = least;
@@ -177,7 +186,10 @@ Function inf_convolution(const Function& f, const Function& g, Index n) {
     try {
       require_proper(proper_sum(conjugates), n, "inf_convolution");
     } catch (const InvalidInput&) {
-      refuse_improper();
+      // The conjugates are rounded; the functions themselves tell.
+      if (!all_of(parts, &Facts::piecewise_quadratic) ||
+          exact_end(proper_inf_convolution(f, g), n) != ProgramEnd::minimum)
+        refuse_improper();
     }
     if (!all_of(parts, &Facts::piecewise_quadratic) && falls_without_end(f, g, n)) refuse_improper();
   }

@@ -46,13 +46,20 @@ Index common_dimension(std::span<const Function> parts, const char* where) {
 
 Index telling_size(std::span<const Function> parts, Index dimension) {
   if (dimension != 0) return dimension;
-  constexpr Index most = 1 << 20;
-  for (Index n = 2; n <= most; n *= 2) try {
+  const auto all_take = [&](Index n) {
+    try {
       for (const Function& f : parts) f.node().require_size(n);
-      return n;
+      return true;
     } catch (const InvalidInput&) {
-      continue;  // sum_largest(5) takes no less than 5
+      return false;
     }
+  };
+  // sum_largest(5) takes no less than 5, groups of three a multiple of 3
+  constexpr Index most = 1 << 20, few = 64;
+  for (Index n = 2; n <= most; n *= 2)
+    if (all_take(n)) return n;
+  for (Index n = 3; n <= few; ++n)
+    if (all_take(n)) return n;
   return 0;
 }
 

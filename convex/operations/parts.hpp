@@ -23,8 +23,8 @@ bool all_of(std::span<const Function> parts, bool Facts::*fact);
 /// The one number of entries that all of these take, 0 when any will do. Throws InvalidInput "where: …".
 Index common_dimension(std::span<const Function> parts, const char* where);
 
-/// That number, or where any will do one of 2, 4, 8, … that all of these take: functions of any number of
-/// entries show their kind on a few. 0 when there is none up to a million.
+/// That number, or where any will do one of 2, 4, 8, … or of those up to 64 that all of these take: functions
+/// of any number of entries show their kind on a few. 0 when there is none up to a million.
 Index telling_size(std::span<const Function> parts, Index dimension);
 
 /// The sum of the constants beside their entries, where all are known.

@@ -8,6 +8,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/quadratic_term.hpp"
+#include "convex/operations/supremum.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -90,7 +91,9 @@ std::optional<Function> with_pinned_slopes(const Function& f, const Function& g,
   }
   if (!pinned) return std::nullopt;
   if (n == 1) return entries[0];
-  return separable(entries, std::vector<Index>(static_cast<std::size_t>(n), 1));
+  const std::optional<Value> constant = f.node().constant_beside_entries();
+  if (!constant || !is_of_rounding(*constant)) return std::nullopt;
+  return raised(separable(entries, std::vector<Index>(static_cast<std::size_t>(n), 1)), constant->value);
 }
 
 }  // namespace convex::inline operations

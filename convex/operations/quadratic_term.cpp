@@ -10,6 +10,7 @@
 
 namespace convex::inline operations {
 std::optional<QuadraticTerm> quadratic_term(const Function& f, Index n) {
+  if (n == 0) return std::nullopt;  // on no entries all functions are constants
   const Facts facts = f.facts();
   if (!facts.smooth || !facts.finite || !facts.piecewise_quadratic) return std::nullopt;
   const auto form = f.node().linear_quadratic(n);
