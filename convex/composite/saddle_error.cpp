@@ -30,6 +30,8 @@ Rounding rounding_of(const SaddleProblem& problem, const SaddlePoint& point) {
   Rounding rounding;
   rounding.u = prox_roundings * unit_roundoff * (point.u.cwiseAbs() + (point.t - point.u).cwiseAbs());
   rounding.r = rounding.u + unit_roundoff * point.r.cwiseAbs();
+  // Heights that are far above their differences, as beside a large constant, are rounded as they are.
+  rounding.r += unit_roundoff * (magnitude.rightCols(problem.k) * point.xi.tail(problem.k).cwiseAbs());
   rounding.rho =
       magnitude.transpose() * point.D.cwiseProduct(rounding.u) + unit_roundoff * point.rho.cwiseAbs();
   rounding.x = Vector::Zero(problem.n);

@@ -8,6 +8,7 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/interior.hpp"
 #include "convex/linear_algebra/symmetric_eigen.hpp"
+#include "convex/operations/tied_parts.hpp"
 #include "convex/other_pairs.hpp"
 
 namespace convex::inline named_functions {
@@ -65,10 +66,14 @@ double accurate_dot(const Vector& a, const Vector& b) {
   return sum.value();
 }
 
-Decomposition split_of(Prox x, Prox y, const Vector& z, const Metric& W) {
+Decomposition split_of(const SplitFunctions& of, Prox x, Prox y, const Vector& z, const Metric& W) {
   Decomposition split;
   split.x = std::move(x);
   split.y = std::move(y);
+  // Whatever the way that the pair was found.
+  const double doubt = doubt_of_ties(of.f, split.x.x, W);
+  split.x.error_bound = std::max(split.x.error_bound, doubt);
+  split.y.error_bound = std::max(split.y.error_bound, doubt);
   split.residual = norm_at_any_scale(W, z - split.x.x - split.y.x);
   return split;
 }
@@ -157,7 +162,7 @@ bool SplitCandidate::knows_g() const {
 
 SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                          const Metric& W) {
-  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  Decomposition split = split_of(of, std::move(x_part), std::move(y_part), z, W);
   const Vector &x = split.x.x, &y = split.y.x;
   split.inner = W.inner(x, y);
   const double size = size_of_inner(W, x, y), residual = split.residual;
@@ -166,7 +171,7 @@ SplitCandidate at_points(const SplitFunctions& of, Prox x_part, Prox y_part, con
 
 SplitCandidate at_covector(const SplitFunctions& of, Prox x_part, Prox y_part, const Vector& z,
                            const Metric& W, double tolerance) {
-  Decomposition split = split_of(std::move(x_part), std::move(y_part), z, W);
+  Decomposition split = split_of(of, std::move(x_part), std::move(y_part), z, W);
   const Vector &x = split.x.x, &y = split.y.x, &v = split.x.v;
   split.y.error_bound += W.dual_norm(metric_difference(W, y, Vector::Zero(y.size())) - v);
   const Vector r = metric_difference(W, x, z) + v;

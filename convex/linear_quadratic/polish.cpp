@@ -24,6 +24,9 @@ constexpr double enough = 0x1p-92, will_do = 0x1p-60;
 /// An entry of the subgradient below this part of its terms cannot be told from 0.
 constexpr double v_noise = 0x1p-64;
 
+/// The move to one row may lead across others.
+constexpr double outside_safety = 2;
+
 /// Negative multipliers up to this part of the largest change are rounding about 0.
 constexpr double sign_noise = 1e-10;
 
@@ -45,6 +48,30 @@ Vector subgradient(const LinearQuadratic& f, const Set& set, const DoubleDoubleV
   }
   const Vector v = sum.value().head(f.n), terms = defect_terms(f, xi.hi, multipliers).head(f.n);
   return (v.array().abs() <= v_noise * terms.array()).select(0, v);
+}
+
+/// How far x may move, in ||·||_W, where a row that is not held turns out to be violated by the rounding of
+/// those held: to where it holds too, along them, with a multiplier that is no more than all of theirs.
+double move_to_rows_outside(const LinearQuadratic& f, const Metric& W, Set& set, const DoubleDoubleVector& xi,
+                            const Vector& lambda) {
+  const NearestPointProblem& round = set.problem();
+  double farthest = 0, pressing = 0;
+  for (Index k = 0; k < set.size(); ++k) pressing += std::abs(lambda[k]) * set.factor().length(k);
+  Set::Split split;
+  for (Index a = 0; a < round.rows(); ++a) {
+    if (set.holds(a)) continue;
+    const double violation = -slack(round, a, xi).value();
+    if (!(violation > 0)) continue;
+    set.split(a, split);
+    // A combination of those held, to rounding, may at least take the place of one of them.
+    if (!(split.rho > 0)) {
+      farthest = std::max(farthest, violation / split.length);
+      continue;
+    }
+    const double multiplier = std::min(violation / (split.rho * split.rho), pressing / split.length);
+    farthest = std::max(farthest, multiplier * W.norm(round.A.unwhiten(split.direction).head(f.n)));
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -95,6 +122,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
   found.xi = xi.hi;
   found.v = subgradient(f, set, xi, lambda);
   found.missing += W.norm(xi.lo.head(f.n));
+  if (f.n > 0) found.missing += outside_safety * move_to_rows_outside(f, W, set, xi, lambda.hi);
   found.lambda = Vector::Zero(f.rows());
   double largest = 0;
   for (Index k = 0; k < held; ++k) largest = std::max(largest, std::abs(lambda.hi[k]));
@@ -104,6 +132,7 @@ PolishedPoint polish(const LinearQuadratic& f, const Metric& W, const Vector& z,
     const Index a = set.rows()[static_cast<std::size_t>(k)];
     const bool falls = lambda.hi[k] < 0 && !free[static_cast<std::size_t>(a)];
     if (falls && lambda.hi[k] < -sign_noise * largest) found.converged = false;
+    if (falls) found.missing += -lambda.hi[k] * set.factor().length(k);
     found.lambda[a] = falls ? 0 : lambda.hi[k];
   }
   return found;

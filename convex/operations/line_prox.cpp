@@ -72,7 +72,11 @@ class Sides {
     return at_left ? left_ : right_;
   }
   bool is_end(const Side& side) const { return side.rank == low_ || side.rank == high_; }
-  bool meet() const { return right_.rank <= left_.rank + 1; }
+  bool meet() const {
+    const bool no_gap = gap_right_ < gap_left_;
+    return no_gap ? right_.rank <= left_.rank + 1
+                  : gap_left_ <= left_.rank + 1 && right_.rank <= gap_right_ + 1;
+  }
   /// Where slopes are not known beside an end of the domain the prox may be anywhere from there.
   double width() const {
     return (right_.v ? right_.x() : double_of(high_)) - (left_.v ? left_.x() : double_of(low_));
@@ -104,19 +108,30 @@ class Sides {
   /// Where a slope tells most: towards an end without one in growing steps, for near it slopes cost more and
   /// may not be known.
   double next() {
+    if (gap_left_ <= gap_right_)
+      return double_of(gap_left_ > left_.rank + 1 ? std::midpoint(left_.rank, gap_left_)
+                                                  : std::midpoint(gap_right_, right_.rank));
     const Rank middle = std::midpoint(left_.rank, right_.rank), reach = reach_;
     if (!left_.v == !right_.v) return double_of(middle);
     reach_ = std::min(growth_of_reach * reach_, Rank{1} << 60);
     return double_of(right_.v ? std::max(middle, right_.rank - reach) : std::min(middle, left_.rank + reach));
   }
 
-  /// False where the slope is not known and this is not passed over.
+  /// Where the slope is not known, as where two parts of a maximum are one to rounding, the prox may be,
+  /// unless that is beside an end of the domain. False where no slope is known on one of the sides.
   bool take(double x, const std::optional<double>& v) {
     const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
-    if (!v && by_left == by_right) return false;
     const Side at{rank_of(x), v};
+    if (!v && by_left == by_right) {
+      if (!left_.v || !right_.v) return false;
+      const bool is_first = gap_right_ < gap_left_;
+      gap_left_ = is_first ? at.rank : std::min(gap_left_, at.rank);
+      gap_right_ = is_first ? at.rank : std::max(gap_right_, at.rank);
+      return true;
+    }
     const bool is_left = v ? residual(at) <= 0 : by_left;
     (is_left ? left_ : right_) = at;
+    if (gap_right_ <= left_.rank || gap_left_ >= right_.rank) gap_left_ = 0, gap_right_ = -1;
     return true;
   }
 
@@ -128,6 +143,7 @@ class Sides {
   Side left_, right_;
   bool left_is_end_ = true, right_is_end_ = true;
   Rank reach_ = first_reach;
+  Rank gap_left_ = 0, gap_right_ = -1;  ///< ranks between which no slope is known, if there are any
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "convex/composite/work_limit.hpp"
@@ -87,6 +88,11 @@ class Line {
   /// Is φ lower at the outermost sample beyond the errors?
   bool falls(bool right) const { return is_lower(end(right)); }
 
+  Interval around() const {
+    const auto [first, last] = not_lower();
+    return {samples_[first].x, samples_[last].x};
+  }
+
   /// By how much φ may exceed that of the best point, and where a look tells most; no rank between doubles
   /// that are neighbours.
   struct Open {
@@ -96,9 +102,7 @@ class Line {
   /// Beyond the nearest sample on each side that is lower for certain, φ is lower. Samples within the errors
   /// of the best may lie between: each of the intervals may hide the maximum.
   Open open() const {
-    std::size_t first = best_, last = best_;
-    while (first > 0 && !is_lower(samples_[first])) --first;
-    while (last + 1 < samples_.size() && !is_lower(samples_[last])) ++last;
+    const auto [first, last] = not_lower();
     Open found{best().error, std::nullopt};
     double most = -infinity;
     for (std::size_t i = first; i < last; ++i) {
@@ -112,6 +116,13 @@ class Line {
   }
 
  private:
+  /// From the nearest sample on the left that is lower for certain to that on the right, or to the last.
+  std::pair<std::size_t, std::size_t> not_lower() const {
+    std::size_t first = best_, last = best_;
+    while (first > 0 && !is_lower(samples_[first])) --first;
+    while (last + 1 < samples_.size() && !is_lower(samples_[last])) ++last;
+    return {first, last};
+  }
   bool is_lower(const Sample& s) const { return s.value + s.error < best().value - best().error; }
 
   /// By how much φ may exceed that of the best point between the i-th sample and the next.
@@ -179,7 +190,7 @@ std::optional<LineSupremum> supremum_of(const LineValues& f, const std::optional
     open = line.open();
   }
   if (!std::isfinite(open.excess)) return lower_bound();
-  return LineSupremum{line.best().x, {line.best().value, open.excess}};
+  return LineSupremum{line.best().x, {line.best().value, open.excess}, line.around()};
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <functional>
 
 #include "convex/functions/function.hpp"
+#include "convex/infinity.hpp"
+#include "convex/interval.hpp"
 
 namespace convex::inline operations {
 
@@ -11,6 +13,9 @@ namespace convex::inline operations {
 struct LineSupremum {
   double x = 0;
   Value value;
+  /// Where it is attained, for certain: where φ is smooth values alone tell that to the root of their
+  /// rounding.
+  Interval around{-infinity, infinity};
 };
 
 /// f*(v) = sup_x v x - f(x) of a function of one entry, from values of f alone: φ(x) = v x - f(x) is concave,

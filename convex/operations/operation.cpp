@@ -14,12 +14,14 @@
 #include "convex/linear_quadratic/prox.hpp"
 #include "convex/linear_quadratic/value.hpp"
 #include "convex/operations/composed_prox.hpp"
+#include "convex/operations/exact_end.hpp"
 #include "convex/operations/line_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/open_domain.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/tied_parts.hpp"
 #include "convex/operations/two_function_max.hpp"
 
 namespace convex::inline operations {
@@ -169,7 +171,7 @@ std::optional<Prox> Operation::own_prox(const Vector& z, const Metric& W, const 
   return best;
 }
 
-Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
+Prox Operation::prox_by_all_ways(const Vector& z, const Metric& W, const Look& look) const {
   // A maximum has another way, by its dual, which is left as much work as its programs may take.
   const bool is_maximum = !facts().piecewise_quadratic && !maximum_of().empty();
   std::optional<Prox> best = [&] {
@@ -197,6 +199,12 @@ Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
   };
   if (auto other = by_moreau(of_dual, z, W)) take_better(best, *std::move(other));
   return *std::move(best);
+}
+
+Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
+  Prox found = prox_by_all_ways(z, W, look);
+  if (found.x.size() == z.size()) found.error_bound += doubt_of_ties(self(), found.x, W);
+  return found;
 }
 
 std::optional<Vector> Operation::subgradient(const Vector& x) const {
@@ -276,7 +284,7 @@ void require_proper(const Function& f, Index n, const char* where) {
     if (apart > 0 || (apart == 0 && std::isinf(f(Vector::Constant(1, domain->low))))) refuse_empty();
   }
   if (const auto form = f.node().linear_quadratic(n)) {
-    if (properness(*form) == Defect::empty_domain) refuse_empty();
+    if (properness(*form) == Defect::empty_domain && exact_end(f, n) != ProgramEnd::minimum) refuse_empty();
   } else if (auto graph = f.node().graph(n)) {
     // Terms that are finite everywhere leave the domain as it is, and would only pull at the gap.
     std::erase_if(graph->terms, [](const GraphTerm& term) { return term.f->facts().finite; });

@@ -46,6 +46,8 @@ class Operation : public FunctionNode {
   ByProgram by_program(const Vector& x) const;
   /// The prox by formula or program, without the conjugate's help.
   std::optional<Prox> own_prox(const Vector& z, const Metric& W, const Look& look) const;
+  /// The prox by each of the ways there are, before ties of a maximum are looked at.
+  Prox prox_by_all_ways(const Vector& z, const Metric& W, const Look& look) const;
   /// This function as one to be handed on.
   Function self() const { return Function(shared_from_this()); }
 };

@@ -61,22 +61,26 @@ class PointwiseMax : public Operation {
     }
     return {largest, std::isfinite(most) ? std::max(most - largest, largest - least) : infinity};
   }
+  /// That of the parts which may be the largest, as far as the errors of their values tell; none where these
+  /// have different ones.
   std::optional<Vector> subgradient(const Vector& x) const override {
-    // A part whose error hides whether it is the largest may have the slope.
-    constexpr double open_part = 1e-3;
+    constexpr double alike = 64 * unit_roundoff;
     std::vector<Value> values;
-    double largest = -infinity, most = -infinity;
+    double least = -infinity;
     for (const Function& f : parts_) {
       values.push_back(f.evaluate(x));
-      largest = std::max(largest, values.back().value);
-      most = std::max(most, values.back().value + values.back().error);
+      least = std::max(least, values.back().value - values.back().error);
     }
-    if (!std::isfinite(largest) || !(most - largest <= open_part * std::max(1.0, std::abs(largest))))
-      return std::nullopt;
-    for (std::size_t k = 0; k < parts_.size(); ++k)
-      if (values[k].value == largest)
-        if (std::optional<Vector> v = parts_[k].subgradient(x)) return v;
-    return std::nullopt;
+    if (!std::isfinite(least)) return std::nullopt;
+    std::optional<Vector> found;
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+      if (values[k].value + values[k].error < least) continue;
+      const std::optional<Vector> v = parts_[k].subgradient(x);
+      if (!v) return std::nullopt;
+      if (found && !((*v - *found).norm() <= alike * (v->norm() + found->norm()))) return std::nullopt;
+      if (!found) found = v;
+    }
+    return found;
   }
   double recession(const Vector& d) const override {
     double largest = -infinity;
@@ -100,6 +104,7 @@ class PointwiseMax : public Operation {
   }
 
   std::vector<Function> maximum_of() const override { return parts_; }
+  const std::vector<Function>& parts() const { return parts_; }
 
  protected:
   /// Of one part alone, else by epigraphs in units of the slope at the solution, which is known when it has
@@ -168,7 +173,15 @@ Function pointwise_max(std::span<const Function> parts, Index n) {
   if (parts.empty()) throw InvalidInput("pointwise_max: no functions; give at least one");
   if (parts.size() == 1) return parts[0];
   if (const Index own = common_dimension(parts, "pointwise_max"); own != 0) n = own;
-  const Function made(std::make_shared<PointwiseMax>(std::vector<Function>(parts.begin(), parts.end())));
+  std::vector<Function> all;  // a maximum in a maximum is one of all parts
+  for (const Function& f : parts) {
+    const auto* inner = dynamic_cast<const PointwiseMax*>(&f.node());
+    if (inner)
+      all.insert(all.end(), inner->parts().begin(), inner->parts().end());
+    else
+      all.push_back(f);
+  }
+  const Function made(std::make_shared<PointwiseMax>(std::move(all)));
   if (n != 0 && domains_may_miss(parts)) {
     require_proper(proper_sum(parts), n, "pointwise_max");
     if (auto point = at_its_only_point(made, n)) return *point;

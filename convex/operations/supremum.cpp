@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "convex/composite/work_limit.hpp"
+#include "convex/exact/exact_sum.hpp"
 #include "convex/gamma0/node.hpp"
 #include "convex/infinity.hpp"
 #include "convex/operations/line_supremum.hpp"
 #include "convex/operations/one_at_a_time.hpp"
 #include "convex/operations/operation.hpp"
+#include "convex/operations/order_of_doubles.hpp"
 #include "convex/operations/sum.hpp"
 
 namespace convex::inline operations {
@@ -77,7 +80,10 @@ bool a_part_grows(const Function& f, const Vector& v) {
   if (!sum || v.size() != 1) return false;
   for (const double d : {1.0, -1.0}) {
     const Vector direction = Vector::Constant(1, d);
-    if (f.node().recession(direction) != v.dot(direction)) continue;
+    ExactSum left;
+    left.add(-v.dot(direction));
+    for (const Function& part : sum->parts()) left.add(part.node().recession(direction));
+    if (left.sign() != 0) continue;
     for (const Function& part : sum->parts()) {
       const double slope = part.node().recession(direction);
       const Value end = part.conjugate().evaluate(slope * direction);
@@ -209,12 +215,33 @@ bool grows_without_end(const Function& f, const Vector& v) {
   return search(f, v, std::nullopt).growing;
 }
 
+namespace {
+
+/// Where v is a slope of f of one entry, between the doubles at whose slopes the order to v changes.
+std::optional<double> attained_at(const Function& f, double v, const LineSupremum& found) {
+  constexpr double roundings_of_a_point = 64;
+  Rank low = rank_of(found.around.low), high = rank_of(found.around.high);
+  while (high > low + 1 && !WorkLimit::passed()) {
+    if (double_of(high) - double_of(low) <= roundings_of_a_point * unit_roundoff * std::abs(found.x))
+      return std::clamp(found.x, double_of(low), double_of(high));
+    const Rank middle = std::midpoint(low, high);
+    const auto slope = f.subgradient(Vector::Constant(1, double_of(middle)));
+    WorkLimit::count();
+    if (!slope || std::isnan((*slope)[0])) return std::nullopt;
+    ((*slope)[0] < v ? low : high) = middle;
+  }
+  return high > low + 1 ? std::nullopt : std::optional(std::clamp(found.x, double_of(low), double_of(high)));
+}
+
+}  // namespace
+
 std::optional<Vector> maximiser(const Function& f, const Vector& v) {
   const OneAtATime question(OneAtATime::Kind::supremum);
   if (!question.first() || recedes_plainly(f, v)) return std::nullopt;
   const auto found = on_line(f, v, std::nullopt);
   if (!found || !std::isfinite(found->value.error)) return std::nullopt;
-  return Vector::Constant(1, found->x);
+  const auto x = attained_at(f, v[0], *found);
+  return x ? std::optional(Vector(Vector::Constant(1, *x))) : std::nullopt;
 }
 
 namespace {

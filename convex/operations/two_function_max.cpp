@@ -21,6 +21,8 @@ constexpr double nearly_nothing = 1e-3;
 
 /// A drop of g - f says how x follows it where it is so much more than noise.
 constexpr double above_noise = 1e3, safety = 4;
+/// Proxes at the ends that differ by less than this part of what they are made of are one.
+constexpr double least_apart = 4 * unit_roundoff;
 /// A difference that moves x by less than this part of what a prox aims at has ended the search.
 constexpr double part_left = 0.25;
 /// So much of the larger value the maximum may be above the mean then: where one function is steep, a small
@@ -191,16 +193,25 @@ enum class Order { given, reversed };
 std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& g, const Vector& z,
                                              const Metric& W, const Look& look, Order order) {
   std::optional<At> low = near_end(f, g, false, z, W, look);
-  if (low && low->t == 0 && low->difference <= 0) return named(*low);  // f alone is above g at its prox
+  // f alone is above g at its prox
+  if (low && low->t == 0 && low->difference + low->noise <= 0) return named(*low);
   std::optional<At> high = near_end(f, g, true, z, W, look);
-  if (high && high->t == 1 && high->difference >= 0) return named(*high);
+  if (high && high->t == 1 && high->difference - high->noise >= 0) return named(*high);
   if (!low || !high) return std::nullopt;
   double moved_per_difference = 0;  // while the difference of the ends is more than noise
-  Bracket bracket{low->t, high->t, low->difference, high->difference};
+  // Where noise hides the sign at an end the root is there or beyond, as far as is known.
+  Bracket bracket{low->t, high->t, std::max(low->difference, low->noise),
+                  std::min(high->difference, -high->noise)};
+  // The weights that the root is between for sure.
+  const auto is_sure = [](const At& found) { return std::abs(found.difference) > found.noise; };
+  Vector sure_low = low->prox.x, sure_high = high->prox.x;
   for (int step = 0; step < most_steps && !WorkLimit::passed(); ++step) {
     const double drop = low->difference - high->difference;
+    const double apart = W.norm(low->prox.x - high->prox.x);
     if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
-      moved_per_difference = W.norm(low->prox.x - high->prox.x) / drop;
+      moved_per_difference = apart / drop;
+    if (apart <= least_apart * (W.norm(z) + W.norm(low->prox.x))) break;
+    if (!is_sure(*low) && !is_sure(*high)) break;  // what they say of the root is noise
     if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
     // The weight of f, 1 - t, is known to roundings of 1: the other way round it is t.
     if (1 - low->t < nearly_nothing && order == Order::given)
@@ -221,15 +232,16 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
       break;
     }
     bracket.narrow(middle->t, middle->difference);
+    if (is_sure(*middle)) (middle->difference > 0 ? sure_low : sure_high) = middle->prox.x;
     (middle->difference > 0 ? low : high) = std::move(middle);
   }
   // Both agree but for the distance between them; the nearer one to equality is taken.
   const bool take_low = std::abs(low->difference) <= std::abs(high->difference);
   Prox made = named(take_low ? *low : *high);
   const double open = low->t == high->t ? left(*low) : std::max(low->noise, high->noise);
-  made.error_bound = std::max(low->prox.error_bound, high->prox.error_bound) +
-                     2 * W.norm(low->prox.x - high->prox.x) +
-                     (moved_per_difference > 0 ? safety * moved_per_difference * open : 0);
+  made.error_bound =
+      std::max(low->prox.error_bound, high->prox.error_bound) + 2 * W.norm(low->prox.x - high->prox.x) +
+      (moved_per_difference > 0 ? safety * moved_per_difference * open : 2 * W.norm(sure_low - sure_high));
   return made;
 }
 
