@@ -60,6 +60,14 @@ std::optional<ExactPolyhedron> of_program(const ExactProgram& f, const Fractions
   return section_at_one(image(weights, image_rows));
 }
 
+/// Numbers beyond this, or nearer to 0 than its inverse, may have slopes that no double holds.
+constexpr double ordinary = 1e30;
+
+[[noreturn]] void refuse_slope(const Call& f, std::size_t i) {
+  throw InvalidInput(f.name + ": its slope at entry " + std::to_string(i) +
+                     " of the point is beyond all doubles; give a point where it is not");
+}
+
 /// Of a separable function with formulas: one slope each, the whole line where the domain is one number,
 /// nothing where the slope is vertical or the entry outside.
 std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
@@ -67,6 +75,7 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
   if (entries.empty() || !Ball::why_none().empty()) return std::nullopt;
   ExactPolyhedron P = empty_polyhedron(x.size());
   Fractions vertex(x.size());
+  const bool is_finite = make_function(f, {Metric::identity(static_cast<Index>(x.size()))}).facts().finite;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const EntryFormula& entry = *entries[i];
     IntegerVector unit(x.size());
@@ -78,10 +87,15 @@ std::optional<Subdifferential> of_entries(const Call& f, const Fractions& x) {
     if (is_one_number && sign(x[i]) == 0) {
       P.lines.push_back(unit);
     } else if (v) {
-      vertex[i] = fraction(nearest_double(*v));
+      const double rounded = nearest_double(*v);
+      if (!std::isfinite(rounded)) refuse_slope(f, i);
+      vertex[i] = fraction(rounded);
       unit[i] = vertex[i].denominator;
       P.equations.push_back({unit, vertex[i].numerator});
     } else {
+      const double size = std::abs(nearest_double(x[i]));
+      const bool is_ordinary = size >= 1 / ordinary && size <= ordinary;
+      if (size > 0 && (!is_ordinary || is_finite)) refuse_slope(f, i);
       return subgradients::none(x.size());
     }
   }
