@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "cli/function_language/parse_call.hpp"
@@ -129,6 +130,29 @@ std::vector<Vector> around(const Subject& subject, const Vector& x, const Vector
   return points;
 }
 
+/// Of one entry, x beside the least point of the objective, which is found to the root of its rounding.
+std::string wrong_minimiser(const Subject& subject, const Decomposition& split) {
+  if (subject.z.size() != 1) return "";
+  const Real z = subject.z[0], x = split.x.x[0], w = subject.W.diagonal()[0];
+  bool exact = true;
+  Real size = 0;
+  const auto objective = [&](Real u) -> Real {
+    const auto at = call_value(subject.call, {u}, strict);
+    exact = exact && at && at->exact;
+    if (!at || !std::isfinite(at->value)) return std::numeric_limits<Real>::infinity();
+    const Real square = w * (u - z) * (u - z) / 2;
+    if (std::abs(u - x) <= std::abs(x) + 1) size = std::max({size, at->size, std::abs(at->value), square});
+    return square + at->value;
+  };
+  const LineMinimum least = least_on_line(objective, {x, z, 0});
+  if (!exact || !std::isfinite(least.value)) return "";
+  const Real bound = split.x.error_bound / std::sqrt(w),
+             searched = 4 * std::sqrt(2 * 64 * rounding_of_terms * size / w) + 1e-12L * std::abs(x);
+  if (std::abs(x - least.at) <= bound + searched) return "";
+  return text("x, and the least point of the objective", static_cast<double>(x),
+              static_cast<double>(least.at));
+}
+
 std::string wrong_split(const Subject& subject, const Decomposition& split) {
   const Vector &x = split.x.x, &y = split.y.x;
   const double size =
@@ -139,6 +163,7 @@ std::string wrong_split(const Subject& subject, const Decomposition& split) {
   if (!(std::abs(inner - split.inner) <= allowed * size + rounding_of_inner(subject.W, x, y)))
     return text("(x|y), and of the printed points", split.inner, inner);
   if (std::string why = wrong_value(subject, x, split.f_x); !why.empty()) return why;
+  if (std::string why = wrong_minimiser(subject, split); !why.empty()) return why;
   const double objective = 0.5 * square(x - subject.z, subject.W) + split.f_x;
   const double scale =
       std::max({std::abs(split.f_x), square(subject.z, subject.W), square(x, subject.W), 1e-3});

@@ -241,7 +241,37 @@ class Draw {
     }
   }
 
+  /// Two parts of a maximum that differ by a slope of rounding to a millionth, and are one at a plane; or
+  /// data that cancels in nested operations, but for what is left.
+  std::string hidden_by_size(int n, int depth) {
+    const std::string f = function(n, depth);
+    const std::string large = one_in(2) ? "1e" + std::to_string(3 + below(5)) : "1";
+    const double slope = std::pow(10.0, -3 - below(8)) * (1 + below(9)), at = (below(41) - 20) * 0.25;
+    const std::string big = "1e" + std::to_string(4 + 2 * below(3));  // which long doubles see through
+    const auto constant = [](const std::string& c) { return "constant(" + c + ")"; };
+    switch (below(5)) {
+      case 0:
+      case 1:
+        return "pointwise_max(sum(" + f + "," + constant(large) + "),sum(" + f + ",linear([" +
+               repeated(convex::to_text(slope), n) + "])," +
+               constant(convex::to_text(std::stod(large) - n * slope * at)) + "))";
+      case 2:
+        return "translate(translate(translate(" + f + ",1)," + big + "),-" + big + ")";
+      case 3:
+        return "tilt(tilt(tilt(" + f + ",0.5)," + big + "),-" + big + ")";
+      default:
+        return "sum(" + f + ",linear([" + repeated("0.001", n) + "]),linear([" + repeated(big, n) +
+               "]),linear([" + repeated("-" + big, n) + "]))";
+    }
+  }
+
  private:
+  static std::string repeated(const std::string& number, int n) {
+    std::string all = number;
+    for (int i = 1; i < n; ++i) all += "," + number;
+    return all;
+  }
+
   std::string diagonal(int n) {
     std::string text = "diagonal [";
     static constexpr std::array<const char*, 5> entries{"0.03125", "0.5", "1", "2", "10"};
@@ -258,7 +288,9 @@ Question random_question(std::uint64_t seed, std::uint64_t index) {
   Draw draw(seed, index);
   Question question;
   question.n = 1 + draw.below(4);
-  question.f = draw.function(question.n, 1 + draw.below(deepest));
+  constexpr std::uint64_t seldom = 16;
+  question.f = index % seldom == 0 ? draw.hidden_by_size(question.n, draw.below(deepest))
+                                   : draw.function(question.n, 1 + draw.below(deepest));
   question.z = draw.point(question.n);
   question.metric = draw.metric(question.n);
   return question;
