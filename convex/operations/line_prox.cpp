@@ -10,6 +10,7 @@
 #include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/order_of_doubles.hpp"
+#include "convex/operations/tied_parts.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -152,9 +153,10 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
   const auto domain = domain_of_one(f);
   if (!domain || !(domain->low <= domain->high) || !(std::abs(z) <= far_end)) return std::nullopt;
   const auto slope = [&](double x) -> std::optional<double> {
-    const auto v = f.subgradient(Vector::Constant(1, x));
+    const Vector at = Vector::Constant(1, x);
+    const auto v = f.subgradient(at);
     WorkLimit::count();
-    return v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt;
+    return v && std::isfinite((*v)[0]) && !is_tied(f, at) ? std::optional((*v)[0]) : std::nullopt;
   };
   Sides sides(z, w, *domain);
   sides.start(slope);

@@ -61,26 +61,23 @@ class PointwiseMax : public Operation {
     }
     return {largest, std::isfinite(most) ? std::max(most - largest, largest - least) : infinity};
   }
-  /// That of the parts which may be the largest, as far as the errors of their values tell; none where these
-  /// have different ones.
+  /// That of the largest as rounded; `tied_parts.hpp` tells where this may be another.
   std::optional<Vector> subgradient(const Vector& x) const override {
-    constexpr double alike = 64 * unit_roundoff;
+    // A part whose error hides whether it is the largest may have the slope.
+    constexpr double open_part = 1e-3;
     std::vector<Value> values;
-    double least = -infinity;
+    double largest = -infinity, most = -infinity;
     for (const Function& f : parts_) {
       values.push_back(f.evaluate(x));
-      least = std::max(least, values.back().value - values.back().error);
+      largest = std::max(largest, values.back().value);
+      most = std::max(most, values.back().value + values.back().error);
     }
-    if (!std::isfinite(least)) return std::nullopt;
-    std::optional<Vector> found;
-    for (std::size_t k = 0; k < parts_.size(); ++k) {
-      if (values[k].value + values[k].error < least) continue;
-      const std::optional<Vector> v = parts_[k].subgradient(x);
-      if (!v) return std::nullopt;
-      if (found && !((*v - *found).norm() <= alike * (v->norm() + found->norm()))) return std::nullopt;
-      if (!found) found = v;
-    }
-    return found;
+    if (!std::isfinite(largest) || !(most - largest <= open_part * std::max(1.0, std::abs(largest))))
+      return std::nullopt;
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (values[k].value == largest)
+        if (std::optional<Vector> v = parts_[k].subgradient(x)) return v;
+    return std::nullopt;
   }
   double recession(const Vector& d) const override {
     double largest = -infinity;

@@ -181,7 +181,7 @@ class InverseMap : public Precompose {
   Vector left_of(const Vector& v, const DoubleDoubleVector& w) const {
     DoubleDoubleVector sum(v);
     const Matrix back = A_.transpose();
-    for (Index j = 0; j < v.size(); ++j)
+    for (Index j = 0; j < w.size(); ++j)
       add_multiple(v.size(), back.col(j).data(), {-w.hi[j], -w.lo[j]}, sum.hi.data(), sum.lo.data());
     return sum.value();
   }

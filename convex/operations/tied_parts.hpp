@@ -10,4 +10,7 @@ namespace convex::inline operations {
 /// to ||v_k - v_l||_(W⁻¹), being nonexpansive. 0 for other functions, and where one part is the largest.
 double doubt_of_ties(const Function& f, const Vector& x, const Metric& W);
 
+/// Do the errors of the values of a maximum hide which of different slopes it has at x?
+bool is_tied(const Function& f, const Vector& x);
+
 }  // namespace convex::inline operations

@@ -21,8 +21,6 @@ constexpr double nearly_nothing = 1e-3;
 
 /// A drop of g - f says how x follows it where it is so much more than noise.
 constexpr double above_noise = 1e3, safety = 4;
-/// Proxes at the ends that differ by less than this part of what they are made of are one.
-constexpr double least_apart = 4 * unit_roundoff;
 /// A difference that moves x by less than this part of what a prox aims at has ended the search.
 constexpr double part_left = 0.25;
 /// So much of the larger value the maximum may be above the mean then: where one function is steep, a small
@@ -210,7 +208,6 @@ std::optional<Prox> prox_of_two_function_max(const Function& f, const Function& 
     const double apart = W.norm(low->prox.x - high->prox.x);
     if (std::isfinite(drop) && drop > above_noise * (low->noise + high->noise))
       moved_per_difference = apart / drop;
-    if (apart <= least_apart * (W.norm(z) + W.norm(low->prox.x))) break;
     if (!is_sure(*low) && !is_sure(*high)) break;  // what they say of the root is noise
     if (!(high->t - low->t > shortest * std::min(high->t, 1 - low->t))) break;
     // The weight of f, 1 - t, is known to roundings of 1: the other way round it is t.

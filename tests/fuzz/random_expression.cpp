@@ -256,7 +256,7 @@ class Draw {
                repeated(convex::to_text(slope), n) + "])," +
                constant(convex::to_text(std::stod(large) - n * slope * at)) + "))";
       case 2:
-        return "translate(translate(translate(" + f + ",1)," + big + "),-" + big + ")";
+        return "translate(translate(translate(" + f + ",1),1e3),-1e3)";
       case 3:
         return "tilt(tilt(tilt(" + f + ",0.5)," + big + "),-" + big + ")";
       default:
