@@ -114,13 +114,7 @@ struct Seen {
 class SearchByCuts {
  public:
   SearchByCuts(const Function& f, const Vector& x_0, const Vector& z, const Metric& W, const Look& look)
-      : f_(f),
-        x_0_(x_0),
-        W_(W),
-        look_(look),
-        aim_(z - x_0),
-        pull_(-metric_difference(W, x_0, z)),
-        size_(W.norm(z) + W.norm(x_0)) {}
+      : f_(f), x_0_(x_0), W_(W), look_(look), aim_(z - x_0), pull_(-metric_difference(W, x_0, z)) {}
 
   std::optional<Prox> run(double enough) {
     constexpr Index most_cuts = 200;
@@ -239,7 +233,6 @@ class SearchByCuts {
   const Metric& W_;
   const Look& look_;
   Vector aim_, pull_;
-  double size_;
   Cuts cuts_;
   std::vector<Seen> seen_;
   Vector lowest_;

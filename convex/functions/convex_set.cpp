@@ -96,9 +96,6 @@ class SetSupport : public Atom {
   std::optional<Vector> prox_covector(const Vector&, const Vector& z, const Vector& d) const override {
     return S_->project(d.cwiseProduct(z), d.cwiseInverse());
   }
-  std::optional<Prox> prox_general(const Vector& z, const Metric& W) const override {
-    return S_->support_prox_general(z, W);
-  }
   /// The derivative of z - D⁻¹ project(Dz, D⁻¹).
   Matrix prox_jacobian(const Vector& z, const Vector& d) const override {
     const Matrix J = S_->project_jacobian(d.cwiseProduct(z), d.cwiseInverse());

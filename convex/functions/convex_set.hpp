@@ -59,11 +59,8 @@ class ConvexSet : public std::enable_shared_from_this<ConvexSet> {
   /// they have to move is what the formula did not keep.
   virtual void make_conjugate(Vector& /*s*/, Vector& /*u*/) const {}
 
-  /// The projection and the prox of the support function in a general metric, by a method of the set's own.
+  /// The projection in a general metric, by a method of the set's own.
   virtual std::optional<Prox> project_general(const Vector&, const Metric&) const { return std::nullopt; }
-  virtual std::optional<Prox> support_prox_general(const Vector&, const Metric&) const {
-    return std::nullopt;
-  }
   /// The indicator and the support function as programs, exactly when facts().piecewise_quadratic.
   virtual std::optional<LinearQuadratic> indicator_form(Index n) const;
   virtual std::optional<LinearQuadratic> support_form(Index n) const;

@@ -217,7 +217,7 @@ class DualActiveSet {
         if (!(violation > 0)) {
           // Consistent with W to rounding: it holds as well as W does.
           passed_[static_cast<std::size_t>(p)] = true;
-          flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, p, split_);
+          flat_wedge_ = flat_wedge_ || is_flat_wedge(set_, split_);
           left_outside_ += split_.rest / split_.length;
           return changed ? finish_change() : Outcome::unchanged;
         }

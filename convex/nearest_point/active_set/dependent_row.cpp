@@ -83,7 +83,7 @@ bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split)
   return true;
 }
 
-bool is_flat_wedge(const WorkingSet& set, Index, const WorkingSet::Split& split) {
+bool is_flat_wedge(const WorkingSet& set, const WorkingSet::Split& split) {
   if (split.within_radii || is_exact_combination(set, split)) return false;
   bool can_give_way = false;
   for (Index k = 0; k < set.size(); ++k) {

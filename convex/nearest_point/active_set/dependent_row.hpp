@@ -33,7 +33,7 @@ bool is_exact_combination(const WorkingSet& set, const WorkingSet::Split& split)
 /// nothing that could give way to it: as the numbers stand they leave a wedge, however flat, and its edge may
 /// be far from where W holds them. Rows that are a combination of W within their radii leave none: which
 /// numbers are meant is not known.
-bool is_flat_wedge(const WorkingSet& set, Index p, const WorkingSet::Split& split);
+bool is_flat_wedge(const WorkingSet& set, const WorkingSet::Split& split);
 
 /// sign (e_p - Σ r_k e_k): the combination of rows that cancels, over all rows of the problem.
 Vector contradiction_weights(const WorkingSet& set, Index p, const WorkingSet::Split& split, double sign);

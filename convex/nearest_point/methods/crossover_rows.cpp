@@ -97,7 +97,7 @@ class Polish {
       const bool spanned = !(split_.rho > 0);
       if (spanned && !(std::abs(contradiction(set_, p, split_)) > 0)) {
         // Where rows that are flat to rounding meet, their edge may be far away.
-        contradiction_ = is_flat_wedge(set_, p, split_)
+        contradiction_ = is_flat_wedge(set_, split_)
                              ? infinity
                              : std::max(contradiction_, std::abs(slack_[p]) / split_.length);
         count_moved_edge(p);
