@@ -8,7 +8,8 @@ namespace mechanics {
 /// An estimate of ||q'' - q''*||_A for the acceleration q''* of the mechanism as written and the exact
 /// solution q'' of the problem of A, z, U, s as evaluated: what their rounding, and that of the state's
 /// numbers, amounts to while the same contacts are held. The radii of the equations at the answer, twice for
-/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`).
+/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`). Rows beyond those
+/// of the contacts, as are added at a singular state, go by the radii of the problem.
 double evaluation_error(const WrittenMechanism&, const std::vector<Index>& contacts,
                         const convex::NearestPointProblem&, const convex::Solution&, const convex::Accuracy&);
 
