@@ -22,7 +22,7 @@ using fuzz::Outcome;
 using fuzz::Question;
 using fuzz::Verdict;
 
-constexpr int seconds_each = 10;  ///< of processor time; more is a hang
+constexpr int seconds_each = 20;  ///< of processor time, on slow processors too; more is a hang
 
 struct Counts {
   long right = 0, wrong = 0, refused = 0, open = 0, invalid = 0, crashed = 0;
