@@ -22,24 +22,25 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
   return rows;
 }
 
-/// Those of the contacts, and behind them of rows that were added, by the radii that these came with. A row
-/// of zeros, in whose place one was added, asks for nothing.
+/// Those of the contacts, and behind them of rows that were added. The row in whose place one was added asks
+/// for nothing.
 EquationRadii radii_of_all_rows(const WrittenMechanism& written, const std::vector<Index>& contacts,
+                                const std::vector<AddedRow>& added,
                                 const convex::NearestPointProblem& problem, const Vector& q,
                                 const Vector& lambda) {
   const auto count = static_cast<Index>(contacts.size());
   EquationRadii found =
       equation_radii(*written.system, written.state, written.radii, contacts, q, lambda.head(count));
-  if (problem.rows() == count || !problem.radii) return found;
   const Vector root = problem.A.diagonal().cwiseSqrt();
   const double length = root.cwiseProduct(q).norm();
-  const auto& [row, s] = *problem.radii;
-  found.rows.conservativeResize(problem.rows());
-  for (Index a = 0; a < count; ++a)
-    if (row[a] == 0 && s[a] == 0) found.rows[a] = 0;
-  for (Index a = count; a < problem.rows(); ++a) {
-    found.rows[a] = row[a] * length + s[a];
-    found.balance += std::abs(lambda[a]) * row[a] * root;
+  found.rows.conservativeResize(count + static_cast<Index>(added.size()));
+  for (std::size_t k = 0; k < added.size(); ++k) {
+    const AddedRow& row = added[k];
+    const Index a = count + static_cast<Index>(k);
+    found.rows[a] = row.row_radius * length + row.rhs_radius;
+    found.balance += std::abs(lambda[a]) * row.row_radius * root;
+    const auto main = std::find(contacts.begin(), contacts.end(), row.main);
+    if (main != contacts.end()) found.rows[main - contacts.begin()] = 0;
   }
   return found;
 }
@@ -50,9 +51,10 @@ constexpr double evaluations = 2;
 }  // namespace
 
 double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
-                        const convex::NearestPointProblem& problem, const convex::Solution& solution,
-                        const convex::Accuracy& accuracy) {
-  const EquationRadii equations = radii_of_all_rows(written, contacts, problem, solution.q, solution.lambda);
+                        const std::vector<AddedRow>& added, const convex::NearestPointProblem& problem,
+                        const convex::Solution& solution, const convex::Accuracy& accuracy) {
+  const EquationRadii equations =
+      radii_of_all_rows(written, contacts, added, problem, solution.q, solution.lambda);
   const std::vector<Index> held = rows_held(problem, solution);
   Vector rows(static_cast<Index>(held.size()));
   for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];

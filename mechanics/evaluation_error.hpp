@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mechanics/gauss_solution.hpp"
+#include "mechanics/singular/singular_group.hpp"
 #include "mechanics/written_mechanism.hpp"
 
 namespace mechanics {
@@ -8,10 +9,11 @@ namespace mechanics {
 /// An estimate of ||q'' - q''*||_A for the acceleration q''* of the mechanism as written and the exact
 /// solution q'' of the problem of A, z, U, s as evaluated: what their rounding, and that of the state's
 /// numbers, amounts to while the same contacts are held. The radii of the equations at the answer, twice for
-/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`). Rows beyond those
-/// of the contacts, as are added at a singular state, go by the radii of the problem.
+/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`). `added`: the rows
+/// of the problem behind those of the contacts, as are added at a singular state, with their own radii.
 double evaluation_error(const WrittenMechanism&, const std::vector<Index>& contacts,
-                        const convex::NearestPointProblem&, const convex::Solution&, const convex::Accuracy&);
+                        const std::vector<AddedRow>& added, const convex::NearestPointProblem&,
+                        const convex::Solution&, const convex::Accuracy&);
 
 /// Adds it to the error bound, which then speaks of the mechanism as written, and judges the status by that.
 void count_evaluation_error(convex::Solution&, double error, const convex::Accuracy&);

@@ -13,8 +13,8 @@ std::optional<double> count_evaluation_error(const Scene& scene, mechanics::Gaus
       primal.status == convex::Status::solved || primal.status == convex::Status::inaccurate;
   if (!scene.written || !has_answer || solution.as_written) return std::nullopt;
   const double as_evaluated = primal.error_bound;
-  const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.problem, primal,
-                                                   scene.solve.accuracy);
+  const double error = mechanics::evaluation_error(*scene.written, scene.contacts, scene.added, scene.problem,
+                                                   primal, scene.solve.accuracy);
   mechanics::count_evaluation_error(primal, error, scene.solve.accuracy);
   if (scene.added.empty())
     mechanics::leave_out_pressing(solution, *scene.written, scene.contacts, scene.problem);

@@ -32,6 +32,12 @@ struct Side {
   double x() const { return double_of(rank); }
 };
 
+/// A subgradient; none where it is not known, as where the parts of a maximum tie to rounding.
+struct SlopeAt {
+  std::optional<double> v;
+  bool is_tied = false;
+};
+
 /// f(x), and f*(v) = sup v u - f(u), which is attained between both sides: by no more than their distance
 /// times what their subgradients leave open it is above v x - f(x). None where it is above elsewhere: the
 /// subgradients are not those of the values.
@@ -91,7 +97,7 @@ class Sides {
     const double inwards = next_to_z == left_.x() ? unit : next_to_z == right_.x() ? -unit : 0;
     for (const double part : {0.0, 1.0, 0x1p-10, 0x1p10, 0x1p-30}) {
       const double x = std::clamp(next_to_z + part * inwards, left_.x(), right_.x());
-      const auto v = slope(x);
+      const auto v = slope(x).v;
       if (!v && inwards == 0) break;
       if (!v) continue;
       const Side at{rank_of(x), v};
@@ -118,18 +124,19 @@ class Sides {
     return double_of(right_.v ? std::max(middle, right_.rank - reach) : std::min(middle, left_.rank + reach));
   }
 
-  /// Where the slope is not known, as where two parts of a maximum are one to rounding, the prox may be,
-  /// unless that is beside an end of the domain. False where no slope is known on one of the sides.
-  bool take(double x, const std::optional<double>& v) {
+  /// Where a tie hides the slope the prox may be. False where the slope is not known for another reason, and
+  /// that is not beside an end of the domain.
+  bool take(double x, const SlopeAt& slope) {
+    const auto& [v, is_tied] = slope;
     const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
     const Side at{rank_of(x), v};
-    if (!v && by_left == by_right) {
-      if (!left_.v || !right_.v) return false;
+    if (is_tied) {
       const bool is_first = gap_right_ < gap_left_;
       gap_left_ = is_first ? at.rank : std::min(gap_left_, at.rank);
       gap_right_ = is_first ? at.rank : std::max(gap_right_, at.rank);
       return true;
     }
+    if (!v && by_left == by_right) return false;
     const bool is_left = v ? residual(at) <= 0 : by_left;
     (is_left ? left_ : right_) = at;
     if (gap_right_ <= left_.rank || gap_left_ >= right_.rank) gap_left_ = 0, gap_right_ = -1;
@@ -152,11 +159,12 @@ class Sides {
 std::optional<Prox> line_prox(const Function& f, double z, double w) {
   const auto domain = domain_of_one(f);
   if (!domain || !(domain->low <= domain->high) || !(std::abs(z) <= far_end)) return std::nullopt;
-  const auto slope = [&](double x) -> std::optional<double> {
+  const auto slope = [&](double x) -> SlopeAt {
     const Vector at = Vector::Constant(1, x);
     const auto v = f.subgradient(at);
     WorkLimit::count();
-    return v && std::isfinite((*v)[0]) && !is_tied(f, at) ? std::optional((*v)[0]) : std::nullopt;
+    if (is_tied(f, at)) return {std::nullopt, true};
+    return {v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt, false};
   };
   Sides sides(z, w, *domain);
   sides.start(slope);

@@ -175,7 +175,7 @@ TEST_CASE("the estimate of a plain answer covers the rounding of A, z, U, s, and
     REQUIRE(proof.certificate.level == ProofLevel::enclosure);
     const double truth =
         proof.certificate.error_bound;  // to 28 digits, see tests/mechanics/proof_from_text.cpp
-    const double estimate = mechanics::evaluation_error(question.written, question.gauss.contacts.present,
+    const double estimate = mechanics::evaluation_error(question.written, question.gauss.contacts.present, {},
                                                         question.gauss.problem, plain, {});
     CHECK(plain.error_bound + estimate >= truth);
     CHECK(estimate <= 200 * truth + 1e-14);
