@@ -13,7 +13,7 @@ namespace {
 /// A slope that the maximum may have, and the error of the value of its part.
 struct Slope {
   Vector v;
-  double error;
+  double error, relative_error;
 };
 
 /// Of the parts that may be the largest.
@@ -31,7 +31,8 @@ std::vector<Slope> possible_slopes(const Function& f, const Vector& x) {
   if (!std::isfinite(least)) return slopes;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (values[k].value + values[k].error < least || !std::isfinite(values[k].value)) continue;
-    if (const auto v = parts[k].subgradient(x); v && v->allFinite()) slopes.push_back({*v, values[k].error});
+    if (const auto v = parts[k].subgradient(x); v && v->allFinite())
+      slopes.push_back({*v, values[k].error, values[k].error / std::max(1.0, std::abs(values[k].value))});
   }
   return slopes;
 }
@@ -51,7 +52,10 @@ double doubt_of_ties(const Function& f, const Vector& x, const Metric& W) {
 
 bool is_tied(const Function& f, const Vector& x) {
   constexpr double alike = 64 * unit_roundoff;
+  constexpr double open_part = 1e-3;  // a value that is not known hides more than a tie
   const std::vector<Slope> slopes = possible_slopes(f, x);
+  for (const Slope& slope : slopes)
+    if (!(slope.relative_error <= open_part)) return false;
   for (const Slope& slope : slopes)
     if ((slope.v - slopes[0].v).norm() > alike * (slope.v.norm() + slopes[0].v.norm())) return true;
   return false;
