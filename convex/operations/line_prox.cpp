@@ -32,12 +32,6 @@ struct Side {
   double x() const { return double_of(rank); }
 };
 
-/// A subgradient; none where it is not known, as where the parts of a maximum tie to rounding.
-struct SlopeAt {
-  std::optional<double> v;
-  bool is_tied = false;
-};
-
 /// f(x), and f*(v) = sup v u - f(u), which is attained between both sides: by no more than their distance
 /// times what their subgradients leave open it is above v x - f(x). None where it is above elsewhere: the
 /// subgradients are not those of the values.
@@ -79,11 +73,7 @@ class Sides {
     return at_left ? left_ : right_;
   }
   bool is_end(const Side& side) const { return side.rank == low_ || side.rank == high_; }
-  bool meet() const {
-    const bool no_gap = gap_right_ < gap_left_;
-    return no_gap ? right_.rank <= left_.rank + 1
-                  : gap_left_ <= left_.rank + 1 && right_.rank <= gap_right_ + 1;
-  }
+  bool meet() const { return right_.rank <= left_.rank + 1; }
   /// Where slopes are not known beside an end of the domain the prox may be anywhere from there.
   double width() const {
     return (right_.v ? right_.x() : double_of(high_)) - (left_.v ? left_.x() : double_of(low_));
@@ -97,7 +87,7 @@ class Sides {
     const double inwards = next_to_z == left_.x() ? unit : next_to_z == right_.x() ? -unit : 0;
     for (const double part : {0.0, 1.0, 0x1p-10, 0x1p10, 0x1p-30}) {
       const double x = std::clamp(next_to_z + part * inwards, left_.x(), right_.x());
-      const auto v = slope(x).v;
+      const auto v = slope(x);
       if (!v && inwards == 0) break;
       if (!v) continue;
       const Side at{rank_of(x), v};
@@ -115,31 +105,32 @@ class Sides {
   /// Where a slope tells most: towards an end without one in growing steps, for near it slopes cost more and
   /// may not be known.
   double next() {
-    if (gap_left_ <= gap_right_)
-      return double_of(gap_left_ > left_.rank + 1 ? std::midpoint(left_.rank, gap_left_)
-                                                  : std::midpoint(gap_right_, right_.rank));
     const Rank middle = std::midpoint(left_.rank, right_.rank), reach = reach_;
     if (!left_.v == !right_.v) return double_of(middle);
     reach_ = std::min(growth_of_reach * reach_, Rank{1} << 60);
     return double_of(right_.v ? std::max(middle, right_.rank - reach) : std::min(middle, left_.rank + reach));
   }
 
-  /// Where a tie hides the slope the prox may be. False where the slope is not known for another reason, and
-  /// that is not beside an end of the domain.
-  bool take(double x, const SlopeAt& slope) {
-    const auto& [v, is_tied] = slope;
-    const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
-    const Side at{rank_of(x), v};
-    if (is_tied) {
-      const bool is_first = gap_right_ < gap_left_;
-      gap_left_ = is_first ? at.rank : std::min(gap_left_, at.rank);
-      gap_right_ = is_first ? at.rank : std::max(gap_right_, at.rank);
-      return true;
+  /// Moves a side out while `is_open` there, in growing steps. False where it leads too far.
+  template <class Slope, class IsOpen>
+  bool move_out(bool right, const Slope& slope, const IsOpen& is_open) {
+    constexpr Rank farthest = Rank{1} << 60;
+    Side& side = right ? right_ : left_;
+    for (Rank step = 1; side.v && is_open(side.x()); step *= growth_of_reach) {
+      if (step > farthest || WorkLimit::passed()) return false;
+      side.rank = right ? std::min(high_, side.rank + step) : std::max(low_, side.rank - step);
+      side.v = slope(side.x());
     }
+    return true;
+  }
+
+  /// False where the slope is not known and this is not passed over.
+  bool take(double x, const std::optional<double>& v) {
+    const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
     if (!v && by_left == by_right) return false;
+    const Side at{rank_of(x), v};
     const bool is_left = v ? residual(at) <= 0 : by_left;
     (is_left ? left_ : right_) = at;
-    if (gap_right_ <= left_.rank || gap_left_ >= right_.rank) gap_left_ = 0, gap_right_ = -1;
     return true;
   }
 
@@ -151,7 +142,6 @@ class Sides {
   Side left_, right_;
   bool left_is_end_ = true, right_is_end_ = true;
   Rank reach_ = first_reach;
-  Rank gap_left_ = 0, gap_right_ = -1;  ///< ranks between which no slope is known, if there are any
 };
 
 }  // namespace
@@ -159,12 +149,10 @@ class Sides {
 std::optional<Prox> line_prox(const Function& f, double z, double w) {
   const auto domain = domain_of_one(f);
   if (!domain || !(domain->low <= domain->high) || !(std::abs(z) <= far_end)) return std::nullopt;
-  const auto slope = [&](double x) -> SlopeAt {
-    const Vector at = Vector::Constant(1, x);
-    const auto v = f.subgradient(at);
+  const auto slope = [&](double x) -> std::optional<double> {
+    const auto v = f.subgradient(Vector::Constant(1, x));
     WorkLimit::count();
-    if (is_tied(f, at)) return {std::nullopt, true};
-    return {v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt, false};
+    return v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt;
   };
   Sides sides(z, w, *domain);
   sides.start(slope);
@@ -173,7 +161,10 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
     const double x = sides.next();
     if (!sides.take(x, slope(x))) return std::nullopt;
   }
-  const Side& nearest = sides.nearest();
+  const Side nearest = sides.nearest();
+  // Where the parts of a maximum tie to rounding its slopes are known beside the tie alone.
+  const auto is_open = [&](double x) { return is_tied(f, Vector::Constant(1, x)); };
+  if (!sides.move_out(false, slope, is_open) || !sides.move_out(true, slope, is_open)) return std::nullopt;
   if (!nearest.v && !sides.is_end(nearest)) return std::nullopt;
   const double x = nearest.x();
   const double v =
