@@ -62,8 +62,7 @@ void add_files(CLI::App& command, FileOptions&);
 /// --method, --tolerance, with what it is a tolerance of, and --limit.
 inline constexpr const char* tolerance_of_solutions =
     "accept an error bound of X * max(1, ||q''||_A), default 1e-9; of a liquid of X times the largest "
-    "pressure, "
-    "default 1e-3";
+    "pressure, default 1e-3";
 void add_accuracy(CLI::App& command, AccuracyOptions&, const char* tolerance = tolerance_of_solutions);
 
 /// --tolerance of a motion's steps.

@@ -44,17 +44,6 @@ void require_symmetric(const ExactRows& W) {
                            "] differ; give a symmetric matrix");
 }
 
-IntegerMatrix over_one_denominator(const ExactRows& rows) {
-  IntegerMatrix M;
-  for (const ExactVector& row : rows)
-    M.denominator *= exact_quotient(row.denominator, greatest_common_divisor(row.denominator, M.denominator));
-  for (const ExactVector& row : rows) {
-    M.rows.push_back(row.numerators);
-    for (Integer& entry : M.rows.back()) entry *= exact_quotient(M.denominator, row.denominator);
-  }
-  return M;
-}
-
 ExactMetric identity_metric(Index n) {
   const auto size = static_cast<std::size_t>(n);
   IntegerRows gram(size, IntegerVector(size, 0));

@@ -31,11 +31,4 @@ ExactMetric exact_metric(const Metric& W);
 /// (x|y).
 Fraction inner(const ExactMetric& W, const ExactVector& x, const ExactVector& y);
 
-/// A matrix over one denominator.
-struct IntegerMatrix {
-  IntegerRows rows;
-  Integer denominator = 1;
-};
-IntegerMatrix over_one_denominator(const ExactRows& rows);
-
 }  // namespace convex::inline cones

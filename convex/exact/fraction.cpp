@@ -130,6 +130,17 @@ ExactRows exact_rows(const Matrix& M) {
   return rows;
 }
 
+IntegerMatrix over_one_denominator(const ExactRows& rows) {
+  IntegerMatrix M;
+  for (const ExactVector& row : rows)
+    M.denominator *= exact_quotient(row.denominator, greatest_common_divisor(row.denominator, M.denominator));
+  for (const ExactVector& row : rows) {
+    M.rows.push_back(row.numerators);
+    for (Integer& entry : M.rows.back()) entry *= exact_quotient(M.denominator, row.denominator);
+  }
+  return M;
+}
+
 void make_primitive(IntegerVector& v) {
   Integer factor = 0;
   for (const Integer& entry : v) {

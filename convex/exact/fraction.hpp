@@ -49,6 +49,13 @@ using ExactRows = std::vector<ExactVector>;
 /// The exact values of a matrix of doubles, row by row. Throws InvalidInput when one is not finite.
 ExactRows exact_rows(const Matrix& M);
 
+/// A matrix over one positive denominator, the least.
+struct IntegerMatrix {
+  IntegerRows rows;
+  Integer denominator = 1;
+};
+IntegerMatrix over_one_denominator(const ExactRows& rows);
+
 /// The common factor of the entries is taken out; 0 stays 0.
 void make_primitive(IntegerVector& v);
 

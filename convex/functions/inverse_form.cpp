@@ -25,13 +25,10 @@ ExactVector exact_difference(const Vector& v, const Vector& c) {
 
 std::optional<InverseForm> InverseForm::of(const Matrix& Q) {
   if (Q.rows() > most_coordinates) return std::nullopt;
-  const ExactVector entries = exact_vector(Vector(Q.reshaped()));
-  IntegerRows rows;
-  for (auto from = entries.numerators.begin(); from != entries.numerators.end(); from += Q.rows())
-    rows.emplace_back(from, from + Q.rows());
-  std::optional<ExactInverse> inverse = positive_definite_inverse(rows);
+  const IntegerMatrix form = over_one_denominator(exact_rows(Q));
+  std::optional<ExactInverse> inverse = positive_definite_inverse(form.rows);
   if (!inverse) return std::nullopt;
-  return InverseForm(*std::move(inverse), entries.denominator);
+  return InverseForm(*std::move(inverse), form.denominator);
 }
 
 double InverseForm::value(const Vector& v, const Vector& c, double constant) const {

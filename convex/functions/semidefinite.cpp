@@ -32,20 +32,11 @@ Spectrum spectrum_of_diagonal(const Vector& values) {
   return found;
 }
 
-/// A multiple of Q in integers.
-IntegerRows integer_rows(const Matrix& Q) {
-  const ExactVector entries = exact_vector(Vector(Q.reshaped()));
-  IntegerRows rows;
-  for (auto from = entries.numerators.begin(); from != entries.numerators.end(); from += Q.rows())
-    rows.emplace_back(from, from + Q.rows());
-  return rows;
-}
-
 /// The null space, n×(n - r) orthonormal, of a Q that is semidefinite as it stands; else none. A symmetric
 /// matrix of rank r has the signs of its r×r block at independent rows.
 std::optional<Matrix> null_space(const Matrix& Q) {
   const auto n = static_cast<std::size_t>(Q.rows());
-  const IntegerRows rows = integer_rows(Q);
+  const IntegerRows rows = over_one_denominator(exact_rows(Q)).rows;
   const Echelon range = echelon(rows, n);
   IntegerRows block;
   for (const std::size_t i : range.pivots) {

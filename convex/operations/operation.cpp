@@ -203,7 +203,11 @@ Prox Operation::prox_by_all_ways(const Vector& z, const Metric& W, const Look& l
 
 Prox Operation::prox(const Vector& z, const Metric& W, const Look& look) const {
   Prox found = prox_by_all_ways(z, W, look);
-  if (found.x.size() == z.size()) found.error_bound += doubt_of_ties(self(), found.x, W);
+  if (found.x.size() != z.size()) return found;
+  const double doubt = doubt_of_ties(self(), found.x, W);
+  found.error_bound += doubt;
+  if (found.status == Status::solved && doubt > accuracy_of_prox * (W.norm(z) + W.norm(found.x)))
+    found.status = Status::inaccurate;
   return found;
 }
 
