@@ -14,6 +14,7 @@
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/reductions/closed_form.hpp"
+#include "convex/nearest_point/reductions/common_size.hpp"
 #include "convex/nearest_point/reductions/islands.hpp"
 #include "convex/nearest_point/reductions/joined_islands.hpp"
 #include "convex/nearest_point/reductions/left_out.hpp"
@@ -220,15 +221,26 @@ Solution solve_valid(const NearestPointProblem& problem, const Accuracy& accurac
   return whole ? solve_island(problem, accuracy, guess) : solve_islands(problem, islands, accuracy, guess);
 }
 
+Solution decided(const NearestPointProblem& problem, const Accuracy& accuracy,
+                 const std::vector<Index>& guess) {
+  Solution found = solve_valid(problem, accuracy, guess);
+  if (!found.undecided.empty()) found = bounded_where_decided(problem, std::move(found));
+  return found;
+}
+
+Solution decided_from_nothing(const NearestPointProblem& problem, const Accuracy& accuracy) {
+  return decided(problem, accuracy, {});
+}
+
 }  // namespace
 
 Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
                    const std::vector<Index>& guess) {
   validate_guess(problem, guess);
   validate(problem);
-  Solution found = solve_valid(problem, accuracy, guess);
-  if (!found.undecided.empty()) found = bounded_where_decided(problem, std::move(found));
-  return found;
+  // Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
+  if (accuracy.limit > 0 || has_ordinary_numbers(problem)) return decided(problem, accuracy, guess);
+  return in_common_size(problem, accuracy, decided_from_nothing);
 }
 
 }  // namespace convex

@@ -42,12 +42,6 @@ Solution automatic_from_nothing(const NearestPointProblem& problem, const Accura
   return automatic(problem, accuracy);
 }
 
-/// Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
-Solution solve_automatically(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  return accuracy.limit > 0 ? automatic(problem, accuracy)
-                            : in_common_size(problem, accuracy, automatic_from_nothing);
-}
-
 template <Solution (*method)(const NearestPointProblem&, const Accuracy&)>
 Solution of_any_size(const NearestPointProblem& problem, const Accuracy& accuracy) {
   return in_common_size(problem, accuracy, method);
@@ -57,7 +51,7 @@ using enum MethodKind;
 
 constexpr std::array table{
     Method{"auto", "no more than the problem needs: islands, structure, dense or sparse (the default)",
-           direct, always, solve_automatically},
+           direct, always, automatic_from_nothing},
     Method{"active-set", "dual active set with an updated orthogonal factor, refined in twice the precision",
            direct, always, of_any_size<active_set_from_nothing>},
     Method{"nnls", "nonnegative least squares of Lawson and Hanson, on the cone or homogenised", direct,

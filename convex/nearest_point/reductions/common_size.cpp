@@ -29,14 +29,6 @@ double power_near(double x) {
   return std::ldexp(1, exponent - (exponent & 1));
 }
 
-bool has_ordinary_numbers(const NearestPointProblem& problem) {
-  const bool rows = problem.U.is_sparse() ? exact_arithmetic::is_ordinary(Eigen::Map<const Vector>(
-                                                problem.U.sparse().valuePtr(), problem.U.sparse().nonZeros()))
-                                          : exact_arithmetic::is_ordinary(problem.U.dense());
-  return rows && exact_arithmetic::is_ordinary(problem.A.diagonal()) &&
-         exact_arithmetic::is_ordinary(problem.z) && exact_arithmetic::is_ordinary(problem.s);
-}
-
 /// Whether a number that is `scaled` in common size counts there as it should. Within radii a small one is as
 /// good as 0.
 bool counts(double original, double scaled, bool may_vanish) {
@@ -46,6 +38,14 @@ bool counts(double original, double scaled, bool may_vanish) {
 }
 
 }  // namespace
+
+bool has_ordinary_numbers(const NearestPointProblem& problem) {
+  const bool rows = problem.U.is_sparse() ? exact_arithmetic::is_ordinary(Eigen::Map<const Vector>(
+                                                problem.U.sparse().valuePtr(), problem.U.sparse().nonZeros()))
+                                          : exact_arithmetic::is_ordinary(problem.U.dense());
+  return rows && exact_arithmetic::is_ordinary(problem.A.diagonal()) &&
+         exact_arithmetic::is_ordinary(problem.z) && exact_arithmetic::is_ordinary(problem.s);
+}
 
 CommonSize::CommonSize(const NearestPointProblem& original)
     : problem{original.A, original.z, {}, {}, {}, {}} {

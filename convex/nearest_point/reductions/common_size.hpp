@@ -23,6 +23,9 @@ struct CommonSize {
   Solution restored(const NearestPointProblem& original, Solution, const Accuracy&) const;
 };
 
+/// Whether squares and products of the numbers of a problem are doubles.
+bool has_ordinary_numbers(const NearestPointProblem&);
+
 /// method(problem, accuracy), on the problem of common size where numbers of this one may be so large or
 /// small that their squares and products are none.
 Solution in_common_size(const NearestPointProblem&, const Accuracy&,

@@ -30,8 +30,6 @@ void each_method(const NearestPointProblem& problem, Expect expect) {
     CAPTURE(std::string(method.name));
     for (const double limit : {0.0, 1.0}) {
       CAPTURE(limit);
-      // Where nothing limits it, the default leaves such numbers to whoever asks fractions first.
-      if (method.name == "auto" && limit > 0) continue;
       expect(method, method.solve(problem, {.limit = limit}));
     }
   }
