@@ -9,6 +9,7 @@
 #include "convex/dense/padded_triangle.hpp"
 #include "convex/dense/recycled.hpp"
 #include "convex/dense/triangular_solve.hpp"
+#include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/invariant.hpp"
 #include "convex/processor.hpp"
@@ -282,10 +283,15 @@ double Metric::norm(const Vector& x) const {
     return 0.0;
   };
   const double plain = plain_norm(x);
-  // Squares of large numbers are beyond all doubles.
-  if (std::isfinite(plain)) return plain;
+  if (has_squares(plain) || x.size() == 0) return plain;
   const double size = x.cwiseAbs().maxCoeff();
-  return std::isfinite(size) ? size * plain_norm(x / size) : plain;
+  return size > 0 && std::isfinite(size) ? size * plain_norm(x / size) : plain;
+}
+
+double Metric::dual_norm(const Vector& c) const {
+  const Vector whitened = whiten(c);
+  const double plain = whitened.norm();
+  return has_squares(plain) ? plain : whitened.stableNorm();
 }
 
 Vector Metric::whiten(const Vector& c) const {

@@ -45,9 +45,10 @@ class Metric {
   /// W⁻¹c: from a covector to its vector.
   Vector solve(const Vector& c) const;
   double inner(const Vector& x, const Vector& y) const { return x.dot(multiply(y)); }
+  /// ||x||_W, also where squares are no ordinary doubles.
   double norm(const Vector& x) const;
-  /// ||c||_(W⁻¹).
-  double dual_norm(const Vector& c) const { return whiten(c).norm(); }
+  /// ||c||_(W⁻¹), likewise.
+  double dual_norm(const Vector& c) const;
 
   Vector whiten(const Vector& c) const;
   Vector unwhiten(const Vector& w) const;

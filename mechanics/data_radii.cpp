@@ -93,6 +93,12 @@ Vector radii_of(const std::vector<Rounded>& numbers) {
   return radii;
 }
 
+RoundedVector rounded_vector(const std::vector<Rounded>& numbers) {
+  RoundedVector made{Vector(static_cast<Index>(numbers.size())), radii_of(numbers)};
+  for (std::size_t i = 0; i < numbers.size(); ++i) made.value[static_cast<Index>(i)] = numbers[i].value;
+  return made;
+}
+
 void add_motion(const LagrangianModel& model, const RoundedState& state,
                 const std::vector<Rounded>& constants, convex::EntryRadii& found) {
   const Motion run = run_motion(model, state, constants);
@@ -190,8 +196,9 @@ RateRadii rate_radii(const LagrangianSystem& system, const State& state, const S
   return found;
 }
 
-EquationRadii equation_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,
-                             const std::vector<Index>& contacts, const Vector& q2, const Vector& lambda) {
+EquationsAsWritten equations_as_written(const LagrangianSystem& system, const State& state,
+                                        const StateRadii& radii, const std::vector<Index>& contacts,
+                                        const Vector& q2, const Vector& lambda) {
   const LagrangianModel& model = system.model();
   const RoundedState rounded = rounded_state(state, radii);
   const std::vector<Rounded> constants = rounded_nodes(model.tape);
@@ -200,18 +207,16 @@ EquationRadii equation_radii(const LagrangianSystem& system, const State& state,
   const Program& program = model.contacts;
   const ValuesOf<Rounded> x = program.rounded_values(rounded, 0, constants);
   const ValuesOf<Rounded> second = rates<Rounded>(program, x, rounded.v, &q2).second;
-  EquationRadii found{{}, Vector(static_cast<Index>(contacts.size()))};
+  std::vector<Rounded> rows;
   std::vector<std::pair<Slot, double>> weights;
   for (std::size_t k = 0; k < contacts.size(); ++k) {
     const Slot root = program.roots(0)[static_cast<std::size_t>(contacts[k])];
-    const auto row = static_cast<Index>(k);
-    found.rows[row] = known(second[root].radius);
-    if (lambda[row] != 0) weights.emplace_back(root, lambda[row]);
+    rows.push_back(second[root]);
+    if (const double push = lambda[static_cast<Index>(k)]; push != 0) weights.emplace_back(root, push);
   }
   const ValuesOf<Rounded> pushed = adjoints(program, first_partials(program, x), weights);
   for (std::size_t i = 0; i < balance.size(); ++i) balance[i] += pushed[i];
-  found.balance = radii_of(balance);
-  return found;
+  return {rounded_vector(balance), rounded_vector(rows)};
 }
 
 }  // namespace mechanics

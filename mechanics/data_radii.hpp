@@ -36,14 +36,21 @@ struct RateRadii {
 };
 RateRadii rate_radii(const LagrangianSystem&, const State&, const StateRadii&);
 
-/// How far z + Σ lambda_a u_a - A q'' and u_a·q'' - s_a may be from those as written, for the numbers q'' and
-/// lambda given (by contact of K): the errors of A, z, U, s where they matter, at a few times the price of an
-/// evaluation, without a radius for every entry.
-struct EquationRadii {
-  Vector balance;  ///< n
-  Vector rows;     ///< by contact of K
+/// A number for each equation, and how far it may be from the one as written.
+struct RoundedVector {
+  Vector value, radius;
 };
-EquationRadii equation_radii(const LagrangianSystem&, const State&, const StateRadii&,
-                             const std::vector<Index>& contacts, const Vector& q2, const Vector& lambda);
+
+/// z + Σ lambda_a u_a - A q'' and u_a·q'' - s_a as written, for the numbers q'' and lambda given (by contact
+/// of K), at a few times the price of an evaluation, without a radius for every entry. They are evaluated as
+/// they stand in the text, not from the entries of A and U: what the rounding of an entry moved (1 + 1e-8)
+/// is in the value, where the text keeps its terms apart.
+struct EquationsAsWritten {
+  RoundedVector balance;  ///< n
+  RoundedVector rows;     ///< by contact of K
+};
+EquationsAsWritten equations_as_written(const LagrangianSystem&, const State&, const StateRadii&,
+                                        const std::vector<Index>& contacts, const Vector& q2,
+                                        const Vector& lambda);
 
 }  // namespace mechanics

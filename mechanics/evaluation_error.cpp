@@ -22,55 +22,83 @@ std::vector<Index> rows_held(const convex::NearestPointProblem& problem, const c
   return rows;
 }
 
+/// The equations of A, z, U, s are those as written, evaluated once more in another order.
+constexpr double evaluations = 2;
+
+/// What is left of equations that the answer satisfies as evaluated, as far as is known.
+Vector left_of(const RoundedVector& equations) {
+  return (evaluations * equations.radius).cwiseMax(equations.value.cwiseAbs() + equations.radius);
+}
+
+/// Of the equations at the answer: z + Σ lambda_a u_a - A q'', and by row of the problem.
+struct LeftOfEquations {
+  Vector balance, rows;
+};
+
 /// Those of the contacts, and behind them of rows that were added. The row in whose place one was added asks
 /// for nothing.
-EquationRadii radii_of_all_rows(const WrittenMechanism& written, const std::vector<Index>& contacts,
-                                const std::vector<AddedRow>& added,
-                                const convex::NearestPointProblem& problem, const Vector& q,
-                                const Vector& lambda) {
+LeftOfEquations left_of_equations(const WrittenMechanism& written, const std::vector<Index>& contacts,
+                                  const std::vector<AddedRow>& added,
+                                  const convex::NearestPointProblem& problem, const Vector& q,
+                                  const Vector& lambda) {
   const auto count = static_cast<Index>(contacts.size());
-  EquationRadii found =
-      equation_radii(*written.system, written.state, written.radii, contacts, q, lambda.head(count));
+  EquationsAsWritten found =
+      equations_as_written(*written.system, written.state, written.radii, contacts, q, lambda.head(count));
   const Vector root = problem.A.diagonal().cwiseSqrt();
   const double length = root.cwiseProduct(q).norm();
-  found.rows.conservativeResize(count + static_cast<Index>(added.size()));
+  LeftOfEquations left{{}, left_of(found.rows)};
+  left.rows.conservativeResize(count + static_cast<Index>(added.size()));
   for (std::size_t k = 0; k < added.size(); ++k) {
     const AddedRow& row = added[k];
     const Index a = count + static_cast<Index>(k);
-    found.rows[a] = row.row_radius * length + row.rhs_radius;
-    found.balance += std::abs(lambda[a]) * row.row_radius * root;
+    left.rows[a] = evaluations * (row.row_radius * length + row.rhs_radius);
+    found.balance.value += lambda[a] * problem.U.row(a);
+    found.balance.radius += std::abs(lambda[a]) * row.row_radius * root;
     const auto main = std::find(contacts.begin(), contacts.end(), row.main);
-    if (main != contacts.end()) found.rows[main - contacts.begin()] = 0;
+    if (main != contacts.end()) left.rows[main - contacts.begin()] = 0;
   }
-  return found;
+  left.balance = left_of(found.balance);
+  return left;
 }
 
-/// The equations are evaluated once for A, z, U, s and once, in another order, for the radii.
-constexpr double evaluations = 2;
+/// The move of q'' that the rest of the equations amounts to. A one-sided row whose multiplier is no more
+/// than its own error may have to open: then those that are held for sure limit the move, for a nearest point
+/// follows z no farther than they let it.
+double move_of(const convex::NearestPointProblem& problem, const std::vector<Index>& held,
+               const Vector& lambda, const LeftOfEquations& left) {
+  constexpr double safety = 4;  // multipliers are looked at in some corners only
+  const convex::LargestMove move = convex::largest_move(problem, held, left.balance, left.rows(held));
+  std::vector<Index> firm;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (problem.is_two_sided(held[k]) ||
+        std::abs(lambda[held[k]]) > safety * move.of_multipliers[static_cast<Index>(k)])
+      firm.push_back(held[k]);
+  if (firm.size() == held.size()) return move.of_point;
+  return std::max(move.of_point, convex::largest_move(problem, firm, left.balance, left.rows(firm)).of_point);
+}
 
 }  // namespace
 
 double evaluation_error(const WrittenMechanism& written, const std::vector<Index>& contacts,
                         const std::vector<AddedRow>& added, const convex::NearestPointProblem& problem,
                         const convex::Solution& solution, const convex::Accuracy& accuracy) {
-  const EquationRadii equations =
-      radii_of_all_rows(written, contacts, added, problem, solution.q, solution.lambda);
+  const LeftOfEquations left =
+      left_of_equations(written, contacts, added, problem, solution.q, solution.lambda);
   const std::vector<Index> held = rows_held(problem, solution);
-  Vector rows(static_cast<Index>(held.size()));
-  for (std::size_t k = 0; k < held.size(); ++k) rows[static_cast<Index>(k)] = equations.rows[held[k]];
   constexpr double far_below = 1e-2;
   constexpr Index small_system = 40;
   const Units units = fit_units(problem);
   if (!units.ordinary())
-    return evaluations * std::sqrt(units.mass) * units.acceleration *
-           convex::largest_move(in_units(problem, units), held,
-                                equations.balance / units.mass / units.acceleration,
-                                rows / units.gradient / units.acceleration);
-  if (problem.dimension() > small_system && rows.isZero(0)) {
-    const double coarse = evaluations * convex::largest_move(problem.A, equations.balance);
+    return std::sqrt(units.mass) * units.acceleration *
+           move_of(in_units(problem, units), held,
+                   solution.lambda / units.mass / units.acceleration * units.gradient,
+                   {left.balance / units.mass / units.acceleration,
+                    left.rows / units.gradient / units.acceleration});
+  if (problem.dimension() > small_system && left.rows(held).isZero(0)) {
+    const double coarse = convex::largest_move(problem.A, left.balance);
     if (coarse <= far_below * accuracy.tolerance * std::max(1.0, solution.acceleration_norm)) return coarse;
   }
-  return evaluations * convex::largest_move(problem, held, equations.balance, rows);
+  return move_of(problem, held, solution.lambda, left);
 }
 
 void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
@@ -78,10 +106,8 @@ void leave_out_pressing(GaussSolution& found, const WrittenMechanism& written,
   const Vector& lambda = found.multipliers.least_norm;
   if (std::all_of(found.touching.begin(), found.touching.end(), [&](Index a) { return lambda[a] == 0; }))
     return;
-  const EquationRadii equations =
-      equation_radii(*written.system, written.state, written.radii, contacts, found.primal.q, lambda);
-  leave_out_pressing(found.touching, problem, found.primal, found.multipliers,
-                     evaluations * equations.balance);
+  const LeftOfEquations left = left_of_equations(written, contacts, {}, problem, found.primal.q, lambda);
+  leave_out_pressing(found.touching, problem, found.primal, found.multipliers, left.balance);
 }
 
 void count_evaluation_error(convex::Solution& solution, double error, const convex::Accuracy& accuracy) {

@@ -8,8 +8,9 @@ namespace mechanics {
 
 /// An estimate of ||q'' - q''*||_A for the acceleration q''* of the mechanism as written and the exact
 /// solution q'' of the problem of A, z, U, s as evaluated: what their rounding, and that of the state's
-/// numbers, amounts to while the same contacts are held. The radii of the equations at the answer, twice for
-/// the two evaluations, through the conditioning of the rows held (`convex::largest_move`). `added`: the rows
+/// numbers, amounts to while the same contacts are held. What is left of the equations as written at the
+/// answer, and no less than twice their radii, for two evaluations, through the conditioning of the rows held
+/// (`convex::largest_move`). `added`: the rows
 /// of the problem behind those of the contacts, as are added at a singular state, with their own radii.
 double evaluation_error(const WrittenMechanism&, const std::vector<Index>& contacts,
                         const std::vector<AddedRow>& added, const convex::NearestPointProblem&,

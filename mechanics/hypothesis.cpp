@@ -1,6 +1,7 @@
 #include "mechanics/hypothesis.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "convex/nearest_point/active_set/active_set.hpp"
@@ -107,11 +108,19 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
   const double zero = problem.radii ? convex::zero_where_z_is_rounded : convex::zero_in_doubles;
   const double least =
       set.unique ? std::min(tolerance * push, solution.error_bound + zero * push) : tolerance * push;
+  const auto below = [&](double zero_push) {
+    std::vector<Index> rows;
+    for (Index a : all)
+      if (!two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -zero_push)
+        rows.push_back(a);
+    return rows;
+  };
+  found.negative = below(least);
+  // Where a contact opens some multiplier is below 0, of whatever size.
+  if (found.negative.empty() && set.unique && !persist(all)) found.negative = below(0);
   std::vector<Index> kept;
-  for (Index a : all) {
-    const bool negative = !two_sided[static_cast<std::size_t>(a)] && set.least_norm[a] * length[a] < -least;
-    (negative ? found.negative : kept).push_back(a);
-  }
+  std::set_difference(all.begin(), all.end(), found.negative.begin(), found.negative.end(),
+                      std::back_inserter(kept));
   // Accelerations that are the same within the tolerance may be those of other forces.
   if (set.unique && !found.negative.empty()) found.accepted = false;
   if (found.accepted || !set.unique) return found;

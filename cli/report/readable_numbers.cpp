@@ -93,6 +93,8 @@ ReadableNumbers readable_numbers(const SolvedScene& solved, Index shown) {
     if (read.lambda[a] != 0)
       if (const auto factor = force_per_multiplier(scene, a))
         read.forces[static_cast<std::size_t>(a)] = std::abs(read.lambda[a]) * *factor;
+    // What opens was told from rounding before.
+    if (solved.states[static_cast<std::size_t>(a)] == ConstraintState::opens) continue;
     const double off = error * length + radii.s[a] + radii.row[a] * primal.acceleration_norm;
     read.second_rates[a] = std::abs(read.second_rates[a]) <= off
                                ? 0

@@ -10,14 +10,6 @@ constexpr double rounding_of_rounding = 0x1p-96;
 
 }  // namespace
 
-double norm_at_any_scale(const Metric& W, const Vector& x) {
-  constexpr double least = 0x1p-480;
-  const double plain = W.norm(x);
-  if (plain >= least || x.size() == 0) return plain;  // Metric::norm takes care of large ones
-  const double size = x.cwiseAbs().maxCoeff();
-  return size > 0 ? size * W.norm(x / size) : plain;
-}
-
 Vector stationarity(const Vector& z, const Metric& W, const Vector& x, const Vector& v) {
   DoubleDoubleVector sum(v);
   add_metric_difference(W, x, z, sum);
@@ -35,9 +27,8 @@ Prox without_rounding_at_zero(Prox prox, const Facts& facts, const Vector& z, co
 
 Prox closed_form(const Vector& z, const Metric& W, Vector x, Vector v) {
   Prox result;
-  result.error_bound =
-      W.dual_norm(stationarity(z, W, x, v)) +
-      roundings_of_a_formula * unit_roundoff * (norm_at_any_scale(W, z) + norm_at_any_scale(W, x));
+  result.error_bound = W.dual_norm(stationarity(z, W, x, v)) +
+                       roundings_of_a_formula * unit_roundoff * (W.norm(z) + W.norm(x));
   result.x = std::move(x);
   result.v = std::move(v);
   result.method = "closed form";

@@ -9,9 +9,6 @@ namespace convex::inline named_functions {
 /// What rounding x and v to doubles, and a few roundings in their formulas, cost in ||x - x*||_W.
 inline constexpr double roundings_of_a_formula = 4;
 
-/// ||x||_W, also where squares are no ordinary doubles.
-double norm_at_any_scale(const Metric& W, const Vector& x);
-
 /// The prox x with v a subgradient at x, both by formula, in any metric: the bound is ||W(x - z) + v||_(W⁻¹),
 /// in twice the working precision, and the rounding of x and v.
 Prox closed_form(const Vector& z, const Metric& W, Vector x, Vector v);

@@ -119,11 +119,11 @@ Decomposition beyond_squares(const Function& f, const Vector& z, const Metric& W
 }  // namespace
 
 Decomposition decompose(const Function& f, const Vector& z, const Metric& W, double tolerance) {
-  const double size = norm_at_any_scale(W, z);
+  const double size = W.norm(z);
   if (!(size <= largest_size)) return beyond_squares(f, z, W, tolerance);
   Decomposition split = looked_at_in_turn(f, z, W, tolerance);
   // Squares of what is smaller are 0, and a bound made of them tells nothing.
-  const double most = std::max({size, norm_at_any_scale(W, split.x.x), norm_at_any_scale(W, split.y.x)});
+  const double most = std::max({size, W.norm(split.x.x), W.norm(split.y.x)});
   if (most > 0 && most < 1 / largest_size)
     for (double* bound : {&split.error_bound, &split.x.error_bound, &split.y.error_bound})
       *bound = std::max(*bound, 1 / largest_size);

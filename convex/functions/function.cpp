@@ -33,7 +33,7 @@ void check(const Function& f, const Vector& x, const char* what) {
 void settle_at_zero(const FunctionNode& f, const Vector& z, const Metric& W, Prox& found) {
   constexpr double roundings = 64 * unit_roundoff, negligible = 1e-13;
   if (found.x.isZero(0)) return;
-  const double length = norm_at_any_scale(W, found.x), size = norm_at_any_scale(W, z);
+  const double length = W.norm(found.x), size = W.norm(z);
   const double rounding = roundings * static_cast<double>(z.size()) * W.factor_condition() * size;
   if (!std::isfinite(rounding)) return;  // squares overflow: nothing is known of what is small beside it
   if (!(length <= std::max(rounding, found.error_bound))) return;

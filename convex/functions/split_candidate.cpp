@@ -74,7 +74,7 @@ Decomposition split_of(const SplitFunctions& of, Prox x, Prox y, const Vector& z
   const double doubt = doubt_of_ties(of.f, split.x.x, W);
   split.x.error_bound = std::max(split.x.error_bound, doubt);
   split.y.error_bound = std::max(split.y.error_bound, doubt);
-  split.residual = norm_at_any_scale(W, z - split.x.x - split.y.x);
+  split.residual = W.norm(z - split.x.x - split.y.x);
   return split;
 }
 

@@ -16,11 +16,20 @@ constexpr double softness = 1e-12;
 
 constexpr int most_climbs = 5;
 
-/// Where all push the same way, and where neighbours push against each other.
-std::array<Vector, 2> starts(const Vector& size) {
-  Vector alternating = size;
-  for (Index i = 1; i < size.size(); i += 2) alternating[i] = -size[i];
-  return {size, alternating};
+/// Rademacher's functions: where all push the same way, and where those push back whose place has a binary
+/// digit. Climbs end where the pushes of one stiff direction are in step (balance along a v with A ≈ v vᵀ):
+/// any two of the first 64 places are against each other in one of them, of more nearly all.
+constexpr int digits = 6;
+std::array<Vector, digits + 1> starts(const Vector& size) {
+  std::array<Vector, digits + 1> signed_sizes;
+  signed_sizes.fill(size);
+  for (Index i = 0; i < size.size(); ++i) {
+    Index folded = 0;
+    for (Index rest = i; rest > 0; rest >>= digits) folded ^= rest;
+    for (int k = 0; k < digits; ++k)
+      if (folded >> k & 1) signed_sizes[static_cast<std::size_t>(k + 1)][i] = -size[i];
+  }
+  return signed_sizes;
 }
 
 Vector with_signs(const Vector& size, const Vector& of) {
@@ -29,10 +38,12 @@ Vector with_signs(const Vector& size, const Vector& of) {
 
 }  // namespace
 
-double largest_move(const NearestPointProblem& problem, const std::vector<Index>& held, const Vector& balance,
-                    const Vector& rows) {
-  if (!balance.allFinite() || !rows.allFinite()) return infinity;
-  if (balance.isZero(0) && rows.isZero(0)) return 0;
+LargestMove largest_move(const NearestPointProblem& problem, const std::vector<Index>& held,
+                         const Vector& balance, const Vector& rows) {
+  const LargestMove unknown{infinity, Vector::Constant(rows.size(), infinity)};
+  if (!balance.allFinite() || !rows.allFinite()) return unknown;
+  LargestMove largest{0, Vector::Zero(rows.size())};
+  if (balance.isZero(0) && rows.isZero(0)) return largest;
   const Vector length = dual_lengths(problem, held);
   Vector theta(rows.size());
   for (Index k = 0; k < rows.size(); ++k) {
@@ -40,23 +51,24 @@ double largest_move(const NearestPointProblem& problem, const std::vector<Index>
     theta[k] = of_row > 0 ? softness * of_row * of_row : 1;
   }
   RegularisedKkt kkt(problem);
-  if (!kkt.factor(held, theta)) return infinity;
+  if (!kkt.factor(held, theta)) return unknown;
   const auto pushes = starts(balance), gaps = starts(rows);
-  double largest = 0;
   for (std::size_t start = 0; start < pushes.size(); ++start) {
+    if (start > 0 && pushes[start] == pushes[0] && gaps[start] == gaps[0]) continue;
     Vector r1 = pushes[start], r2 = gaps[start], dq, dlambda;
     double reached = -1;
     for (int climb = 0; climb < most_climbs; ++climb) {
       kkt.solve(r1, r2, dq, dlambda);
       const double move = problem.A.norm(dq);
-      if (!std::isfinite(move)) return infinity;
+      if (!std::isfinite(move)) return unknown;
+      largest.of_multipliers = largest.of_multipliers.cwiseMax(dlambda.cwiseAbs());
       if (!(move > reached)) break;
       reached = move;
       kkt.solve(problem.A.multiply(dq), Vector::Zero(rows.size()), dq, dlambda);
       r1 = with_signs(balance, dq);
       r2 = with_signs(rows, -dlambda);
     }
-    largest = std::max(largest, reached);
+    largest.of_point = std::max(largest.of_point, reached);
   }
   return largest;
 }
@@ -65,7 +77,10 @@ double largest_move(const Metric& A, const Vector& balance) {
   if (!balance.allFinite()) return infinity;
   if (A.kind() == MetricKind::diagonal || A.kind() == MetricKind::identity) return A.dual_norm(balance);
   double largest = 0;
-  for (Vector push : starts(balance)) {
+  const auto pushes = starts(balance);
+  for (std::size_t start = 0; start < pushes.size(); ++start) {
+    Vector push = pushes[start];
+    if (start > 0 && push == pushes[0]) continue;
     double reached = -1;
     for (int climb = 0; climb < most_climbs; ++climb) {
       const Vector dq = A.solve(push);

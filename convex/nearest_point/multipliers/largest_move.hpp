@@ -12,8 +12,12 @@ namespace convex::inline multiplier_sets {
 /// climbed by the signs of the gradient, as in estimates of condition numbers (Higham 2002, section 15.2). An
 /// estimate from below, rarely off by more than a small factor. balance: n; rows: |W|. Infinite where a
 /// radius or the answer is.
-double largest_move(const NearestPointProblem&, const std::vector<Index>& held, const Vector& balance,
-                    const Vector& rows);
+struct LargestMove {
+  double of_point = 0;
+  Vector of_multipliers;  ///< |W|: the largest |dlambda| of the corners looked at
+};
+LargestMove largest_move(const NearestPointProblem&, const std::vector<Index>& held, const Vector& balance,
+                         const Vector& rows);
 
 /// The same with no rows held: max ||r1||_(A⁻¹), which bounds the part of r1 in any case.
 double largest_move(const Metric&, const Vector& balance);

@@ -76,21 +76,39 @@ Vector signs_of(const Vector& lambda, const Vector& length, double rounding,
   return signs;
 }
 
+/// ||u_a||_(A⁻¹) less its part in the rows that the answer rests on: how far a push at the answer can move
+/// the slack of row a. At most `length`.
+double length_beside_held_rows(const NearestPointProblem& problem, const Solution& solution, Index a,
+                               double length) {
+  std::vector<Index> rows = solution.basis;
+  NearestPointProblem beside{
+      problem.A, problem.U.row(a), problem.U.select(rows), Vector::Zero(static_cast<Index>(rows.size())), {}};
+  beside.two_sided.resize(rows.size());
+  std::iota(beside.two_sided.begin(), beside.two_sided.end(), Index{0});
+  if (rows.empty() || !is_dense_size(beside)) return length;
+  const Solution found = active_set(beside, {});
+  if (found.status != Status::solved) return length;
+  return std::min(length, found.acceleration_norm + found.error_bound);
+}
+
 }  // namespace
 
 std::vector<Index> tight_rows(const NearestPointProblem& problem, const Solution& solution,
                               double tolerance) {
   const double size = solution.acceleration_norm;
   // An entry of q that is large makes a slack open only where the row has it.
-  const double moved =
-      std::min(tolerance * size, solution.error_bound + zero_in_doubles * size) +
-      // Where z is rounded, its rounding moves slacks; its size moves none.
-      (problem.radii ? std::min(tolerance, zero_where_z_is_rounded) * solution.force_norm : 0);
+  const double moved = std::min(tolerance * size, solution.error_bound);
+  // Where z is rounded, its rounding moves slacks; its size moves none.
+  const double pushed =
+      problem.radii ? std::min(tolerance, zero_where_z_is_rounded) * solution.force_norm : 0;
   const Vector magnitude = solution.q.cwiseAbs();
   const auto is_small = [&](Index a, double length) {
     const double of_data = problem.radii ? problem.radii->s[a] + problem.radii->row[a] * size : 0;
-    return solution.slack[a] <= tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
-                                    moved * length + of_data;
+    const double small = tolerance * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude)) +
+                         moved * length + of_data;
+    if (solution.slack[a] <= small) return true;
+    return solution.slack[a] <= small + pushed * length &&
+           solution.slack[a] <= small + pushed * length_beside_held_rows(problem, solution, a, length);
   };
   const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
   const std::vector<bool> basis = marked(problem.rows(), solution.basis);

@@ -2,18 +2,31 @@
 
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/sparse_residuals.hpp"
 #include "convex/zero_tolerances.hpp"
 
 namespace convex::inline optimality {
 
+namespace {
+
+/// The root of Σ u_i²/d_i, for entries of any size.
+double length_at_any_scale(const ConstraintRows& U, Index a, const Vector& d) {
+  std::vector<double> parts;
+  U.for_each_entry(a, [&](Index i, double u) { parts.push_back(u / std::sqrt(d[i])); });
+  return Eigen::Map<const Vector>(parts.data(), static_cast<Index>(parts.size())).stableNorm();
+}
+
+}  // namespace
+
 Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>& rows) {
   Vector length = Vector::Zero(problem.rows());
   const MetricKind kind = problem.A.kind();
   if (problem.U.is_sparse() && (kind == MetricKind::diagonal || kind == MetricKind::identity)) {
     const Vector all = problem.U.lengths(problem.A.diagonal().cwiseInverse());
-    for (Index a : rows) length[a] = all[a];
+    for (Index a : rows)
+      length[a] = has_squares(all[a]) ? all[a] : length_at_any_scale(problem.U, a, problem.A.diagonal());
     return length;
   }
   // With a sparse factor a length is a solve: beyond `many` a lower bound stands for it, (u·v)/||v||_A for v
@@ -43,7 +56,11 @@ Vector dual_lengths(const NearestPointProblem& problem, const std::vector<Index>
     for (std::size_t k = 0; k < count; ++k)
       problem.U.copy_row(rows[first + k], block.col(static_cast<Index>(k)));
     problem.A.whiten_in_place(block);
-    for (std::size_t k = 0; k < count; ++k) length[rows[first + k]] = block.col(static_cast<Index>(k)).norm();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto whitened = block.col(static_cast<Index>(k));
+      const double plain = whitened.norm();
+      length[rows[first + k]] = has_squares(plain) ? plain : whitened.stableNorm();
+    }
   }
   return length;
 }

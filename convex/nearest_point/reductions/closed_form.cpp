@@ -45,14 +45,17 @@ class ClosedForm {
     const std::vector<Index> rows = held ? std::vector<Index>{0} : std::vector<Index>{};
     const double scale = std::max(free_norm_, held ? std::abs(problem_.s[0]) / length() : 0.0);
     double previous = scale;
-    double contraction =
-        std::min(slowest_contraction / 2, expected_contraction(problem_.A.factor_condition(), 1, false));
+    const double of_A = problem_.A.factor_condition(), of_pull = pull_rounding(of_A, 1);
+    const double of_residuals = 8 * unit_roundoff * unit_roundoff * of_A * scale;
+    double contraction = std::min(slowest_contraction / 2, expected_contraction(of_A, 1, false));
     for (int k = 0; k < most_corrections; ++k) {
       const Vector rest = stationarity_residual(problem_, point.q, rows, point.lambda);
       Vector dq = problem_.A.solve(rest);
+      double pull = 0;
       if (held) {
         const double dlambda = (-slack(problem_, 0, point.q).value() - u_.dot(dq)) / square_;
         dq += dlambda * v_;
+        pull = std::abs(dlambda) * length();
         point.lambda.add(Vector::Constant(1, dlambda));
       }
       point.q.add(dq);
@@ -60,9 +63,12 @@ class ClosedForm {
       point.last = dq;
       if (k > 0 && size > floor) contraction = std::max(contraction, size / previous);
       if (!(contraction < slowest_contraction)) return point;
-      point.remaining = size * contraction / (1 - contraction);
+      point.remaining = size * contraction / (1 - contraction) + of_pull * pull;
       previous = size;
-      if (k > 0 && (size <= floor || point.remaining <= enough * scale)) {
+      // What the two parts of a correction cancel to says little of them.
+      const bool is_told = of_pull * pull <= enough * scale;
+      if (k > 0 && is_told && (size <= floor || point.remaining <= enough * scale)) {
+        point.remaining += of_residuals;
         point.converged = true;
         break;
       }
