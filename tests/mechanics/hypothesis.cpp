@@ -191,3 +191,27 @@ TEST_CASE(
   CHECK(found.hypothesis.two_sided.multipliers[0] == doctest::Approx(-2));
   CHECK_FALSE(found.hypothesis.accepted);
 }
+
+TEST_CASE("where a contact opens beside a large motion its multiplier below 0 is named, however small") {
+  const mechanics::GaussSolution found = mechanics::solve({convex::Metric::diagonal(Vector{{1, 1e-12}}),
+                                                           Vector{{1e6, 0}},
+                                                           convex::ConstraintRows(RowMatrix{{0, 1}}),
+                                                           Vector{{-1e-3}},
+                                                           {}});
+  CHECK_FALSE(found.hypothesis.accepted);
+  CHECK(found.hypothesis.negative == std::vector<Index>{0});
+  CHECK(found.hypothesis.drop_negative_is_right == std::optional<bool>(true));
+}
+
+TEST_CASE("a row presses in any units") {
+  for (const double unit : {1e-200, 1e-160, 1.0, 1e160}) {
+    const mechanics::GaussSolution found =
+        mechanics::solve({convex::Metric::identity(2),
+                          Vector{{0.3, -1}},
+                          convex::ConstraintRows(RowMatrix{{-1, 0}, {0, unit}}),
+                          Vector::Zero(2),
+                          {}});
+    CHECK(found.touching.empty());
+    CHECK(found.multipliers.least_norm[1] * unit == doctest::Approx(1));
+  }
+}
