@@ -46,13 +46,13 @@ Program::Program(const Tape& tape, std::size_t coordinates, const std::vector<st
     for (const NodeId node : reach.below(roots)) {
       switch (tape.operation(node)) {
         case Operation::coordinate:
-          slot[node] = coordinate(tape.a(node));
+          node_[slot[node] = coordinate(tape.a(node))] = node;
           break;
         case Operation::velocity:
-          slot[node] = velocity(tape.a(node));
+          node_[slot[node] = velocity(tape.a(node))] = node;
           break;
         case Operation::time:
-          slot[node] = time();
+          node_[slot[node] = time()] = node;
           break;
         default:
           if (!tape.is_constant(node)) {

@@ -88,7 +88,7 @@ class Program {
   std::vector<Slot> ends_;                  // by group, of the operations
   std::vector<std::size_t> constant_ends_;  // by group, in constants_
   std::vector<std::vector<Slot>> roots_;
-  std::vector<NodeId> node_;  // by slot; no_node for a variable
+  std::vector<NodeId> node_;  // by slot; no_node for a variable that is not used
   Values constants_;
   bool has_branches_ = false;
   std::vector<bool> is_differentiated_;  // with branches: what more than conditions depends on

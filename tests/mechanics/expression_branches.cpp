@@ -111,6 +111,11 @@ TEST_CASE("a state between two branches is told, one beside them is not") {
   // A force is used by its value, which at a tie is the same on both sides; a constraint by its derivatives.
   CHECK(edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "max(x, 1)"}}, {}}, 1).empty());
   CHECK(!edges_at({{"x"}, "x'^2/2", "", {}, {}, {}, {{"c", "max(x, 1) >= 0"}}}, 1).empty());
+  // What is compared may be a coordinate, a velocity or the time itself.
+  for (const char* force : {"step(x)", "step(x')", "step(t)", "sign(x)", "if(0 <= x, 1, 2)"}) {
+    CAPTURE(std::string(force));
+    CHECK(!edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", force}}, {}}, 0).empty());
+  }
   // The knots of a table are no edges.
   CHECK(edges_at({{"x"}, "x'^2/2", "", {}, {}, {{"x", "table(x, [0, 1, 2], [0, 1, 0])"}}, {}}, 1).empty());
 }
