@@ -86,8 +86,11 @@ void refute(convex::Solution& primal, std::string_view open) {
 void judge_open_answer(convex::Solution& primal, const convex::NearestPointProblem& problem,
                        const convex::Accuracy& accuracy) {
   if (problem.radii || primal.status != convex::Status::solved || is_decided_in_fractions(primal)) return;
-  const std::optional<double> bound = convex::enclosed_error(problem, primal);
-  primal.error_bound = bound ? std::max(primal.error_bound, *bound) : convex::infinity;
+  // What rows have to do with each other is no question of an answer without a gap.
+  double bound = convex::bound_by_gap(problem, primal);
+  if (!(bound <= accuracy.tolerance * std::max(1.0, primal.acceleration_norm)))
+    bound = std::min(bound, convex::enclosed_error(problem, primal).value_or(convex::infinity));
+  primal.error_bound = std::max(primal.error_bound, bound);
   if (!primal.is_within(accuracy)) primal.status = convex::Status::inaccurate;
 }
 

@@ -69,8 +69,8 @@ std::optional<ReactionFromDual> from_dual(const convex::NearestPointProblem& pro
 convex::Solution nearest_point(const convex::NearestPointProblem& problem, const GaussOptions& options,
                                double norm) {
   const double tolerance = options.accuracy.tolerance;
-  convex::Solution found =
-      convex::bounded_where_decided(problem, options.method->solve(problem, options.accuracy));
+  convex::Solution found = convex::bounded_where_decided(
+      problem, options.method->solve(problem, options.accuracy), options.accuracy);
   const auto is_close = [&] {
     return found.error_bound <= tolerance * std::max(1 / norm, found.acceleration_norm);
   };

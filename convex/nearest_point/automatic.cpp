@@ -224,7 +224,7 @@ Solution solve_valid(const NearestPointProblem& problem, const Accuracy& accurac
 Solution decided(const NearestPointProblem& problem, const Accuracy& accuracy,
                  const std::vector<Index>& guess) {
   Solution found = solve_valid(problem, accuracy, guess);
-  if (!found.undecided.empty()) found = bounded_where_decided(problem, std::move(found));
+  if (!found.undecided.empty()) found = bounded_where_decided(problem, std::move(found), accuracy);
   return found;
 }
 

@@ -73,6 +73,14 @@ bool violates_beyond_bound(const Solution& found) {
            2 * found.error_bound + roundings * scale);
 }
 
+double bound_by_gap(const NearestPointProblem& problem, const Solution& judged) {
+  if (judged.residuals.feasibility != 0 || judged.slack.size() != problem.rows()) return infinity;
+  for (Index a = 0; a < problem.rows(); ++a)
+    if (judged.lambda[a] < 0 && !problem.is_two_sided(a)) return infinity;
+  const double scale = std::max(judged.acceleration_norm, judged.force_norm);
+  return (std::sqrt(2.0) * judged.residuals.duality_gap + unit_roundoff) * scale;
+}
+
 double rounding_norm(const NearestPointProblem& problem, const Vector& lo) {
   return std::sqrt(static_cast<double>(problem.dimension()) * problem.A.diagonal().dot(lo.cwiseAbs2()));
 }

@@ -25,6 +25,11 @@ Residuals residuals(const NearestPointProblem&, const Solution&, KnownParts know
 /// is known of the error.
 bool violates_beyond_bound(const Solution&);
 
+/// A bound of ||q - q*||_A from the residuals of an answer whose doubles satisfy every row: with lambda >= 0 on
+/// one-sided rows, ½||q - q*||_A² <= lambda·(Uq - s) + ½||Aq - z - Uᵀlambda||²_(A⁻¹), the duality gap, whatever
+/// the rows have to do with each other; and the rounding of these terms. Infinite for other answers.
+double bound_by_gap(const NearestPointProblem&, const Solution&);
+
 /// ||u_a||_(A⁻¹) for the rows given, 0 for the others: m.
 Vector dual_lengths(const NearestPointProblem&, const std::vector<Index>& rows);
 

@@ -1,10 +1,11 @@
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 
 namespace convex::inline proof {
@@ -88,11 +89,17 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
   return found ? *std::move(found) : left_open(std::move(open));
 }
 
-Solution bounded_where_decided(const NearestPointProblem& problem, Solution found) {
+Solution bounded_where_decided(const NearestPointProblem& problem, Solution found, const Accuracy& accuracy) {
   const bool is_open =
       found.undecided == open_question::dependence || found.undecided == open_question::contradiction;
-  if (is_open && !problem.radii && found.status == Status::inaccurate)
-    found.error_bound = std::numeric_limits<double>::infinity();
+  if (!is_open || problem.radii || found.status != Status::inaccurate) return found;
+  found.error_bound = infinity;
+  if (!(accuracy.limit > 0) || found.q.size() != problem.dimension()) return found;
+  found.error_bound = bound_by_gap(problem, found);
+  if (!found.is_within(accuracy)) found.error_bound = enclosed_error(problem, found).value_or(infinity);
+  if (!found.is_within(accuracy)) return found;
+  found.status = Status::solved;
+  found.undecided = {};
   return found;
 }
 

@@ -23,9 +23,10 @@ inline constexpr std::string_view range = "numbers whose squares are beyond them
 Solution decided_in_fractions(const NearestPointProblem&, Solution open, const Accuracy&);
 
 /// The answer for a user. A row that is a sum of those held but for rounding, and not kept, may take the
-/// point any distance: where that is open, nothing bounds the error. Programs that make rows of their own,
-/// and count them as consistent, look at the bound as if they were.
-Solution bounded_where_decided(const NearestPointProblem&, Solution);
+/// point any distance: where that is open, nothing bounds the error but a proof in doubles, of a gap or of
+/// the point enclosed, after which it is solved. Programs that make rows of their own, and count them as
+/// consistent, look at the bound as if they were.
+Solution bounded_where_decided(const NearestPointProblem&, Solution, const Accuracy&);
 
 /// Whether an answer that is solved leaves the signs of zeros open: of multipliers of rows held that doubles
 /// cannot tell from 0. A row whose multiplier is below 0 by less than that is not held, and has a slack.

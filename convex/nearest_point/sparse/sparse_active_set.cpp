@@ -245,6 +245,11 @@ class SparseActiveSet {
     solution.error_bound = unit * (2 * point_.remaining() + point_.silenced) + solution.rounding +
                            unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
                                std::sqrt(static_cast<double>(rows_.size() + 1));
+    if (const double by_gap = bound_by_gap(problem_, solution); by_gap < solution.error_bound) {
+      solution.error_bound = by_gap;
+      // Then what rows say of each other is no question of q.
+      if (solution.is_within(accuracy_)) silence_ = doubtful_ = 0;
+    }
     solution.status = solution.is_within(accuracy_) ? Status::solved : Status::inaccurate;
     // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
     if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
