@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/report/solve_report.hpp"
 #include "convex/infinity.hpp"
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
@@ -49,11 +50,10 @@ std::optional<convex::ExactProblem> numbers_as_written(const Scene& scene) {
 }  // namespace
 
 mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::GaussOptions& options) {
-  const bool is_default = options.method == &convex::methods().front() && options.accuracy.limit > 0;
   const bool as_written = static_cast<convex::Index>(scene.contacts.size()) == scene.problem.rows();
   // Rows that were added are not in the text.
   if (!as_written) return mechanics::solve(scene.problem, options);
-  if (const std::string_view why = why_not_in_doubles(scene); is_default && !why.empty()) {
+  if (const std::string_view why = why_not_in_doubles(scene); is_default(options) && !why.empty()) {
     mechanics::GaussSolution exact;
     try {
       if (const auto data = numbers_as_written(scene))
@@ -168,6 +168,17 @@ std::optional<mechanics::Warning> violated_at_higher_order(const Scene& scene,
     solution.error_bound = convex::infinity;
   }
   return warning;
+}
+
+std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::GaussSolution& solution) {
+  const bool was_solved = solution.primal.status == convex::Status::solved;
+  const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
+  if (!was_solved || solution.primal.status == convex::Status::solved) return as_evaluated;
+  if (!is_default(scene.solve) || !scene.added.empty()) return as_evaluated;
+  const auto data = numbers_as_written(scene);
+  const bool is_decided = data && mechanics::solve_on_exact_data(solution, *data, scene.problem, scene.solve,
+                                                                 convex::open_question::conditioning);
+  return is_decided ? std::nullopt : as_evaluated;
 }
 
 ProvedScene resolve_and_prove(Scene& scene, bool certify) {

@@ -28,6 +28,12 @@ std::vector<mechanics::Warning> resolve_for_every_force(Scene&);
 /// known of its acceleration, and it is `inaccurate`.
 std::optional<mechanics::Warning> violated_at_higher_order(const Scene&, mechanics::GaussSolution&);
 
+/// Counts what the rounding of A, z, U, s of a mechanism amounts to (`count_evaluation_error` of the reports).
+/// Where that makes an answer of the default method inaccurate, it is decided on the numbers as they were
+/// written, if these are fractions. Returns the bound for A, z, U, s as evaluated, where they are what was
+/// solved.
+std::optional<double> settle_evaluation_error(const Scene&, mechanics::GaussSolution&);
+
 /// A scene with its answer, and what is proved of that.
 struct ProvedScene {
   mechanics::CertifiedSolution found;

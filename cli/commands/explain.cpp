@@ -94,7 +94,7 @@ Explained explain_scene(Problem problem, const std::string& file, const ExplainO
   Scene scene = make_scene(std::move(problem), file, options);
   ProvedScene resolved = resolve_and_prove(scene, false);
   mechanics::GaussSolution& solution = resolved.found.solution;
-  if (scene.written) count_evaluation_error(scene, solution);
+  if (scene.written) settle_evaluation_error(scene, solution);
   SolvedScene solved = solved_scene(scene, solution, 0);
   solved.warnings = std::move(resolved.warnings);
   add_contact_warnings(solved);

@@ -27,7 +27,7 @@ Answer solve_scene(Scene scene, const std::optional<DrawnScene>& drawn, const So
   // Part of reading the mechanism, like the evaluation whose rounding it is about.
   std::optional<double> as_evaluated;
   if (scene.written && found.certificate.level == convex::ProofLevel::none) {
-    as_evaluated = count_evaluation_error(scene, found.solution);
+    as_evaluated = settle_evaluation_error(scene, found.solution);
     found.certificate.error_bound = found.solution.primal.error_bound;
   }
   progress.reset();

@@ -123,7 +123,7 @@ SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Wa
     Scene scene = this->scene(at);
     ProvedScene resolved = resolve_and_prove(scene, false);
     mechanics::GaussSolution& solution = resolved.found.solution;
-    if (scene.written) count_evaluation_error(scene, solution);
+    if (scene.written) settle_evaluation_error(scene, solution);
     const SolvedScene solved = solved_scene(scene, solution, 0);
     point.status = name(solution.primal.status);
     point.exit = exit_code(solution.primal.status);

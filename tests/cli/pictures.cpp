@@ -67,12 +67,12 @@ double area_of(const std::string& colour, const std::string& svg) {
     std::vector<double> x, y;
     char comma = ',';
     for (double a = 0, b = 0; points >> a >> comma >> b;) x.push_back(a), y.push_back(b);
-    double twice = 0;
+    double doubled = 0;
     for (std::size_t k = 0; k < x.size(); ++k) {
       const std::size_t next = (k + 1) % x.size();
-      twice += x[k] * y[next] - x[next] * y[k];
+      doubled += x[k] * y[next] - x[next] * y[k];
     }
-    area += std::abs(twice) / 2;
+    area += std::abs(doubled) / 2;
   }
   return area;
 }
