@@ -10,24 +10,16 @@
 #include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/ball_section.hpp"
+#include "convex/operations/image_prox.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
-#include "convex/operations/reduction.hpp"
 #include "convex/operations/sum.hpp"
 #include "convex/operations/two_function_max.hpp"
 #include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
-
-void tidy(DoubleDoubleVector& x) {
-  for (Index i = 0; i < x.size(); ++i) {
-    const DoubleDouble sum = two_sum(x.hi[i], x.lo[i]);
-    x.hi[i] = sum.hi;
-    x.lo[i] = sum.lo;
-  }
-}
 
 /// x -> f(Ax + b).
 class Precompose : public Operation {
@@ -54,7 +46,8 @@ class Precompose : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    return value_near(f_, accurate_image(x), length_of(A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()));
+    return value_near(f_, accurate_image(A_, DoubleDoubleVector(x), b_),
+                      length_of(A_.cwiseAbs() * x.cwiseAbs() + b_.cwiseAbs()));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     const std::optional<Vector> v = f_.subgradient(image_of(x));
@@ -97,43 +90,33 @@ class Precompose : public Operation {
   }
 
  protected:
-  /// ½||x - z||_W² is least over Ax + b = u at x = z + W⁻¹Aᵀ S (u - Az - b), S = (A W⁻¹Aᵀ)⁻¹, where it is
-  /// ½||u - Az - b||_S²; and S(Az + b - u) is the covector of f at u.
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const auto image = image_metric(W, A_);
     if (!image) return std::nullopt;
     if (f_.facts().piecewise_quadratic && !is_diagonal_kind(image->metric)) return std::nullopt;
-    const Metric& S = image->metric;
-    const auto from = [&](const Vector& point) {
-      Prox part = f_.prox(point, S, look);
-      if (part.x.size() == 0) return part;
-      Vector x = z - image->lift * part.v;
-      // Far from z the difference leaves Ax + b = u to its rounding; the nearest point to x with it does not.
-      for (int pass = 0; pass < 2; ++pass) x += image->lift * S.multiply(part.x - A_ * x - b_);
-      return with_values(moved(part, x, A_.transpose() * part.v, part.error_bound, z, W), part.values, {},
-                         product(part.v, -b_));
-    };
-    const auto correction = [&](const Vector& r) -> Vector { return A_ * W.solve(r); };
-    Prox whole = reduced(A_ * z + b_, z, W, from, correction);
-    whole.method += is_diagonal_kind(S) ? " after a semi-orthogonal map" : " in the metric of an image";
+    Prox whole = image_prox(f_, A_, b_, *image, z, W, look);
+    whole.method +=
+        is_diagonal_kind(image->metric) ? " after a semi-orthogonal map" : " in the metric of an image";
     return whole;
   }
 
  private:
-  /// Ax + b in twice the precision: its terms may cancel where f is steep.
-  DoubleDoubleVector accurate_image(const Vector& x) const {
-    DoubleDoubleVector sum(b_);
-    for (Index j = 0; j < x.size(); ++j)
-      add_multiple(A_.rows(), A_.col(j).data(), {x[j], 0}, sum.hi.data(), sum.lo.data());
-    tidy(sum);
-    return sum;
-  }
-  Vector image_of(const Vector& x) const { return accurate_image(x).hi; }
+  Vector image_of(const Vector& x) const { return accurate_image(A_, DoubleDoubleVector(x), b_).hi; }
 
   Function f_;
   Matrix A_;
   Vector b_;
 };
+
+/// The programs of f*, by those of f: an inverse of a matrix, which is rounded, has no part in them.
+std::optional<LinearQuadratic> conjugate_program(const Function& f, Index n) {
+  const auto form = f.node().linear_quadratic(n);
+  return form ? std::optional(linear_quadratic::conjugate(*form)) : std::nullopt;
+}
+std::optional<GraphForm> conjugate_graph(const Function& f, Index n) {
+  const auto form = f.node().graph(n);
+  return form ? std::optional(convex::conjugate(*form)) : std::nullopt;
+}
 
 /// The conjugate of a function that has it as a sum, and is its conjugate in turn: taken by rule once more,
 /// the rounding of both maps would remain between the two.
@@ -142,6 +125,10 @@ class ConjugateSum : public Sum {
   ConjugateSum(std::vector<Function> parts, Function primal)
       : Sum(std::move(parts)), primal_(std::move(primal)) {}
   Function conjugate() const override { return primal_; }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    return conjugate_program(primal_, n);
+  }
+  std::optional<GraphForm> graph(Index n, double) const override { return conjugate_graph(primal_, n); }
 
  private:
   Function primal_;
@@ -158,7 +145,6 @@ class InverseMap : public Precompose {
   Value evaluate(const Vector& v) const override {
     DoubleDoubleVector w(Vector(A() * v));
     for (int pass = 0; pass < 2; ++pass) w.add(A() * left_of(v, w));
-    tidy(w);
     if (!w.hi.allFinite()) return Precompose::evaluate(v);
     const Vector terms = A().cwiseAbs() * (v.cwiseAbs() + A_.transpose().cwiseAbs() * w.hi.cwiseAbs());
     Value found = value_near(part(), w, length_of(terms));
@@ -196,6 +182,10 @@ class ConjugateMap : public InverseMap {
   ConjugateMap(const Precompose& made, Matrix A, Function primal)
       : InverseMap(made, std::move(A)), primal_(std::move(primal)) {}
   Function conjugate() const override { return primal_; }
+  std::optional<LinearQuadratic> linear_quadratic(Index n) const override {
+    return conjugate_program(primal_, n);
+  }
+  std::optional<GraphForm> graph(Index n, double) const override { return conjugate_graph(primal_, n); }
 
  private:
   Function primal_;
