@@ -61,9 +61,9 @@ DoubleDoubleVector accurate_image(const Matrix& A, const DoubleDoubleVector& x, 
 
 Prox image_prox(const Function& f, const Matrix& A, const Vector& b, const ImageMetric& image,
                 const Vector& z, const Metric& W, const Look& look) {
-  constexpr int most_steps = 8;
+  constexpr int most_steps = 8, moves = 2;
   constexpr double roundings_left = 4;  // so much is not worth another prox
-  constexpr double slow = 0.5;
+  constexpr double slow = 0.5, small_part = 0.1;
   const Metric& S = image.metric;
   const auto step_from = [&](const Vector& y) {
     Step step{f.prox(y, S, look), DoubleDoubleVector(z.size()), DoubleDoubleVector(z.size()), {}};
@@ -74,16 +74,23 @@ Prox image_prox(const Function& f, const Matrix& A, const Vector& b, const Image
     step.v = transposed_product(A, p);
     Shifted found = shifted(W, z, step.v);
     step.x = std::move(found.x);
-    DoubleDoubleVector e = accurate_image(A, step.x, b);
-    e.add(-step.part.x);
-    step.e = e.value();
+    const auto off_image = [&]() -> Vector {
+      DoubleDoubleVector e = accurate_image(A, step.x, b);
+      e.add(-step.part.x);
+      return e.value();
+    };
+    step.e = off_image();
     step.missed = S.norm(step.e) + found.left;
+    // Far from z, e leaves Ax + b outside the domain of f by more than the rounding of x.
+    for (int pass = 0; pass < moves; ++pass)
+      step.x.add(-(image.lift * S.multiply(pass == 0 ? step.e : off_image())));
     return step;
   };
   Vector y = accurate_image(A, DoubleDoubleVector(z), b).value();
   Step best = step_from(y);
   for (int count = 1; count < most_steps && best.part.x.size() > 0; ++count) {
-    if (!(best.missed > roundings_left * unit_roundoff * (W.norm(z) + W.norm(best.x.hi)))) break;
+    const double rounding = roundings_left * unit_roundoff * (W.norm(z) + W.norm(best.x.hi));
+    if (!(best.missed > std::max(rounding, small_part * best.part.error_bound))) break;
     y += best.e;
     Step next = step_from(y);
     if (!(next.part.x.size() > 0 &&

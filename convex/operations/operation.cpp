@@ -8,6 +8,7 @@
 #include "convex/composite/composite_prox.hpp"
 #include "convex/composite/saddle_solver.hpp"
 #include "convex/composite/work_limit.hpp"
+#include "convex/double_double.hpp"
 #include "convex/functions/closed_form.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/properness.hpp"
@@ -246,8 +247,10 @@ Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const V
 }
 
 Value product(const Vector& a, const Vector& b) {
-  const double rounding = static_cast<double>(a.size() + 1) * unit_roundoff;
-  return {a.dot(b), rounding * a.cwiseAbs().dot(b.cwiseAbs())};
+  RunningSum sum;
+  for (Index i = 0; i < a.size(); ++i) sum.add(two_product(a[i], b[i]));
+  const double value = sum.value(), roundings = 2.0 * static_cast<double>(a.size() + 1) * unit_roundoff;
+  return {value, unit_roundoff * (std::abs(value) + roundings * a.cwiseAbs().dot(b.cwiseAbs()))};
 }
 
 void require_fit(const Function& f, const Vector& c, const char* where, const char* name) {

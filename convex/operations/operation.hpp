@@ -64,7 +64,7 @@ Prox moved(Prox part, Vector x, Vector v, double bound, const Vector& z, const M
 Prox with_values(Prox whole, const std::optional<PairOfValues>& of_part, const Value& f_more = {},
                  const Value& v_more = {});
 
-/// a·b with its rounding.
+/// a·b in twice the precision, with its rounding.
 Value product(const Vector& a, const Vector& b);
 
 /// Nothing is left to try: the bound is within the accuracy that is asked for, or there is no solution.
