@@ -9,6 +9,10 @@ namespace convex::subgradients {
 /// part has no rule.
 std::optional<Subdifferential> by_calculus(const Call& f, const ExactGram& W, const Fractions& x);
 
+/// ∂(f □ g)(x) = ∂f(u) ∩ ∂g(x - u) for any u that attains the minimum of f(u) + g(x - u), which is one where
+/// the two meet (Rockafellar 1970, theorem 23.8 for the conjugates). Throws InvalidInput where none is found.
+Subdifferential of_inf_convolution(const Call& f, const ExactGram& W, const Fractions& x);
+
 /// Norms, balls and cones that are round: norm2, group_norm, k_support, ball2, group_ball, the second-order
 /// cones. What decides between a corner, an edge and a smooth point is decided in fractions.
 std::optional<Subdifferential> of_curved_norm_or_set(const Call& f, const Fractions& x);
