@@ -41,7 +41,7 @@ class InfConvolution : public Operation {
   }
   Call call() const override { return {"inf_convolution", {argument(f_.call()), argument(g_.call())}}; }
   Value evaluate(const Vector& x) const override {
-    if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).value;
+    if (const auto split = smoothing(x.size())) return value_of_smoothing(*split, x);
     if (const auto sum = value_by_entries(*this, x)) return *sum;
     ByProgram found = by_program(x);
     // Of cones that only near each other far out, a program takes points out there, where it is right to a
@@ -70,7 +70,7 @@ class InfConvolution : public Operation {
     return settled_value(found.value, found.slope, conjugate(), x);
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
-    if (const auto split = smoothing(x.size())) return smoothed(split->first, split->second, x).v;
+    if (const auto split = smoothing(x.size())) return smoothed(split->f, split->q, x).v;
     if (auto slopes = subgradient_by_entries(*this, x)) return slopes;
     if (auto slope = maximiser(conjugate(), x)) return slope;
     return Operation::subgradient(x);
@@ -108,17 +108,29 @@ class InfConvolution : public Operation {
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const bool diagonal = W.kind() == MetricKind::identity || W.kind() == MetricKind::diagonal;
     if (facts().piecewise_quadratic && !diagonal) return std::nullopt;
-    if (const auto split = smoothing(z.size())) return smoothed_prox(split->first, split->second, z, W, look);
+    if (const auto split = smoothing(z.size())) return smoothed_prox(split->f, split->q, z, W, look);
     return std::nullopt;
   }
 
  private:
-  /// The other function and the kernel, when one of the two is a definite quadratic.
-  std::optional<std::pair<Function, Kernel>> smoothing(Index n) const {
+  /// f □ g with g the kernel q, a definite quadratic.
+  struct Smoothing {
+    Function f, g;
+    Kernel q;
+  };
+  std::optional<Smoothing> smoothing(Index n) const {
     for (const auto& [f, g] : {std::pair{f_, g_}, std::pair{g_, f_}})
-      if (const auto q = quadratic_term(g, n))
-        if (auto kernel = kernel_of(*q)) return std::pair{f, *std::move(kernel)};
+      if (const auto term = quadratic_term(g, n))
+        if (auto kernel = kernel_of(*term)) return Smoothing{f, g, *std::move(kernel)};
     return std::nullopt;
+  }
+  /// f(w) + g(x - w) by g's own formula: of a g moved far the terms of q are large, and cancel. It is above
+  /// the minimum by no more than the square of what w is off by.
+  static Value value_of_smoothing(const Smoothing& of, const Vector& x) {
+    const Smoothed split = smoothed(of.f, of.q, x);
+    const double size = length_of(x) + length_of(split.w);
+    return sum_of(sum_of(of.f.evaluate(split.w), value_near(of.g, difference(x, split.w), size)),
+                  {0, split.off * split.off});
   }
 
   Function f_, g_;

@@ -74,7 +74,10 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
                    8 * unit_roundoff * size + part.error_bound * part.error_bound};
   // The prox's own covector is the slope too, and right where x - w is nothing beside x.
   const bool own = part.v.size() == x.size() && part.v.allFinite();
-  return {part.x, own ? part.v : Vector(slope + q.c), sum_of(f.evaluate(part.x), rest)};
+  constexpr double roundings_of_the_point = 4;
+  const double of_point = roundings_of_the_point * unit_roundoff * (q.Q.norm(x) + q.Q.dual_norm(q.c));
+  return {part.x, own ? part.v : Vector(slope + q.c), sum_of(f.evaluate(part.x), rest),
+          part.error_bound + of_point};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {

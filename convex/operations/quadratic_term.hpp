@@ -42,6 +42,7 @@ struct Smoothed {
   Vector w;
   Vector v;
   Value value;
+  double off = 0;  ///< ||w - w*||_Q, and what the rounding of the point x + Q⁻¹c is in it
 };
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 

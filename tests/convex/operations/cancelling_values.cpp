@@ -121,3 +121,10 @@ TEST_CASE("an inf-convolution attained at 5e5 is told within its error, and righ
   CHECK(std::abs(found.value - -724.0767201739074586) <= found.error);
   CHECK(found.error <= 1e-12 * 724);
 }
+
+TEST_CASE("the value of an inf-convolution with a square moved far away keeps its digits") {
+  // With p = W(e³), Lambert's function, e^u = 3 - u = p: p + p²/2.
+  const Function f =
+      samples::function("inf_convolution(exponential(), translate(squared_norm2(1), [1000000]))", 1);
+  check_near(f.evaluate(Vector{{1000003}}), 4.64543962307249451838);
+}
