@@ -26,6 +26,9 @@ Value indicated(double miss, double size) {
 Value sum_of(const Value& a, const Value& b) {
   const double sum = a.value + b.value;
   if (std::isfinite(sum)) return {sum, a.error + b.error + unit_roundoff * std::abs(sum)};
+  // What is +inf for certain stays so, whatever the other is, for none is -inf.
+  const auto is_proved = [](const Value& value) { return value.value == infinity && value.error == 0; };
+  if (sum == infinity && (is_proved(a) || is_proved(b))) return {infinity, 0};
   // What is finite adds nothing to what is not, nor to the doubt about it.
   return {sum, (std::isfinite(a.value) ? 0 : a.error) + (std::isfinite(b.value) ? 0 : b.error)};
 }

@@ -17,7 +17,7 @@ Value sum_of_terms(double sum, double sizes);
 /// of a prox is inside, and whether one that only `membership_tolerance` lets in is, is not decided.
 Value indicated(double miss, double size);
 
-/// a + b, and factor · a, factor > 0, each rounded.
+/// a + b, none of them -inf, and factor · a, factor > 0, each rounded.
 Value sum_of(const Value& a, const Value& b);
 Value multiple_of(double factor, const Value& a);
 

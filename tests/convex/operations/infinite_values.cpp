@@ -62,3 +62,13 @@ TEST_CASE(
   CHECK_THROWS_AS(function("inf_convolution(indicator(halfspace([-2,0], -6)), linear([1,1]))", 2),
                   convex::InvalidInput);
 }
+
+TEST_CASE(
+    "a sum is +inf outside the domain of one of its functions, though another leaves the doubles there") {
+  // Beside e^(200000) the ball of radius 0.000854 does not have 200.
+  const Value found = function("inf_convolution(scale(entropy(),0.001),scale(norm2(0.854),0.001))", 1)
+                          .conjugate()
+                          .evaluate(Vector{{200}});
+  CHECK(found.value == INFINITY);
+  CHECK(found.error == 0);
+}
