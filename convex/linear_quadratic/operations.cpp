@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "convex/double_double.hpp"
 #include "convex/linear_quadratic/placement.hpp"
 
 namespace convex::linear_quadratic {
@@ -16,6 +17,25 @@ Index total_auxiliaries(std::span<const LinearQuadratic> terms) {
 }
 
 LinearQuadratic nothing(Index n, Index k) { return LinearQuadraticBuilder(n, k).finish(); }
+
+/// Do doubles hold the rows G(Ax + b) >= h as rows of x?
+bool rows_are_exact(const LinearQuadratic& f, const SparseMatrix& A, const Vector& b) {
+  for (Index row = 0; row < f.rows(); ++row) {
+    DoubleDoubleVector g(A.cols());
+    DoubleDouble h{f.h[row], 0};
+    for (SparseRows::InnerIterator entry(f.G, row); entry; ++entry) {
+      if (entry.col() >= f.n) continue;
+      h = add(h, negative(two_product(entry.value(), b[entry.col()])));
+      for (Index j = 0; j < A.cols(); ++j) {
+        const DoubleDouble sum = add(g[j], two_product(entry.value(), A.coeff(entry.col(), j)));
+        g.hi[j] = sum.hi;
+        g.lo[j] = sum.lo;
+      }
+    }
+    if (h.lo != 0 || !g.lo.isZero(0)) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -48,6 +68,18 @@ LinearQuadratic precompose(const LinearQuadratic& f, const SparseMatrix& A, cons
   validate(f, "precompose");
   require(A.rows() == f.n && b.size() == f.n, "precompose",
           "A and b do not fit the function; give them one row for each of its variables");
+  if (!rows_are_exact(f, A, b)) {
+    // u = Ax + b stays a variable: rounded rows would be those of another function.
+    const Index n = A.cols(), m = A.rows(), columns = n + m + f.auxiliaries();
+    LinearQuadraticBuilder equations(n, columns - n);
+    const SparseRows rows(A);
+    for (Index i = 0; i < m; ++i) {
+      equations.equation(-b[i]);
+      for (SparseRows::InnerIterator it(rows, i); it; ++it) equations.entry(it.col(), it.value());
+      equations.entry(n + i, -1);
+    }
+    return add_joint(equations.finish(), placed(f, n, columns, n + m, identity_at(m, n, 1)));
+  }
   Entries entries;
   for (Index j = 0; j < A.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(A, j); it; ++it)

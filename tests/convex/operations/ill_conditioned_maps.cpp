@@ -47,3 +47,27 @@ TEST_CASE("the prox of a curved function of Ax + b keeps eleven digits where A i
     CHECK(error <= 1e-11 * metric.norm(x));
   }
 }
+
+TEST_CASE(
+    "a polyhedron of Ax + b is met in the rows as given, where doubles do not hold their products with A") {
+  struct Case {
+    const char* f;
+    Vector z;
+    Matrix W;
+    Vector x;  // the vertex, in fractions
+  };
+  for (const auto& [text, z, W, x] :
+       {Case{"precompose(simplex(2),[[1.0000001999999998947288304407265968620777130126953125,1],"
+             "[1,1.0000001000000000583867176828789524734020233154296875]],[10000000,0])",
+             Vector{{3, -1.462}}, Matrix{{105, 0}, {0, 105}},
+             Vector{{-33333327782986.865627, 33333324449654.418715}}},
+        {"precompose(polyhedron([[-1,1],[-0.375,0.959],[1.75,-3]],[1.25,0,1.498]),"
+         "[[10000002,10000000],[10000000,10000001]],[10000000,1])",
+         Vector{{-4, -1}}, Matrix{{6, 3}, {3, 3}}, Vector{{-3333332.5840244650818, 3333332.250691241549}}}}) {
+    CAPTURE(text);
+    const Metric metric = Metric::dense(W);
+    const Decomposition split = convex::decompose(function(text, 2), z, metric);
+    CHECK(metric.norm(split.x.x - x) <= split.x.error_bound);
+    CHECK(split.x.error_bound <= 1e-12 * metric.norm(x));
+  }
+}
