@@ -80,6 +80,7 @@ std::optional<ExactProgram> of_operation(const Call& call, const ExactArguments&
 }  // namespace
 
 std::optional<ExactProgram> exact_program(const Call& call, const ExactGram& W) {
+  if (call.unrounded) return exact_program(call.unrounded->call, exact_gram(call.unrounded->product));
   const std::size_t n = W.dimension();
   if (auto made = of_set(call, n)) return made;
   if (auto made = of_function(call, n)) return made;

@@ -79,7 +79,7 @@ Prox Function::prox(const Vector& z, const Metric& W, const Look& look) const {
 
 Function Function::conjugate() const { return node_->conjugate(); }
 
-Function Function::conjugate(const Metric& W) const { return in_product(conjugate(), W); }
+Function Function::conjugate(const Metric& W) const { return conjugate_in(*this, W); }
 
 std::optional<Vector> Function::subgradient(const Vector& x) const {
   check(*this, x, "x");

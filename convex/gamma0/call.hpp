@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "convex/invalid_input.hpp"
+#include "convex/metric.hpp"
 #include "convex/vector.hpp"
 
 namespace convex::inline gamma0 {
@@ -15,6 +16,7 @@ namespace convex::inline gamma0 {
 /// A set, function or operation as it is written: name(key=value, …), the language of docs/functions.md. A
 /// function knows the call that makes it again, so that conjugates print as expressions of the same language.
 struct Call;
+struct CallInProduct;
 class FunctionNode;
 
 /// What stands for a parameter: a number (inf allowed), a vector, a matrix, or another call.
@@ -35,6 +37,16 @@ struct Call {
   std::optional<Place> place = {};
   /// The function itself, where a user wrote it and no text makes it again; the name is then for readers.
   std::shared_ptr<const FunctionNode> made = {};
+  /// The same function before its numbers were rounded, where this call, which means one thing in whatever
+  /// space, had to round them. Where a metric is nearly singular their rounding is not small in it: who
+  /// computes without rounding reads this.
+  std::shared_ptr<const CallInProduct> unrounded = {};
+};
+
+/// A call that is meant in the space with the product given.
+struct CallInProduct {
+  Call call;
+  Metric product;
 };
 
 /// An argument by position that is a call itself, and one by name: Call{"ball2", {argument("radius", 2.0)}}.

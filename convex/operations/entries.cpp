@@ -120,7 +120,7 @@ std::vector<CatalogueEntry> operation_entries() {
        "by rule, else Moreau's identity",
        {"conjugate(norm1())", "conjugate(logistic())", "conjugate(sum(norm2(), hinge()))",
         "conjugate(conjugate(huber(0.5)))"},
-       [](const Arguments& a) { return in_product(a.function("f").conjugate(), a.space().product); }},
+       [](const Arguments& a) { return conjugate_in(a.function("f"), a.space().product); }},
       {"envelope",
        operation,
        {{"f", function}, {"gamma", number, "1"}},

@@ -26,9 +26,12 @@ class Envelope : public Operation {
   }
   /// In the plain norm, so that it means the same whatever the product of the space.
   Call call() const override {
-    if (!M_) return {"envelope", {argument(f_.call()), argument("gamma", gamma_)}};
+    const Call in_product{"envelope", {argument(f_.call()), argument("gamma", gamma_)}};
+    if (!M_) return in_product;
     const Call kernel{"quadratic", {argument("Q", Matrix(gram(*M_) / gamma_))}};
-    return {"inf_convolution", {argument(f_.call()), argument(kernel)}};
+    Call plain{"inf_convolution", {argument(f_.call()), argument(kernel)}};
+    plain.unrounded = std::make_shared<const CallInProduct>(in_product, *M_);
+    return plain;
   }
   Value evaluate(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
   std::optional<Vector> subgradient(const Vector& x) const override {

@@ -9,10 +9,12 @@
 namespace convex::inline operations {
 namespace {
 
-/// x -> h(Mx), M definite: one to one, and metrics stay what they are.
+/// x -> h(Mx), M definite: one to one, and metrics stay what they are. f: of which it is the conjugate in the
+/// product of M, where that is known; h may have been rounded.
 class InProduct : public Operation {
  public:
-  InProduct(Function h, Metric M) : h_(std::move(h)), M_(std::move(M)) {}
+  InProduct(Function h, Metric M, std::optional<Function> f)
+      : h_(std::move(h)), M_(std::move(M)), f_(std::move(f)) {}
   const Function& part() const { return h_; }
   const Metric& map() const { return M_; }
 
@@ -22,7 +24,12 @@ class InProduct : public Operation {
     facts.separable = facts.separable && is_diagonal_kind(M_);
     return facts;
   }
-  Call call() const override { return {"precompose", {argument(h_.call()), argument("A", gram(M_))}}; }
+  Call call() const override {
+    Call plain{"precompose", {argument(h_.call()), argument("A", gram(M_))}};
+    if (f_)
+      plain.unrounded = std::make_shared<const CallInProduct>(Call{"conjugate", {argument(f_->call())}}, M_);
+    return plain;
+  }
   Value evaluate(const Vector& x) const override {
     return value_near(h_, image(x), length_of(gram(M_).cwiseAbs() * x.cwiseAbs()));
   }
@@ -87,6 +94,7 @@ class InProduct : public Operation {
 
   Function h_;
   Metric M_;
+  std::optional<Function> f_;
 };
 
 /// The conjugate h*(M⁻¹·) of h(M·), which it keeps. A map that undoes M⁻¹ is then left out together with it:
@@ -95,7 +103,9 @@ class InProduct : public Operation {
 class ConjugateInProduct : public InProduct {
  public:
   ConjugateInProduct(const Function& primal, const InProduct& of)
-      : InProduct(of.part().conjugate(), inverse(of.map())), primal_(primal), undone_by_(of.map()) {}
+      : InProduct(of.part().conjugate(), inverse(of.map()), std::nullopt),
+        primal_(primal),
+        undone_by_(of.map()) {}
   Function conjugate() const override { return primal_; }
   /// The factor with M⁻¹V = factor, when there is one.
   std::optional<double> product(const Metric& V) const { return ratio(V, undone_by_); }
@@ -109,9 +119,7 @@ Function InProduct::conjugate() const {
   return Function(std::make_shared<ConjugateInProduct>(self(), *this));
 }
 
-}  // namespace
-
-Function in_product(const Function& h, const Metric& M) {
+Function in_product(const Function& h, const Metric& M, const std::optional<Function>& f) {
   if (h.dimension() != 0 && h.dimension() != M.dimension())
     throw InvalidInput("conjugate: the metric has " + std::to_string(M.dimension()) +
                        " rows, the function takes " + std::to_string(h.dimension()) +
@@ -119,8 +127,14 @@ Function in_product(const Function& h, const Metric& M) {
   if (M.kind() == MetricKind::identity) return h;
   if (const auto* inner = dynamic_cast<const ConjugateInProduct*>(&h.node()))
     if (const auto factor = inner->product(M))
-      return in_product(inner->part(), times(*factor, Metric::identity(M.dimension())));
-  return Function(std::make_shared<InProduct>(h, M));
+      return in_product(inner->part(), times(*factor, Metric::identity(M.dimension())), std::nullopt);
+  return Function(std::make_shared<InProduct>(h, M, f));
 }
+
+}  // namespace
+
+Function in_product(const Function& h, const Metric& M) { return in_product(h, M, std::nullopt); }
+
+Function conjugate_in(const Function& f, const Metric& M) { return in_product(f.conjugate(), M, f); }
 
 }  // namespace convex::inline operations

@@ -86,6 +86,9 @@ Function computed_conjugate(const Function& f);
 std::optional<Prox> prox_by_program(const Function& f, const Vector& z, const Metric& W,
                                     const Look& look = {});
 
+/// The conjugate of f in the product (x|y) = x·My: f*(My).
+Function conjugate_in(const Function& f, const Metric& M);
+
 /// h(Mx), M the Gram matrix of a metric: with h = f* the conjugate of f in the product (x|y) = x·My.
 Function in_product(const Function& h, const Metric& M);
 

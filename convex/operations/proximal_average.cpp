@@ -38,9 +38,10 @@ class ProximalAverage : public Operation {
   /// In the plain product whatever that of the space, by x = F⁻ᵀ(Fᵀx), M = F Fᵀ: nested in `precompose` it is
   /// plain.
   Call call() const override {
-    if (!M_)
-      return {"proximal_average",
-              {argument(f_.call()), argument(g_.call()), argument("weight", t_), argument("gamma", gamma_)}};
+    const Call in_product{
+        "proximal_average",
+        {argument(f_.call()), argument(g_.call()), argument("weight", t_), argument("gamma", gamma_)}};
+    if (!M_) return in_product;
     const linear_algebra::Cholesky factor(gram(*M_));
     Matrix back = Matrix::Identity(n_, n_);
     factor.solve_upper_in_place(back);
@@ -50,7 +51,9 @@ class ProximalAverage : public Operation {
     const Call average{
         "proximal_average",
         {argument(inside(f_)), argument(inside(g_)), argument("weight", t_), argument("gamma", gamma_)}};
-    return {"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
+    Call plain{"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
+    plain.unrounded = std::make_shared<const CallInProduct>(in_product, *M_);
+    return plain;
   }
   Value evaluate(const Vector& x) const override {
     if (const auto sum = value_by_entries(*this, x)) return *sum;
