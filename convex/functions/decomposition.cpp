@@ -10,6 +10,7 @@
 #include "convex/functions/closed_form.hpp"
 #include "convex/functions/split_search.hpp"
 #include "convex/operations/metric_algebra.hpp"
+#include "convex/operations/takes_product.hpp"
 #include "convex/other_pairs.hpp"
 #include "convex/proved_prox/proved_split.hpp"
 
@@ -46,13 +47,34 @@ Decomposition looked_at(const SplitFunctions& of, const Vector& z, const Metric&
 /// Squares and products of numbers of this size, or of its inverse, leave the range of doubles.
 constexpr double largest_size = 0x1p500;
 
+/// Has a call, or a part of it, numbers that were rounded as it was made?
+bool has_rounded_numbers(const Call& call) {
+  if (call.unrounded) return true;
+  return std::any_of(call.arguments.begin(), call.arguments.end(), [](const NamedArgument& argument) {
+    const auto* nested = std::get_if<std::shared_ptr<const Call>>(&argument.value);
+    return nested && has_rounded_numbers(**nested);
+  });
+}
+
+/// In a full metric that is nearly singular doubles lose digits, and what they tell of how many is an
+/// estimate, or the bound of a function with rounded numbers. Where their bound is more than so many
+/// roundings, or the function is such a one, fractions give the answer if they take at most this part of
+/// `most_word_operations`: no longer than doubles took.
+constexpr double few_roundings = 64, part_beside_doubles = 0.001;
+
+bool may_be_sharpened(const Function& f, const Decomposition& split, const Vector& z, const Metric& W) {
+  return f.facts().piecewise_quadratic && !is_diagonal_kind(W) &&
+         (has_rounded_numbers(f.call()) ||
+          !(split.error_bound <= few_roundings * unit_roundoff * (W.norm(z) + W.norm(split.x.x))));
+}
+
 /// What doubles leave open of a piecewise linear-quadratic f, decided in fractions and rounded; none where
-/// that takes too many word operations, or doubles cannot hold the answer to the tolerance.
+/// that takes more word operations than `most`, or doubles cannot hold the answer to the tolerance.
 std::optional<Decomposition> in_fractions(const Function& f, const Vector& z, const Metric& W,
-                                          double tolerance) {
+                                          double tolerance, double most) {
   if (!f.facts().piecewise_quadratic) return std::nullopt;
-  const SplitQuestion question{f.call(), fractions(z), exact_gram(W)};
-  const auto exact = exact_split_within(question, most_word_operations);
+  const SplitQuestion question{of_plain_product(f.call(), z.size()), fractions(z), exact_gram(W)};
+  const auto exact = exact_split_within(question, most);
   if (!exact) return std::nullopt;
   Decomposition split = rounded(*exact, question);
   const double enough = tolerance * std::max({1.0, W.norm(z), W.norm(split.x.x)});
@@ -94,11 +116,16 @@ Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric
   for (const auto& [look, work] : looks) {
     const WorkLimit question(work);
     Decomposition split = looked_at(of, z, W, tolerance, look);
-    if (split.status == Status::solved) return split;
+    if (split.status == Status::solved) {
+      if (may_be_sharpened(f, split, z, W))
+        if (auto exact = in_fractions(f, z, W, tolerance, part_beside_doubles * most_word_operations))
+          return *std::move(exact);
+      return split;
+    }
     if (!best || split.error_bound < best->error_bound) best = std::move(split);
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it
   }
-  if (auto exact = in_fractions(f, z, W, tolerance)) return *std::move(exact);
+  if (auto exact = in_fractions(f, z, W, tolerance, most_word_operations)) return *std::move(exact);
   if (auto seen = by_cuts(of, *best, z, W, tolerance)) return *std::move(seen);
   return *std::move(best);
 }

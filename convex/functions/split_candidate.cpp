@@ -136,7 +136,8 @@ ChosenValues values_at(const SplitFunctions& of, const Prox& at, double product)
 
 double bound_with_residual(const Decomposition& split) {
   const double x = split.x.error_bound, y = split.y.error_bound;
-  return split.residual <= x + y ? std::max(x, y) : split.residual + std::max(x, y);
+  const double residual = split.residual;
+  return residual <= x + y ? std::max({x, y, residual}) : residual + std::max(x, y);
 }
 
 double SplitCandidate::excess() const {

@@ -38,7 +38,8 @@ struct SplitFunctions {
 };
 
 /// ||x - x*|| and ||y - y*|| are at most this: by their own bounds, and where these add up to less than the
-/// residual ||z - x - y||, so that one of them is wrong, by the other and the residual.
+/// residual ||z - x - y||, so that one of them is wrong, by the other and the residual. No less than the
+/// residual: were one of the points right, it would be the error of the other.
 double bound_with_residual(const Decomposition& split);
 
 /// The right side at x and y themselves.

@@ -6,6 +6,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/quadratic_term.hpp"
+#include "convex/operations/takes_product.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -26,11 +27,12 @@ class Envelope : public Operation {
   }
   /// In the plain norm, so that it means the same whatever the product of the space.
   Call call() const override {
-    const Call in_product{"envelope", {argument(f_.call()), argument("gamma", gamma_)}};
-    if (!M_) return in_product;
+    if (!M_) return {"envelope", {argument(f_.call()), argument("gamma", gamma_)}};
     const Call kernel{"quadratic", {argument("Q", Matrix(gram(*M_) / gamma_))}};
     Call plain{"inf_convolution", {argument(f_.call()), argument(kernel)}};
-    plain.unrounded = std::make_shared<const CallInProduct>(in_product, *M_);
+    const Call of_f = of_plain_product(f_.call(), M_->dimension());
+    plain.unrounded = std::make_shared<const CallInProduct>(
+        Call{"envelope", {argument(of_f), argument("gamma", gamma_)}}, *M_);
     return plain;
   }
   Value evaluate(const Vector& x) const override { return smoothed(f_, kernel(x.size()), x).value; }
@@ -43,6 +45,13 @@ class Envelope : public Operation {
         M_ ? named("quadratic", {argument("Q", Matrix(gamma_ * gram(inverse(*M_))))}, M_->dimension())
            : named("squared_norm2", {argument("weight", gamma_)}, std::max<Index>(f_.dimension(), 1));
     const Function terms[] = {g, square};
+    return proper_sum(terms);
+  }
+  /// The conjugate of f in W and gamma/2 ||y||_W².
+  std::optional<Function> conjugate_in_product(const Metric& W) const override {
+    if (!M_ || is_diagonal_kind(W) || gram(W) != gram(*M_)) return std::nullopt;
+    const Function half_square = named("quadratic", {argument("Q", gram(W))}, W.dimension());
+    const Function terms[] = {conjugate_in(f_, W), scale(half_square, gamma_)};
     return proper_sum(terms);
   }
   double recession(const Vector& d) const override { return f_.node().recession(d); }
@@ -75,9 +84,7 @@ class Envelope : public Operation {
   }
 
  private:
-  Kernel kernel(Index n) const {
-    return {times(1 / gamma_, M_ ? *M_ : Metric::identity(n)), Vector::Zero(n), 0};
-  }
+  Kernel kernel(Index n) const { return {M_ ? *M_ : Metric::identity(n), gamma_, Vector::Zero(n), 0}; }
 
   Function f_;
   double gamma_;

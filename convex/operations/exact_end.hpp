@@ -10,4 +10,7 @@ namespace convex::inline operations {
 /// where that takes too many word operations.
 std::optional<ProgramEnd> exact_end(const Function& f, Index n);
 
+/// f(x) in fractions, rounded once, under the same conditions and where it is finite.
+std::optional<Value> exact_value_at(const Function& f, const Vector& x);
+
 }  // namespace convex::inline operations

@@ -1,9 +1,11 @@
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
+#include "convex/operations/exact_end.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
+#include "convex/operations/takes_product.hpp"
 #include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
@@ -27,10 +29,15 @@ class InProduct : public Operation {
   Call call() const override {
     Call plain{"precompose", {argument(h_.call()), argument("A", gram(M_))}};
     if (f_)
-      plain.unrounded = std::make_shared<const CallInProduct>(Call{"conjugate", {argument(f_->call())}}, M_);
+      plain.unrounded = std::make_shared<const CallInProduct>(
+          Call{"conjugate", {argument(of_plain_product(f_->call(), dimension()))}}, M_);
     return plain;
   }
+  /// Of a conjugate that has been rounded, as a product's inverse is, the map may take each rounding for
+  /// condition(M) of it: fractions know f itself.
   Value evaluate(const Vector& x) const override {
+    if (f_ && !is_diagonal_kind(M_) && facts().piecewise_quadratic)
+      if (const auto exact = exact_value_at(self(), x)) return *exact;
     return value_near(h_, image(x), length_of(gram(M_).cwiseAbs() * x.cwiseAbs()));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
@@ -135,6 +142,10 @@ Function in_product(const Function& h, const Metric& M, const std::optional<Func
 
 Function in_product(const Function& h, const Metric& M) { return in_product(h, M, std::nullopt); }
 
-Function conjugate_in(const Function& f, const Metric& M) { return in_product(f.conjugate(), M, f); }
+Function conjugate_in(const Function& f, const Metric& M) {
+  if (const auto* operation = dynamic_cast<const Operation*>(&f.node()))
+    if (auto g = operation->conjugate_in_product(M)) return *std::move(g);
+  return in_product(f.conjugate(), M, f);
+}
 
 }  // namespace convex::inline operations

@@ -21,6 +21,9 @@ class Operation : public FunctionNode {
   Prox prox(const Vector& z, const Metric& W, const Look& look) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   Function conjugate() const override;
+  /// y -> f*(Wy) by a rule of its own, where one keeps numbers that f* alone has to round: for a function
+  /// made in the product of W its conjugate in that product needs no inverse of W.
+  virtual std::optional<Function> conjugate_in_product(const Metric&) const { return std::nullopt; }
   /// f*(v) where a formula gives it though the conjugate has no expression for any number of entries.
   virtual std::optional<Value> conjugate_value(const Vector&) const { return std::nullopt; }
   /// The prox by another way, for where those by formula and program are not accurate, or the values of f do

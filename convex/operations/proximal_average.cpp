@@ -12,6 +12,7 @@
 #include "convex/operations/operation.hpp"
 #include "convex/operations/operations.hpp"
 #include "convex/operations/supremum.hpp"
+#include "convex/operations/takes_product.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -38,21 +39,22 @@ class ProximalAverage : public Operation {
   /// In the plain product whatever that of the space, by x = F⁻ᵀ(Fᵀx), M = F Fᵀ: nested in `precompose` it is
   /// plain.
   Call call() const override {
-    const Call in_product{
-        "proximal_average",
-        {argument(f_.call()), argument(g_.call()), argument("weight", t_), argument("gamma", gamma_)}};
-    if (!M_) return in_product;
+    const auto of_parts = [&](Call f, Call g) {
+      return Call{"proximal_average",
+                  {argument(std::move(f)), argument(std::move(g)), argument("weight", t_),
+                   argument("gamma", gamma_)}};
+    };
+    if (!M_) return of_parts(f_.call(), g_.call());
     const linear_algebra::Cholesky factor(gram(*M_));
     Matrix back = Matrix::Identity(n_, n_);
     factor.solve_upper_in_place(back);
     const auto inside = [&](const Function& f) {
       return Call{"precompose", {argument(f.call()), argument("A", back)}};
     };
-    const Call average{
-        "proximal_average",
-        {argument(inside(f_)), argument(inside(g_)), argument("weight", t_), argument("gamma", gamma_)}};
+    const Call average = of_parts(inside(f_), inside(g_));
     Call plain{"precompose", {argument(average), argument("A", Matrix(factor.L().transpose()))}};
-    plain.unrounded = std::make_shared<const CallInProduct>(in_product, *M_);
+    plain.unrounded = std::make_shared<const CallInProduct>(
+        of_parts(of_plain_product(f_.call(), n_), of_plain_product(g_.call(), n_)), *M_);
     return plain;
   }
   Value evaluate(const Vector& x) const override {
@@ -79,6 +81,13 @@ class ProximalAverage : public Operation {
   Function conjugate() const override {
     if (!M_) return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_);
     return proximal_average(f_.conjugate(), g_.conjugate(), t_, 1 / gamma_, inverse(*M_));
+  }
+  /// The average of the conjugates in W. Of piecewise linear-quadratic ones fractions know the conjugate of
+  /// this function, and 1/gamma would be rounded in it.
+  std::optional<Function> conjugate_in_product(const Metric& W) const override {
+    if (!M_ || facts().piecewise_quadratic || is_diagonal_kind(W) || gram(W) != gram(*M_))
+      return std::nullopt;
+    return proximal_average(conjugate_in(f_, W), conjugate_in(g_, W), t_, 1 / gamma_, W);
   }
   /// The square keeps p and q together.
   double recession(const Vector& d) const override {

@@ -4,6 +4,7 @@
 
 #include "convex/invalid_input.hpp"
 #include "convex/linear_quadratic/linear_quadratic.hpp"
+#include "convex/linear_quadratic/stationarity.hpp"
 #include "convex/operations/metric_algebra.hpp"
 #include "convex/operations/operation.hpp"
 #include "convex/operations/reduction.hpp"
@@ -54,30 +55,62 @@ Function function_of(const QuadraticTerm& q) {
 std::optional<Kernel> kernel_of(const QuadraticTerm& q) {
   try {
     const bool full = q.Q.nonZeros() > q.Q.size() / dense_above;
-    return Kernel{full && q.Q.rows() > 1 ? Metric::dense(Matrix(q.Q)) : Metric::sparse(q.Q), q.c, q.constant};
+    return Kernel{full && q.Q.rows() > 1 ? Metric::dense(Matrix(q.Q)) : Metric::sparse(q.Q), 1, q.c,
+                  q.constant};
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
 }
+
+namespace {
+
+/// covector - Mb/gamma - c, with M and gamma as they are.
+Vector left_of_slope(const Kernel& q, const DoubleDoubleVector& covector, const Vector& b) {
+  DoubleDoubleVector sum(b.size());
+  for (Index i = 0; i < b.size(); ++i) {
+    const DoubleDouble left = product(add({covector.hi[i], covector.lo[i]}, {-q.c[i], 0}), q.gamma);
+    sum.hi[i] = left.hi, sum.lo[i] = left.lo;
+  }
+  add_product(q.M, DoubleDoubleVector(Vector(-b)), sum);
+  return sum.value() / q.gamma;
+}
+Vector left_of_slope(const Kernel& q, const Vector& covector, const Vector& b) {
+  return left_of_slope(q, DoubleDoubleVector(covector), b);
+}
+
+/// ½||b||_M²/gamma: the products of a nearly singular M cancel.
+Value half_square(const Kernel& q, const Vector& b) {
+  DoubleDoubleVector image(b.size());
+  add_product(q.M, DoubleDoubleVector(b), image);
+  RunningSum sum;
+  for (Index i = 0; i < b.size(); ++i) {
+    sum.add(two_product(image.hi[i], b[i]));
+    sum.add(image.lo[i] * b[i]);
+  }
+  const double value = sum.value() / (2 * q.gamma);
+  return {value, 4 * unit_roundoff * std::abs(value)};
+}
+
+}  // namespace
 
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   const Prox part = f.prox(q.c.isZero(0) ? x : Vector(x + q.Q.solve(q.c)), q.Q, Look{});
   if (part.x.size() != x.size())
     throw InvalidInput(f.call().name + ": no point has it finite; give a proper function");
   const Vector b = x - part.x;
-  const Vector slope = q.Q.multiply(b);
-  const double square = 0.5 * b.dot(slope), linear = q.c.dot(b);
-  const double size = square + q.c.cwiseAbs().dot(b.cwiseAbs()) + std::abs(q.constant);
-  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is slope·e where f is smooth
-  // there.
-  const Value rest{square + linear + q.constant,
-                   8 * unit_roundoff * size + part.error_bound * part.error_bound};
+  const Value square = half_square(q, b);
+  const double linear = q.c.dot(b);
+  const double size = square.value + q.c.cwiseAbs().dot(b.cwiseAbs()) + std::abs(q.constant);
   // The prox's own covector is the slope too, and right where x - w is nothing beside x.
   const bool own = part.v.size() == x.size() && part.v.allFinite();
+  const Vector slope = own ? part.v : Vector(q.Q.multiply(b) + q.c);
+  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is slope·e where f is smooth
+  // there.
+  const double off = part.error_bound + q.Q.dual_norm(left_of_slope(q, slope, b));
+  const Value rest{square.value + linear + q.constant, 8 * unit_roundoff * size + off * off};
   constexpr double roundings_of_the_point = 4;
   const double of_point = roundings_of_the_point * unit_roundoff * (q.Q.norm(x) + q.Q.dual_norm(q.c));
-  return {part.x, own ? part.v : Vector(slope + q.c), sum_of(f.evaluate(part.x), rest),
-          part.error_bound + of_point};
+  return {part.x, slope, sum_of(f.evaluate(part.x), rest), off + of_point};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {
@@ -88,10 +121,15 @@ Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Me
     const Prox part = f.prox(point, P, look);
     if (part.x.size() == 0) return part;
     const Vector& a = part.x;
-    const Vector b = V.solve(metric_difference(W, z, a) - q.c);
+    Vector b = V.solve(metric_difference(W, z, a) - q.c);
+    DoubleDoubleVector rest(z.size());  // W(z - a - b)
+    add_metric_difference(W, z, a, rest);
+    add_product(W, DoubleDoubleVector(Vector(-b)), rest);
+    b += V.solve(left_of_slope(q, rest, b));
     // The kernel q takes its own slope Qb + c, where q*(Qb + c) = ½ b·Qb - q(0).
-    const Value square = multiple_of(0.5, product(b, q.Q.multiply(b)));
-    return with_values(moved(part, a + b, part.v, part.error_bound, z, W, P), part.values,
+    const Value square = half_square(q, b);
+    const double off = q.Q.dual_norm(left_of_slope(q, part.v, b));
+    return with_values(moved(part, a + b, part.v, part.error_bound + off, z, W, P), part.values,
                        sum_of(sum_of(square, product(q.c, b)), {q.constant, 0}),
                        sum_of(square, {-q.constant, 0}));
   };

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/functions/function.hpp"
+#include "convex/operations/metric_algebra.hpp"
 
 /// Quadratic functions among the terms of a sum or an inf-convolution, and what they do to the other terms.
 namespace convex::inline operations {
@@ -26,11 +27,13 @@ Vector slope_at(const QuadraticTerm& q, const Vector& x, const Vector& v);
 /// The quadratic term as a function of the catalogue.
 Function function_of(const QuadraticTerm& q);
 
-/// q(b) = ½||b||_Q² + c·b + constant with Q definite: the kernel of a smoothing f □ q.
+/// q(b) = ½||b||_M²/gamma + c·b + constant with M definite: the kernel of a smoothing f □ q.
 struct Kernel {
-  Metric Q;
+  Metric M;
+  double gamma = 1;
   Vector c;
   double constant = 0;
+  Metric Q = times(1 / gamma, M);  ///< M/gamma, as doubles have it: what is formed with it is corrected by M
 };
 
 /// None when Q is not positive definite to working precision.
@@ -47,7 +50,9 @@ struct Smoothed {
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 
 /// prox^W z of f □ q. With z = a + b + W⁻¹v, v in ∂f(a), v = Qb + c: a is the prox of f at z + Q⁻¹c in the
-/// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c).
+/// parallel sum of W and Q, and b = (W + Q)⁻¹(W(z - a) - c). What rounding leaves of r = W(x - z) + v and of
+/// s = v - Qb - c is in the bound: ∂f is monotone, so that ||x - x*||_W² + ||b - b*||_Q² is at most
+/// s·(b - b*) - r·(x - x*).
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look);
 
 }  // namespace convex::inline operations

@@ -16,4 +16,10 @@ bool takes_product(const Call& call) {
   return false;
 }
 
+Call of_plain_product(Call call, Index n) {
+  if (!call.unrounded && takes_product(call))
+    call.unrounded = std::make_shared<const CallInProduct>(call, Metric::identity(n));
+  return call;
+}
+
 }  // namespace convex::inline operations

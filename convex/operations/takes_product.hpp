@@ -10,4 +10,8 @@ namespace convex::inline operations {
 /// of the same call in the space with W/gamma.
 bool takes_product(const Call& call);
 
+/// The call of a function on n entries in the plain product, to be read in the space with any: before
+/// rounding it is that call in the plain product, where it takes one.
+Call of_plain_product(Call call, Index n);
+
 }  // namespace convex::inline operations
