@@ -89,8 +89,8 @@ GraphForm inf_convolution(const GraphForm& f, const GraphForm& g) {
   return least;
 }
 
-GraphForm envelope(const GraphForm& f, const Metric& W) {
-  const GraphForm square{f.n, 0, {quadratic_term(identity(f.n), sparse_gram(W), 1)}, 0};
+GraphForm envelope(const GraphForm& f, const Metric& W, double gamma) {
+  const GraphForm square{f.n, 0, {quadratic_term(identity(f.n), sparse_gram(W), 1 / gamma)}, 0};
   return inf_convolution(square, f);
 }
 

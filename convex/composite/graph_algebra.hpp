@@ -24,8 +24,8 @@ GraphForm add_quadratic(GraphForm f, const Matrix& Q, const Vector& c, double co
 GraphForm blocks(std::span<const GraphForm> f);
 /// inf over w of f(x - w) + g(w).
 GraphForm inf_convolution(const GraphForm& f, const GraphForm& g);
-/// inf over w of f(w) + ½||x - w||_W².
-GraphForm envelope(const GraphForm& f, const Metric& W);
+/// inf over w of f(w) + ½||x - w||_W² / gamma, W and gamma kept apart.
+GraphForm envelope(const GraphForm& f, const Metric& W, double gamma = 1);
 /// max_i f_i(x) = min {t : (x, t) in every epigraph}, by epigraphs of the atoms. `slope`: of the size of a
 /// subgradient where the form is used; heights are measured in it, so that x and t are of one size there.
 GraphForm pointwise_max(std::span<const GraphForm> f, double slope = 1);

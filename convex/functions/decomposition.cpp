@@ -56,16 +56,32 @@ bool has_rounded_numbers(const Call& call) {
   });
 }
 
+/// trace(W) / λ_min(W) at least: a matrix whose entries are right to a rounding u is right to u times this,
+/// as a part of W; its inverse to u times the square.
+double condition_above(const Metric& W) { return W.diagonal().sum() / least_eigenvalue_below(gram(W)); }
+
 /// In a full metric that is nearly singular doubles lose digits, and what they tell of how many is an
-/// estimate, or the bound of a function with rounded numbers. Where their bound is more than so many
-/// roundings, or the function is such a one, fractions give the answer if they take at most this part of
-/// `most_word_operations`: no longer than doubles took.
+/// estimate, or the bound of a function whose numbers were rounded. Where their bound is more than so many
+/// roundings, or does not hold what such numbers may do, fractions give the answer if they take at most this
+/// part of `most_word_operations`, some hundredths of a second.
 constexpr double few_roundings = 64, part_beside_doubles = 0.001;
 
 bool may_be_sharpened(const Function& f, const Decomposition& split, const Vector& z, const Metric& W) {
-  return f.facts().piecewise_quadratic && !is_diagonal_kind(W) &&
-         (has_rounded_numbers(f.call()) ||
-          !(split.error_bound <= few_roundings * unit_roundoff * (W.norm(z) + W.norm(split.x.x))));
+  if (!f.facts().piecewise_quadratic || is_diagonal_kind(W)) return false;
+  const double rounding = unit_roundoff * (W.norm(z) + W.norm(split.x.x)), condition = condition_above(W);
+  return !(split.error_bound <= few_roundings * rounding) ||
+         (has_rounded_numbers(f.call()) && !(condition * condition * rounding <= split.error_bound));
+}
+
+/// The bounds with what rounded numbers of f, which its quadratic program has, do in a full metric.
+void count_rounded_numbers(const Function& f, const Vector& z, const Metric& W, double tolerance,
+                           Decomposition& split) {
+  if (!f.facts().piecewise_quadratic || is_diagonal_kind(W) || !has_rounded_numbers(f.call())) return;
+  const double size = std::max({1.0, W.norm(z), W.norm(split.x.x)});
+  const double rounding = unit_roundoff * condition_above(W) * (W.norm(z) + W.norm(split.x.x));
+  for (double* bound : {&split.error_bound, &split.x.error_bound, &split.y.error_bound}) *bound += rounding;
+  if (split.status == Status::solved && !(split.error_bound <= tolerance * size))
+    split.status = Status::inaccurate;
 }
 
 /// What doubles leave open of a piecewise linear-quadratic f, decided in fractions and rounded; none where
@@ -120,7 +136,8 @@ Decomposition looked_at_in_turn(const Function& f, const Vector& z, const Metric
       if (may_be_sharpened(f, split, z, W))
         if (auto exact = in_fractions(f, z, W, tolerance, part_beside_doubles * most_word_operations))
           return *std::move(exact);
-      return split;
+      count_rounded_numbers(f, z, W, tolerance, split);
+      if (split.status == Status::solved) return split;
     }
     if (!best || split.error_bound < best->error_bound) best = std::move(split);
     if (f.facts().piecewise_quadratic) break;  // no saddle problem is in it

@@ -21,11 +21,12 @@ struct Decomposition {
   double inner = 0;        ///< (x|y) = x·Wy; f(x) + g(y), which it equals, where its terms cancel more
   double fenchel_gap = 0;  ///< f(x) + g(y) - (x|y), >= 0 but for rounding (Fenchel 1949)
   double residual = 0;     ///< ||z - x - y||_W
-  /// ||x - x*||_W and ||y - y*||_W are at most this: the larger of the two proxes' own bounds; where these do
-  /// not explain the residual, for it is more than their sum, the other point's error as the residual tells
-  /// it, whichever of the two bounds holds; and where the right side above is too large, the root of twice
-  /// what it is at most. A point that rounding left outside the domain was moved into it, by as
-  /// much more. Where the values prove more than the proxes know of themselves, it is what they prove.
+  /// ||x - x*||_W and ||y - y*||_W are at most this: the larger of the two proxes' own bounds and the
+  /// residual; where the bounds do not explain the residual, for it is more than their sum, the other point's
+  /// error as the residual tells it, whichever of the two bounds holds; and where the right side above is too
+  /// large, the root of twice what it is at most. A point that rounding left outside the domain was moved
+  /// into it, by as much more. Where the values prove more than the proxes know of themselves, it is what
+  /// they prove.
   double error_bound = 0;
   /// `solved`: the error bound is at most tolerance * max(1, ||z||_W, ||x||_W), f(x) and g(y) are known and
   /// add up to (x|y) within tolerance * max(|f(x)|, |g(y)|, |(x|y)|, 1e-3), and the right side above agrees

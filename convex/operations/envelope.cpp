@@ -70,7 +70,7 @@ class Envelope : public Operation {
   std::optional<GraphForm> graph(Index n, double slope) const override {
     const auto form = f_.node().graph(n, slope);
     if (!form) return std::nullopt;
-    return convex::envelope(*form, kernel(n).Q);
+    return convex::envelope(*form, M_ ? *M_ : Metric::identity(n), gamma_);
   }
 
  protected:

@@ -98,7 +98,7 @@ TEST_CASE("the value of a conjugate of an average with a far step is right to it
   const Function f =
       samples::function("proximal_average(ball2(0.12171965027135051),norm1(0.228),0.3,1000001)", W);
   const convex::Value value = f.conjugate(W).evaluate(Vector{{2, -3.615}});
-  // Known with 20 digits from another program; 2545351.294893883 is the double next to it.
+  // Known with 20 digits from another program.
   CHECK(std::abs(value.value - 2545351.29489388384807622) <= value.error);
 }
 
