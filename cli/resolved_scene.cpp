@@ -47,6 +47,19 @@ std::optional<convex::ExactProblem> numbers_as_written(const Scene& scene) {
   return mechanics::fractions_from_text(*scene.written->system, scene.written->text, scene.contacts);
 }
 
+/// Whether the answer is now the exact one of the numbers as written.
+bool is_decided_by_text(mechanics::GaussSolution& solution, const Scene& scene,
+                        const mechanics::GaussOptions& options, std::string_view why) {
+  try {
+    const auto data = numbers_as_written(scene);
+    return data && mechanics::solve_on_exact_data(solution, *data, scene.problem, options, why);
+  } catch (const convex::InvalidInput&) {
+    // What is said beside the answer, in doubles, has no place for such numbers.
+    if (!scene.written && !scene.exact.are_doubles) throw;
+    return false;
+  }
+}
+
 }  // namespace
 
 mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::GaussOptions& options) {
@@ -54,14 +67,7 @@ mechanics::GaussSolution solve_plainly(const Scene& scene, const mechanics::Gaus
   // Rows that were added are not in the text.
   if (!as_written) return mechanics::solve(scene.problem, options);
   if (const std::string_view why = why_not_in_doubles(scene); is_default(options) && !why.empty()) {
-    mechanics::GaussSolution exact;
-    try {
-      if (const auto data = numbers_as_written(scene))
-        if (mechanics::solve_on_exact_data(exact, *data, scene.problem, options, why)) return exact;
-    } catch (const convex::InvalidInput&) {
-      // What is said beside the answer, in doubles, has no place for such numbers.
-      if (!scene.written && !scene.exact.are_doubles) throw;
-    }
+    if (mechanics::GaussSolution exact; is_decided_by_text(exact, scene, options, why)) return exact;
   }
   mechanics::GaussSolution found = mechanics::solve(scene.problem, options);
   if (!scene.written)  // of a mechanism z is rounded, too, and it is asked where that is known
@@ -175,9 +181,8 @@ std::optional<double> settle_evaluation_error(const Scene& scene, mechanics::Gau
   const std::optional<double> as_evaluated = count_evaluation_error(scene, solution);
   if (!was_solved || solution.primal.status == convex::Status::solved) return as_evaluated;
   if (!is_default(scene.solve) || !scene.added.empty()) return as_evaluated;
-  const auto data = numbers_as_written(scene);
-  const bool is_decided = data && mechanics::solve_on_exact_data(solution, *data, scene.problem, scene.solve,
-                                                                 convex::open_question::conditioning);
+  const bool is_decided =
+      is_decided_by_text(solution, scene, scene.solve, convex::open_question::conditioning);
   return is_decided ? std::nullopt : as_evaluated;
 }
 

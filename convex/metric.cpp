@@ -283,7 +283,7 @@ double Metric::norm(const Vector& x) const {
     return 0.0;
   };
   const double plain = plain_norm(x);
-  if (has_squares(plain) || x.size() == 0) return plain;
+  if (has_squares(plain) || x.isZero(0)) return plain;
   const double size = x.cwiseAbs().maxCoeff();
   return size > 0 && std::isfinite(size) ? size * plain_norm(x / size) : plain;
 }

@@ -6,7 +6,6 @@
 #include "convex/invalid_input.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
-#include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "mechanics/touching_contacts.hpp"
 #include "mechanics/units.hpp"
@@ -86,11 +85,8 @@ void refute(convex::Solution& primal, std::string_view open) {
 void judge_open_answer(convex::Solution& primal, const convex::NearestPointProblem& problem,
                        const convex::Accuracy& accuracy) {
   if (problem.radii || primal.status != convex::Status::solved || is_decided_in_fractions(primal)) return;
-  // What rows have to do with each other is no question of an answer without a gap.
-  double bound = convex::bound_by_gap(problem, primal);
-  if (!(bound <= accuracy.tolerance * std::max(1.0, primal.acceleration_norm)))
-    bound = std::min(bound, convex::enclosed_error(problem, primal).value_or(convex::infinity));
-  primal.error_bound = std::max(primal.error_bound, bound);
+  primal.error_bound =
+      std::max(primal.error_bound, convex::bound_proved_in_doubles(problem, primal, accuracy));
   if (!primal.is_within(accuracy)) primal.status = convex::Status::inaccurate;
 }
 

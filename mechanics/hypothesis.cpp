@@ -116,8 +116,11 @@ Hypothesis hypothesis(const NearestPointProblem& problem, const Solution& truth,
     return rows;
   };
   found.negative = below(least);
-  // Where a contact opens some multiplier is below 0, of whatever size.
-  if (found.negative.empty() && set.unique && !persist(all)) found.negative = below(0);
+  // Where a contact opens some multiplier is below 0, of whatever size: that of one which opens.
+  if (found.negative.empty() && set.unique && !persist(all)) {
+    found.negative = below(0);
+    std::erase_if(found.negative, [&](Index a) { return !opens[static_cast<std::size_t>(a)]; });
+  }
   std::vector<Index> kept;
   std::set_difference(all.begin(), all.end(), found.negative.begin(), found.negative.end(),
                       std::back_inserter(kept));

@@ -56,9 +56,12 @@ bool has_rounded_numbers(const Call& call) {
   });
 }
 
-/// trace(W) / λ_min(W) at least: a matrix whose entries are right to a rounding u is right to u times this,
-/// as a part of W; its inverse to u times the square.
-double condition_above(const Metric& W) { return W.diagonal().sum() / least_eigenvalue_below(gram(W)); }
+/// What rounded numbers may do in W, as a part: with k >= trace(W) / λ_min(W), a matrix whose entries are
+/// right to a rounding u is right to u k, as a part of W, and its inverse to u k².
+double rounding_of_numbers(const Metric& W) {
+  const double condition = W.diagonal().sum() / least_eigenvalue_below(gram(W));
+  return unit_roundoff * condition * condition;
+}
 
 /// In a full metric that is nearly singular doubles lose digits, and what they tell of how many is an
 /// estimate, or the bound of a function whose numbers were rounded. Where their bound is more than so many
@@ -68,9 +71,9 @@ constexpr double few_roundings = 64, part_beside_doubles = 0.001;
 
 bool may_be_sharpened(const Function& f, const Decomposition& split, const Vector& z, const Metric& W) {
   if (!f.facts().piecewise_quadratic || is_diagonal_kind(W)) return false;
-  const double rounding = unit_roundoff * (W.norm(z) + W.norm(split.x.x)), condition = condition_above(W);
-  return !(split.error_bound <= few_roundings * rounding) ||
-         (has_rounded_numbers(f.call()) && !(condition * condition * rounding <= split.error_bound));
+  const double size = W.norm(z) + W.norm(split.x.x);
+  return !(split.error_bound <= few_roundings * unit_roundoff * size) ||
+         (has_rounded_numbers(f.call()) && !(rounding_of_numbers(W) * size <= split.error_bound));
 }
 
 /// The bounds with what rounded numbers of f, which its quadratic program has, do in a full metric.
@@ -78,7 +81,7 @@ void count_rounded_numbers(const Function& f, const Vector& z, const Metric& W, 
                            Decomposition& split) {
   if (!f.facts().piecewise_quadratic || is_diagonal_kind(W) || !has_rounded_numbers(f.call())) return;
   const double size = std::max({1.0, W.norm(z), W.norm(split.x.x)});
-  const double rounding = unit_roundoff * condition_above(W) * (W.norm(z) + W.norm(split.x.x));
+  const double rounding = rounding_of_numbers(W) * (W.norm(z) + W.norm(split.x.x));
   for (double* bound : {&split.error_bound, &split.x.error_bound, &split.y.error_bound}) *bound += rounding;
   if (split.status == Status::solved && !(split.error_bound <= tolerance * size))
     split.status = Status::inaccurate;

@@ -5,6 +5,7 @@
 #include "convex/composite/metric_difference.hpp"
 #include "convex/double_double.hpp"
 #include "convex/functions/closed_form.hpp"
+#include "convex/infinity.hpp"
 #include "convex/operations/operation.hpp"
 
 namespace convex::inline operations {
@@ -106,7 +107,8 @@ Prox image_prox(const Function& f, const Matrix& A, const Vector& b, const Image
   constexpr double roundings_of_inverse = 8;
   const double off = roundings_of_inverse * static_cast<double>(A.rows()) * unit_roundoff * image.condition *
                      image.condition;
-  const double bound = (part.error_bound + best.missed) / (1 - std::min(off, slow));
+  constexpr double most_off = 0.5;  // beyond, S may be another matrix
+  const double bound = off < most_off ? (part.error_bound + best.missed) / (1 - off) : infinity;
   const Vector own = A.transpose() * part.v;
   // The part's own covector proves more than what y - u gives, where its rounding leaves it as near.
   const bool is_near = W.dual_norm(stationarity(z, W, best.x.hi, own)) <= bound;

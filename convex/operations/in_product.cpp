@@ -114,6 +114,12 @@ class ConjugateInProduct : public InProduct {
         primal_(primal),
         undone_by_(of.map()) {}
   Function conjugate() const override { return primal_; }
+  Call call() const override {
+    Call plain = InProduct::call();
+    plain.unrounded = std::make_shared<const CallInProduct>(Call{"conjugate", {argument(primal_.call())}},
+                                                            Metric::identity(dimension()));
+    return plain;
+  }
   /// The factor with M⁻¹V = factor, when there is one.
   std::optional<double> product(const Metric& V) const { return ratio(V, undone_by_); }
 

@@ -105,9 +105,10 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   const bool own = part.v.size() == x.size() && part.v.allFinite();
   const Vector slope = own ? part.v : Vector(q.Q.multiply(b) + q.c);
   // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is slope·e where f is smooth
-  // there.
+  // there. What x - w rounds is not made good by f.
   const double off = part.error_bound + q.Q.dual_norm(left_of_slope(q, slope, b));
-  const Value rest{square.value + linear + q.constant, 8 * unit_roundoff * size + off * off};
+  const double of_difference = unit_roundoff * slope.cwiseAbs().dot(b.cwiseAbs());
+  const Value rest{square.value + linear + q.constant, 8 * unit_roundoff * size + of_difference + off * off};
   constexpr double roundings_of_the_point = 4;
   const double of_point = roundings_of_the_point * unit_roundoff * (q.Q.norm(x) + q.Q.dual_norm(q.c));
   return {part.x, slope, sum_of(f.evaluate(part.x), rest), off + of_point};

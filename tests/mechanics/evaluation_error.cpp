@@ -63,6 +63,9 @@ TEST_CASE("the bound counts what the rounding of A moves, whichever coordinates 
                         da = static_cast<long double>(q[q.size() - 1]) - a;
       const long double off = std::sqrt(eps * (dx * dx + da * da) + 4 * (dx + da) * (dx + da));
       CHECK(found.primal.error_bound >= static_cast<double>(off) * (1 - 1e-9));
+      // Half a rounding of 4 beside e, a few times over.
+      CHECK(found.primal.error_bound <=
+            1e-14 * static_cast<double>(1 / eps) * found.primal.acceleration_norm);
       if (found.primal.status == Status::solved)
         CHECK(off <= 1e-9L * std::max(1.0L, static_cast<long double>(found.primal.acceleration_norm)));
     }

@@ -6,16 +6,18 @@
 
 namespace convex::inline multiplier_sets {
 
+/// What errors of equations amount to, as far as corners were looked at.
+struct LargestMove {
+  double of_point = 0;
+  Vector of_multipliers;  ///< |W|: the largest |dlambda| of the corners looked at
+};
+
 /// How far the point of the rows W = `held` moves, max ||dq||_A over |r1| <= balance and |r2| <= rows entry
 /// by entry, where A dq - U_Wᵀ dlambda = r1 and U_W dq = r2: what errors of that size in z + U_Wᵀlambda - A q
 /// and s_W - U_W q amount to. The maximum of a convex function over a box lies at a corner; corners are
 /// climbed by the signs of the gradient, as in estimates of condition numbers (Higham 2002, section 15.2). An
 /// estimate from below, rarely off by more than a small factor. balance: n; rows: |W|. Infinite where a
 /// radius or the answer is.
-struct LargestMove {
-  double of_point = 0;
-  Vector of_multipliers;  ///< |W|: the largest |dlambda| of the corners looked at
-};
 LargestMove largest_move(const NearestPointProblem&, const std::vector<Index>& held, const Vector& balance,
                          const Vector& rows);
 

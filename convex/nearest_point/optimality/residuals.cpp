@@ -75,8 +75,18 @@ bool violates_beyond_bound(const Solution& found) {
 
 double bound_by_gap(const NearestPointProblem& problem, const Solution& judged) {
   if (judged.residuals.feasibility != 0 || judged.slack.size() != problem.rows()) return infinity;
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (judged.lambda[a] < 0 && !problem.is_two_sided(a)) return infinity;
+  const std::vector<bool> two_sided = marked(problem.rows(), problem.two_sided);
+  const DoubleDoubleVector q(judged.q);
+  const Vector magnitude = judged.q.cwiseAbs();
+  for (Index a = 0; a < problem.rows(); ++a) {
+    const bool is_equation = two_sided[static_cast<std::size_t>(a)];
+    if (judged.lambda[a] < 0 && !is_equation) return infinity;
+    // A relative residual may be 0 where its scale is no double.
+    const double far = near_zero * (std::abs(problem.s[a]) + problem.U.absolute_dot(a, magnitude));
+    if (!is_equation && judged.slack[a] > far) continue;
+    const double rest = slack(problem, a, q).value();
+    if (is_equation ? rest != 0 : !(rest >= 0)) return infinity;
+  }
   const double scale = std::max(judged.acceleration_norm, judged.force_norm);
   return (std::sqrt(2.0) * judged.residuals.duality_gap + unit_roundoff) * scale;
 }

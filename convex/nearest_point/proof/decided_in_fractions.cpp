@@ -89,14 +89,20 @@ Solution decided_in_fractions(const NearestPointProblem& problem, Solution open,
   return found ? *std::move(found) : left_open(std::move(open));
 }
 
+double bound_proved_in_doubles(const NearestPointProblem& problem, const Solution& found,
+                               const Accuracy& accuracy) {
+  const double by_gap = bound_by_gap(problem, found);
+  if (by_gap <= accuracy.tolerance * std::max(1.0, found.acceleration_norm)) return by_gap;
+  return std::min(by_gap, enclosed_error(problem, found).value_or(infinity));
+}
+
 Solution bounded_where_decided(const NearestPointProblem& problem, Solution found, const Accuracy& accuracy) {
   const bool is_open =
       found.undecided == open_question::dependence || found.undecided == open_question::contradiction;
   if (!is_open || problem.radii || found.status != Status::inaccurate) return found;
   found.error_bound = infinity;
   if (!(accuracy.limit > 0) || found.q.size() != problem.dimension()) return found;
-  found.error_bound = bound_by_gap(problem, found);
-  if (!found.is_within(accuracy)) found.error_bound = enclosed_error(problem, found).value_or(infinity);
+  found.error_bound = bound_proved_in_doubles(problem, found, accuracy);
   if (!found.is_within(accuracy)) return found;
   found.status = Status::solved;
   found.undecided = {};

@@ -22,6 +22,10 @@ inline constexpr std::string_view range = "numbers whose squares are beyond them
 /// accuracy.limit times `most_word_operations`, the answer is given back as it is, not solved.
 Solution decided_in_fractions(const NearestPointProblem&, Solution open, const Accuracy&);
 
+/// A bound of ||q - q*||_A that is proved whatever rows have to do with each other: by the duality gap, and
+/// where that is not within the accuracy, by an enclosure. Infinite where neither is.
+double bound_proved_in_doubles(const NearestPointProblem&, const Solution&, const Accuracy&);
+
 /// The answer for a user. A row that is a sum of those held but for rounding, and not kept, may take the
 /// point any distance: where that is open, nothing bounds the error but a proof in doubles, of a gap or of
 /// the point enclosed, after which it is solved. Programs that make rows of their own, and count them as

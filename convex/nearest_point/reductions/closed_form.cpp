@@ -46,6 +46,7 @@ class ClosedForm {
     const double scale = std::max(free_norm_, held ? std::abs(problem_.s[0]) / length() : 0.0);
     double previous = scale;
     const double of_A = problem_.A.factor_condition(), of_pull = pull_rounding(of_A, 1);
+    // As in refinement.cpp: residuals are rounded once, their terms in twice the precision.
     const double of_residuals = 8 * unit_roundoff * unit_roundoff * of_A * scale;
     double contraction = std::min(slowest_contraction / 2, expected_contraction(of_A, 1, false));
     for (int k = 0; k < most_corrections; ++k) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "convex/infinity.hpp"
 #include "convex/nearest_point/isotonic/peeling.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
@@ -245,14 +246,15 @@ class SparseActiveSet {
     solution.error_bound = unit * (2 * point_.remaining() + point_.silenced) + solution.rounding +
                            unit * (point_.rest * point_.contraction + doubtful_) * inverse_norm *
                                std::sqrt(static_cast<double>(rows_.size() + 1));
-    if (const double by_gap = bound_by_gap(problem_, solution); by_gap < solution.error_bound) {
-      solution.error_bound = by_gap;
-      // Then what rows say of each other is no question of q.
-      if (solution.is_within(accuracy_)) silence_ = doubtful_ = 0;
-    }
+    const bool is_open = silence_ > 0 || doubtful_ > 0 || !solution.is_within(accuracy_);
+    const double by_gap = is_open ? bound_by_gap(problem_, solution) : infinity;
+    const bool is_sure = by_gap < solution.error_bound;  // whatever rows have to do with each other
+    if (is_sure) solution.error_bound = by_gap;
     solution.status = solution.is_within(accuracy_) ? Status::solved : Status::inaccurate;
     // Rows held that contradict each other by rounding: as the numbers stand there may be no such point.
-    if (!problem_.radii && (silence_ > 0 || doubtful_ > 0)) solution.undecided = open_question::dependence;
+    const bool is_settled = is_sure && solution.status == Status::solved;
+    if (!problem_.radii && !is_settled && (silence_ > 0 || doubtful_ > 0))
+      solution.undecided = open_question::dependence;
     if (solution.undecided.empty())
       solution.undecided = decide_tight_rows({problem_, scaled_, system_, rows_, touched_}, point_.q, weight_,
                                              accuracy_.limit, slack_);
