@@ -126,10 +126,12 @@ class PerspectiveAtom final : public Atom {
       const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Matrix J = f_->prox_jacobian(q / mu, step);
-      // Far out on a flat part the difference q - mu p is all rounding, where a formula is not.
-      const std::optional<Vector> own = f_->prox_covector(p, q / mu, step);
-      const Vector v = own ? *own : Vector(q - mu * p);
-      return {square * (f_->value(p) - p.dot(v)) + mu - s, 1 + square * std::max(0.0, p.dot(p - J * p))};
+      // Far out on a flat part the difference q - mu p is all rounding, where a formula, or a gradient, is not.
+      const double moved = std::max(0.0, p.dot(p - J * p));
+      std::optional<Vector> v = f_->prox_covector(p, q / mu, step);
+      if (!v && f_->facts().smooth && moved < 0.5 * p.squaredNorm()) v = f_->subgradient(p);
+      if (!v || !v->allFinite()) v = q - mu * p;
+      return {square * (f_->value(p) - p.dot(*v)) + mu - s, 1 + square * moved};
     };
     return std::max(monotone_root(excess, s > 0 ? s : size > 0 ? size : 1, least), least);
   }

@@ -50,7 +50,10 @@ class Ball2 : public ConvexSet {
     if (center_.size() == 0) return sum_of_terms(along, along);
     const double plain = along + center_.dot(v), sizes = along + center_.cwiseAbs().dot(v.cwiseAbs());
     const double roundings = static_cast<double>(v.size());
-    if (v.size() == 1 && length == 1) return sum_of_terms(plain, std::abs(plain));  // one sum, no product
+    if (length == 1 && v.lpNorm<1>() == 1) {  // along an axis it is one sum, whose rounding is a double
+      const DoubleDouble sum = two_sum(radius_, center_.dot(v));
+      return {sum.hi, std::abs(sum.lo)};
+    }
     if (!is_squared_in_range(length)) return sum_of_terms(plain, roundings * sizes);
     RunningSum square, sum;
     for (double e : v) square.add(two_product(e, e));

@@ -115,12 +115,15 @@ class ScalarSum : public Atom {
  private:
   static constexpr double roundings_of_x = 4, roundings_of_a_term = 4;
 
-  /// Entries of both signs may cancel: the rounding is relative to their sizes.
+  /// Entries of both signs may cancel: the rounding is relative to their sizes. Where an entry is off the
+  /// domain for sure, what others near its edge leave open does not count.
   Value sum_of_entries(const Vector& x) const {
     const double allowance = membership_tolerance * x.cwiseAbs().maxCoeff();
     double sum = 0, size = 0, doubt = 0;
     for (Index i = 0; i < x.size(); ++i) {
       const double at = inside(x[i], allowance, i), part = law_.value(at, i);
+      if (const auto [low, high] = law_.domain(i); at == x[i] && (at < low || at > high))
+        return {std::numeric_limits<double>::infinity(), 0};
       sum += part;
       if constexpr (requires { law_.terms(at, i); })
         size += law_.terms(at, i);

@@ -190,7 +190,9 @@ TEST_CASE("domains whose closures touch without a common point, and round sets a
         {"inf_convolution(log_barrier(), logistic())", 1},
         {"indicator(intersection(affine([[0,-3],[1,-3]], [0,0]), ball2(1, [2,2])))", 2},
         {"indicator(intersection(simplex(1024), ball2(1)))", 4},
-        {"sum(conjugate(inverse_power(1)), indicator(ball2(1, [1,1])))", 2}}) {
+        {"sum(conjugate(inverse_power(1)), indicator(ball2(1, [1,1])))", 2},
+        {"sum(tilt(indicator(ball2(1, [1,-1])), [-3,0]), log_barrier())", 2},
+        {"pointwise_max(indicator(ball2(1, [2,3,-1])), inverse_power(0.5))", 3}}) {
     CAPTURE(text);
     CHECK_THROWS_AS(samples::function(text, n), convex::InvalidInput);
   }

@@ -242,3 +242,22 @@ TEST_CASE("the point of a ball nearest to one far away keeps its digits where th
   CHECK(x[0] == doctest::Approx(1 / (3e8 + 2)).epsilon(1e-15));
   CHECK(x[1] == doctest::Approx(-x[0] * x[0] / 2).epsilon(1e-15));
 }
+
+TEST_CASE(
+    "the prox of a perspective keeps its digits where W (z - x) is a small difference of large numbers") {
+  // x solves W (x - z) + grad f(x) = 0, found in sixty digits.
+  const Vector z{{-4065621.848872933, 4e12, 3.75e8}},
+      expected{{-3818374.583918947, 3999999998712.2356, 388266965.49357769}};
+  const Metric W = Metric::diagonal(Vector{{0.5, 32, 16}});
+  const char* const alone = "perspective(quadratic([[36,-12],[-12,4]],[3,-0.418],0.125))";
+  const char* const larger =
+      "perspective(pointwise_max(linear([1,0.02698376892532197]),quadratic([[36,-12],[-12,4]],[3,-0.418],0."
+      "125)))";
+  for (const char* const f : {alone, larger}) {
+    CAPTURE(std::string(f));
+    const convex::Prox found = samples::function(f, 3).prox(z, W);
+    CHECK(found.status == Status::solved);
+    CHECK(W.norm(found.x - expected) <= 1e-14 * W.norm(z));
+    CHECK(W.norm(found.x - expected) <= found.error_bound);
+  }
+}

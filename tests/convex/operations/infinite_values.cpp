@@ -72,3 +72,15 @@ TEST_CASE(
   CHECK(found.value == INFINITY);
   CHECK(found.error == 0);
 }
+
+TEST_CASE(
+    "a sum over entries is +inf where one is off its domain, though another is near an edge for its size") {
+  // g is the binary entropy: 1e12 is off [0, 1], whatever a point of that size makes of -300.
+  for (const auto& [f, y] :
+       {std::pair{"logistic()", Vector{{-300, 1e12}}}, {"exponential()", Vector{{-1e12, -30}}}}) {
+    CAPTURE(std::string(f));
+    const Value g = function(f, 2).conjugate().evaluate(y);
+    CHECK(g.value == INFINITY);
+    CHECK(g.error == 0);
+  }
+}
