@@ -15,13 +15,7 @@ namespace {
 class EdgesFound {
  public:
   EdgesFound(const LagrangianModel& model, const State& state, const StateRadii& radii)
-      : model_(&model), constants_(rounded_nodes(model.tape)) {
-    at_.t = {state.t, radii.t};
-    for (Index i = 0; i < state.q.size(); ++i) {
-      at_.q.emplace_back(state.q[i], radii.q.size() > 0 ? radii.q[i] : 0);
-      at_.v.emplace_back(state.v[i], radii.v.size() > 0 ? radii.v[i] : 0);
-    }
-  }
+      : model_(&model), constants_(rounded_nodes(model.tape)), at_(rounded_state(state, radii)) {}
 
   /// `forces_from`: the first group whose values alone are used.
   void look_through(const Program& program, std::size_t forces_from) {

@@ -1,6 +1,9 @@
 #include "mechanics/data_radii.hpp"
 
+#include <algorithm>
+
 #include "convex/infinity.hpp"
+#include "mechanics/exact_text.hpp"
 #include "mechanics/expression/assignment.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
@@ -17,15 +20,6 @@ namespace {
 
 /// A radius that is no number says nothing.
 double known(double radius) { return radius >= 0 ? radius : infinity; }
-
-RoundedState rounded_state(const State& state, const StateRadii& radii) {
-  RoundedState rounded{{state.t, radii.t}, {}, {}};
-  for (Index i = 0; i < state.q.size(); ++i) {
-    rounded.q.emplace_back(state.q[i], radii.q.size() > 0 ? radii.q[i] : 0);
-    rounded.v.emplace_back(state.v[i], radii.v.size() > 0 ? radii.v[i] : 0);
-  }
-  return rounded;
-}
 
 /// How far the numbers of some nodes may be from the values; what is not given is 0, and exact.
 Vector radii_of_values(const std::vector<NodeId>& nodes, const std::vector<Rounded>& numbers,
@@ -55,6 +49,33 @@ Vector table_radii(const LagrangianModel& model, const std::vector<NamedText>& t
       if (const std::uint32_t entry = given.entry_of[family.first + member]; entry != no_entry)
         nodes[family.first + member] = expansion.node(given.entries[entry].value, family.members[member]);
   return radii_of_values(nodes, rounded_nodes(tape, t), values);
+}
+
+/// The numbers by whose signs a program takes its branches, where rounding leaves the sign open.
+void add_open_conditions(const Program& program, const RoundedState& state,
+                         const std::vector<Rounded>& constants, std::vector<NodeId>& open) {
+  if (program.groups() == 0 || !program.has_branches()) return;
+  const std::size_t last = program.groups() - 1;
+  const ValuesOf<Rounded> x = program.rounded_values(state, last, constants);
+  const std::vector<bool> used = program.in_use(x, last);
+  for (Slot slot = program.begin(); slot < program.end(last); ++slot) {
+    const auto& i = program[slot];
+    if (used[slot] && is_where(i.operation) && x[i.a].is_undecided()) open.push_back(program.node(i.a));
+  }
+}
+
+std::vector<KnownNode> conditions_as_written(const LagrangianSystem& system, const StateText& text,
+                                             const RoundedState& state) {
+  const LagrangianModel& model = system.model();
+  if (!model.tape.has_branches()) return {};
+  const std::vector<Rounded> constants = rounded_nodes(model.tape);
+  std::vector<NodeId> open;
+  add_open_conditions(model.motion, state, constants, open);
+  add_open_conditions(model.contacts, state, constants, open);
+  if (open.empty()) return {};
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  return numbers_as_written(system, text, open);
 }
 
 /// The program of T, V and Q run with radii, and its reverse sweep from T - V.
@@ -149,16 +170,27 @@ StateRadii state_radii(const LagrangianSystem& system, const StateText& text, co
     const std::vector<Rounded> numbers = rounded_nodes(nodes.tape, t);
     radii.q = radii_of_values(nodes.q, numbers, state.q);
     radii.v = radii_of_values(nodes.v, numbers, state.v);
-    return radii;
+  } else {
+    radii.q = table_radii(model, text.position, "position", t, state.q);
+    radii.v = table_radii(model, text.velocity, "velocity", t, state.v);
   }
-  radii.q = table_radii(model, text.position, "position", t, state.q);
-  radii.v = table_radii(model, text.velocity, "velocity", t, state.v);
+  radii.conditions = conditions_as_written(system, text, rounded_state(state, radii));
   return radii;
+}
+
+RoundedState rounded_state(const State& state, const StateRadii& radii) {
+  RoundedState rounded{{state.t, radii.t}, {}, {}, radii.conditions};
+  for (Index i = 0; i < state.q.size(); ++i) {
+    rounded.q.emplace_back(state.q[i], radii.q.size() > 0 ? radii.q[i] : 0);
+    rounded.v.emplace_back(state.v[i], radii.v.size() > 0 ? radii.v[i] : 0);
+  }
+  return rounded;
 }
 
 StateRadii guessed_radii(const State& state) {
   constexpr double operations = 4 * 0x1p-53;
-  return {operations * std::abs(state.t), operations * state.q.cwiseAbs(), operations * state.v.cwiseAbs()};
+  return {
+      operations * std::abs(state.t), operations * state.q.cwiseAbs(), operations * state.v.cwiseAbs(), {}};
 }
 
 convex::EntryRadii data_radii(const LagrangianSystem& system, const State& state, const StateRadii& radii,

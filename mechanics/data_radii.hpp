@@ -1,6 +1,7 @@
 #pragma once
 
 #include "convex/nearest_point/entry_radii.hpp"
+#include "mechanics/expression/program.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace mechanics {
@@ -10,7 +11,12 @@ namespace mechanics {
 struct StateRadii {
   double t = 0;
   Vector q, v;
+  /// What the text tells of conditions of branches whose sign rounding leaves open.
+  std::vector<expression::KnownNode> conditions = {};
 };
+
+/// The state with its radii.
+expression::RoundedState rounded_state(const State&, const StateRadii&);
 
 /// Of a state that was read from text, whose decimals, fractions, roots … are rounded.
 StateRadii state_radii(const LagrangianSystem&, const StateText&, const State&);

@@ -200,6 +200,15 @@ std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateTe
 
 namespace {
 
+/// The nearest double, and how far the number may be from it.
+Rounded rounded(const Number& x) {
+  if (x.sign() == 0) return 0.0;
+  const Fraction middle = x.middle();
+  const double number = convex::nearest_double(middle);
+  const bool is_double = std::isfinite(number) && convex::fraction(number) == middle;
+  return {number, widened(x.radius() + (is_double ? 0 : std::max(std::abs(number) * 0x1p-53, lost_below)))};
+}
+
 /// The verdicts that are still open, at a precision; and the least one that would tell of those that are open
 /// and algebraic, 0 when there are none.
 long decide_contacts(const LagrangianModel& model, const StateText& text, const std::vector<Index>& wanted,
@@ -235,6 +244,28 @@ std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem& system, con
     if (precision == 0 || Ball::why_none().empty())
       telling = decide_contacts(model, text, wanted, precision, found);
   if (telling > last_precision) decide_contacts(model, text, wanted, telling, found);
+  return found;
+}
+
+std::vector<KnownNode> numbers_as_written(const LagrangianSystem& system, const StateText& text,
+                                          const std::vector<NodeId>& nodes) {
+  const LagrangianModel& model = system.model();
+  std::vector<KnownNode> found;
+  std::vector<bool> is_found(nodes.size());
+  for (const long precision : {0L, first_precision}) {
+    if (precision != 0 && (found.size() == nodes.size() || !Ball::why_none().empty())) break;
+    const auto state = read_state_exactly(model, text, precision);
+    if (!state) continue;
+    ExactEvaluation evaluate(model.tape, *state, precision, JetPart::rates);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (is_found[k]) continue;
+      const auto& jet = evaluate(nodes[k]);
+      if (!jet || !jet->value.is_finite()) continue;
+      is_found[k] = true;
+      found.push_back({nodes[k], rounded(jet->value)});
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.node < b.node; });
   return found;
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/proof/uncertain_problem.hpp"
+#include "mechanics/expression/program.hpp"
 #include "mechanics/lagrangian_system.hpp"
 
 namespace mechanics {
@@ -38,6 +39,11 @@ std::optional<TextProblem> problem_from_text(const LagrangianSystem&, const Stat
 /// The same where all numbers are fractions; none otherwise.
 std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&, const StateText&,
                                                         const std::vector<Index>& contacts);
+
+/// The numbers of nodes of the system at the state as written, the nearest doubles with their radii: 0 where
+/// the text proves it. What it does not tell is left out.
+std::vector<expression::KnownNode> numbers_as_written(const LagrangianSystem&, const StateText&,
+                                                      const std::vector<expression::NodeId>&);
 
 inline constexpr std::size_t most_exact_coordinates = 40;
 inline constexpr long first_precision = 192, last_precision = 768;

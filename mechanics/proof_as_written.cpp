@@ -295,6 +295,7 @@ class Proving {
       return convex::automatic(step).q;
     };
     StateRadii radii = written_.radii;
+    radii.conditions.clear();  // the text tells of its own state alone
     constexpr double ways = 2;
     const auto widen = [&](Vector& numbers, Vector& about, const Vector& step) {
       if (step.size() != numbers.size()) {

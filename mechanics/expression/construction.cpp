@@ -3,12 +3,18 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/expression/exact_jet.hpp"
 #include "mechanics/expression/rounded_nodes.hpp"
 #include "mechanics/expression/simplification.hpp"
 #include "mechanics/number_text.hpp"
 
 namespace mechanics::expression {
 namespace {
+
+/// The numbers of a spline's pieces, as nodes.
+struct Polynomials {
+  std::vector<NodeId> slope, bend, jerk;
+};
 
 /// Builds nodes of one origin.
 class Builder {
@@ -62,7 +68,7 @@ class Builder {
   }
 
   /// The pieces `first` to `last` of a spline, by bisection of the knots.
-  NodeId pieces(const CubicSpline& spline, NodeId x, std::span<const NodeId> knots,
+  NodeId pieces(const Polynomials& spline, NodeId x, std::span<const NodeId> knots,
                 std::span<const NodeId> values, std::size_t first, std::size_t last) {
     if (first < last) {
       const std::size_t middle = (first + last + 1) / 2;
@@ -71,18 +77,23 @@ class Builder {
       return branches(difference(x, knots[middle]), right, left);
     }
     const NodeId u = difference(x, knots[first]);
-    NodeId f = rounded(spline.jerk[first]);
-    f = sum(binary(Operation::multiply, f, u), rounded(spline.bend[first]));
-    f = sum(binary(Operation::multiply, f, u), rounded(spline.slope[first]));
+    NodeId f = spline.jerk[first];
+    f = sum(binary(Operation::multiply, f, u), spline.bend[first]);
+    f = sum(binary(Operation::multiply, f, u), spline.slope[first]);
     return sum(binary(Operation::multiply, f, u), values[first]);
   }
 
- private:
   /// A number that is not known exactly: its text is that of no fraction.
   NodeId rounded(Rounded number) {
     return tape_->literal(text_with_radius(shortest_digits(number.value), number.radius), number.value,
                           origin_);
   }
+  NodeId rounded(const convex::Fraction& exact) {
+    const double number = convex::nearest_double(exact);
+    return tape_->literal(text_of_fraction(shortest_digits(number), exact), number, origin_);
+  }
+
+ private:
   bool is_zero(NodeId node) const {
     return tape_->operation(node) == Operation::literal && tape_->constant(node) == 0;
   }
@@ -186,16 +197,55 @@ double constructed(Construction what, std::span<const double> arguments) {
   }
 }
 
-NodeId spline_node(Tape& tape, NodeId x, std::span<const NodeId> knots, std::span<const NodeId> values,
-                   Origin origin) {
-  Builder build(tape, origin);
+namespace {
+
+/// Tables of more points have their pieces in doubles with radii: the digits of fractions grow with the
+/// points.
+constexpr std::size_t most_exact_points = 40;
+
+/// The constants as the text has them; none where one of them is no fraction.
+std::optional<std::vector<convex::Fraction>> fractions(const Tape& tape, std::span<const NodeId> nodes) {
+  const ExactState nothing;
+  ExactEvaluation evaluate(tape, nothing, 0, JetPart::rates);
+  std::vector<convex::Fraction> found;
+  for (const NodeId node : nodes) {
+    const auto& jet = evaluate(node);
+    if (!jet || !jet->value.is_exact()) return std::nullopt;
+    found.push_back(jet->value.fraction());
+  }
+  return found;
+}
+
+template <class Pieces>
+Polynomials polynomials(Builder& build, const Pieces& pieces) {
+  Polynomials made;
+  for (const auto& number : pieces.slope) made.slope.push_back(build.rounded(number));
+  for (const auto& number : pieces.bend) made.bend.push_back(build.rounded(number));
+  for (const auto& number : pieces.jerk) made.jerk.push_back(build.rounded(number));
+  return made;
+}
+
+Polynomials polynomials(Tape& tape, Builder& build, std::span<const NodeId> knots,
+                        std::span<const NodeId> values) {
+  if (knots.size() <= most_exact_points) {
+    const auto x = fractions(tape, knots), y = fractions(tape, values);
+    if (x && y) return polynomials(build, exact_pieces(*x, *y));
+  }
   const std::vector<Rounded> constants = rounded_nodes(tape);
   std::vector<Rounded> points, heights;
   for (const NodeId node : knots) points.push_back(constants[node]);
   for (const NodeId node : values) heights.push_back(constants[node]);
-  const CubicSpline spline = natural_cubic_spline(points, heights);
-  const std::string range =
-      "table(…) outside " + number_text(spline.x.front()) + " to " + number_text(spline.x.back());
+  return polynomials(build, natural_cubic_spline(points, heights));
+}
+
+}  // namespace
+
+NodeId spline_node(Tape& tape, NodeId x, std::span<const NodeId> knots, std::span<const NodeId> values,
+                   Origin origin) {
+  Builder build(tape, origin);
+  const Polynomials spline = polynomials(tape, build, knots, values);
+  const std::string range = "table(…) outside " + number_text(tape.constant(knots.front())) + " to " +
+                            number_text(tape.constant(knots.back()));
   const NodeId outside = tape.literal(range, std::numeric_limits<double>::quiet_NaN(), origin);
   const NodeId inside = build.pieces(spline, x, knots, values, 0, spline.slope.size() - 1);
   const NodeId below_end = build.branches(build.difference(knots.back(), x), inside, outside);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanics/expression/number.hpp"
+
 namespace mechanics::expression {
 
 double CubicSpline::operator()(double at) const {
@@ -61,6 +63,12 @@ Pieces<Real> pieces_of(const std::vector<Real>& x, const std::vector<Real>& y) {
   return found;
 }
 
+std::vector<convex::Fraction> fractions_of(const std::vector<Number>& numbers) {
+  std::vector<convex::Fraction> found;
+  for (const Number& number : numbers) found.push_back(number.fraction());
+  return found;
+}
+
 std::vector<long double> middles(std::span<const Rounded> numbers) {
   std::vector<long double> found;
   for (const Rounded number : numbers) found.push_back(number.value);
@@ -78,6 +86,12 @@ std::vector<Rounded> joined(const std::vector<long double>& precise, const std::
 }
 
 }  // namespace
+
+ExactPieces exact_pieces(std::span<const convex::Fraction> x, std::span<const convex::Fraction> y) {
+  const auto found =
+      pieces_of(std::vector<Number>(x.begin(), x.end()), std::vector<Number>(y.begin(), y.end()));
+  return {fractions_of(found.slope), fractions_of(found.bend), fractions_of(found.jerk)};
+}
 
 CubicSpline natural_cubic_spline(std::span<const Rounded> x, std::span<const Rounded> y) {
   const auto precise = pieces_of(middles(x), middles(y));

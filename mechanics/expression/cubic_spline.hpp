@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "convex/exact/fraction.hpp"
 #include "mechanics/expression/rounded.hpp"
 
 namespace mechanics::expression {
@@ -17,6 +18,12 @@ struct CubicSpline {
 
   double operator()(double at) const;  ///< NaN outside
 };
+
+/// The numbers of the pieces, not rounded.
+struct ExactPieces {
+  std::vector<convex::Fraction> slope, bend, jerk;
+};
+ExactPieces exact_pieces(std::span<const convex::Fraction> x, std::span<const convex::Fraction> y);
 
 /// What is wrong with the numbers of a table: fewer than two, not finite, knots that do not increase.
 std::optional<std::string> fault_of_table(std::span<const double> x, std::span<const double> y);

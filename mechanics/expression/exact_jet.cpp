@@ -61,7 +61,11 @@ ExactJet chained(const NumberPartials& p, const ExactJet& a, const ExactJet& b, 
 }  // namespace
 
 std::optional<Fraction> literal_value(const Tape& tape, NodeId node) {
-  return convex::read_fraction(tape.text(node));
+  const std::string& text = tape.text(node);
+  const std::size_t mark = text.find(radius_mark), exact = text.find(radius_mark, mark + 1);
+  if (mark == std::string::npos) return convex::read_fraction(text);
+  if (exact == std::string::npos) return std::nullopt;
+  return convex::read_fraction(text.substr(exact + 1));
 }
 
 ExactJet ExactEvaluation::variable(NodeId node) const {

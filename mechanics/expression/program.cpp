@@ -141,6 +141,17 @@ void Program::strike_unused(ValuesOf<Real>& x, std::size_t group, const std::vec
 template std::vector<bool> Program::in_use(const Values&, std::size_t) const;
 template std::vector<bool> Program::in_use(const ValuesOf<Rounded>&, std::size_t) const;
 
+namespace {
+
+void take_what_is_known(const std::vector<KnownNode>& known, NodeId node, Rounded& x) {
+  const auto at = std::lower_bound(known.begin(), known.end(), node,
+                                   [](const KnownNode& k, NodeId wanted) { return k.node < wanted; });
+  if (at == known.end() || at->node != node) return;
+  x.radius = std::min(x.radius, widened(std::abs(x.value - at->number.value) + at->number.radius));
+}
+
+}  // namespace
+
 ValuesOf<Rounded> Program::rounded_values(const RoundedState& state, std::size_t group,
                                           const std::vector<Rounded>& of_nodes) const {
   ValuesOf<Rounded> x(size());
@@ -151,6 +162,7 @@ ValuesOf<Rounded> Program::rounded_values(const RoundedState& state, std::size_t
   for (Slot slot = first_; slot < ends_[group]; ++slot) {
     const Instruction& i = code_[slot - first_];
     x[slot] = value(i.operation, x[i.a], x[i.b]);
+    if (!state.known.empty()) take_what_is_known(state.known, node_[slot], x[slot]);
   }
   if (has_branches_) strike_unused(x, group, in_use(x, group));
   return x;

@@ -18,10 +18,17 @@ using ValuesOf = std::vector<Real>;
 inline bool is_unused(double x) { return std::isnan(x); }
 inline bool is_unused(Rounded x) { return std::isnan(x.value); }
 
-/// A state with a radius to each number.
+/// What is known of a node's number otherwise than by its evaluation.
+struct KnownNode {
+  NodeId node;
+  Rounded number;
+};
+
+/// A state with a radius to each number, and what is known of nodes at it, in their order.
 struct RoundedState {
   Rounded t;
   std::vector<Rounded> q, v;
+  std::vector<KnownNode> known = {};
 };
 
 /// The part of a tape that some roots need, ready to be run. Slots: q (n of them), v (n), t, the constants,

@@ -11,10 +11,18 @@ namespace {
 
 constexpr double pi_radius = 1.23e-16;  // π - the double nearest to it is 1.2246e-16
 
+double rounding_of_literal(double number) { return std::max(std::abs(number) * 0x1p-53, lost_below); }
+
 }  // namespace
 
 std::string text_with_radius(const std::string& number, double radius) {
   return number + radius_mark + std::to_string(std::bit_cast<std::uint64_t>(radius));
+}
+
+std::string text_of_fraction(const std::string& number, const convex::Fraction& exact) {
+  const double rounded = convex::nearest_double(exact), radius = rounding_of_literal(rounded);
+  return text_with_radius(number, convex::fraction(rounded) == exact ? 0 : radius) + radius_mark +
+         convex::text(exact);
 }
 
 /// Half a unit of the last place, unless the text is that double exactly or says its radius.
@@ -29,7 +37,7 @@ Rounded rounded_literal(const Tape& tape, NodeId node) {
     return number;
   const auto written = literal_value(tape, node);
   if (written && std::isfinite(number) && *written == convex::fraction(number)) return number;
-  return {number, std::max(std::abs(number) * 0x1p-53, lost_below)};
+  return {number, rounding_of_literal(number)};
 }
 
 std::vector<Rounded> rounded_nodes(const Tape& tape, Rounded t) {

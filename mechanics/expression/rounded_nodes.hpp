@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "convex/exact/fraction.hpp"
 #include "mechanics/expression/rounded.hpp"
 #include "mechanics/expression/tape.hpp"
 
@@ -9,6 +10,8 @@ namespace mechanics::expression {
 
 /// The text of a literal that is not what it says by up to a radius.
 std::string text_with_radius(const std::string& number, double radius);
+/// The text of a literal that is a fraction, of many digits, and rounded to a number.
+std::string text_of_fraction(const std::string& number, const convex::Fraction& exact);
 
 /// The number of a literal: its radius is 0 where the double is what is written.
 Rounded rounded_literal(const Tape& tape, NodeId node);

@@ -15,7 +15,8 @@ namespace mechanics::expression {
 using NodeId = std::uint32_t;
 inline constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
 
-/// In the text of a literal: what follows is its radius (see rounded_nodes.hpp).
+/// In the text of a literal: what follows is its radius and, after a second mark, the fraction that it is
+/// (see rounded_nodes.hpp).
 inline constexpr char radius_mark = '~';
 
 /// Which variables a node depends on, as bits; a constant has none.

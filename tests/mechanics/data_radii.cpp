@@ -129,3 +129,40 @@ TEST_CASE("a number that the state's radii may turn into a kink or a pole is kno
   CHECK(radius_of("abs(x)", 1e-4) <= 1.1e-3);
   CHECK(radius_of("abs(x)'", 1e-4) == INFINITY);
 }
+
+TEST_CASE(
+    "at a knot of decimals the text tells which piece a table takes, and rounding alone is in the radii") {
+  const char* const track = "y - table(x, [0.5, 1.7, 2, 3], [1.57, 0.1, 0.24, -1.06]) >= 0";
+  const tests::SystemText text{{"x", "y"}, "(x'^2 + y'^2)/2", "9.81*y + sin(x)", {}, {},
+                               {},         {{"track", track}}};
+  const auto system = tests::system(text);
+  const mechanics::StateText written = tests::state_text({{"x", "1.7"}, {"y", "0.1"}}, {{"x", "1"}});
+  const mechanics::State state = system->state(written);
+  const convex::EntryRadii radii =
+      mechanics::data_radii(*system, state, mechanics::state_radii(*system, written, state), {0});
+  CHECK(radii.U.coeff(0, 0) <= 1e-14);
+  CHECK(radii.s[0] <= 1e-14);
+  // Of a state without its text it is one piece or the other.
+  const convex::EntryRadii guessed =
+      mechanics::data_radii(*system, state, mechanics::guessed_radii(state), {0});
+  CHECK(guessed.U.coeff(0, 0) >= 0.1);
+}
+
+TEST_CASE("the pieces of a table of decimals are fractions, and what stands at a knot is proved") {
+  // h = 0.1, 0.2 and chords 1, -1/2: 2 (h_0 + h_1) M_1 = 6 (-1/2 - 1), M_1 = -15; the slope at 0.1 is
+  // 1 + h_0 M_1/3 = 1/2.
+  const tests::SystemText text{{"x", "y"},
+                               "(x'^2 + y'^2)/2",
+                               "10*y",
+                               {},
+                               {},
+                               {},
+                               {{"track", "y >= table(x, [0, 0.1, 0.3], [0, 0.1, 0])"}}};
+  const auto system = tests::system(text);
+  const auto found =
+      mechanics::problem_from_text(*system, tests::state_text({{"x", "0.1"}, {"y", "0.1"}}, {}), {0});
+  REQUIRE(found);
+  CHECK(found->is_exact);
+  const convex::IntegerVector& row = found->problem.middle.U[0];
+  CHECK(row[1] == -2 * row[0]);
+}
