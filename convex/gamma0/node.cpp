@@ -1,5 +1,6 @@
 #include "convex/gamma0/node.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -19,11 +20,32 @@ double on_direction(const FunctionNode& support, const Vector& d) {
   return found.value + found.error;
 }
 
+/// A slope made of others, as that of an average, is right to so many roundings of itself.
+constexpr double roundings_of_a_slope = 64;
+
+/// Of a function of one entry.
+std::optional<double> slope_at(const FunctionNode& f, double x) {
+  const std::optional<Vector> v = f.subgradient(Vector::Constant(1, x));
+  return v && std::isfinite((*v)[0]) ? std::optional((*v)[0]) : std::nullopt;
+}
+
 }  // namespace
 
 Value FunctionNode::evaluate(const Vector& x) const {
   const double found = value(x);
   return sum_of_terms(found, std::abs(found));
+}
+
+double FunctionNode::error_of_slope(double x, double /*w*/) const {
+  return roundings_of_a_slope * unit_roundoff * std::abs(slope_at(*this, x).value_or(0));
+}
+
+double error_of_moved_slope(const FunctionNode& f, double x, double moved, double w) {
+  if (!(moved > 0)) return 0;
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const auto before = slope_at(f, std::min(x - moved, std::nextafter(x, -all))),
+             after = slope_at(f, std::max(x + moved, std::nextafter(x, all)));
+  return before && after ? std::min(w * moved, std::abs(*after - *before)) : w * moved;
 }
 
 std::optional<Function> FunctionNode::entry(Index) const {

@@ -29,6 +29,9 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual Prox prox(const Vector& z, const Metric& W, const Look& look) const = 0;
   virtual Function conjugate() const = 0;
   virtual std::optional<Vector> subgradient(const Vector& x) const = 0;
+  /// Of one entry: how far the slope at x, as `subgradient` gives it, may be from one at x. What moves x by d
+  /// counts at most as the slope w d; 0 where there is no slope.
+  virtual double error_of_slope(double x, double w) const;
 
   /// An upper bound of the recession function, f∞(d) = sup over x in the domain of f(x + d) - f(x)
   /// (Rockafellar 1970, section 8): f*(v) is +inf where f∞(d) < v·d. +inf where none is known.
@@ -96,5 +99,8 @@ class Atom : public FunctionNode {
   Prox prox(const Vector& z, const Metric& W, const Look& look) const override;
   std::optional<GraphForm> graph(Index n, double slope = 1) const override;
 };
+
+/// How far the slope of f, of one entry, at x may be from those within `moved` of x, as in `error_of_slope`.
+double error_of_moved_slope(const FunctionNode& f, double x, double moved, double w);
 
 }  // namespace convex::inline gamma0

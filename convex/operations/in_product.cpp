@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "convex/composite/graph_algebra.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/exact_end.hpp"
@@ -44,6 +46,10 @@ class InProduct : public Operation {
     const std::optional<Vector> v = h_.subgradient(image(x));
     if (!v) return std::nullopt;
     return image(*v);
+  }
+  double error_of_slope(double x, double w) const override {
+    const double m = M_.diagonal()[0], y = m * x, left = std::abs(std::fma(m, x, -y)), w_of_y = w / (m * m);
+    return m * (h_.node().error_of_slope(y, w_of_y) + error_of_moved_slope(h_.node(), y, left, w_of_y));
   }
   Function conjugate() const override;
   double recession(const Vector& d) const override { return h_.node().recession(image(d)); }

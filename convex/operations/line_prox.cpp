@@ -18,9 +18,6 @@ namespace {
 /// Products with larger numbers may leave the range of doubles.
 constexpr double far_end = 0x1p500;
 
-/// A slope made of others, as that of an average, is right to so many roundings of itself.
-constexpr double roundings_of_a_slope = 64;
-
 /// From a point to twice as far from 0, and the growth of such steps.
 constexpr Rank first_reach = Rank{1} << 52, growth_of_reach = 4;
 
@@ -124,6 +121,12 @@ class Sides {
     return true;
   }
 
+  /// What the error of the slope leaves open of the sign there: 0 where it is sure that the prox is beyond.
+  double open_at(const Side& side, const FunctionNode& f) const {
+    if (!side.v) return 0;
+    return std::max(0.0, f.error_of_slope(side.x(), w_) - std::abs(residual(side)));
+  }
+
   /// False where the slope is not known and this is not passed over.
   bool take(double x, const std::optional<double>& v) {
     const bool by_left = !left_.v && left_is_end_, by_right = !right_.v && right_is_end_;
@@ -172,9 +175,12 @@ std::optional<Prox> line_prox(const Function& f, double z, double w) {
   const auto values = values_of(f, x, v, sides.left(), sides.right());
   if (!values) return std::nullopt;
   const auto one = [](double e) -> Vector { return Vector::Constant(1, e); };
+  const double of_slopes =
+      std::max(sides.open_at(sides.left(), f.node()), sides.open_at(sides.right(), f.node()));
   Prox found = closed_form(one(z), Metric::diagonal(one(w)), one(x), one(v));
+  constexpr double roundings = 4;
   found.error_bound +=
-      std::sqrt(w) * sides.width() + roundings_of_a_slope * unit_roundoff * std::abs(v) / std::sqrt(w);
+      std::sqrt(w) * sides.width() + (of_slopes + roundings * unit_roundoff * std::abs(v)) / std::sqrt(w);
   found.route = ProxRoute::iterative;
   found.method = "bisection";
   if (std::isfinite(values->f_v.error)) found.values = values;

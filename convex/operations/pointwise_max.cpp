@@ -79,6 +79,20 @@ class PointwiseMax : public Operation {
         if (std::optional<Vector> v = parts_[k].subgradient(x)) return v;
     return std::nullopt;
   }
+  /// That of every part that may be the largest.
+  double error_of_slope(double x, double w) const override {
+    const Vector at = Vector::Constant(1, x);
+    std::vector<Value> values;
+    double least = -infinity, error = 0;
+    for (const Function& f : parts_) {
+      values.push_back(f.evaluate(at));
+      least = std::max(least, values.back().value - values.back().error);
+    }
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+      if (values[k].value + values[k].error >= least)
+        error = std::max(error, parts_[k].node().error_of_slope(x, w));
+    return error;
+  }
   double recession(const Vector& d) const override {
     double largest = -infinity;
     for (const Function& f : parts_) largest = std::max(largest, f.node().recession(d));

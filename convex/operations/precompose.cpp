@@ -54,6 +54,18 @@ class Precompose : public Operation {
     if (!v) return std::nullopt;
     return A_.transpose() * *v;
   }
+  double error_of_slope(double x, double w) const override {
+    constexpr double roundings = 64;
+    if (A_.rows() != 1) {
+      const auto p = f_.subgradient(image_of(Vector::Constant(1, x)));
+      return p ? roundings * unit_roundoff * A_.col(0).cwiseAbs().dot(p->cwiseAbs()) : 0;
+    }
+    const DoubleDoubleVector y = accurate_image(A_, DoubleDoubleVector(Vector::Constant(1, x)), b_);
+    const double a = std::abs(A_(0, 0)), w_of_y = w / (a * a);
+    const double moved = unit_roundoff * (a * std::abs(x) + std::abs(b_[0]));
+    return a * (f_.node().error_of_slope(y.hi[0], w_of_y) +
+                error_of_moved_slope(f_.node(), y.hi[0], moved, w_of_y));
+  }
   Function conjugate() const override;
   double recession(const Vector& d) const override { return f_.node().recession(A_ * d); }
   /// v = Aᵀp is p·(Ax + b) - p·b, with Ax + b in the domain of f.

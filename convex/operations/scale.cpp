@@ -52,6 +52,11 @@ class Scale : public Operation {
     if (v) *v *= alpha_ / rho_;
     return v;
   }
+  double error_of_slope(double x, double w) const override {
+    const double y = x / rho_, factor = std::abs(alpha_ / rho_), w_of_y = w * rho_ * rho_ / alpha_;
+    const double left = std::abs(std::fma(-y, rho_, x) / rho_);
+    return factor * (f_.node().error_of_slope(y, w_of_y) + error_of_moved_slope(f_.node(), y, left, w_of_y));
+  }
   /// (alpha f(·/rho))* = alpha f*(· rho/alpha).
   Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
   std::vector<Function> maximum_of() const override {

@@ -95,6 +95,12 @@ std::optional<Vector> Sum::subgradient(const Vector& x) const {
   return total;
 }
 
+double Sum::error_of_slope(double x, double w) const {
+  double total = 0;
+  for (const Function& f : parts_) total += f.node().error_of_slope(x, w);
+  return total;
+}
+
 double Sum::recession(const Vector& d) const {
   double total = 0;
   for (const Function& f : parts_) total += f.node().recession(d);

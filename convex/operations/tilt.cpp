@@ -34,6 +34,9 @@ class Tilt : public Operation {
     if (v) *v += c_;
     return v;
   }
+  double error_of_slope(double x, double w) const override {
+    return f_.node().error_of_slope(x, w) + unit_roundoff * std::abs(c_[0]);
+  }
   Function conjugate() const override { return translate(f_.conjugate(), c_); }
   std::vector<Function> maximum_of() const override {
     std::vector<Function> parts = parts_of_max(f_);

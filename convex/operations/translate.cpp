@@ -1,4 +1,7 @@
+#include <cmath>
+
 #include "convex/composite/graph_algebra.hpp"
+#include "convex/double_double.hpp"
 #include "convex/infinity.hpp"
 #include "convex/linear_quadratic/operations.hpp"
 #include "convex/operations/merged_vector.hpp"
@@ -34,6 +37,10 @@ class Translate : public Operation {
                                                     : near;  // y is x - b to the last digit
   }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
+  double error_of_slope(double x, double w) const override {
+    const DoubleDouble y = two_sum(x, -by_[0]);
+    return f_.node().error_of_slope(y.hi, w) + error_of_moved_slope(f_.node(), y.hi, std::abs(y.lo), w);
+  }
   Function conjugate() const override { return tilt(f_.conjugate(), by_); }
   std::vector<Function> maximum_of() const override {
     std::vector<Function> parts = parts_of_max(f_);
