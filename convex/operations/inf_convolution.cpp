@@ -130,7 +130,7 @@ class InfConvolution : public Operation {
     const Smoothed split = smoothed(of.f, of.q, x);
     const double size = length_of(x) + length_of(split.w);
     return sum_of(sum_of(of.f.evaluate(split.w), value_near(of.g, difference(x, split.w), size)),
-                  {0, split.off * split.off});
+                  {0, std::max(split.above, split.off * split.off)});
   }
 
   Function f_, g_;

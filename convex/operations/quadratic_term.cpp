@@ -104,14 +104,17 @@ Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x) {
   // The prox's own covector is the slope too, and right where x - w is nothing beside x.
   const bool own = part.v.size() == x.size() && part.v.allFinite();
   const Vector slope = own ? part.v : Vector(q.Q.multiply(b) + q.c);
-  // To first order an error of w leaves the minimum as it is: f(w + e) - f(w) is slope·e where f is smooth
-  // there. What x - w rounds is not made good by f.
+  // The value at w is above the minimum by no more than (s + the slope of q(x - w))·(w - w*), s in ∂f(w): a
+  // product of two errors, but where f is steep or has a kink. What x - w rounds is not made good by f.
   const double off = part.error_bound + q.Q.dual_norm(left_of_slope(q, slope, b));
   const double of_difference = unit_roundoff * slope.cwiseAbs().dot(b.cwiseAbs());
-  const Value rest{square.value + linear + q.constant, 8 * unit_roundoff * size + of_difference + off * off};
+  double above = off * off;
+  if (const auto s = f.subgradient(part.x); s && s->allFinite())
+    above = std::max(above, off * q.Q.dual_norm(left_of_slope(q, *s, b)));
+  const Value rest{square.value + linear + q.constant, 8 * unit_roundoff * size + of_difference + above};
   constexpr double roundings_of_the_point = 4;
   const double of_point = roundings_of_the_point * unit_roundoff * (q.Q.norm(x) + q.Q.dual_norm(q.c));
-  return {part.x, slope, sum_of(f.evaluate(part.x), rest), off + of_point};
+  return {part.x, slope, sum_of(f.evaluate(part.x), rest), off + of_point, above};
 }
 
 Prox smoothed_prox(const Function& f, const Kernel& q, const Vector& z, const Metric& W, const Look& look) {

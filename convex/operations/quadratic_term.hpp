@@ -45,7 +45,8 @@ struct Smoothed {
   Vector w;
   Vector v;
   Value value;
-  double off = 0;  ///< ||w - w*||_Q, and what the rounding of the point x + Q⁻¹c is in it
+  double off = 0;    ///< ||w - w*||_Q, and what the rounding of the point x + Q⁻¹c is in it
+  double above = 0;  ///< the value at w is above the minimum by no more, in x as it is
 };
 Smoothed smoothed(const Function& f, const Kernel& q, const Vector& x);
 
