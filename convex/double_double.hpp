@@ -46,6 +46,13 @@ inline DoubleDouble product(DoubleDouble x, double y) {
   return two_sum(p.hi, p.lo);
 }
 
+/// x y for pairs, exact to some u².
+inline DoubleDouble product_of_pairs(DoubleDouble x, DoubleDouble y) {
+  DoubleDouble p = two_product(x.hi, y.hi);
+  p.lo += x.lo * y.hi + x.hi * y.lo;
+  return two_sum(p.hi, p.lo);
+}
+
 inline DoubleDouble negative(DoubleDouble x) { return {-x.hi, -x.lo}; }
 
 /// x / y to some u².

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "convex/double_double.hpp"
 #include "convex/functions/function.hpp"
 #include "convex/gamma0/look.hpp"
 
@@ -25,6 +26,9 @@ class FunctionNode : public std::enable_shared_from_this<FunctionNode> {
   virtual double value(const Vector& x) const = 0;
   /// The value with its error; some roundings of it unless the function knows better.
   virtual Value evaluate(const Vector& x) const;
+  /// The same at a point of twice the precision, of an operation that passes it on to its functions; none
+  /// where the value and the slopes at y.hi make it.
+  virtual std::optional<Value> evaluate_pair(const DoubleDoubleVector& /*y*/) const { return std::nullopt; }
   /// `look`: how the programs in it are gone about.
   virtual Prox prox(const Vector& z, const Metric& W, const Look& look) const = 0;
   virtual Function conjugate() const = 0;

@@ -13,6 +13,7 @@ MergedVector MergedVector::plus(const Vector& v) const {
     for (const Vector& term : made.terms_) sum.add(term[i]);
     made.value_[i] = sum.value();
     sum.add(-made.value_[i]);
+    made.rest_[i] = sum.value();
     is_exact = is_exact && sum.sign() == 0;
   }
   if (is_exact) made.terms_ = {made.value_};

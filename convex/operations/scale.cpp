@@ -27,13 +27,17 @@ Call merged(const char* operation, const char* parameter, Call f, double number)
   return {operation, {argument(std::move(f)), argument(parameter, number)}};
 }
 
+/// f(x / rho)
+Function dilated(const Function& f, DoubleDouble rho);
+
 /// alpha f(x / rho): one node for both, as each conjugates into the other.
 class Scale : public Operation {
  public:
-  Scale(Function f, double alpha, double rho) : f_(std::move(f)), alpha_(alpha), rho_(rho) {}
+  Scale(Function f, double alpha, DoubleDouble rho)
+      : f_(std::move(f)), alpha_(alpha), rho_(rho.hi), whole_rho_(rho) {}
   const Function& part() const { return f_; }
   double alpha() const { return alpha_; }
-  double rho() const { return rho_; }
+  DoubleDouble rho() const { return whole_rho_; }
 
   Index dimension() const override { return f_.dimension(); }
   void require_size(Index n) const override { f_.node().require_size(n); }
@@ -45,7 +49,11 @@ class Scale : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    return multiple_of(alpha_, rho_ == 1 ? f_.evaluate(x) : value_near(f_, quotient(x, rho_), 0));
+    if (rho_ == 1 && whole_rho_.lo == 0) return multiple_of(alpha_, f_.evaluate(x));
+    return *evaluate_pair(DoubleDoubleVector(x));
+  }
+  std::optional<Value> evaluate_pair(const DoubleDoubleVector& x) const override {
+    return multiple_of(alpha_, value_near(f_, quotient(x, whole_rho_), 0));
   }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x / rho_);
@@ -58,7 +66,9 @@ class Scale : public Operation {
     return factor * (f_.node().error_of_slope(y, w_of_y) + error_of_moved_slope(f_.node(), y, left, w_of_y));
   }
   /// (alpha f(·/rho))* = alpha f*(· rho/alpha).
-  Function conjugate() const override { return scale(dilate(f_.conjugate(), alpha_ / rho_), alpha_); }
+  Function conjugate() const override {
+    return scale(dilated(f_.conjugate(), convex::quotient({alpha_, 0}, whole_rho_)), alpha_);
+  }
   std::vector<Function> maximum_of() const override {
     std::vector<Function> parts = parts_of_max(f_);
     for (Function& part : parts) part = scale(dilate(part, rho_), alpha_);
@@ -98,8 +108,11 @@ class Scale : public Operation {
       if (part.values)
         part.values = {multiple_of(alpha_, part.values->f_x), multiple_of(alpha_, part.values->f_v),
                        part.values->miss};
+      const Vector x = rho_ * part.x;
+      // s = x/rho is the prox of f in rho²W/alpha at z/rho, where rho is off by lo.
+      const double of_rho = 4 * std::abs(whole_rho_.lo / rho_) * (W.norm(z) + W.norm(x));
       return with_values(
-          moved(part, rho_ * part.x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound, z, W),
+          moved(part, x, (alpha_ / rho_) * part.v, std::sqrt(alpha_) * part.error_bound + of_rho, z, W),
           part.values);
     };
     return reduced(z / rho_, z, W, from, [&](const Vector& r) -> Vector { return W.solve(r) / rho_; });
@@ -109,21 +122,33 @@ class Scale : public Operation {
   Function f_;
   double alpha_;
   double rho_;
+  DoubleDouble whole_rho_;  ///< to twice the precision: rho/alpha is no double, nor are products
 };
 
-Function scaled(const Function& f, double alpha, double rho) {
+Function scaled(const Function& f, double alpha, DoubleDouble rho) {
   const Facts facts = f.facts();
   if (facts.indicator) alpha = 1;
-  if (facts.support && rho > 0) {  // positively homogeneous
-    alpha /= rho;
-    rho = 1;
+  if (facts.support && rho.hi > 0) {  // positively homogeneous
+    alpha = convex::quotient({alpha, 0}, rho).value();
+    rho = {1, 0};
     if (facts.indicator) alpha = 1;
   }
-  if (!(alpha > 0) || !std::isfinite(alpha) || !std::isfinite(rho) || rho == 0)
+  if (!(alpha > 0) || !std::isfinite(alpha) || !std::isfinite(rho.hi) || rho.hi == 0)
     throw InvalidInput(
         "scale: the factors of nested operations leave the range of doubles; give milder ones");
-  if (alpha == 1 && rho == 1) return f;
+  if (!std::isfinite(rho.lo)) rho.lo = 0;
+  if (alpha == 1 && rho.hi == 1 && rho.lo == 0) return f;
   return Function(std::make_shared<Scale>(f, alpha, rho));
+}
+
+}  // namespace
+
+namespace {
+
+Function dilated(const Function& f, DoubleDouble rho) {
+  if (const auto* inner = dynamic_cast<const Scale*>(&f.node()))
+    return scaled(inner->part(), inner->alpha(), product_of_pairs(rho, inner->rho()));
+  return scaled(f, 1, rho);
 }
 
 }  // namespace
@@ -132,15 +157,13 @@ Function scale(const Function& f, double alpha) {
   require_positive(alpha, "scale", "alpha");
   if (const auto* inner = dynamic_cast<const Scale*>(&f.node()))
     return scaled(inner->part(), alpha * inner->alpha(), inner->rho());
-  return scaled(f, alpha, 1);
+  return scaled(f, alpha, {1, 0});
 }
 
 Function dilate(const Function& f, double rho) {
   if (rho == 0 || !std::isfinite(rho))
     throw InvalidInput("dilate(rho): zero or not finite; give a finite number that is not 0");
-  if (const auto* inner = dynamic_cast<const Scale*>(&f.node()))
-    return scaled(inner->part(), inner->alpha(), rho * inner->rho());
-  return scaled(f, 1, rho);
+  return dilated(f, {rho, 0});
 }
 
 }  // namespace convex::inline operations

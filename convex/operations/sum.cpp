@@ -16,6 +16,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 
@@ -92,6 +93,12 @@ std::optional<Vector> Sum::subgradient(const Vector& x) const {
     if (!v) return std::nullopt;
     total += *v;
   }
+  return total;
+}
+
+std::optional<Value> Sum::evaluate_pair(const DoubleDoubleVector& x) const {
+  Value total;
+  for (const Function& f : parts_) total = sum_of(total, value_near(f, x, 0));
   return total;
 }
 

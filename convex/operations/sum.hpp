@@ -22,6 +22,7 @@ class Sum : public Operation {
   Value evaluate(const Vector& x) const override;
   std::optional<Vector> subgradient(const Vector& x) const override;
   double error_of_slope(double x, double w) const override;
+  std::optional<Value> evaluate_pair(const DoubleDoubleVector& x) const override;
   /// f* + … by the parts: quadratic terms smooth, linear ones translate, the rest convolves.
   Function conjugate() const override;
   double recession(const Vector& d) const override;

@@ -7,6 +7,7 @@
 #include "convex/operations/operations.hpp"
 #include "convex/operations/reduction.hpp"
 #include "convex/operations/two_function_max.hpp"
+#include "convex/operations/value_near.hpp"
 
 namespace convex::inline operations {
 namespace {
@@ -28,7 +29,13 @@ class Tilt : public Operation {
     for (const Vector& c : merged_.terms()) made = {"tilt", {argument(made), argument("c", c)}};
     return made;
   }
-  Value evaluate(const Vector& x) const override { return sum_of(f_.evaluate(x), product(c_, x)); }
+  Value evaluate(const Vector& x) const override {
+    return sum_of(f_.evaluate(x), sum_of(product(c_, x), product(merged_.rest(), x)));
+  }
+  std::optional<Value> evaluate_pair(const DoubleDoubleVector& x) const override {
+    return sum_of(value_near(f_, x, 0),
+                  sum_of(product(c_, x.hi), sum_of(product(c_, x.lo), product(merged_.rest(), x.hi))));
+  }
   std::optional<Vector> subgradient(const Vector& x) const override {
     std::optional<Vector> v = f_.subgradient(x);
     if (v) *v += c_;
@@ -37,7 +44,11 @@ class Tilt : public Operation {
   double error_of_slope(double x, double w) const override {
     return f_.node().error_of_slope(x, w) + unit_roundoff * std::abs(c_[0]);
   }
-  Function conjugate() const override { return translate(f_.conjugate(), c_); }
+  Function conjugate() const override {
+    Function made = f_.conjugate();
+    for (const Vector& c : merged_.terms()) made = translate(made, c);
+    return made;
+  }
   std::vector<Function> maximum_of() const override {
     std::vector<Function> parts = parts_of_max(f_);
     for (Function& part : parts) part = tilt(part, c_);
@@ -71,7 +82,8 @@ class Tilt : public Operation {
     const auto from = [&](const Vector& point) {
       Prox part = f_.prox(point, W, look);
       if (part.x.size() == 0) return part;
-      return with_values(moved(part, part.x, part.v + c_, part.error_bound, z, W), part.values,
+      const double rounding = 2 * W.dual_norm(merged_.rest());
+      return with_values(moved(part, part.x, part.v + c_, part.error_bound + rounding, z, W), part.values,
                          product(part.x, c_));
     };
     return reduced(z - W.solve(c_), z, W, from, [&](const Vector& r) { return W.solve(r); });

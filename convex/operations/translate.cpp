@@ -31,17 +31,24 @@ class Translate : public Operation {
     return made;
   }
   Value evaluate(const Vector& x) const override {
-    const DoubleDoubleVector y = difference(x, by_);
+    const DoubleDoubleVector y = moved_back(DoubleDoubleVector(x));
     const Value near = value_near(f_, y, length_of(x) + length_of(by_));
     return near.value == infinity && y.lo.isZero(0) ? f_.evaluate(y.hi)
                                                     : near;  // y is x - b to the last digit
+  }
+  std::optional<Value> evaluate_pair(const DoubleDoubleVector& x) const override {
+    return value_near(f_, moved_back(x), length_of(x.hi) + length_of(by_));
   }
   std::optional<Vector> subgradient(const Vector& x) const override { return f_.subgradient(x - by_); }
   double error_of_slope(double x, double w) const override {
     const DoubleDouble y = two_sum(x, -by_[0]);
     return f_.node().error_of_slope(y.hi, w) + error_of_moved_slope(f_.node(), y.hi, std::abs(y.lo), w);
   }
-  Function conjugate() const override { return tilt(f_.conjugate(), by_); }
+  Function conjugate() const override {
+    Function made = f_.conjugate();
+    for (const Vector& by : merged_.terms()) made = tilt(made, by);
+    return made;
+  }
   std::vector<Function> maximum_of() const override {
     std::vector<Function> parts = parts_of_max(f_);
     for (Function& part : parts) part = translate(part, by_);
@@ -73,12 +80,18 @@ class Translate : public Operation {
   std::optional<Prox> reduced_prox(const Vector& z, const Metric& W, const Look& look) const override {
     const Prox part = f_.prox(z - by_, W, look);
     if (part.x.size() == 0) return part;
-    const double rounding = unit_roundoff * (W.norm(z - by_) + W.norm(part.x + by_));
+    const double rounding =
+        unit_roundoff * (W.norm(z - by_) + W.norm(part.x + by_)) + 2 * W.norm(merged_.rest());
     return with_values(moved(part, part.x + by_, part.v, part.error_bound + rounding, z, W), part.values, {},
                        product(part.v, by_));
   }
 
  private:
+  /// x - b to twice the precision.
+  DoubleDoubleVector moved_back(const DoubleDoubleVector& x) const {
+    return difference(difference(x, by_), merged_.rest());
+  }
+
   Function f_;
   MergedVector merged_;
   Vector by_;  ///< all of it

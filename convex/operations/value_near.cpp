@@ -81,12 +81,19 @@ Value value_near(const Function& f, const Vector& y, double size) {
 }
 
 Value value_near(const Function& f, const DoubleDoubleVector& y, double size) {
+  if (!y.lo.isZero(0) && y.lo.allFinite())
+    if (const auto own = f.node().evaluate_pair(y); own && std::isfinite(own->value + own->error))
+      return *own;
   Value found = value_near(f, y.hi, size);
   const bool by_formula = found.error <= roundings_of_a_formula * unit_roundoff * std::abs(found.value);
-  if (!std::isfinite(found.value) || !by_formula || y.lo.isZero(0) || !y.lo.allFinite()) return found;
+  if (!std::isfinite(found.value) || y.lo.isZero(0) || !y.lo.allFinite()) return found;
   const std::optional<Vector> v = f.subgradient(y.hi);
   if (!v || !v->allFinite()) return found;
   const double more = v->dot(y.lo);
+  if (!by_formula && std::abs(more) <= found.error) {
+    found.error += std::abs(more);
+    return found;
+  }
   found.value += more;
   found.error += roundings_of_a_term * unit_roundoff * v->cwiseAbs().dot(y.lo.cwiseAbs());
   if (std::abs(more) <= unit_roundoff * std::abs(found.value)) return found;
@@ -103,6 +110,26 @@ DoubleDoubleVector quotient(const Vector& x, double s) {
     const DoubleDouble back = two_product(s, found.hi[i]);
     const double left = ((x[i] - back.hi) - back.lo) / s;
     if (std::isfinite(left)) found.lo[i] = left;
+  }
+  return found;
+}
+
+DoubleDoubleVector quotient(const DoubleDoubleVector& x, DoubleDouble s) {
+  DoubleDoubleVector found(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble entry = quotient(DoubleDouble{x.hi[i], x.lo[i]}, s);
+    found.hi[i] = entry.hi;
+    if (std::isfinite(entry.lo)) found.lo[i] = entry.lo;
+  }
+  return found;
+}
+
+DoubleDoubleVector difference(const DoubleDoubleVector& x, const Vector& b) {
+  DoubleDoubleVector found(x.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    const DoubleDouble entry = add({x.hi[i], x.lo[i]}, {-b[i], 0});
+    found.hi[i] = entry.hi;
+    found.lo[i] = entry.lo;
   }
   return found;
 }

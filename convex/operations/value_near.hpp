@@ -20,7 +20,11 @@ Value value_near(const Function& f, const DoubleDoubleVector& y, double size);
 /// x / s, s not 0, to twice the precision.
 DoubleDoubleVector quotient(const Vector& x, double s);
 
+DoubleDoubleVector quotient(const DoubleDoubleVector& x, DoubleDouble s);
+
 /// x - b exactly.
 DoubleDoubleVector difference(const Vector& x, const Vector& b);
+/// x - b to twice the precision.
+DoubleDoubleVector difference(const DoubleDoubleVector& x, const Vector& b);
 
 }  // namespace convex::inline operations

@@ -10,13 +10,6 @@
 
 namespace convex::inline isotonic {
 
-/// x y for pairs, exact to some u².
-inline DoubleDouble product_of_pairs(DoubleDouble x, DoubleDouble y) {
-  DoubleDouble p = two_product(x.hi, y.hi);
-  p.lo += x.lo * y.hi + x.hi * y.lo;
-  return two_sum(p.hi, p.lo);
-}
-
 /// Of pairs that are tidy.
 inline bool less(DoubleDouble x, DoubleDouble y) { return x.hi < y.hi || (x.hi <= y.hi && x.lo < y.lo); }
 
