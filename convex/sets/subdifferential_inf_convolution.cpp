@@ -197,9 +197,10 @@ class Sharing {
     if (first == 0) return Ends{start, 0, start, 0};
     const Rank largest = rank_of(std::numeric_limits<double>::max()), from = rank_of(start);
     double near = start, of_near = first;
-    for (Rank step = 1; step <= largest; step *= 2) {
-      const Rank to = first > 0 ? from - step : from + step;
-      if (std::abs(to) > largest) return std::nullopt;
+    const Rank last = first > 0 ? -largest : largest;
+    for (Rank to = from, step = 1; to != last; step = std::min(2 * step, largest / 2)) {
+      const bool is_last = first > 0 ? to < step - largest : to > largest - step;
+      to = is_last ? last : first > 0 ? to - step : to + step;
       const double next = double_of(to), of_next = excess(next, Fraction{}, start);
       if (of_next == 0) return Ends{next, 0, next, 0};
       if ((of_next > 0) != (first > 0))

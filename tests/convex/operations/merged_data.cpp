@@ -104,3 +104,25 @@ TEST_CASE("the conjugate of functions of groups has all of their sum") {
   const Vector y{{30, 40, -2}};
   CHECK(f.conjugate().conjugate().evaluate(y).value == doctest::Approx(f.evaluate(y).value).epsilon(1e-9));
 }
+
+TEST_CASE("the value near an edge that nested operations make is of their numbers, not of a rounded sum") {
+  // Conjugates and functions whose argument is a small difference of shifts (sums, products and quotients of
+  // doubles that are none); by forty digits.
+  struct Case {
+    const char* f;
+    double at, value;
+  };
+  for (const auto& [text, at, value] :
+       {Case{"tilt(tilt(log_barrier(),0.1),0.2)", 0.29999999999, 24.328433164640654888},
+        {"conjugate(translate(translate(log_barrier(),0.1),0.2))", 0.3000000000001, 29.933572820048898786},
+        {"conjugate(dilate(translate(dilate(translate(log_barrier(),-1.0),-1.06e-06),-2.0),-0.454))",
+         0.9079995187600001, 23.235289395822160758},
+        {"conjugate(translate(translate(log_barrier(),-1e-17),0.2))", 0.2, 39.143946580898776557},
+        {"dilate(entropy(),539)", 1, 4.4712737906735932971e233}}) {
+    CAPTURE(std::string(text));
+    const Value found = function(text, 1).conjugate().evaluate(Vector::Constant(1, at));
+    CHECK(std::abs(found.value - value) <= 1e-15 * std::abs(value));
+    CHECK(std::abs(found.value - value) <= found.error);
+    CHECK(found.error <= 1e-14 * std::abs(value));
+  }
+}

@@ -52,3 +52,11 @@ TEST_CASE("an inf-convolution's subgradients are exact where those of its parts 
     CHECK(found.polyhedron->vertices.front()[0] == slope);
   }
 }
+
+TEST_CASE("where no point attains an inf-convolution its slope is told, or a refusal, soon") {
+  // It is 0 everywhere: the exponential has the slope 0 beyond all doubles alone.
+  const Subdifferential flat = at("inf_convolution(zero(), exponential())", "0");
+  REQUIRE(flat.is_single());
+  CHECK(nearest(flat.polyhedron->vertices.front())[0] == 0);
+  CHECK_THROWS_AS(at("inf_convolution(logistic(), inverse_power(1))", "0"), InvalidInput);
+}
