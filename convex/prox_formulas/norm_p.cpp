@@ -26,9 +26,15 @@ double root_of_two_terms(double a, double b, double e, double z) {
       0, high, high * 0.75);
 }
 
+/// A point and the number that it belongs to.
+struct OnSphere {
+  Vector y;
+  double number;
+};
+
 /// y with line y_i + power y_i^(p-1) = z_i and |y|_p = 1, one of the two numbers being sought: it lies
 /// between 0 and `high`, where |y|_p <= 1.
-Vector on_unit_sphere(const Vector& z, double known, bool line_is_sought, double p, double high) {
+OnSphere on_unit_sphere(const Vector& z, double known, bool line_is_sought, double p, double high) {
   Vector y(z.size());
   const auto at = [&](double sought) {
     const double line = line_is_sought ? sought : known, power = line_is_sought ? known : sought;
@@ -42,8 +48,9 @@ Vector on_unit_sphere(const Vector& z, double known, bool line_is_sought, double
     }
     return std::pair(1 - sum, rate);
   };
-  at(increasing_root(at, 0, high, high));
-  return y;
+  const double found = increasing_root(at, 0, high, high);
+  at(found);
+  return {y, found};
 }
 
 }  // namespace
@@ -66,8 +73,9 @@ Vector prox_norm_p(const Vector& z, double weight, double p) {
   if (norm_p(z, dual_exponent(p)) <= weight) return Vector::Zero(z.size());
   const Vector unit = z / top;
   const double w = weight / top;
-  const Vector y = on_unit_sphere(unit, w, true, p, norm_p(unit, p));
-  return z - weight * y.array().pow(p - 1).matrix();
+  // Where p is near 1, y^(p-1) is some number though y is none but 0.
+  const auto [y, line] = on_unit_sphere(unit, w, true, p, norm_p(unit, p));
+  return top * line * y;
 }
 
 Vector proj_ball_p(const Vector& z, double radius, double p) {
@@ -78,7 +86,7 @@ Vector proj_ball_p(const Vector& z, double radius, double p) {
   if (radius == 0) return Vector::Zero(z.size());
   const double top = z.maxCoeff();
   const Vector unit = z / top;
-  return radius * on_unit_sphere(unit, radius / top, false, p, norm_p(unit, dual_exponent(p)));
+  return radius * on_unit_sphere(unit, radius / top, false, p, norm_p(unit, dual_exponent(p))).y;
 }
 
 Matrix prox_norm_p_jacobian(const Vector& z, double weight, double p) {
