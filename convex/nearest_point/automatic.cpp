@@ -239,7 +239,10 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   validate_guess(problem, guess);
   validate(problem);
   // Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
-  if (accuracy.limit > 0 || has_ordinary_numbers(problem)) return decided(problem, accuracy, guess);
+  if (accuracy.limit > 0 || has_ordinary_numbers(problem)) {
+    Solution found = decided(problem, accuracy, guess);
+    return is_below_squares(problem, found) ? in_own_size(problem, accuracy, decided_from_nothing) : found;
+  }
   return in_common_size(problem, accuracy, decided_from_nothing);
 }
 

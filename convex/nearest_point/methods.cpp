@@ -44,7 +44,11 @@ Solution automatic_from_nothing(const NearestPointProblem& problem, const Accura
 
 template <Solution (*method)(const NearestPointProblem&, const Accuracy&)>
 Solution of_any_size(const NearestPointProblem& problem, const Accuracy& accuracy) {
-  return in_common_size(problem, accuracy, method);
+  if (problem.rows() > 0 || problem.U.dimension() == problem.dimension())
+    return in_common_size(problem, accuracy, method);
+  NearestPointProblem sized = problem;  // rows that are none may have any length
+  sized.U = ConstraintRows(RowMatrix(0, problem.dimension()));
+  return in_common_size(sized, accuracy, method);
 }
 
 using enum MethodKind;

@@ -6,6 +6,7 @@
 #include "convex/nearest_point/pivoting/gram_method.hpp"
 #include "convex/nearest_point/pivoting/gram_solve.hpp"
 #include "convex/nearest_point/pivoting/swept_rows.hpp"
+#include "convex/nearest_point/reductions/common_size.hpp"
 
 namespace convex {
 
@@ -31,6 +32,9 @@ struct RepeatedProblem::State {
   Arena arena;
   std::optional<Engine<FactoredRows>> factored;
   Solution solution;
+
+  /// The solution of the problem as it now is.
+  void find();
 };
 
 RepeatedProblem::RepeatedProblem(NearestPointProblem problem, const Accuracy& accuracy) {
@@ -51,25 +55,31 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
                        " entries; give one per coordinate and one per row");
   state.problem.z = z;
   state.problem.s = s;
-  if (state.swept && state.swept->settled &&
-      state.swept->decisions.solve_in_critical_region(state.accuracy, state.solution))
-    return state.solution;
+  state.find();
+  if (is_below_squares(state.problem, state.solution))
+    state.solution =
+        in_own_size(state.problem, state.accuracy,
+                    [](const auto& problem, const auto& accuracy) { return active_set(problem, accuracy); });
+  return state.solution;
+}
+
+void RepeatedProblem::State::find() {
+  if (swept && swept->settled && swept->decisions.solve_in_critical_region(accuracy, solution)) return;
   const auto all_finite = dense_kernels().is_finite;
+  const Vector &z = problem.z, &s = problem.s;
   if (!all_finite(z.size(), z.data()) || !all_finite(s.size(), s.data()))
     throw InvalidInput("z, s: an entry is not finite; give finite numbers");
-  if (has_gram_matrix(state.problem) && state.accuracy.step_limit == 0) {
-    if (SweptRows::fits(state.problem)) {
-      if (!state.tableau) state.tableau = std::make_unique_for_overwrite<SmallTableau>();
-      if (!state.swept || !state.swept->settled) state.swept.emplace(state.problem, *state.tableau);
-      if (state.swept->solve(state.accuracy, state.solution)) return state.solution;
+  if (has_gram_matrix(problem) && accuracy.step_limit == 0) {
+    if (SweptRows::fits(problem)) {
+      if (!tableau) tableau = std::make_unique_for_overwrite<SmallTableau>();
+      if (!swept || !swept->settled) swept.emplace(problem, *tableau);
+      if (swept->solve(accuracy, solution)) return;
     }
-    if (state.factored && state.factored->settled && state.factored->solve(state.accuracy, state.solution))
-      return state.solution;
-    state.factored.emplace(state.problem, state.arena);
-    if (state.factored->solve(state.accuracy, state.solution)) return state.solution;
+    if (factored && factored->settled && factored->solve(accuracy, solution)) return;
+    factored.emplace(problem, arena);
+    if (factored->solve(accuracy, solution)) return;
   }
-  state.solution = active_set(state.problem, state.accuracy, state.solution.basis);
-  return state.solution;
+  solution = active_set(problem, accuracy, solution.basis);
 }
 
 }  // namespace convex

@@ -58,7 +58,7 @@ Solution judged_answer(const WorkingSet& set, const RefinedPoint& refined, const
   }
   solution.basis = set.rows();
   solution.slack = slack;
-  solution.acceleration_norm = set.w().norm();
+  solution.acceleration_norm = problem.A.norm(solution.q);
   solution.force_norm = set.w_free().norm();
   const double diagonal_norm = std::sqrt(problem.A.diagonal().dot(solution.q.cwiseAbs2()));
   solution.residuals =

@@ -40,7 +40,8 @@ bool GramSolve::solve_in_critical_region(const Accuracy& accuracy, Solution& sol
   return region->least > near_zero * std::max(known_.scale, p_.magnitude) &&
          known_.remaining <= beside_rounding * known_.scale &&
          known_.bound <= accuracy.tolerance * std::max(1.0, p_.acceleration_norm) &&
-         (region->has_all || is_clear(known_.scale)) && write(accuracy, solution);
+         (region->has_all || is_clear(known_.scale)) && write(accuracy, solution) &&
+         solution.status == Status::solved;
 }
 
 bool GramSolve::answer(const Accuracy& accuracy, Solution& solution) {
@@ -128,8 +129,18 @@ double GramSolve::near_scale(double part) {
   return any ? small : 0;
 }
 
+/// ||q||_A is that of w, which is what is left of z and the pushes of the rows: where these cancel, of q
+/// itself.
+void GramSolve::measure_again_where_it_cancels() {
+  constexpr double much = 0x1p-20;
+  double largest = known_.scale;
+  for (Index k = 0; k < p_.size; ++k) largest = std::max(largest, std::abs(p_.lambda[k]) * p_.length[k]);
+  if (!(p_.acceleration_norm > much * largest))
+    p_.acceleration_norm = problem_.A.norm(Eigen::Map<const Vector>(p_.q, p_.n));
+}
+
 bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
-  if (std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; })) p_.acceleration_norm = 0;
+  measure_again_where_it_cancels();
   const double close = accuracy.tolerance * std::max(1.0, p_.acceleration_norm);
   // As many rows are held as there are coordinates, by the doubles q, without rounding: whatever the
   // multipliers are, so far as their signs are told, the point is that one.
@@ -146,6 +157,7 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
   solution.undecided = problem_.radii && touches_rows() ? open_question::touched : std::string_view();
   solution.model.islands.clear();
   solution.steps = p_.steps;
+  solution.farkas.resize(0);
   solution.q = Eigen::Map<const Vector>(p_.q, p_.n);
   solution.lambda.setZero(p_.all);
   solution.slack = Eigen::Map<const Vector>(p_.slack, p_.all);

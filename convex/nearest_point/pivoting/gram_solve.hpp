@@ -38,6 +38,7 @@ class GramSolve {
   bool doubles_do(double close);
   bool is_clear(double size);
   double near_scale(double part);
+  void measure_again_where_it_cancels();
   bool write(const Accuracy& accuracy, Solution& solution);
 
   Slacks measure_slacks();

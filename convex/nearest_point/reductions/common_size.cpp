@@ -150,6 +150,19 @@ Solution in_common_size(const NearestPointProblem& problem, const Accuracy& accu
                         Solution (*method)(const NearestPointProblem&, const Accuracy&)) {
   if (has_ordinary_numbers(problem)) return method(problem, accuracy);
   validate(problem);
+  return in_own_size(problem, accuracy, method);
+}
+
+bool is_below_squares(const NearestPointProblem& problem, const Solution& solution) {
+  constexpr double least = 0x1p-400;  // times the square of the rounding to doubles it has a square
+  if (solution.q.size() == 0) return false;
+  const double largest = std::max(solution.acceleration_norm, solution.force_norm);
+  if (largest > 0) return largest < least;
+  return !problem.z.isZero(0) || !solution.q.isZero(0);
+}
+
+Solution in_own_size(const NearestPointProblem& problem, const Accuracy& accuracy,
+                     Solution (*method)(const NearestPointProblem&, const Accuracy&)) {
   const CommonSize scaled(problem);
   return scaled.restored(problem, method(scaled.problem, accuracy), accuracy);
 }
