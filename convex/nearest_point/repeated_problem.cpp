@@ -56,7 +56,7 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.z = z;
   state.problem.s = s;
   state.find();
-  if (is_below_squares(state.problem, state.solution))
+  if (is_beyond_squares(state.problem, state.solution))
     state.solution =
         in_own_size(state.problem, state.accuracy,
                     [](const auto& problem, const auto& accuracy) { return active_set(problem, accuracy); });

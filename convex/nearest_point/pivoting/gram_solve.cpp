@@ -170,7 +170,7 @@ bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
   solution.force_norm = p_.z_norm;
   solution.rounding = known_.rounding;
   solution.error_bound = known_.bound + moved_;
-  solution.status = solution.error_bound <= close ? Status::solved : Status::inaccurate;
+  solution.status = solution.is_within(accuracy) ? Status::solved : Status::inaccurate;
   return true;
 }
 

@@ -153,11 +153,13 @@ Solution in_common_size(const NearestPointProblem& problem, const Accuracy& accu
   return in_own_size(problem, accuracy, method);
 }
 
-bool is_below_squares(const NearestPointProblem& problem, const Solution& solution) {
-  constexpr double least = 0x1p-400;  // times the square of the rounding to doubles it has a square
+bool is_beyond_squares(const NearestPointProblem& problem, const Solution& solution) {
+  // The least, times the square of the rounding to doubles, has a square.
+  constexpr double least = 0x1p-400, most = 0x1p480;
   if (solution.q.size() == 0) return false;
-  const double largest = std::max(solution.acceleration_norm, solution.force_norm);
-  if (largest > 0) return largest < least;
+  const double q = solution.acceleration_norm, z = solution.force_norm;
+  if (!(q < most && z < most)) return true;
+  if (q > 0 || z > 0) return std::max(q, z) < least;
   return !problem.z.isZero(0) || !solution.q.isZero(0);
 }
 

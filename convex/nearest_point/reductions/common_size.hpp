@@ -31,9 +31,9 @@ bool has_ordinary_numbers(const NearestPointProblem&);
 Solution in_common_size(const NearestPointProblem&, const Accuracy&,
                         Solution (*method)(const NearestPointProblem&, const Accuracy&));
 
-/// Whether the numbers of a solution are so small that squares of what rounding left of them are no doubles:
-/// its bound tells nothing.
-bool is_below_squares(const NearestPointProblem&, const Solution&);
+/// Whether the numbers of a solution are so large that their squares are no doubles, or so small that those
+/// of what rounding left of them are none: its bound tells nothing.
+bool is_beyond_squares(const NearestPointProblem&, const Solution&);
 /// method(problem, accuracy) on the problem of common size.
 Solution in_own_size(const NearestPointProblem&, const Accuracy&,
                      Solution (*method)(const NearestPointProblem&, const Accuracy&));
