@@ -89,6 +89,7 @@ struct Collected {
   Matrix A_radius;
   Vector z_radius, s_radius;
   convex::RowMatrix U_radius;
+  bool touches = true;  // every contact, as written
 };
 
 /// A and z: false where a function cannot be evaluated.
@@ -125,29 +126,6 @@ bool collect_motion(const LagrangianModel& model, ExactEvaluation& evaluate, Col
   return true;
 }
 
-/// U and s.
-bool collect_contacts(const LagrangianModel& model, const std::vector<Index>& contacts,
-                      ExactEvaluation& evaluate, Collected& found) {
-  const std::size_t n = model.coordinates.size();
-  const auto m = static_cast<Index>(contacts.size());
-  found.U_radius = convex::RowMatrix::Zero(m, static_cast<Index>(n));
-  found.s_radius = Vector::Zero(m);
-  for (Index k = 0; k < m; ++k) {
-    const auto& f = evaluate(model.f[static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)])]);
-    if (!f) return false;
-    std::vector<Fraction> row(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Number u = at(f->by_q, i);
-      row[i] = u.middle();
-      found.U_radius(k, static_cast<Index>(i)) = u.radius();
-    }
-    found.U.push_back(std::move(row));
-    found.s.push_back((-f->along_twice).middle());
-    found.s_radius[k] = f->along_twice.radius();
-  }
-  return true;
-}
-
 /// What the signs of f and df/dt say.
 ContactVerdict verdict(const ExactJet& f, bool two_sided) {
   const auto value = f.value.sign(), rate = f.along.sign();
@@ -159,6 +137,31 @@ ContactVerdict verdict(const ExactJet& f, bool two_sided) {
   if (value && *value < 0) return ContactVerdict::violated;
   if (value && rate) return *rate > 0 ? ContactVerdict::apart : ContactVerdict::violated;
   return ContactVerdict::undecided;
+}
+
+/// U and s.
+bool collect_contacts(const LagrangianModel& model, const std::vector<Index>& contacts,
+                      ExactEvaluation& evaluate, Collected& found) {
+  const std::size_t n = model.coordinates.size();
+  const auto m = static_cast<Index>(contacts.size());
+  found.U_radius = convex::RowMatrix::Zero(m, static_cast<Index>(n));
+  found.s_radius = Vector::Zero(m);
+  for (Index k = 0; k < m; ++k) {
+    const auto a = static_cast<std::size_t>(contacts[static_cast<std::size_t>(k)]);
+    const auto& f = evaluate(model.f[a]);
+    if (!f) return false;
+    found.touches = found.touches && verdict(*f, model.constraints[a].two_sided) == ContactVerdict::touches;
+    std::vector<Fraction> row(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Number u = at(f->by_q, i);
+      row[i] = u.middle();
+      found.U_radius(k, static_cast<Index>(i)) = u.radius();
+    }
+    found.U.push_back(std::move(row));
+    found.s.push_back((-f->along_twice).middle());
+    found.s_radius[k] = f->along_twice.radius();
+  }
+  return true;
 }
 
 convex::ExactRows exact_rows_of(const std::vector<std::vector<Fraction>>& rows) {
@@ -184,6 +187,7 @@ std::optional<TextProblem> attempt(const LagrangianSystem& system, const StateTe
       two_sided.push_back(static_cast<Index>(k));
   found.is_exact = numbers.A_radius.isZero(0) && numbers.z_radius.isZero(0) && numbers.U_radius.isZero(0) &&
                    numbers.s_radius.isZero(0);
+  found.contacts_touch = numbers.touches;
   found.precision = precision;
   convex::UncertainProblem& problem = found.problem;
   problem.middle =
@@ -273,7 +277,7 @@ std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem& 
                                                         const std::vector<Index>& contacts) {
   if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;
   std::optional<TextProblem> found = attempt(system, text, contacts, 0);
-  if (!found) return std::nullopt;
+  if (!found || !found->contacts_touch) return std::nullopt;
   return std::move(found->problem.middle);
 }
 

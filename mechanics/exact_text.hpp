@@ -17,6 +17,7 @@ enum class ContactVerdict { touches, apart, violated, undecided };
 struct TextProblem {
   convex::UncertainProblem problem;
   bool is_exact = false;                 ///< all numbers are fractions, all radii 0
+  bool contacts_touch = false;           ///< f = 0 and df/dt = 0 of every contact of K is proved
   std::vector<ContactVerdict> contacts;  ///< by constraint
   long precision = 0;                    ///< of the balls, bits; 0: there are none
 };
@@ -36,7 +37,9 @@ std::vector<ContactVerdict> contact_verdicts(const LagrangianSystem&, const Stat
 std::optional<TextProblem> problem_from_text(const LagrangianSystem&, const StateText&,
                                              const std::vector<Index>& contacts);
 
-/// The same where all numbers are fractions; none otherwise.
+/// The same where all numbers are fractions and every contact of K touches at the state as written; none
+/// otherwise: where the digits of a state miss a contact, by however little, they miss what makes rows
+/// dependent and consistent, too.
 std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&, const StateText&,
                                                         const std::vector<Index>& contacts);
 

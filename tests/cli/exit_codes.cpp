@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <utility>
+
 #include "tests/cli/program.hpp"
 
 using namespace tests;
@@ -45,4 +47,18 @@ TEST_CASE("of several files the largest exit code counts, whatever their order")
 
 TEST_CASE("derive exits zero for a system without a solution: it does not solve") {
   CHECK(run_on("derive", impossible).code == 0);
+}
+
+TEST_CASE("one curve written twice has a motion at a state that meets it within its digits") {
+  const std::string third = R"text(drive = "x = t/3", again = "x*(1 + x) = t/3*(1 + t/3)")text",
+                    tenth = R"text(drive = "x = 0.1*t", again = "(x + 1)^2 = (0.1*t + 1)^2")text";
+  const Folder folder;
+  for (const auto& [curve, velocity] :
+       {std::pair{third, "0.3333333333333333"}, {tenth, "0.10000000000000001"}}) {
+    const std::string file = folder.write(
+        "curve.toml", "[system]\ncoordinates = [\"x\"]\nkinetic = \"x'^2/2\"\nconstraints = { " + curve +
+                          " }\n[state]\nposition = { x = 0 }\nvelocity = { x = " + velocity + " }\n");
+    for (const char* command : {"solve", "check", "explain"}) CHECK(run({command, file}).code == 0);
+    for (const char* method : {"exact", "lemke"}) CHECK(run({"solve", "--method", method, file}).code == 0);
+  }
 }

@@ -57,3 +57,13 @@ TEST_CASE("values that need each other, or what is not given, are refused") {
   CHECK(error({{"a", "1"}, {"x", "nothing"}}, {}).find("is unknown") != std::string::npos);
   CHECK(error({{"a", "1"}, {"x", "log(a - 1)"}}, {}).find("not finite") != std::string::npos);
 }
+
+TEST_CASE("the text tells nothing of dependent rows at a state whose digits miss a contact") {
+  const auto twice = system(
+      {{"x"}, "x'^2/2", "", {}, {}, {}, {{"drive", "x = t/3"}, {"again", "x*(1 + x) = t/3*(1 + t/3)"}}});
+  const auto fractions = [&](const char* velocity) {
+    return mechanics::fractions_from_text(*twice, state_text({{"x", "0"}}, {{"x", velocity}}, "0"), {0, 1});
+  };
+  CHECK(fractions("1/3"));
+  CHECK_FALSE(fractions("0.3333333333333333"));
+}
