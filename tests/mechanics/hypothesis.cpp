@@ -215,3 +215,19 @@ TEST_CASE("a row presses in any units") {
     CHECK(found.multipliers.least_norm[1] * unit == doctest::Approx(1));
   }
 }
+
+TEST_CASE(
+    "contacts that are one within their radii agree as equations, however the system rests without them") {
+  constexpr double off = 1e-12;
+  const NearestPointProblem problem{convex::Metric::identity(1),
+                                    Vector::Zero(1),
+                                    convex::ConstraintRows(RowMatrix{{1}, {1 + off}, {2}}),
+                                    Vector{{1, 1, 2}},
+                                    {2},
+                                    convex::DataRadii{Vector::Constant(3, off), Vector::Zero(3)}};
+  const mechanics::GaussSolution found = mechanics::solve(problem);
+  REQUIRE(found.primal.status == convex::Status::solved);
+  CHECK(found.multipliers.tight.size() == 3);
+  CHECK(found.hypothesis.two_sided.consistent);
+  CHECK(found.hypothesis.accepted);
+}

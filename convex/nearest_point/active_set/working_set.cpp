@@ -1,5 +1,7 @@
 #include "convex/nearest_point/active_set/working_set.hpp"
 
+#include <algorithm>
+
 #include "convex/infinity.hpp"
 
 namespace convex::inline dual_active_set {
@@ -117,10 +119,17 @@ void WorkingSet::append_block(const std::vector<Index>& rows, Eigen::Ref<Matrix>
   factor_.append_block(whitened, threshold, [&](Index k) { take(rows[static_cast<std::size_t>(k)]); });
 }
 
-void WorkingSet::solve() {
+Vector WorkingSet::shortest_motion() const {
   Vector y(size());
   for (Index k = 0; k < size(); ++k) y[k] = problem_.s[rows_[static_cast<std::size_t>(k)]];
   factor_.solve_lower(y);
+  return y;
+}
+
+double WorkingSet::scale() const { return std::max({w_.norm(), w_free_.norm(), shortest_motion().norm()}); }
+
+void WorkingSet::solve() {
+  Vector y = shortest_motion();
   y.noalias() -= factor_.Q().transpose() * w_free_;
   w_ = w_free_;
   w_.noalias() += factor_.Q() * y;

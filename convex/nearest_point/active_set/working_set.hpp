@@ -33,8 +33,9 @@ class WorkingSet {
   const Vector& lambda() const { return lambda_; }
   /// q = F⁻ᵀw.
   Vector point() const;
-  /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to.
-  double scale() const { return std::max(w_.norm(), w_free_.norm()); }
+  /// max(||q||_A, ||z||_(A⁻¹)): what errors are relative to; q also that of the shortest motion that holds W,
+  /// which may have rows that the point has not been solved for.
+  double scale() const;
 
   /// u_p = Σ_W r_k u_k + (what W does not span): `direction` is the whitened rest d, `coefficients` is r (k
   /// entries), `c` = Qᵀv. When the row is nearly dependent, found with residuals of the *original* rows in
@@ -60,6 +61,8 @@ class WorkingSet {
   void correct(const Vector& g, Vector r2, Vector& dw, Vector& dlambda) const;
 
  private:
+  /// R⁻ᵀs of W: in the span of its rows, the nearest motion to 0 that holds them.
+  Vector shortest_motion() const;
   void sharpen(Index p, Split& split);
   void take(Index p);
 
