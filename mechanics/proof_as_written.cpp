@@ -10,6 +10,7 @@
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
 #include "mechanics/data_radii.hpp"
 #include "mechanics/expression/lagrangian_model.hpp"
+#include "mechanics/settled_middle.hpp"
 #include "mechanics/singular/row_space.hpp"
 
 namespace mechanics {
@@ -155,7 +156,7 @@ class Proving {
     find_distance();
     const bool wanted = exact && in_fractions() && !found_.exact;
     if (only && K == contacts_ && (wanted || one.feasible != has_answer(found_.solution) || is_off(one))) {
-      found_.solution = exact ? exact->rounded : solve_exactly(middle, near, options_).rounded;
+      found_.solution = exact ? exact->rounded : answer_in_balls(text, near, proof);
       found_.exact.reset();
       if (exact && in_fractions()) found_.exact = exact;
       find_distance();
@@ -172,6 +173,16 @@ class Proving {
     proof.exact = std::move(exact);
     proof.enclosed = std::move(enclosed);
     return one;
+  }
+
+  /// With what the balls leave open of how rows depend on each other settled, or it would be told from their
+  /// middles: which row opens, by the last digit, and which multipliers there are.
+  GaussSolution answer_in_balls(const TextProblem& text, const NearestPointProblem& near,
+                                TextProof& proof) const {
+    const SettledMiddle settled = settled_middle(text.problem, likely_rows(near, contacts_));
+    for (const Index row : settled.dependent)
+      proof.dependent.push_back(contacts_[static_cast<std::size_t>(row)]);
+    return solve_exactly(settled.problem, near, options_).rounded;
   }
 
   /// Whether fractions were asked for: those of the numbers as evaluated stay, where they are close enough.

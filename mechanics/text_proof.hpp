@@ -14,8 +14,9 @@ struct TextProof {
   std::vector<Index> refuted;  ///< one-sided constraints that the tolerance took into K, or left out, wrongly
   std::vector<Index> violated;  ///< one-sided constraints that do not hold as written
   std::vector<Index> open;      ///< one-sided constraints of which the text decides nothing
-  /// Where nothing is proved: two-sided constraints whose gradients are combinations of others within what
-  /// rounding leaves of them. The text does not tell whether they are; they count as that, and as consistent.
+  /// Constraints whose gradients are combinations of others within what balls leave of them or, where nothing
+  /// is proved, two-sided ones within what rounding does. The text does not tell whether they are; they count
+  /// as that, and as consistent.
   std::vector<Index> dependent;
   /// One-sided constraints of K whose gradient is 0 there: of them second derivatives tell nothing, and
   /// nothing is proved.

@@ -192,8 +192,8 @@ std::string from_text_text(const SolvedScene& solved) {
                         constraints_text(solved, proof.vanishing));
   if (!proof.dependent.empty())
     text += fmt::format(
-        ". {} {} on the other two-sided constraints within the rounding of the numbers, and the text does "
-        "not tell: {} counted as dependent{}",
+        ". {} {} on other constraints within the rounding of the numbers, and the text does not tell: {} "
+        "counted as dependent{}",
         constraints_text(solved, proof.dependent), proof.dependent.size() == 1 ? "depends" : "depend",
         proof.dependent.size() == 1 ? "it is" : "they are", solved.infeasible() ? "" : " and consistent");
   return text + ".\n" + fractions_text(solved, proof);
