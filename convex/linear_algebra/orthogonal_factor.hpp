@@ -109,6 +109,12 @@ class OrthogonalFactor {
   void solve_lower(Eigen::Ref<Vector> x) const {
     if (size_ > 0) R_.topLeftCorner(size_, size_).triangularView<Eigen::Upper>().transpose().solveInPlace(x);
   }
+  /// R⁻¹.
+  Matrix inverse() const {
+    Matrix columns = Matrix::Identity(size_, size_);
+    if (size_ > 0) R_.topLeftCorner(size_, size_).triangularView<Eigen::Upper>().solveInPlace(columns);
+    return columns;
+  }
   /// An estimate of 1 / (smallest singular value of R with every column of length 1), so that no row's unit
   /// enters: one step of inverse iteration each way, from signs that let the first solution grow (Cline,
   /// Moler, Stewart and Wilkinson 1979).

@@ -80,13 +80,18 @@ class DualActiveSet {
   bool hold_two_sided() {
     Matrix whitened = whitened_rows(problem_, problem_.two_sided);
     set_.append_block(problem_.two_sided, whitened, block_dependence);
+    bool is_solved = false;  // what rounding makes of a gap is relative to the motion that the rows ask for
     for (Index p : problem_.two_sided) {
       if (set_.holds(p)) continue;
       if (passed_[static_cast<std::size_t>(p)]) continue;
       set_.split(p, split_);
       if (split_.rho > 0) {
         set_.append(p, split_, 0);
-      } else if (const double gap = contradiction(set_, p, split_); std::abs(gap) > 0) {
+        is_solved = false;
+        continue;
+      }
+      if (!std::exchange(is_solved, true)) set_.solve();
+      if (const double gap = contradiction(set_, p, split_); std::abs(gap) > 0) {
         farkas_ = contradiction_weights(set_, p, split_, gap > 0 ? 1 : -1);
         return false;
       }

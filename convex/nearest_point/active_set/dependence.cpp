@@ -18,6 +18,10 @@ bool is_small_enough(Index coordinates, std::size_t rows) {
   return n * k * std::min(n, k) <= most_dense_work;
 }
 
+double radius_of(const NearestPointProblem& problem, Index row) {
+  return problem.radii ? problem.radii->row[row] : 0;
+}
+
 Dependence dependence(const NearestPointProblem& problem, const std::vector<Index>& basis,
                       const std::vector<Index>& tight) {
   using Set = WorkingSet;
@@ -26,7 +30,11 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
   set.append_block(basis, whitened, 0);
   Dependence found;
   Set::Split split;
-  std::vector<Vector> expansions;  // rows taken in later have no part in them
+  struct Told {
+    Vector coefficients;  // rows taken in later have no part in them
+    double turn = 0;      // what the radii of the rows may make of their sum
+  };
+  std::vector<Told> expansions;
   for (Index a : tight) {
     if (set.holds(a)) continue;
     set.split(a, split);
@@ -36,16 +44,28 @@ Dependence dependence(const NearestPointProblem& problem, const std::vector<Inde
     }
     found.dependent.push_back(a);
     const double noise = 64 * unit_roundoff * split.magnitude;  // of a coefficient times its row's length
-    Vector& expansion = expansions.emplace_back(Vector::Zero(set.size()));
-    for (Index k = 0; k < set.size(); ++k)
-      if (std::abs(split.coefficients[k]) * set.factor().length(k) > noise)
-        expansion[k] = split.coefficients[k];
+    Told& told = expansions.emplace_back(Told{Vector::Zero(set.size()), radius_of(problem, a)});
+    for (Index k = 0; k < set.size(); ++k) {
+      if (!(std::abs(split.coefficients[k]) * set.factor().length(k) > noise)) continue;
+      told.coefficients[k] = split.coefficients[k];
+      told.turn +=
+          std::abs(split.coefficients[k]) * radius_of(problem, set.rows()[static_cast<std::size_t>(k)]);
+    }
   }
   found.basic = set.rows();
   found.inverse_norm = set.factor().inverse_norm();
   found.T = Matrix::Zero(set.size(), static_cast<Index>(found.dependent.size()));
-  for (std::size_t p = 0; p < expansions.size(); ++p)
-    found.T.col(static_cast<Index>(p)).head(expansions[p].size()) = expansions[p];
+  const bool are_rounded =
+      std::any_of(expansions.begin(), expansions.end(), [](const Told& told) { return told.turn > 0; });
+  const Matrix inverse = are_rounded ? set.factor().inverse() : Matrix();
+  for (std::size_t p = 0; p < expansions.size(); ++p) {
+    const auto& [coefficients, turn] = expansions[p];
+    const Index size = coefficients.size();
+    // A row that turns by a vector of length 1 changes its coefficients by the lengths of the rows of R⁻¹.
+    for (Index k = 0; k < size; ++k)
+      if (!(turn > 0 && std::abs(coefficients[k]) <= turn * inverse.row(k).head(size).norm()))
+        found.T(k, static_cast<Index>(p)) = coefficients[k];
+  }
   return found;
 }
 

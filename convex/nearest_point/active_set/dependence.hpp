@@ -9,7 +9,7 @@
 namespace convex::inline dual_active_set {
 
 /// Rows that depend on each other: independent ones, `basic`, and the others with their expansions in them,
-/// u_p = Σ T(k, p) u_k.
+/// u_p = Σ T(k, p) u_k. A coefficient that the radii of the rows may make of 0 is 0.
 struct Dependence {
   std::vector<Index> basic, dependent;
   Matrix T;
