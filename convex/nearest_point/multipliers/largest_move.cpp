@@ -1,18 +1,25 @@
 #include "convex/nearest_point/multipliers/largest_move.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "convex/infinity.hpp"
+#include "convex/nearest_point/active_set/working_set.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/sparse/regularised_kkt.hpp"
 
 namespace convex::inline multiplier_sets {
 namespace {
 
-/// Rows that depend on others are held as softly as this part of their length squared: errors along them that
-/// no motion can follow do not count.
+/// Of problems too large for dense factors, rows are held as softly as this part of their length squared:
+/// errors along rows that depend on others, which no motion can follow, do not count.
 constexpr double softness = 1e-12;
+
+/// In a block a row this close to the span of the others is looked at alone.
+constexpr double block_dependence = 1e-7;
 
 constexpr int most_climbs = 5;
 
@@ -36,6 +43,56 @@ Vector with_signs(const Vector& size, const Vector& of) {
   return size.binaryExpr(of, [](double r, double x) { return x < 0 ? -r : r; });
 }
 
+/// A dq - U_Wᵀ dlambda = r1, U_W dq = r2, of the rows W that are independent.
+class HeldEquations {
+ public:
+  HeldEquations(const NearestPointProblem& problem, const std::vector<Index>& held) : A_(problem.A) {
+    if (is_dense_size(problem))
+      hold(set_.emplace(problem), held);
+    else
+      hold_softly(problem, held);
+  }
+  bool is_known() const { return is_known_; }
+
+  void solve(const Vector& r1, const Vector& r2, Vector& dq, Vector& dlambda) const {
+    if (!set_) return soft_->solve(r1, r2, dq, dlambda);
+    Vector dw, of_set;
+    set_->correct(A_.whiten(r1), r2(place_), dw, of_set);
+    dq = A_.unwhiten(dw);
+    dlambda = Vector::Zero(r2.size());
+    dlambda(place_) = of_set;
+  }
+
+ private:
+  void hold(WorkingSet& set, const std::vector<Index>& held) {
+    Matrix whitened = whitened_rows(set.problem(), held);
+    set.append_block(held, whitened, block_dependence);
+    WorkingSet::Split split;
+    for (const Index a : held) {
+      if (set.holds(a)) continue;
+      set.split(a, split);
+      if (split.rho > 0) set.append(a, split, 0);
+    }
+    for (const Index a : set.rows()) place_.push_back(std::find(held.begin(), held.end(), a) - held.begin());
+  }
+
+  void hold_softly(const NearestPointProblem& problem, const std::vector<Index>& held) {
+    const Vector length = dual_lengths(problem, held);
+    Vector theta(static_cast<Index>(held.size()));
+    for (Index k = 0; k < theta.size(); ++k) {
+      const double of_row = length[held[static_cast<std::size_t>(k)]];
+      theta[k] = of_row > 0 ? softness * of_row * of_row : 1;
+    }
+    is_known_ = soft_.emplace(problem).factor(held, theta);
+  }
+
+  const Metric& A_;
+  std::optional<WorkingSet> set_;
+  std::vector<Index> place_;  // of the rows of the set among those held
+  std::optional<RegularisedKkt> soft_;
+  bool is_known_ = true;
+};
+
 }  // namespace
 
 LargestMove largest_move(const NearestPointProblem& problem, const std::vector<Index>& held,
@@ -44,27 +101,21 @@ LargestMove largest_move(const NearestPointProblem& problem, const std::vector<I
   if (!balance.allFinite() || !rows.allFinite()) return unknown;
   LargestMove largest{0, Vector::Zero(rows.size())};
   if (balance.isZero(0) && rows.isZero(0)) return largest;
-  const Vector length = dual_lengths(problem, held);
-  Vector theta(rows.size());
-  for (Index k = 0; k < rows.size(); ++k) {
-    const double of_row = length[held[static_cast<std::size_t>(k)]];
-    theta[k] = of_row > 0 ? softness * of_row * of_row : 1;
-  }
-  RegularisedKkt kkt(problem);
-  if (!kkt.factor(held, theta)) return unknown;
+  const HeldEquations equations(problem, held);
+  if (!equations.is_known()) return unknown;
   const auto pushes = starts(balance), gaps = starts(rows);
   for (std::size_t start = 0; start < pushes.size(); ++start) {
     if (start > 0 && pushes[start] == pushes[0] && gaps[start] == gaps[0]) continue;
     Vector r1 = pushes[start], r2 = gaps[start], dq, dlambda;
     double reached = -1;
     for (int climb = 0; climb < most_climbs; ++climb) {
-      kkt.solve(r1, r2, dq, dlambda);
+      equations.solve(r1, r2, dq, dlambda);
       const double move = problem.A.norm(dq);
       if (!std::isfinite(move)) return unknown;
       largest.of_multipliers = largest.of_multipliers.cwiseMax(dlambda.cwiseAbs());
       if (!(move > reached)) break;
       reached = move;
-      kkt.solve(problem.A.multiply(dq), Vector::Zero(rows.size()), dq, dlambda);
+      equations.solve(problem.A.multiply(dq), Vector::Zero(rows.size()), dq, dlambda);
       r1 = with_signs(balance, dq);
       r2 = with_signs(rows, -dlambda);
     }

@@ -14,10 +14,10 @@ struct LargestMove {
 
 /// How far the point of the rows W = `held` moves, max ||dq||_A over |r1| <= balance and |r2| <= rows entry
 /// by entry, where A dq - U_Wᵀ dlambda = r1 and U_W dq = r2: what errors of that size in z + U_Wᵀlambda - A q
-/// and s_W - U_W q amount to. The maximum of a convex function over a box lies at a corner; corners are
-/// climbed by the signs of the gradient, as in estimates of condition numbers (Higham 2002, section 15.2). An
-/// estimate from below, rarely off by more than a small factor. balance: n; rows: |W|. Infinite where a
-/// radius or the answer is.
+/// and s_W - U_W q amount to. Rows that depend on others within their rounding are left out. The maximum of a
+/// convex function over a box lies at a corner; corners are climbed by the signs of the gradient, as in
+/// estimates of condition numbers (Higham 2002, section 15.2). An estimate from below, rarely off by more
+/// than a small factor. balance: n; rows: |W|. Infinite where a radius or the answer is.
 LargestMove largest_move(const NearestPointProblem&, const std::vector<Index>& held, const Vector& balance,
                          const Vector& rows);
 

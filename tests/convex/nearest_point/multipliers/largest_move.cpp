@@ -49,3 +49,23 @@ TEST_CASE("errors in step with the stiff direction of a metric hide no larger mo
       CHECK(convex::largest_move(free, {}, balance, Vector(0)).of_point <= 1.001 * largest);
     }
 }
+
+TEST_CASE(
+    "rows nearly parallel to others move the point as far as they amplify what is missed, however far") {
+  for (const double angle : {1e-2, 1e-4, 1e-6}) {
+    CAPTURE(angle);
+    convex::RowMatrix U(3, 3);
+    U << 1, 0, 0, 1, angle, 0, 1, 1, angle;
+    const convex::NearestPointProblem held{
+        Metric::identity(3), Vector::Zero(3), convex::ConstraintRows(U), Vector::Zero(3), {0, 1, 2}};
+    double largest = 0;
+    for (int signs = 0; signs < 8; ++signs) {
+      const double r1 = signs & 1 ? -1 : 1, r2 = signs & 2 ? -1 : 1, r3 = signs & 4 ? -1 : 1;
+      const double x = r1, y = (r2 - x) / angle, z = (r3 - x - y) / angle;
+      largest = std::max(largest, std::sqrt(x * x + y * y + z * z));
+    }
+    const double found = convex::largest_move(held, {0, 1, 2}, Vector::Zero(3), Vector::Ones(3)).of_point;
+    CHECK(found >= 0.7 * largest);
+    CHECK(found <= 1.001 * largest);
+  }
+}
