@@ -1,10 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <vector>
 
-#include "convex/infinity.hpp"
 #include "convex/nearest_point/model.hpp"
 #include "convex/vector.hpp"
 
@@ -63,7 +63,7 @@ struct Solution {
 
   /// Whether the error bound is what `solved` asks for.
   bool is_within(const Accuracy& accuracy) const {
-    return error_bound < infinity && error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm);
+    return std::isfinite(error_bound) && error_bound <= accuracy.tolerance * std::max(1.0, acceleration_norm);
   }
 };
 
