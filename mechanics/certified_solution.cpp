@@ -35,6 +35,14 @@ bool is_default(const GaussOptions& options) {
   return options.method == &convex::methods().front() || options.method->name == "exact";
 }
 
+std::vector<Index> touching_in_fractions(const GaussSolution& solution, const ExactGaussSolution& exact) {
+  std::vector<Index> found = exact.rounded.touching;
+  for (const Index a : solution.multipliers.tight)
+    if (convex::sign(exact.primal.slack[static_cast<std::size_t>(a)]) > 0) found.push_back(a);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 void judge_by_certificate(CertifiedSolution& found, const GaussOptions& options) {
   convex::Solution& primal = found.solution.primal;
   primal.error_bound = found.certificate.error_bound;

@@ -49,6 +49,10 @@ bool has_answer(const GaussSolution&);
 /// by the exact one, rounded.
 bool is_default(const GaussOptions&);
 
+/// Of the rows that count as tight the one-sided ones whose multipliers are all 0: some may open by less than
+/// counts.
+std::vector<Index> touching_in_fractions(const GaussSolution&, const ExactGaussSolution&);
+
 /// The status that the certificate's bound gives.
 void judge_by_certificate(CertifiedSolution&, const GaussOptions&);
 

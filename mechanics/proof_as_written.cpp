@@ -169,7 +169,7 @@ class Proving {
     }
     proof.K = K;
     if (exact && K == contacts_ && has_answer(found_.solution))
-      found_.solution.touching = exact->rounded.touching;  // of multipliers that are 0, and no others
+      found_.solution.touching = touching_in_fractions(found_.solution, *exact);
     proof.exact = std::move(exact);
     proof.enclosed = std::move(enclosed);
     return one;
@@ -189,9 +189,11 @@ class Proving {
   bool in_fractions() const { return options_.method->name == "exact"; }
 
   /// Whether the answer is to be that of the text: the method was left to the program, and doubles were off
-  /// by more than fractions, rounded, would be, or than was asked for where there are balls only.
+  /// by more than fractions, rounded, would be, or than was asked for where there are balls only; or did not
+  /// know, and then what they say beside it is no better.
   bool is_off(const OneProof& one) const {
     if (!one.feasible || !is_default(options_)) return false;
+    if (found_.solution.primal.status != Status::solved) return true;
     const double norm = found_.solution.primal.acceleration_norm;
     return !(one.distance <= (one.level == ProofLevel::exact && !in_fractions()
                                   ? few_ulps * norm

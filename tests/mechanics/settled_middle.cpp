@@ -43,6 +43,19 @@ bool cancel(const convex::ExactProblem& problem, const std::vector<std::int64_t>
   return true;
 }
 
+/// Of a unit mass in the plane, at rest at 0.
+mechanics::CertifiedSolution certified(const tests::Lines& constraints, const tests::Lines& forces) {
+  const mechanics::WrittenMechanism written = mechanics::written_mechanism(
+      tests::system({{"x", "y"}, "(x'^2 + y'^2)/2", "", {}, {}, forces, constraints}),
+      tests::state_text({{"x", "0"}, {"y", "0"}}));
+  const mechanics::GaussProblem gauss =
+      mechanics::gauss_problem(written, Vector::Constant(static_cast<Index>(constraints.size()), 1e-9));
+  mechanics::CertifiedSolution found;
+  found.solution = mechanics::solve(gauss.problem, {});
+  mechanics::prove_as_written(found, gauss.problem, written, gauss.contacts.present, {});
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("a row that others make up within the radii is made of them, and its bound too where it may be") {
@@ -71,25 +84,34 @@ TEST_CASE("rows that are independent for all numbers within the radii stay as th
 TEST_CASE(
     "a contact written twice in irrational numbers is not certified to open by the last digit of balls") {
   const std::string twice = "pi*x + y + 1e-8*(x - sqrt(2)*y)";
-  const mechanics::WrittenMechanism written =
-      mechanics::written_mechanism(tests::system({{"x", "y"},
-                                                  "(x'^2 + y'^2)/2",
-                                                  "9.81*y",
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {{"first", "pi*x + y = 0.3*t^2"},
-                                                   {"second", twice + " >= sin(1)*t^2"},
-                                                   {"again", "sqrt(2)*(" + twice + " - sin(1)*t^2) >= 0"}}}),
-                                   tests::state_text({{"x", "0"}, {"y", "0"}}));
-  const mechanics::GaussProblem gauss = mechanics::gauss_problem(written, Vector::Constant(3, 1e-9));
-  mechanics::CertifiedSolution found;
-  found.solution = mechanics::solve(gauss.problem, {});
-  mechanics::prove_as_written(found, gauss.problem, written, gauss.contacts.present, {});
+  const mechanics::CertifiedSolution found =
+      certified({{"first", "pi*x + y = 0.3*t^2"},
+                 {"second", twice + " >= sin(1)*t^2"},
+                 {"again", "sqrt(2)*(" + twice + " - sin(1)*t^2) >= 0"}},
+                {{"y", "-9.81"}});
   CHECK(found.certificate.level == convex::ProofLevel::enclosure);
   CHECK(found.solution.multipliers.tight == std::vector<Index>{0, 1, 2});
   CHECK_FALSE(found.solution.multipliers.unique);
   CHECK(found.solution.hypothesis.accepted);
   REQUIRE(found.text);
   CHECK(found.text->dependent.size() == 1);
+}
+
+TEST_CASE("where doubles do not solve a mechanism, all that is certified is told from balls") {
+  const std::string row = "sqrt(7)*x + sin(1)*y", near = row + " + 1e-7*sqrt(2)*y - sqrt(7)*t^2";
+  const mechanics::CertifiedSolution found = certified({{"again", "1e3*pi*(" + near + ") >= 0"},
+                                                        {"first", row + " + sqrt(2)*t^2 = 0"},
+                                                        {"near", near + " >= 0"}},
+                                                       {{"x", "log(3)"}, {"y", "sqrt(2)"}});
+  CHECK(found.certificate.level == convex::ProofLevel::enclosure);
+  CHECK(found.solution.primal.status == convex::Status::solved);
+  CHECK(found.solution.hypothesis.accepted);
+}
+
+TEST_CASE("a contact that counts as tight and opens in fractions only touches") {
+  const mechanics::CertifiedSolution found =
+      certified({{"wall", "x + y >= 0"}}, {{"x", "1"}, {"y", "-0.999999999997"}});
+  CHECK(found.certificate.level == convex::ProofLevel::exact);
+  CHECK(found.solution.multipliers.tight == std::vector<Index>{0});
+  CHECK(found.solution.touching == std::vector<Index>{0});
 }
