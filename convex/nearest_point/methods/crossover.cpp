@@ -4,6 +4,7 @@
 
 #include "convex/infinity.hpp"
 #include "convex/nearest_point/active_set/active_set_answer.hpp"
+#include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
 #include "convex/nearest_point/active_set/dependent_row.hpp"
 #include "convex/nearest_point/methods/crossover_rows.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
@@ -102,19 +103,28 @@ class Judge {
   std::optional<Solution> infeasible(const Vector& weights) {
     if (weights.size() != problem_.rows() || problem_.rows() == 0 || !weights.allFinite())
       return std::nullopt;
-    double scale = z_norm_;  // or the size that the rows speak of
-    for (Index a = 0; a < problem_.rows(); ++a)
-      if (row_scale_[a] > 0) scale = std::max(scale, std::abs(problem_.s[a]) / row_scale_[a]);
-    const double reach = farthest_motion * scale;
     Vector proof = signed_right(weights);
     if (!(proof.cwiseAbs().maxCoeff() > 0)) return std::nullopt;
-    std::optional<Vector> circuit;
-    if (is_dense_size(problem_)) circuit = farkas_circuit(problem_, proof, reach);
-    if (circuit)
-      proof = *std::move(circuit);
-    else if (!proves_infeasibility(problem_, proof, reach))
-      return std::nullopt;
-    Solution solution = infeasible_answer(problem_, proof, scale, candidate_.steps, accuracy_);
+    Solution solution;
+    if (problem_.radii && is_dense_size(problem_)) {
+      std::optional<Vector> proved = contradiction_within_radii(problem_, proof);
+      if (!proved) return std::nullopt;
+      solution.status = Status::infeasible;
+      solution.steps = candidate_.steps;
+      solution.farkas = *std::move(proved);
+    } else {
+      double scale = z_norm_;  // or the size that the rows speak of
+      for (Index a = 0; a < problem_.rows(); ++a)
+        if (row_scale_[a] > 0) scale = std::max(scale, std::abs(problem_.s[a]) / row_scale_[a]);
+      const double reach = farthest_motion * scale;
+      std::optional<Vector> circuit;
+      if (is_dense_size(problem_)) circuit = farkas_circuit(problem_, proof, reach);
+      if (circuit)
+        proof = *std::move(circuit);
+      else if (!proves_infeasibility(problem_, proof, reach))
+        return std::nullopt;
+      solution = infeasible_answer(problem_, proof, scale, candidate_.steps, accuracy_);
+    }
     solution.method = candidate_.method;
     solution.force_norm = z_norm_;
     if (solution.status != Status::infeasible)

@@ -37,8 +37,8 @@ struct Candidate {
 ///
 /// When the candidate may be polished, p is the answer, marked as polished, as long as it is within the
 /// tolerance. `solved`: the bound is at most tolerance max(1, ||q||_A); otherwise `inaccurate`, or `gave_up`
-/// when not finished. `infeasible`: weights were found that pass `proves_infeasibility`, the candidate's own
-/// or a circuit among them.
+/// when not finished. `infeasible`: weights were found, the candidate's own or a circuit among them, that are
+/// proved without rounding, or, where the rows have radii, by the active set on the rows with weights.
 Solution crossover(const NearestPointProblem&, const Candidate&, const Accuracy&);
 
 /// Validates the problem. The answer when none of the rows matters or one is a contradiction by itself

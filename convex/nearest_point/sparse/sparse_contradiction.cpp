@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "convex/nearest_point/active_set/contradiction_within_radii.hpp"
+#include "convex/nearest_point/methods/crossover.hpp"
 #include "convex/nearest_point/optimality/farkas.hpp"
 #include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/infeasibility_proof.hpp"
@@ -38,6 +40,10 @@ Solution sparse_contradiction(const NearestPointProblem& problem, const Balanced
   solution.farkas = w / w.cwiseAbs().maxCoeff();
   if (!proves_infeasibility(problem, solution.farkas, reach)) return solution;
   if (problem.radii) {
+    std::optional<Vector> proved = solution.farkas;
+    if (is_dense_size(problem)) proved = contradiction_within_radii(problem, solution.farkas);
+    if (!proved) return solution;
+    solution.farkas = *std::move(proved);
     solution.status = Status::infeasible;
   } else if (std::optional<InfeasibilityProof> proof = infeasibility_proof(problem, solution.farkas)) {
     solution.farkas = std::move(proof->farkas);
