@@ -8,6 +8,7 @@
 #include "convex/linear_algebra/singular_values.hpp"
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
+#include "mechanics/farkas_laws.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {
@@ -227,38 +228,14 @@ void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& rep
   report.checks.push_back(least.check());
 }
 
-LawReport farkas_laws(const convex::NearestPointProblem& problem, const Vector& w) {
-  LawReport report;
-  constexpr double tolerance = 1e-12;  // what the contract promises of the weights
-  const std::vector<bool> two_sided = convex::marked(problem.rows(), problem.two_sided);
-  double wrong_sign = 0;
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (!two_sided[static_cast<std::size_t>(a)]) wrong_sign = std::max(wrong_sign, -w[a]);
-  report.checks.push_back(check_that("the Farkas weights w are >= 0", wrong_sign, 0));
-  Vector terms = Vector::Zero(problem.dimension());
-  for (Index a = 0; a < problem.rows(); ++a)
-    if (std::abs(w[a]) > 0) terms += std::abs(w[a]) * problem.U.row(a).cwiseAbs();
-  report.checks.push_back(check_that("w.U = 0: the accelerations cancel",
-                                     problem.U.transpose_times(w).cwiseAbs().maxCoeff(),
-                                     tolerance * terms.maxCoeff()));
-  convex::DoubleDouble left;
-  for (Index a = 0; a < w.size(); ++a) left = add(left, convex::two_product(w[a], problem.s[a]));
-  // Weights and bounds may be the doubles nearest to fractions that decided it.
-  const double undecided = 2 * unit_roundoff * w.cwiseAbs().dot(problem.s.cwiseAbs());
-  if (undecided > 0 && left.value() <= 0 && -left.value() <= undecided)
-    report.no_evidence.emplace_back(
-        "w.s > 0: what is left is a contradiction below the rounding of w and s to doubles");
-  else
-    report.checks.push_back(
-        check_that("w.s > 0: what is left is a contradiction", left.value() > 0 ? 0 : 1, 0));
-  return report;
-}
-
 LawReport laws_as_it_stands(const convex::NearestPointProblem& problem, const GaussSolution& solution,
                             const GaussOptions& options) {
   LawReport report;
-  if (solution.primal.status == convex::Status::infeasible)
-    return farkas_laws(problem, solution.primal.farkas);
+  if (solution.primal.status == convex::Status::infeasible) {
+    convex::NearestPointProblem judged_rows = problem;
+    if (solution.as_written) judged_rows.radii.reset();  // decided in fractions on the numbers as written
+    return farkas_laws(judged_rows, solution.primal.farkas);
+  }
   if (solution.multipliers.least_norm.size() != problem.rows()) return report;
   const Judged j = judged(problem, solution);
   feasibility_laws(j, report);

@@ -2,9 +2,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "cli/scene.hpp"
+#include "mechanics/farkas_laws.hpp"
 #include "tests/this_build.hpp"
 
 using convex::Check;
@@ -157,6 +160,26 @@ TEST_CASE("for every law of contacts there is an error that it catches, on every
 
 TEST_CASE("for every law of an infeasible problem there is an error that it catches") {
   check_table(infeasible_scenes(), farkas_table);
+}
+
+TEST_CASE(
+    "weights that combine a row and its multiple to their rounding alone do not pass as a contradiction") {
+  const double pi = std::numbers::pi, multiple = 1e3 * pi;
+  const Eigen::RowVector3d first(pi, std::sqrt(2), 0.3);
+  const Eigen::RowVector3d turned = first + 1e-4 * Eigen::RowVector3d(std::sqrt(2), std::cos(2), 0);
+  RowMatrix U(3, 3);
+  U << first, multiple * turned, turned;
+  NearestPointProblem problem{convex::Metric::diagonal(Eigen::Vector3d(1, 1, 1e6)),
+                              Vector::Zero(3),
+                              convex::ConstraintRows(U),
+                              Eigen::Vector3d(-2, multiple * 2 * std::sqrt(7), 2 * std::sqrt(7)),
+                              {0, 2}};
+  problem.radii = convex::rounding_radii(problem, 1);
+  const Eigen::Vector3d seeming(-1, 124824608.59130849, -392148073336.67615);
+  CHECK_FALSE(mechanics::farkas_laws(problem, seeming).all_passed());
+  problem.s[1] *= 1 + 1e-6;  // now the multiple does contradict its row
+  const Eigen::Vector3d weights(0, 1, -multiple);
+  CHECK(mechanics::farkas_laws(problem, weights).all_passed());
 }
 
 TEST_CASE("a wrong acceleration does not pass because the dual was asked with it") {
