@@ -126,9 +126,12 @@ class MultiplierTableau {
     }
     const Number element = now_.T[column][row], entering = now_.value[row] / element;
     Numbers& of_entering = now_.T[column];
+    // The dependences of sparse rows are sparse.
+    changing_.clear();
+    for (std::size_t k = 0; k < of_entering.size(); ++k)
+      if (k != row && !is_zero(of_entering[k])) changing_.push_back(k);
     const auto subtract = [&](Numbers& from, const Number& factor) {
-      for (std::size_t k = 0; k < from.size(); ++k)
-        if (k != row && !is_zero(of_entering[k])) from[k] = from[k] - of_entering[k] * factor;
+      for (const std::size_t k : changing_) from[k] = from[k] - of_entering[k] * factor;
       from[row] = factor;
     };
     subtract(now_.value, entering);
@@ -209,6 +212,7 @@ class MultiplierTableau {
   }
 
   State now_, start_;
+  std::vector<std::size_t> changing_;  ///< rows of the last pivot with an entry in its column
   std::vector<bool> free_, unbounded_, fixed_;
   Number noise_{}, value_noise_{}, rounding_{};
   mutable bool is_in_doubt_ = false;
