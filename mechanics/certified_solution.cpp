@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string_view>
 
 #include "convex/invalid_input.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
 #include "convex/nearest_point/proof/exact_method.hpp"
 #include "mechanics/touching_contacts.hpp"
@@ -62,16 +65,26 @@ Certificate plain_certificate(const GaussSolution& solution, const ExactData& da
   return {is_exact && is_ended ? ProofLevel::exact : ProofLevel::none, primal.error_bound};
 }
 
+namespace {
+
 CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem, const ExactData& data,
-                                     const GaussOptions& options) {
+                                     const GaussOptions& options, double most_words) {
   if (const std::string reason = options.method->applies(problem); !reason.empty())
     throw convex::InvalidInput("method \"" + std::string(options.method->name) + "\": " + reason);
   CertifiedSolution found;
-  found.exact = solve_exactly(data.make(), problem, options);
+  found.exact = solve_exactly(data.make(), problem, options, {}, most_words);
   found.solution = found.exact->rounded;
+  if (found.solution.primal.status == Status::gave_up) return found;
   const bool infeasible = found.solution.primal.status == Status::infeasible;
   found.certificate = {ProofLevel::exact, infeasible ? 0 : found.solution.primal.error_bound};
   return found;
+}
+
+}  // namespace
+
+CertifiedSolution solve_by_fractions(const convex::NearestPointProblem& problem, const ExactData& data,
+                                     const GaussOptions& options) {
+  return solve_by_fractions(problem, data, options, std::numeric_limits<double>::infinity());
 }
 
 CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, const ExactData& data,
@@ -103,8 +116,15 @@ CertifiedSolution solve_certified(const convex::NearestPointProblem& problem, co
       return found;
     }
   if (!small_enough(problem)) return bound ? enclosed() : found;
-  CertifiedSolution exact = solve_by_fractions(problem, data, options);
-  if (is_default(options) || !has_answer(found.solution) || !has_answer(exact.solution)) return exact;
+  CertifiedSolution exact =
+      solve_by_fractions(problem, data, options, options.accuracy.limit * convex::most_word_operations);
+  const bool gave_up = exact.solution.primal.status == Status::gave_up, is_whole = exact.exact->is_whole;
+  const bool has_both = has_answer(found.solution) && has_answer(exact.solution);
+  if (!gave_up && is_whole && (is_default(options) || !has_both)) return exact;
+  // What fractions would tell of the multipliers takes too long.
+  if (std::string_view open = open_question_of(problem, found.solution); gave_up || !is_whole)
+    found.solution.primal.undecided = open.empty() ? convex::open_question::dependence : open;
+  if (gave_up || !has_both) return bound ? enclosed() : found;
   found.certificate = {ProofLevel::exact,
                        convex::distance_above(data.make(), found.solution.primal.q, exact.exact->primal.q)};
   judge_by_certificate(found, options);

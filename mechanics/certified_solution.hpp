@@ -27,7 +27,8 @@ struct CertifiedSolution {
 /// Solves Gauss' problem and proves a bound on the error of the acceleration, or that there is no solution:
 /// first in doubles, then, where signs are not strict or the rows contradict each other, in fractions. Where
 /// fractions are needed and the method is the default one, the answer is the exact one, rounded. Beyond
-/// `most_exact_entries` nothing is tried in fractions but the rows that contradict each other.
+/// `most_exact_entries`, or accuracy.limit times `convex::most_word_operations`, nothing is tried in
+/// fractions but the rows that contradict each other; multipliers that take more stay those of doubles.
 CertifiedSolution solve_certified(const convex::NearestPointProblem&, const ExactData&, const GaussOptions&);
 
 /// The exact solution of the data, as the method "exact" gives it.

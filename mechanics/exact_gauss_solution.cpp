@@ -36,7 +36,14 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   if (found.primal.status == convex::Status::infeasible) return found;
 
   const bool ranges = options.always_ranges || problem.rows() <= most_ranges;
-  found.multipliers = convex::exact_multipliers(exact, found.primal, ranges);
+  const double left = most_words - found.primal.word_operations;
+  std::optional<convex::ExactMultipliers> multipliers =
+      convex::exact_multipliers(exact, found.primal, ranges, left);
+  std::optional<Hypothesis> hypothesis;
+  if (multipliers) hypothesis = exact_hypothesis(exact, found.primal, left);
+  found.is_whole = hypothesis.has_value();
+  if (!found.is_whole) return found;
+  found.multipliers = *std::move(multipliers);
   found.reaction = convex::reaction(exact, found.multipliers.least_norm);
   // G = ½ q·Aq - z·q.
   const convex::Fraction energy = convex::squared_norm(exact, found.primal.q);
@@ -50,7 +57,7 @@ ExactGaussSolution solve_exactly(const convex::ExactProblem& exact,
   rounded.primal.force_norm = problem.A.dual_norm(problem.z);
   rounded.residuals = rounded.primal.residuals =
       convex::residuals(problem, rounded.primal.q, rounded.multipliers.least_norm);
-  rounded.hypothesis = exact_hypothesis(exact, found.primal);
+  rounded.hypothesis = *std::move(hypothesis);
   if (problem.rows() <= most_contacts_from_dual && fit_units(problem).ordinary())
     rounded.from_dual = reaction_from_dual(problem, rounded.hypothesis.two_sided, rounded.primal);
   return found;
@@ -81,12 +88,15 @@ void refute(convex::Solution& primal, std::string_view open) {
   if (primal.status == convex::Status::solved) primal.status = convex::Status::inaccurate;
 }
 
-/// What is open of numbers that are exact may be of the acceleration too: it is solved where that is proved.
+/// What is open of numbers that are exact may be of the acceleration too: it is solved where that is proved,
+/// in doubles or by the acceleration alone in fractions.
 void judge_open_answer(convex::Solution& primal, const convex::NearestPointProblem& problem,
-                       const convex::Accuracy& accuracy) {
+                       const std::optional<convex::ExactProblem>& exact, const convex::Accuracy& accuracy) {
   if (problem.radii || primal.status != convex::Status::solved || is_decided_in_fractions(primal)) return;
-  primal.error_bound =
-      std::max(primal.error_bound, convex::bound_proved_in_doubles(problem, primal, accuracy));
+  double bound = convex::bound_proved_in_doubles(problem, primal, accuracy);
+  if (exact && !(bound <= accuracy.tolerance * std::max(1.0, primal.acceleration_norm)))
+    bound = std::min(bound, convex::bound_proved_in_fractions(*exact, primal, accuracy));
+  primal.error_bound = std::max(primal.error_bound, bound);
   if (!primal.is_within(accuracy)) primal.status = convex::Status::inaccurate;
 }
 
@@ -101,24 +111,20 @@ bool depend_within_radii(const convex::NearestPointProblem& problem, const conve
   return false;
 }
 
-/// Of all ranges: two linear programs a multiplier, each of a few pivots.
+/// Of all ranges.
 double words_of_ranges(const convex::Multipliers& found) {
-  constexpr double words_of_fraction = 500;  // of a product and a sum, in lowest terms
-  if (!found.null_space) return 0;
-  const double all = static_cast<double>(found.tight.size()),
-               d = static_cast<double>(found.null_space->size());
-  return 2 * all * (all - d) * d * words_of_fraction;
+  return found.null_space ? convex::words_of_ranges(found.tight.size(), found.null_space->size()) : 0;
 }
 
 /// What holds of the multipliers and the hypothesis, whichever method found q: from fractions, beside its own
 /// q.
-void judge_in_fractions(GaussSolution& found, const convex::ExactProblem& exact,
+void judge_in_fractions(GaussSolution& found, const std::optional<convex::ExactProblem>& exact,
                         const convex::NearestPointProblem& problem, const GaussOptions& options,
                         std::string_view open) {
   GaussSolution truth = found;
-  if (!solve_on_exact_data(truth, exact, problem, options, open)) {
+  if (!solve_on_exact_data(truth, *exact, problem, options, open)) {
     found.primal.undecided = open;
-    judge_open_answer(found.primal, problem, options.accuracy);
+    judge_open_answer(found.primal, problem, exact, options.accuracy);
     return;
   }
   const convex::Solution& answer = truth.primal;
@@ -168,7 +174,7 @@ bool solve_on_exact_data(GaussSolution& found, const convex::ExactProblem& exact
                most = options.accuracy.limit * convex::most_word_operations - of_ranges;
   if (convex::word_operations(exact, held) > most) return false;
   ExactGaussSolution decided = solve_exactly(exact, problem, options, rows_decided(found.primal), most);
-  if (decided.primal.status == convex::Status::gave_up) return false;
+  if (decided.primal.status == convex::Status::gave_up || !decided.is_whole) return false;
   convex::Solution& answer = decided.rounded.primal;
   answer.method = "active-set";
   answer.model = std::move(found.primal.model);
@@ -196,16 +202,15 @@ void decide_on_exact_data(GaussSolution& found, const convex::NearestPointProble
                n = static_cast<double>(problem.dimension());
   const bool is_solved = found.primal.status == convex::Status::solved;
   // Sizes alone may tell that it is too much, before any number is converted.
-  if ((!is_named || is_solved) && n * n * n <= most_words)
-    if (const std::optional<convex::ExactProblem> exact = data()) {
-      if (is_named) return judge_in_fractions(found, *exact, problem, options, open);
-      solve_on_exact_data(found, *exact, problem, options, open);
-    }
+  std::optional<convex::ExactProblem> exact;
+  if ((!is_named || is_solved) && n * n * n <= most_words) exact = data();
+  if (exact && is_named) return judge_in_fractions(found, exact, problem, options, open);
+  if (exact) solve_on_exact_data(found, *exact, problem, options, open);
   if (found.as_written) return;
   // Where the answer is at rounding it is the tolerance that is too small.
   const bool is_open = open != convex::open_question::conditioning || !is_at_rounding(found.primal);
   found.primal.undecided = is_open ? open : std::string_view();
-  if (is_open) judge_open_answer(found.primal, problem, options.accuracy);
+  if (is_open) judge_open_answer(found.primal, problem, exact, options.accuracy);
 }
 
 }  // namespace mechanics

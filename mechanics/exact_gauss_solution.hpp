@@ -17,6 +17,7 @@ struct ExactGaussSolution {
   convex::ExactVector reaction;  ///< R = A q'' - z: n
   convex::Fraction gauss;
   GaussSolution rounded;  ///< all of it as the nearest doubles
+  bool is_whole = true;   ///< false: the acceleration alone, the rest takes too many word operations
 };
 
 /// `problem`: the same in doubles, which guess the active rows where `rows` does not. The status is
@@ -52,6 +53,8 @@ bool solve_on_exact_data(GaussSolution&, const convex::ExactProblem&, const conv
 
 /// The hypothesis that every contact persists, and the rule of dropping negative multipliers, judged in
 /// fractions against the true solution.
-Hypothesis exact_hypothesis(const convex::ExactProblem&, const convex::ExactSolution& truth);
+/// None where that takes more word operations.
+std::optional<Hypothesis> exact_hypothesis(const convex::ExactProblem&, const convex::ExactSolution& truth,
+                                           double most_words = std::numeric_limits<double>::infinity());
 
 }  // namespace mechanics

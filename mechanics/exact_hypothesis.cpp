@@ -35,10 +35,11 @@ bool contradict_at_once(const ExactProblem& problem) {
   return convex::independent_rows(extended, n + 1).size() > n;
 }
 
-ExactSolution solve_held(const ExactProblem& problem) {
+ExactSolution solve_held(const ExactProblem& problem, double most_words) {
   ExactSolution none;
   none.status = Status::infeasible;
-  return contradict_at_once(problem) ? none : convex::exact_active_set(problem, problem.two_sided);
+  return contradict_at_once(problem) ? none
+                                     : convex::exact_active_set(problem, problem.two_sided, most_words);
 }
 
 bool same(const ExactVector& x, const ExactVector& y) {
@@ -51,7 +52,8 @@ bool same(const ExactVector& x, const ExactVector& y) {
 
 }  // namespace
 
-Hypothesis exact_hypothesis(const ExactProblem& problem, const ExactSolution& truth) {
+std::optional<Hypothesis> exact_hypothesis(const ExactProblem& problem, const ExactSolution& truth,
+                                           double most_words) {
   Hypothesis found;
   std::vector<Index> all(problem.s.size());
   std::iota(all.begin(), all.end(), Index{0});
@@ -61,9 +63,13 @@ Hypothesis exact_hypothesis(const ExactProblem& problem, const ExactSolution& tr
     return found;
   }
   const ExactProblem classical = held(problem, all);
-  const ExactSolution solution = solve_held(classical);
+  const ExactSolution solution = solve_held(classical, most_words);
   if (solution.status == Status::infeasible) return found;
-  const convex::ExactMultipliers set = convex::exact_multipliers(classical, solution, false);
+  if (solution.status == Status::gave_up) return std::nullopt;
+  const std::optional<convex::ExactMultipliers> multipliers =
+      convex::exact_multipliers(classical, solution, false, most_words);
+  if (!multipliers) return std::nullopt;
+  const convex::ExactMultipliers& set = *multipliers;
   found.two_sided = {true, convex::nearest(solution.q), convex::nearest(set.least_norm), set.unique};
   // Some two-sided multipliers are >= 0 if and only if the two-sided motion is the true one.
   found.accepted = same(solution.q, truth.q);
@@ -74,7 +80,8 @@ Hypothesis exact_hypothesis(const ExactProblem& problem, const ExactSolution& tr
     (negative ? found.negative : kept).push_back(a);
   }
   if (found.accepted || !set.unique) return found;
-  const ExactSolution dropped = solve_held(held(problem, kept));
+  const ExactSolution dropped = solve_held(held(problem, kept), most_words);
+  if (dropped.status == Status::gave_up) return std::nullopt;
   const bool consistent = dropped.status != Status::infeasible;
   if (consistent) found.drop_negative_acceleration = convex::nearest(dropped.q);
   found.drop_negative_is_right = consistent && same(dropped.q, truth.q);

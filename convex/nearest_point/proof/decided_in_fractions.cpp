@@ -11,7 +11,9 @@
 namespace convex::inline proof {
 namespace {
 
-std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& open) {
+/// Two-sided rows, and those that the answer names, of a problem in doubles or in fractions.
+template <class Problem>
+std::vector<Index> rows_of(const Problem& problem, const Solution& open) {
   std::vector<Index> rows = problem.two_sided;
   const auto add = [&](Index a) {
     if (std::find(rows.begin(), rows.end(), a) == rows.end()) rows.push_back(a);
@@ -94,6 +96,12 @@ double bound_proved_in_doubles(const NearestPointProblem& problem, const Solutio
   const double by_gap = bound_by_gap(problem, found);
   if (by_gap <= accuracy.tolerance * std::max(1.0, found.acceleration_norm)) return by_gap;
   return std::min(by_gap, enclosed_error(problem, found).value_or(infinity));
+}
+
+double bound_proved_in_fractions(const ExactProblem& exact, const Solution& found, const Accuracy& accuracy) {
+  const ExactSolution truth =
+      exact_active_set(exact, rows_of(exact, found), accuracy.limit * most_word_operations);
+  return truth.status == Status::solved ? distance_above(exact, found.q, truth.q) : infinity;
 }
 
 Solution bounded_where_decided(const NearestPointProblem& problem, Solution found, const Accuracy& accuracy) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "convex/nearest_point/problem.hpp"
+#include "convex/nearest_point/proof/exact_problem.hpp"
 #include "convex/nearest_point/solution.hpp"
 
 namespace convex::inline proof {
@@ -25,6 +26,10 @@ Solution decided_in_fractions(const NearestPointProblem&, Solution open, const A
 /// A bound of ||q - q*||_A that is proved whatever rows have to do with each other: by the duality gap, and
 /// where that is not within the accuracy, by an enclosure. Infinite where neither is.
 double bound_proved_in_doubles(const NearestPointProblem&, const Solution&, const Accuracy&);
+
+/// The same by the exact point, without its multipliers: infinite where there is none, or where it takes more
+/// than accuracy.limit times `most_word_operations`.
+double bound_proved_in_fractions(const ExactProblem&, const Solution&, const Accuracy&);
 
 /// The answer for a user. A row that is a sum of those held but for rounding, and not kept, may take the
 /// point any distance: where that is open, nothing bounds the error but a proof in doubles, of a gap or of

@@ -28,10 +28,36 @@ std::vector<Index> guess(const ExactProblem& problem) {
   }
 }
 
-/// Least |start + N mu| with start + N mu >= 0 on one-sided rows.
-void least_norm(const std::vector<Index>& basic, const std::vector<Index>& dependent,
-                const std::vector<ExactVector>& T, const std::vector<bool>& is_free, ExactVector& lambda) {
+/// Word operations of a product and a sum in lowest terms, and what an operation on integers costs beside
+/// those on its words.
+constexpr double words_of_fraction = 500, words_of_call = 20;
+
+/// Of the expansions of d rows in k: each is the solution of a linear system, of d and n unknowns at most.
+double words_of_expansions(const ExactProblem& problem, std::size_t k, std::size_t d) {
+  return static_cast<double>(d + 1) * word_operations(problem, k) / 8;
+}
+
+/// Of the least norm: a Gram matrix of the dependent rows, whether it is definite, and its inverse modulo a
+/// prime.
+double words_of_least_norm(const std::vector<ExactVector>& T, std::size_t k) {
+  std::size_t bits = 0;
+  for (const ExactVector& expansion : T)
+    for (const Integer& numerator : expansion.numerators)
+      bits = std::max(bits, numerator.bits() + expansion.denominator.bits());
+  constexpr double word = 64;
+  const double d = static_cast<double>(T.size()), words = 1 + 2 * static_cast<double>(bits) / word,
+               of_product = words_of_call + words;
+  return d * d * (static_cast<double>(k) * of_product + words_of_fraction) + 2 * d * d * d * of_product;
+}
+
+/// Least |start + N mu| with start + N mu >= 0 on one-sided rows. False where that takes more word
+/// operations.
+bool least_norm(const std::vector<Index>& basic, const std::vector<Index>& dependent,
+                const std::vector<ExactVector>& T, const std::vector<bool>& is_free, double most_words,
+                ExactVector& lambda) {
   const std::size_t k = basic.size(), d = dependent.size();
+  const double of_gram = words_of_least_norm(T, k);
+  if (of_gram > most_words) return false;
   std::vector<Index> names = basic;
   names.insert(names.end(), dependent.begin(), dependent.end());
   ExactRows N, gram, signed_rows;
@@ -52,10 +78,12 @@ void least_norm(const std::vector<Index>& basic, const std::vector<Index>& depen
   }
   const ExactProblem problem =
       exact_problem(gram, exact_vector(linear), signed_rows, exact_vector(bound), {});
-  const ExactSolution best = exact_active_set(problem, guess(problem));
+  const ExactSolution best = exact_active_set(problem, guess(problem), most_words - of_gram);
+  if (best.status == Status::gave_up) return false;
   std::vector<Fraction> all(lambda.numerators.size());
   for (std::size_t j = 0; j < k + d; ++j) all[at(names[j])] = start[j] + lowest_terms(dot(N[j], best.q));
   lambda = exact_vector(all);
+  return true;
 }
 
 /// The basis and those of the other tight rows that make it span them all.
@@ -92,6 +120,16 @@ std::vector<std::vector<Fraction>> columns(const std::vector<ExactVector>& T) {
 
 ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolution& solution,
                                    bool want_ranges) {
+  return *exact_multipliers(problem, solution, want_ranges, std::numeric_limits<double>::infinity());
+}
+
+double words_of_ranges(std::size_t multipliers, std::size_t dependent) {
+  const double all = static_cast<double>(multipliers), d = static_cast<double>(dependent);
+  return 2 * all * (all - d) * d * words_of_fraction;
+}
+
+std::optional<ExactMultipliers> exact_multipliers(const ExactProblem& problem, const ExactSolution& solution,
+                                                  bool want_ranges, double most_words) {
   ExactMultipliers found;
   found.least_norm = solution.lambda;
   const std::vector<bool> is_free = marked(problem.rows(), problem.two_sided);
@@ -108,6 +146,9 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
     ranges.push_back({value, value});
   }
   if (!dependent.empty()) {
+    const double of_ranges = want_ranges ? words_of_ranges(found.tight.size(), dependent.size()) : 0,
+                 left = most_words - of_ranges - words_of_expansions(problem, basic.size(), dependent.size());
+    if (!(left > 0)) return std::nullopt;
     const std::vector<ExactVector> T = exact_expansions(problem, basic, dependent);
     for (std::size_t p = 0; p < dependent.size(); ++p)
       found.null_space.push_back(null_vector(basic, T[p], dependent[p]));
@@ -122,9 +163,9 @@ ExactMultipliers exact_multipliers(const ExactProblem& problem, const ExactSolut
       if (!found.unique && !want_ranges) break;
     }
     if (!found.unique) {
+      if (!least_norm(basic, dependent, T, is_free, left, found.least_norm)) return std::nullopt;
       if (want_ranges)
         for (Index a : basic) ranges[at(a)] = all.range(a);
-      least_norm(basic, dependent, T, is_free, found.least_norm);
     }
   }
   if (want_ranges || found.unique) found.ranges = std::move(ranges);

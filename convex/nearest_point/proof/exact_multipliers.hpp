@@ -22,6 +22,14 @@ struct ExactMultipliers {
 
 /// `want_ranges`: two linear programs a multiplier in fractions, so leave it out for many rows.
 ExactMultipliers exact_multipliers(const ExactProblem&, const ExactSolution&, bool want_ranges);
+/// The same; none where they would take more than so many word operations, as the sizes of the numbers tell
+/// beforehand.
+std::optional<ExactMultipliers> exact_multipliers(const ExactProblem&, const ExactSolution&, bool want_ranges,
+                                                  double most_words);
+
+/// An estimate of the word operations of the ranges of so many multipliers, that many of them of rows that
+/// depend on the others: two linear programs a multiplier, each of a few pivots.
+double words_of_ranges(std::size_t multipliers, std::size_t dependent);
 
 /// The nearest doubles.
 Multipliers rounded(const ExactMultipliers&);

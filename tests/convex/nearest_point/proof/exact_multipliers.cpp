@@ -7,6 +7,7 @@
 
 #include "convex/nearest_point/active_set/active_set.hpp"
 #include "convex/nearest_point/multipliers/multipliers.hpp"
+#include "convex/nearest_point/proof/decided_in_fractions.hpp"
 #include "tests/oracles/planted_problem.hpp"
 #include "tests/oracles/rational_text.hpp"
 
@@ -120,4 +121,52 @@ TEST_CASE("least-norm multipliers give the same reaction and lie, with the verte
           CHECK(range.low == doctest::Approx(convex::nearest_double(*exact_range.low)).epsilon(1e-9));
       }
     }
+}
+
+namespace {
+
+/// 0 is the nearest point to 0, and every row touches it: as many dependences as there are rows beyond n.
+NearestPointProblem many_rows_at_a_vertex(Index n, Index m) {
+  RowMatrix U(m, n);
+  for (Index a = 0; a < m; ++a)
+    for (Index i = 0; i < n; ++i)
+      U(a, i) = static_cast<double>((7 * a * a + 11 * a * i + 5 * i * i) % 13 - 4);
+  return {convex::Metric::diagonal(Vector::Ones(n)),
+          -Vector(U.colwise().sum().transpose()),
+          convex::ConstraintRows(U),
+          Vector::Zero(m),
+          {}};
+}
+
+}  // namespace
+
+TEST_CASE("multipliers of many dependent rows are left out where fractions would take too long for them") {
+  const NearestPointProblem problem = many_rows_at_a_vertex(6, 1200);
+  const convex::ExactProblem exact = convex::exact_problem(problem);
+  const convex::ExactSolution solution = convex::exact_active_set(exact, {});
+  REQUIRE(solution.status == convex::Status::solved);
+  CHECK_FALSE(convex::exact_multipliers(exact, solution, false, convex::most_word_operations));
+  CHECK_FALSE(convex::exact_multipliers(exact, solution, true, convex::most_word_operations));
+}
+
+TEST_CASE("where multipliers take too long the exact point alone still bounds the error") {
+  const NearestPointProblem problem = many_rows_at_a_vertex(6, 1200);
+  const convex::ExactProblem exact = convex::exact_problem(problem);
+  convex::Solution near;
+  near.q = Vector::Constant(6, 1e-9);
+  const double off = problem.A.norm(near.q);
+  const double bound = convex::bound_proved_in_fractions(exact, near, {});
+  CHECK(bound >= off);
+  CHECK(bound <= (1 + 1e-12) * off);
+  CHECK(std::isinf(convex::bound_proved_in_fractions(exact, near, {.limit = 0})));
+}
+
+TEST_CASE("few dependent rows get the same multipliers whether their work is limited or not") {
+  const NearestPointProblem problem = many_rows_at_a_vertex(4, 12);
+  const convex::ExactProblem exact = convex::exact_problem(problem);
+  const convex::ExactSolution solution = convex::exact_active_set(exact, {});
+  const auto limited = convex::exact_multipliers(exact, solution, true, convex::most_word_operations);
+  REQUIRE(limited);
+  const ExactMultipliers free = convex::exact_multipliers(exact, solution, true);
+  CHECK(convex::nearest(limited->least_norm) == convex::nearest(free.least_norm));
 }
