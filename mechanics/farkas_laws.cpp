@@ -20,7 +20,7 @@ using convex::unit_roundoff;
 using convex::Vector;
 
 /// Rows this near to dependent, each of length 1, count as that, as in the solve.
-constexpr double dependent = 64 * unit_roundoff;
+constexpr double counts_as_dependent = 64 * unit_roundoff;
 
 /// Beyond so many numbers the point that meets the rows is not asked for.
 constexpr Index most_numbers = 1'000'000;
@@ -40,7 +40,7 @@ Vector nearly_common_point(const NearestPointProblem& problem, const std::vector
     V.row(r) = row.transpose() / length;
     s[r] = problem.s[a] / length;
   }
-  return convex::linear_algebra::CompleteOrthogonal(V, dependent).solve(s).cwiseProduct(unit);
+  return convex::linear_algebra::CompleteOrthogonal(V, counts_as_dependent).solve(s).cwiseProduct(unit);
 }
 
 /// What the rounding of w, U and s may make of w.s - w.Uq at the point that nearly meets the rows with
