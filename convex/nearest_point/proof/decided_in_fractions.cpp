@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "convex/infinity.hpp"
+#include "convex/invalid_input.hpp"
 #include "convex/nearest_point/optimality/exact_slack.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "convex/nearest_point/proof/enclosure.hpp"
@@ -11,9 +12,7 @@
 namespace convex::inline proof {
 namespace {
 
-/// Two-sided rows, and those that the answer names, of a problem in doubles or in fractions.
-template <class Problem>
-std::vector<Index> rows_of(const Problem& problem, const Solution& open) {
+std::vector<Index> rows_of(const NearestPointProblem& problem, const Solution& open) {
   std::vector<Index> rows = problem.two_sided;
   const auto add = [&](Index a) {
     if (std::find(rows.begin(), rows.end(), a) == rows.end()) rows.push_back(a);
@@ -99,8 +98,13 @@ double bound_proved_in_doubles(const NearestPointProblem& problem, const Solutio
 }
 
 double bound_proved_in_fractions(const ExactProblem& exact, const Solution& found, const Accuracy& accuracy) {
-  const ExactSolution truth =
-      exact_active_set(exact, rows_of(exact, found), accuracy.limit * most_word_operations);
+  // Many rows may carry the multipliers of the answer; those of a vertex need no exchange.
+  std::vector<Index> guess;
+  try {
+    guess = likely_active_rows(rounded(exact));
+  } catch (const InvalidInput&) {  // doubles are too coarse for the data
+  }
+  const ExactSolution truth = exact_active_set(exact, guess, accuracy.limit * most_word_operations);
   return truth.status == Status::solved ? distance_above(exact, found.q, truth.q) : infinity;
 }
 
