@@ -241,7 +241,8 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   // Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
   if (accuracy.limit > 0 || has_ordinary_numbers(problem)) {
     Solution found = decided(problem, accuracy, guess);
-    return is_beyond_squares(problem, found) ? in_own_size(problem, accuracy, decided_from_nothing) : found;
+    if (is_beyond_squares(problem, found)) found = in_own_size(problem, accuracy, decided_from_nothing);
+    return found;
   }
   return in_common_size(problem, accuracy, decided_from_nothing);
 }

@@ -135,8 +135,9 @@ void GramSolve::measure_again_where_it_cancels() {
   constexpr double much = 0x1p-20;
   double largest = known_.scale;
   for (Index k = 0; k < p_.size; ++k) largest = std::max(largest, std::abs(p_.lambda[k]) * p_.length[k]);
-  if (!(p_.acceleration_norm > much * largest))
-    p_.acceleration_norm = problem_.A.norm(Eigen::Map<const Vector>(p_.q, p_.n));
+  if (p_.acceleration_norm > much * largest) return;
+  const bool is_zero = std::all_of(p_.q, p_.q + p_.n, [](double x) { return x == 0; });
+  p_.acceleration_norm = is_zero ? 0 : problem_.A.norm(Eigen::Map<const Vector>(p_.q, p_.n));
 }
 
 bool GramSolve::write(const Accuracy& accuracy, Solution& solution) {
