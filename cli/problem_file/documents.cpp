@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "cli/held_interrupt.hpp"
+#include "cli/problem_file/exact_number.hpp"
 #include "cli/problem_file/keys.hpp"
 #include "cli/problem_file/matrix_market.hpp"
 #include "cli/problem_file/problem.hpp"
@@ -202,6 +203,8 @@ void write_matrix_folder(const TomlValue& document, const std::string& folder) {
                          entry.place);
   const TomlValue* table = document.find("projection");
   if (table == nullptr) throw InvalidInput("no [projection] here; .mtx files hold one");
+  for (const char* key : {"A", "z", "U", "s"})
+    if (const TomlValue* value = table->find(key)) require_doubles(*value, key, ".mtx");
   const ProjectionProblem checked = read_projection(*table, "");
   write_problem_folder(checked.problem, folder);
 }

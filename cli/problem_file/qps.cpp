@@ -261,17 +261,10 @@ class QpsReader {
   std::vector<std::size_t> two_sided_;
 };
 
-/// A decimal that QPS can hold.
+/// A number as QPS holds it.
 std::string decimal(const TomlValue& value, const std::string& where) {
   const double number = require_number(value, where);
-  if (!value.is_string()) return fmt::format("{}", number);
-  if (value.text.find('/') == std::string::npos) return value.text;
-  const auto written = convex::read_fraction(fmt::format("{}", number));
-  const auto meant = convex::read_fraction(value.text);
-  if (!written || !meant || !(*written == *meant))
-    throw InvalidInput(where + ": \"" + shown(value.text) +
-                           "\" cannot be held by .qps, which has decimals only; write it as one",
-                       value.place);
+  require_doubles(value, where, ".qps");
   return fmt::format("{}", number);
 }
 

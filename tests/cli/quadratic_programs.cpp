@@ -108,3 +108,21 @@ TEST_CASE(
     expect_minimiser(back, program.x);
   }
 }
+
+TEST_CASE("what a form of doubles alone cannot hold is refused with its place, and nothing is rounded") {
+  const Folder folder;
+  const auto file = [&](const char* s) {
+    return folder.write(
+        "a.toml", "[projection]\nA = [[1]]\nz = [0]\nU = [[1], [-10]]\ns = [" + std::string(s) + ", -1]\n");
+  };
+  for (const char* form : {"b.qps", "b.mtx"}) {
+    CAPTURE(std::string(form));
+    for (const char* s : {"\"1/10\"", "\"0.1\"", "\"10/21\""}) {
+      const Outcome refused = run({"convert", file(s), folder.path(form)});
+      CHECK(refused.code == 2);
+      CHECK(refused.err.find("a.toml:5:") != std::string::npos);
+    }
+    CHECK(run({"convert", file("\"1/16\""), folder.path(form)}).code == 0);
+    expect_minimiser(folder.path(form), {0.0625});
+  }
+}
