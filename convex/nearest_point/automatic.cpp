@@ -241,7 +241,7 @@ Solution automatic(const NearestPointProblem& problem, const Accuracy& accuracy,
   // Fractions decide what numbers out of range leave open, where they may: then nothing need be looked at.
   if (accuracy.limit > 0 || has_ordinary_numbers(problem)) {
     Solution found = decided(problem, accuracy, guess);
-    if (is_beyond_squares(problem, found)) found = in_own_size(problem, accuracy, decided_from_nothing);
+    if (is_beyond_squares(problem, found)) take_own_size(problem, accuracy, decided_from_nothing, found);
     return found;
   }
   return in_common_size(problem, accuracy, decided_from_nothing);

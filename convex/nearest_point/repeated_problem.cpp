@@ -57,9 +57,12 @@ const Solution& RepeatedProblem::solve(const Vector& z, const Vector& s) {
   state.problem.s = s;
   state.find();
   if (is_beyond_squares(state.problem, state.solution))
-    state.solution =
-        in_own_size(state.problem, state.accuracy,
-                    [](const auto& problem, const auto& accuracy) { return active_set(problem, accuracy); });
+    take_own_size(
+        state.problem, state.accuracy,
+        [](const NearestPointProblem& problem, const Accuracy& accuracy) {
+          return active_set(problem, accuracy);
+        },
+        state.solution);
   return state.solution;
 }
 

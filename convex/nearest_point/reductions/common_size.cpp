@@ -146,6 +146,16 @@ Solution CommonSize::restored(const NearestPointProblem& original, Solution foun
   return found;
 }
 
+namespace {
+
+Solution in_own_size(const NearestPointProblem& problem, const Accuracy& accuracy,
+                     Solution (*method)(const NearestPointProblem&, const Accuracy&)) {
+  const CommonSize scaled(problem);
+  return scaled.restored(problem, method(scaled.problem, accuracy), accuracy);
+}
+
+}  // namespace
+
 Solution in_common_size(const NearestPointProblem& problem, const Accuracy& accuracy,
                         Solution (*method)(const NearestPointProblem&, const Accuracy&)) {
   if (has_ordinary_numbers(problem)) return method(problem, accuracy);
@@ -163,10 +173,13 @@ bool is_beyond_squares(const NearestPointProblem& problem, const Solution& solut
   return !problem.z.isZero(0) || !solution.q.isZero(0);
 }
 
-Solution in_own_size(const NearestPointProblem& problem, const Accuracy& accuracy,
-                     Solution (*method)(const NearestPointProblem&, const Accuracy&)) {
-  const CommonSize scaled(problem);
-  return scaled.restored(problem, method(scaled.problem, accuracy), accuracy);
+void take_own_size(const NearestPointProblem& problem, const Accuracy& accuracy,
+                   Solution (*method)(const NearestPointProblem&, const Accuracy&), Solution& found) {
+  Solution own = in_own_size(problem, accuracy, method);
+  const auto is_told = [](const Solution& solution) {
+    return solution.status == Status::solved || solution.status == Status::infeasible;
+  };
+  if (is_told(own) || !is_told(found)) found = std::move(own);
 }
 
 }  // namespace convex::inline reductions

@@ -34,8 +34,9 @@ Solution in_common_size(const NearestPointProblem&, const Accuracy&,
 /// Whether the numbers of a solution are so large that their squares are no doubles, or so small that those
 /// of what rounding left of them are none: its bound tells nothing.
 bool is_beyond_squares(const NearestPointProblem&, const Solution&);
-/// method(problem, accuracy) on the problem of common size.
-Solution in_own_size(const NearestPointProblem&, const Accuracy&,
-                     Solution (*method)(const NearestPointProblem&, const Accuracy&));
+/// method(problem, accuracy) on the problem of common size, in place of a solution that is beyond squares;
+/// one that fractions solved stays where that does not solve.
+void take_own_size(const NearestPointProblem&, const Accuracy&,
+                   Solution (*method)(const NearestPointProblem&, const Accuracy&), Solution&);
 
 }  // namespace convex::inline reductions
