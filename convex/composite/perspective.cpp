@@ -126,7 +126,8 @@ class PerspectiveAtom final : public Atom {
       const double mu = std::max(at_mu, least);
       const Vector p = at(q, mu), step = Vector::Constant(n_, mu);
       const Matrix J = f_->prox_jacobian(q / mu, step);
-      // Far out on a flat part the difference q - mu p is all rounding, where a formula, or a gradient, is not.
+      // Far out on a flat part the difference q - mu p is all rounding, where a formula, or a gradient, is
+      // not.
       const double moved = std::max(0.0, p.dot(p - J * p));
       std::optional<Vector> v = f_->prox_covector(p, q / mu, step);
       if (!v && f_->facts().smooth && moved < 0.5 * p.squaredNorm()) v = f_->subgradient(p);
