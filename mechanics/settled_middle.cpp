@@ -32,7 +32,6 @@ class Settling {
       : problem_(problem), near_(convex::rounded(problem.middle)), first_(first) {
     const Vector unit = near_.A.diagonal().cwiseSqrt().cwiseInverse();
     in_doubles_ = near_.U.dense() * unit.asDiagonal();
-    length_ = in_doubles_.rowwise().norm();
     radius_ = (problem.U * unit.asDiagonal()).rowwise().norm();
     for (Index i = 0; i < unit.size(); ++i) {
       std::vector<Fraction> row(at(unit.size()));
@@ -172,7 +171,7 @@ class Settling {
   const std::vector<Index>& first_;
   convex::ExactRows D_;  // the diagonal of A
   convex::RowMatrix in_doubles_;
-  Vector length_, radius_;
+  Vector radius_;
   std::vector<Index> kept_;
   Vector weight_;  // of the rows kept
   bool are_fractions_needed_ = false;
