@@ -4,6 +4,7 @@
 
 #include "convex/functions/quadratic.hpp"
 #include "convex/functions/sets.hpp"
+#include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/operations/operations.hpp"
 
 namespace mechanics {
@@ -19,6 +20,11 @@ convex::Function appell_function(const convex::NearestPointProblem& problem, dou
 
 convex::Function gauss_function(const convex::NearestPointProblem& problem) {
   return appell_function(problem, 0);
+}
+
+convex::Vector gauss_gradient(const convex::NearestPointProblem& problem, const convex::Vector& q) {
+  return -convex::stationarity_residual(problem, convex::DoubleDoubleVector(q), {},
+                                        convex::DoubleDoubleVector(0));
 }
 
 convex::Set allowed_accelerations(const convex::NearestPointProblem& problem) {

@@ -10,6 +10,9 @@ namespace mechanics {
 /// G + a number that the accelerations do not change.
 convex::Function gauss_function(const convex::NearestPointProblem&);
 
+/// Its gradient A q'' - z, summed to twice the working precision: A q'' alone loses cond(A)^(1/2) digits.
+convex::Vector gauss_gradient(const convex::NearestPointProblem&, const convex::Vector& q);
+
 /// The same with `appell` at q'' = 0, ½ ∫ Γ² dm - ∫ Γ·dF of the motion without accelerations.
 convex::Function appell_function(const convex::NearestPointProblem&, double at_zero);
 

@@ -9,6 +9,7 @@
 #include "convex/nearest_point/optimality/kkt_residual.hpp"
 #include "convex/nearest_point/optimality/residuals.hpp"
 #include "mechanics/farkas_laws.hpp"
+#include "mechanics/gauss_function.hpp"
 #include "mechanics/units.hpp"
 
 namespace mechanics {
@@ -135,13 +136,13 @@ DualRoute dual_route(const Judged& j) {
 }
 
 /// What the error bound and rounding may leave between the two routes. The dual's cone stands at x_0: what
-/// x_0 misses of the contacts moves y.
+/// x_0 misses of the contacts moves y. Its factor F of A, rounded, is that of another metric, apart by
+/// roundings times cond(F)² (Higham 2002, theorem 10.3).
 double apart_by_rounding(const Judged& j, const ReactionFromDual& dual) {
-  const double size = j.size + dual.apex_norm;
+  const double size = j.size + dual.apex_norm, of_factor = j.problem.A.factor_condition();
   return j.error() + force_rounding(j) +
-         condition_of_basis(j) / dual.thinnest *
-             (std::sqrt(j.steps()) * dual.apex_missed +
-              roundings * std::sqrt(j.steps()) * j.problem.A.factor_condition() * size);
+         condition_of_basis(j) / dual.thinnest * std::sqrt(j.steps()) *
+             (dual.apex_missed + roundings * of_factor * (1 + of_factor) * size);
 }
 
 void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report) {
@@ -150,7 +151,6 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
         "z = x + y: the dual route did not reach y, and y from the primal would prove nothing");
     return;
   }
-  const Vector x = j.problem.A.multiply(j.q()), y = -dual.found->reaction;
   const double bound = apart_by_rounding(j, *dual.found);
   if (dual.found->thinnest < 1 && !(bound <= widest_bound * j.size)) {
     report.no_evidence.emplace_back(
@@ -159,7 +159,7 @@ void decomposition_law(const Judged& j, const DualRoute& dual, LawReport& report
   }
   report.checks.push_back(
       check_that(std::string("z = x + y, x = A q'' from the primal, y = -R from the dual by ") + dual.how,
-                 j.problem.A.dual_norm(j.problem.z - x - y), bound));
+                 j.problem.A.dual_norm(dual.found->reaction - gauss_gradient(j.problem, j.q())), bound));
 }
 
 void nearest_reaction_law(const Judged& j, LawReport& report) {
@@ -214,7 +214,7 @@ std::vector<Vector> rivals(const Judged& j, const GaussOptions& options) {
 
 void uniqueness_law(const Judged& j, const GaussOptions& options, LawReport& report) {
   WorstCheck least("no other acceleration that the contacts allow has as small a G");
-  const Vector gradient = j.problem.A.multiply(j.q()) - j.problem.z;
+  const Vector gradient = gauss_gradient(j.problem, j.q());
   const double rounding = force_rounding(j);
   for (const Vector& rival : rivals(j, options))
     for (double step : {1.0, 1e-3}) {

@@ -8,6 +8,7 @@
 #include "cli/problem_file/settings.hpp"
 #include "cli/report/solve_report.hpp"
 #include "cli/resolved_scene.hpp"
+#include "convex/linear_algebra/pivoted_qr.hpp"
 #include "convex/nearest_name.hpp"
 #include "convex/nearest_point/automatic.hpp"
 
@@ -29,6 +30,55 @@ std::optional<Index> place_of(const std::vector<std::string>& names, const std::
 std::optional<std::string> within(const std::string& name, const std::string& prefix) {
   if (name.rfind(prefix, 0) != 0 || name.back() != ']') return std::nullopt;
   return name.substr(prefix.size(), name.size() - prefix.size() - 1);
+}
+
+/// Of a row that depends on others: coefficients below this part of the largest are rounding.
+constexpr double rounded_part = 1e-8;
+
+/// The q'' of the equations in which some rows persist, and their multipliers, NaN where other multipliers
+/// give the same reaction.
+struct HeldMotion {
+  convex::Vector q, lambda;
+};
+
+/// None where the rows cannot be solved for. Rows that depend on others (two opposite contacts, say) are left
+/// out: those that they depend on have no multiplier of their own.
+std::optional<HeldMotion> motion_with(const convex::NearestPointProblem& problem,
+                                      const std::vector<Index>& rows, const convex::Vector& free) {
+  const auto m = static_cast<Index>(rows.size()), n = problem.dimension();
+  convex::Matrix U(n, m);
+  for (Index k = 0; k < m; ++k) problem.U.copy_row(rows[static_cast<std::size_t>(k)], U.col(k));
+  convex::Matrix whitened = U;
+  problem.A.whiten_in_place(whitened);
+  const convex::linear_algebra::PivotedQr qr(whitened);
+  const Index rank = qr.rank;
+  convex::Matrix basis(n, rank), directions(n, rank);
+  convex::Vector s(rank);
+  for (Index k = 0; k < rank; ++k) {
+    const Index column = qr.order[static_cast<std::size_t>(k)];
+    basis.col(k) = U.col(column);
+    directions.col(k) = problem.A.solve(convex::Vector(U.col(column)));
+    s[k] = problem.s[rows[static_cast<std::size_t>(column)]];
+  }
+  std::optional<convex::Metric> gram;
+  try {
+    const convex::Matrix products = basis.transpose() * directions;
+    gram = convex::Metric::dense((products + products.transpose()) / 2);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+  convex::Vector lambda = gram->solve(s - basis.transpose() * free);
+  lambda += gram->solve(s - basis.transpose() * (free + directions * lambda));
+  HeldMotion found{free + directions * lambda, convex::Vector::Constant(m, no_number)};
+  for (Index k = rank; k < m; ++k) {
+    const convex::Vector row = U.col(qr.order[static_cast<std::size_t>(k)]),
+                         part = gram->solve(directions.transpose() * row);
+    const double largest = part.cwiseAbs().maxCoeff();
+    for (Index i = 0; i < rank; ++i)
+      if (std::abs(part[i]) > rounded_part * largest) lambda[i] = no_number;
+  }
+  for (Index k = 0; k < rank; ++k) found.lambda[qr.order[static_cast<std::size_t>(k)]] = lambda[k];
+  return found;
 }
 
 }  // namespace
@@ -174,31 +224,15 @@ SweepScene::Margins SweepScene::margins(const std::vector<double>& at, const std
     if (std::find(held.begin(), held.end(), scene.contacts[k]) != held.end())
       rows.push_back(static_cast<Index>(k));
   if (rows.size() != held.size()) return found;
-  const auto m = static_cast<Index>(rows.size()), n = scene.problem.dimension();
-  convex::Matrix U(m, n), directions(n, m);
-  convex::Vector s(m);
-  for (Index k = 0; k < m; ++k) {
-    const convex::Vector u = scene.problem.U.row(rows[static_cast<std::size_t>(k)]);
-    U.row(k) = u;
-    directions.col(k) = scene.problem.A.solve(u);
-    s[k] = scene.problem.s[rows[static_cast<std::size_t>(k)]];
-  }
   const convex::Vector free = scene.problem.A.solve(scene.problem.z);
   convex::Vector q = free;
-  if (m > 0) {
-    std::optional<convex::Metric> gram;
-    try {
-      const convex::Matrix products = U * directions;
-      gram = convex::Metric::dense((products + products.transpose()) / 2);
-    } catch (const InvalidInput&) {
-      return found;
-    }
-    convex::Vector lambda = gram->solve(s - U * free);
-    lambda += gram->solve(s - U * (free + directions * lambda));
-    q += directions * lambda;
-    for (Index k = 0; k < m; ++k)
-      found.multiplier[static_cast<std::size_t>(
-          scene.contacts[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])])] = lambda[k];
+  if (!rows.empty()) {
+    const std::optional<HeldMotion> held_motion = motion_with(scene.problem, rows, free);
+    if (!held_motion) return found;
+    q = held_motion->q;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      found.multiplier[static_cast<std::size_t>(scene.contacts[static_cast<std::size_t>(rows[k])])] =
+          held_motion->lambda[static_cast<Index>(k)];
   }
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     const auto row = static_cast<Index>(k);
