@@ -83,7 +83,7 @@ std::vector<Weights> cancelling(const TightRows& tight) {
   std::vector<bool> free = tight.two_sided;
   free.flip();
   for (std::size_t k = 0; k < free.size(); ++k)
-    if (tight.U.row(static_cast<Index>(k)).isZero(0)) {
+    if (tight.U.row(static_cast<Index>(k)).norm() <= tight.radius[static_cast<Index>(k)]) {
       if (free[k]) found.push_back({{k, 1}});
       free[k] = false;
     }

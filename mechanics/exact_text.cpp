@@ -273,6 +273,28 @@ std::vector<KnownNode> numbers_as_written(const LagrangianSystem& system, const 
   return found;
 }
 
+std::vector<std::optional<Rounded>> where_gradients_vanish(const LagrangianSystem& system,
+                                                           const StateText& text,
+                                                           const std::vector<Index>& contacts) {
+  const LagrangianModel& model = system.model();
+  std::vector<std::optional<Rounded>> found(contacts.size());
+  for (const long precision : {0L, first_precision}) {
+    if (precision != 0 && !Ball::why_none().empty()) break;
+    const auto state = read_state_exactly(model, text, precision);
+    if (!state) continue;
+    ExactEvaluation evaluate(model.tape, *state, precision);
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      if (found[k]) continue;
+      const auto& f = evaluate(model.f[static_cast<std::size_t>(contacts[k])]);
+      if (!f || !f->along_twice.is_finite()) continue;
+      const bool is_zero =
+          std::all_of(f->by_q.begin(), f->by_q.end(), [](const Number& entry) { return entry.sign() == 0; });
+      if (is_zero) found[k] = rounded(-f->along_twice);
+    }
+  }
+  return found;
+}
+
 std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem& system, const StateText& text,
                                                         const std::vector<Index>& contacts) {
   if (system.model().coordinates.size() > most_exact_coordinates) return std::nullopt;

@@ -48,6 +48,12 @@ std::optional<convex::ExactProblem> fractions_from_text(const LagrangianSystem&,
 std::vector<expression::KnownNode> numbers_as_written(const LagrangianSystem&, const StateText&,
                                                       const std::vector<expression::NodeId>&);
 
+/// By contact, s of those whose gradient is 0 at the state as written, the nearest double with its radius;
+/// none where the text does not prove that it is 0.
+std::vector<std::optional<expression::Rounded>> where_gradients_vanish(const LagrangianSystem&,
+                                                                       const StateText&,
+                                                                       const std::vector<Index>& contacts);
+
 inline constexpr std::size_t most_exact_coordinates = 40;
 inline constexpr long first_precision = 192, last_precision = 768;
 /// Of one number, and of all coordinates and constraints asked for together: a second or so.

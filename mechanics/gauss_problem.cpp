@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanics/exact_text.hpp"
 #include "mechanics/written_mechanism.hpp"
 
 namespace mechanics {
@@ -79,6 +80,47 @@ GaussProblem gauss_problem(const System& system, const State& state, const Vecto
   return found;
 }
 
+namespace {
+
+/// The same with 0 for the rows chosen.
+convex::ConstraintRows with_zero_rows(const convex::ConstraintRows& U, const std::vector<Index>& rows) {
+  if (U.is_sparse()) {
+    convex::SparseRows kept = U.sparse();
+    const std::vector<bool> is_chosen = convex::marked(kept.rows(), rows);
+    kept.prune([&](Index row, Index, double) { return !is_chosen[static_cast<std::size_t>(row)]; });
+    return convex::ConstraintRows(std::move(kept));
+  }
+  convex::RowMatrix kept = U.dense();
+  for (const Index row : rows) kept.row(row).setZero();
+  return convex::ConstraintRows(std::move(kept));
+}
+
+/// One-sided rows that may be 0 within their radii: 0 where the text proves that they are (cos at pi/2).
+void settle_vanishing_rows(const WrittenMechanism& written, const std::vector<Index>& contacts,
+                           convex::NearestPointProblem& problem, convex::DataRadii& radii) {
+  const Vector unit = problem.A.diagonal().cwiseSqrt().cwiseInverse();
+  std::vector<Index> rows, suspects;
+  for (Index k = 0; k < problem.rows(); ++k) {
+    if (problem.is_two_sided(k) || !(radii.row[k] > 0)) continue;
+    if (!(problem.U.row(k).cwiseProduct(unit).norm() <= radii.row[k])) continue;
+    rows.push_back(k);
+    suspects.push_back(contacts[static_cast<std::size_t>(k)]);
+  }
+  if (rows.empty()) return;
+  const auto found = where_gradients_vanish(*written.system, written.text, suspects);
+  std::vector<Index> vanishing;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (!found[k]) continue;
+    vanishing.push_back(rows[k]);
+    problem.s[rows[k]] = found[k]->value;
+    radii.s[rows[k]] = found[k]->radius;
+    radii.row[rows[k]] = 0;
+  }
+  if (!vanishing.empty()) problem.U = with_zero_rows(problem.U, vanishing);
+}
+
+}  // namespace
+
 GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contact_tolerance) {
   GaussProblem found = as_evaluated(*written.system, written.state, contact_tolerance);
   convex::NearestPointProblem& problem = found.problem;
@@ -92,7 +134,8 @@ GaussProblem gauss_problem(const WrittenMechanism& written, const Vector& contac
       if (!std::isfinite(radii.s[a])) radii.s[a] = guess.s[a];
     }
   }
-  problem.radii = std::move(radii);
+  settle_vanishing_rows(written, found.contacts.present, problem, radii);
+  if (!radii.is_zero()) problem.radii = std::move(radii);
   return found;
 }
 

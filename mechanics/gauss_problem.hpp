@@ -18,7 +18,8 @@ GaussProblem gauss_problem(const System&, const State&, const Vector& contact_to
 
 struct WrittenMechanism;
 /// The same at the state as it is written. The radii of the rows are those of their evaluation and of the
-/// state's numbers (`row_radii`); rows that are exact have none.
+/// state's numbers (`row_radii`); rows that are exact have none, and those of one-sided contacts are 0 where
+/// the text proves it (cos(pi/2) is 6e-17 in doubles).
 GaussProblem gauss_problem(const WrittenMechanism&, const Vector& contact_tolerance);
 
 /// The metric of a sparse matrix A of inertia, stored in the way that suits it. Names the coordinate at

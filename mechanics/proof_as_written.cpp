@@ -246,22 +246,20 @@ class Proving {
     return OneProof{proof->level, false, 0};
   }
 
-  /// One-sided contacts without a row at this state: those without one at any ask nothing of q''.
+  /// One-sided contacts whose row is 0 at this state, for all that rounding tells: those without one at any
+  /// ask nothing of q''.
   std::vector<Index> vanishing_rows() const {
     const expression::LagrangianModel& model = written_.system->model();
-    std::vector<Index> one_sided;
-    for (const Index a : contacts_) {
+    const Vector unit = problem_.A.diagonal().cwiseSqrt().cwiseInverse();
+    std::vector<Index> vanishing;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Index a = contacts_[k];
       const bool moves =
           (model.tape.depends(model.f[static_cast<std::size_t>(a)]) & expression::on_coordinates) != 0;
-      if (!is_two_sided(a) && moves) one_sided.push_back(a);
-    }
-    const convex::SparseRows U = written_.system->contact_rows(written_.state, one_sided).U;
-    std::vector<Index> vanishing;
-    for (std::size_t k = 0; k < one_sided.size(); ++k) {
-      bool is_zero = true;
-      for (convex::SparseRows::InnerIterator it(U, static_cast<Index>(k)); it; ++it)
-        is_zero = is_zero && it.value() == 0;
-      if (is_zero) vanishing.push_back(one_sided[k]);
+      if (is_two_sided(a) || !moves) continue;
+      const auto row = static_cast<Index>(k);
+      const double radius = problem_.radii ? problem_.radii->row[row] : 0;
+      if (problem_.U.row(row).cwiseProduct(unit).norm() <= radius) vanishing.push_back(a);
     }
     return vanishing;
   }
