@@ -10,6 +10,8 @@ using convex::Index;
 
 /// Bisection leaves so much of the range; a root is then found from the two ends.
 constexpr double bracket_part = 1e-7;
+/// A slack within so many times what is 0 by the tolerance, where a contact opens, may have grown before.
+constexpr double tight_tolerances = 4;
 constexpr int most_bisections = 200, most_secants = 60, most_changes = 1000;
 
 bool has(const std::vector<Index>& sorted, Index a) {
@@ -42,6 +44,7 @@ SweepPoint ChangeSearch::last_answer(SweepPoint with, const SweepPoint& without)
 std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const SweepPoint& to) {
   std::vector<double> found;
   SweepPoint low = from;
+  double last = from.at[0];
   while (low.active != to.active && static_cast<int>(found.size()) < most_changes) {
     SweepPoint high = to;
     std::optional<SweepPoint> gap;  // without an answer, between the two
@@ -68,7 +71,8 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
       continue;
     }
     const double width = std::max(std::abs(high.at[0] - low.at[0]), bracket_part * range_);
-    std::optional<double> change = root(low, high, 100 * width);
+    std::optional<double> change =
+        root(low, high, 100 * width, {std::min(last, to.at[0]), std::max(last, to.at[0])});
     if (!change) {
       if (!halve(change_part / 4 * range_)) {
         over_gap();
@@ -77,13 +81,17 @@ std::vector<double> ChangeSearch::between_answers(const SweepPoint& from, const 
       change = low.at[0] + (high.at[0] - low.at[0]) / 2;
     }
     found.push_back(*change);
+    last = *change;
     low = high;
   }
   return found;
 }
 
-/// The root of what decides about the first contact that differs and has one.
-std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoint& to, double width) {
+/// The root of what decides about the first contact that differs and has one, within `width` of the two
+/// points; within `all` where the contact is told to persist because its slack is within the tolerance: where
+/// a slack grows slowly, that is far from where it begins.
+std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoint& to, double width,
+                                         Reach all) {
   std::vector<Index> differing;
   std::set_symmetric_difference(from.active.begin(), from.active.end(), to.active.begin(), to.active.end(),
                                 std::back_inserter(differing));
@@ -98,31 +106,35 @@ std::optional<double> ChangeSearch::root(const SweepPoint& from, const SweepPoin
     };
   };
   const double a = from.at[0], b = to.at[0];
+  const Reach near{std::min(a, b) - width, std::max(a, b) + width};
   for (const Index c : differing) {
     const bool was = has(from.active, c);
     const SweepPoint &with = was ? from : to, &without = was ? to : from;
     if (!has(without.contacts, c)) {  // it left K
       for (const auto which : {&Margins::f, &Margins::df})
-        if (const auto found = secant(b, a, width, number(which, without.active, c))) return found;
+        if (const auto found = secant(b, a, near, number(which, without.active, c))) return found;
       continue;
     }
-    if (const auto found = secant(a, b, width, number(&Margins::multiplier, with.active, c))) return found;
-    if (const auto found = secant(a, b, width, number(&Margins::slack, without.active, c))) return found;
+    const double slack = number(&Margins::slack, without.active, c)(without.at[0]),
+                 zero = number(&Margins::zero_slack, without.active, c)(without.at[0]);
+    const bool is_hidden = std::abs(slack) <= tight_tolerances * zero;
+    const Reach reach = is_hidden ? all : near;
+    if (const auto found = secant(a, b, reach, number(&Margins::multiplier, with.active, c))) return found;
+    if (const auto found = secant(a, b, reach, number(&Margins::slack, without.active, c))) return found;
   }
   return std::nullopt;
 }
 
-/// None where the steps leave the neighbourhood or do not end.
-std::optional<double> ChangeSearch::secant(double a, double b, double width,
+/// None where the steps leave the reach or do not end.
+std::optional<double> ChangeSearch::secant(double a, double b, Reach reach,
                                            const std::function<double(double)>& of) const {
-  const double begin = std::min(a, b) - width, end = std::max(a, b) + width;
   double fa = of(a), fb = of(b);
   if (fa == 0 && fb == 0) return std::nullopt;
   for (int k = 0; k < most_secants; ++k) {
     if (fb == 0) return b;
     if (fa == 0) return a;
     const double next = b - fb * (b - a) / (fb - fa);
-    if (!(next >= begin && next <= end)) return std::nullopt;
+    if (!(next >= reach.begin && next <= reach.end)) return std::nullopt;
     if (std::abs(next - b) <= 1e-16 * std::max(range_, std::abs(b)) || next == a) return next;
     a = b;
     fa = fb;

@@ -21,9 +21,12 @@ class ChangeSearch {
   std::vector<double> between_answers(const SweepPoint& from, const SweepPoint& to);
   /// The point with an answer that is nearest to where there is none.
   SweepPoint last_answer(SweepPoint with, const SweepPoint& without);
-  std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width);
-  std::optional<double> secant(double a, double b, double width,
-                               const std::function<double(double)>& of) const;
+  /// Where to look for a root.
+  struct Reach {
+    double begin, end;
+  };
+  std::optional<double> root(const SweepPoint& from, const SweepPoint& to, double width, Reach all);
+  std::optional<double> secant(double a, double b, Reach, const std::function<double(double)>& of) const;
 
   SweepScene& scene_;
   const std::vector<Watched>& watched_;

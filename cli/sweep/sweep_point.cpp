@@ -212,8 +212,8 @@ SweepPoint SweepScene::solve(const std::vector<double>& at, const std::vector<Wa
 SweepScene::Margins SweepScene::margins(const std::vector<double>& at, const std::vector<Index>& held) {
   const Scene scene = this->scene(at);
   const std::size_t count = scene.constraints.size();
-  Margins found{std::vector<double>(count, no_number), std::vector<double>(count, no_number),
-                std::vector<double>(count, no_number), std::vector<double>(count, no_number)};
+  const std::vector<double> none(count, no_number);
+  Margins found{none, none, none, none, none};
   if (scene.rates)
     for (std::size_t a = 0; a < count; ++a) {
       found.f[a] = scene.rates->f[static_cast<Index>(a)];
@@ -236,8 +236,10 @@ SweepScene::Margins SweepScene::margins(const std::vector<double>& at, const std
   }
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    found.slack[static_cast<std::size_t>(scene.contacts[k])] =
-        scene.problem.U.row(row).dot(q) - scene.problem.s[row];
+    const auto a = static_cast<std::size_t>(scene.contacts[k]);
+    found.slack[a] = scene.problem.U.row(row).dot(q) - scene.problem.s[row];
+    found.zero_slack[a] = scene.solve.accuracy.tolerance *
+                          (std::abs(scene.problem.s[row]) + scene.problem.U.absolute_dot(row, q.cwiseAbs()));
   }
   return found;
 }

@@ -47,6 +47,7 @@ class SweepScene {
   /// multiplier of a contact held, or the slack of one that is not. NaN where there is none.
   struct Margins {
     std::vector<double> multiplier, slack, f, df;  ///< by constraint
+    std::vector<double> zero_slack;                ///< a slack up to this is 0 by the tolerance
   };
   Margins margins(const std::vector<double>& at, const std::vector<convex::Index>& held);
 
